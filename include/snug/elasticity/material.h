@@ -1,0 +1,44 @@
+#ifndef snug_elasticity_material_h
+#define snug_elasticity_material_h
+
+#include <deal.II/base/tensor.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace snug
+{
+  namespace elasticity
+  {
+    /// Isotropic linear elasticity, small strain.
+    struct Material
+    {
+      double youngs_modulus = 1.;  ///< [force / length^2], > 0
+      double poissons_ratio = 0.3; ///< in (-1, 0.5)
+
+      double
+      lame_lambda() const
+      {
+        return youngs_modulus * poissons_ratio /
+               ((1. + poissons_ratio) * (1. - 2. * poissons_ratio));
+      }
+
+      double
+      lame_mu() const
+      {
+        return youngs_modulus / (2. * (1. + poissons_ratio));
+      }
+    };
+
+    /// Dead loads of a body, in the geometry of the design.
+    struct LoadParameters
+    {
+      std::map<std::string, double> pressure; ///< boundary -> [force/length^2]
+      std::map<std::string, std::vector<double>> traction; ///< boundary -> vector
+      std::vector<double> body_force; ///< [force / length^3]
+    };
+  } // namespace elasticity
+} // namespace snug
+
+#endif

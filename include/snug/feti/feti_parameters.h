@@ -1,0 +1,20 @@
+#ifndef snug_feti_feti_parameters_h
+#define snug_feti_feti_parameters_h
+
+#include <string>
+
+namespace snug
+{
+  namespace feti
+  {
+    /// Entries of `subsection Solver` that Total FETI reads.
+    struct FetiParameters
+    {
+      std::string factorization  = "CHOLMOD";   ///< CHOLMOD | MUMPS
+      std::string preconditioner = "Dirichlet"; ///< Dirichlet | lumped | none
+      std::string scaling        = "stiffness"; ///< stiffness | multiplicity
+    };
+  } // namespace feti
+} // namespace snug
+
+#endif

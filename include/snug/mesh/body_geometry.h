@@ -1,0 +1,89 @@
+#ifndef snug_mesh_body_geometry_h
+#define snug_mesh_body_geometry_h
+
+#include <snug/base/choice.h>
+
+#include <deal.II/base/point.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace snug
+{
+  namespace mesh
+  {
+    /// Mesh entries of `subsection Body NAME`.
+    struct BodyMeshParameters
+    {
+      std::string               source = "box";
+      std::vector<double>       corner; ///< [length], default 0
+      std::vector<double>       size;   ///< [length], default 1
+      std::vector<unsigned int> cells;  ///< per axis
+      /// per axis: size of the last cell over the size of the first
+      std::vector<double> grading;
+      /// face name -> "sphere R" | "cylinder x R" | formula of x, y, z giving
+      /// the outward displacement of the face [length]; R > 0 is convex
+      std::map<std::string, std::string> curved_faces;
+      unsigned int                       refinements = 0;
+      /// cells are refined where this formula of x, y, z is positive
+      std::string  refine_where;
+      unsigned int local_refinements = 0;
+    };
+
+    /**
+     * The reference geometry of one body: a coarse mesh in logical
+     * coordinates and the map from logical coordinates to positions, which is
+     * evaluated anew on every mesh.
+     */
+    template <int dim>
+    class BodyGeometry
+    {
+    public:
+      virtual ~BodyGeometry() = default;
+
+      /// Coarse mesh in logical coordinates; boundary faces get the index of
+      /// their name in boundary_names().
+      struct CoarseMesh
+      {
+        std::vector<dealii::Point<dim>>        vertices;
+        std::vector<std::vector<unsigned int>> cells; ///< deal.II vertex order
+        /// face vertices (in the order of the cell) and boundary index
+        std::vector<std::pair<std::vector<unsigned int>, unsigned int>>
+          boundary_faces;
+      };
+
+      virtual CoarseMesh
+      coarse_mesh() const = 0;
+
+      virtual const std::vector<std::string> &
+      boundary_names() const = 0;
+
+      /// Reference position of the point with logical coordinates @p logical.
+      virtual dealii::Point<dim>
+      position(const dealii::Point<dim> &logical) const = 0;
+
+      /**
+       * Fraction in [0,1]^dim of the body's box at @p logical: the frame of
+       * Bézier patches. For face 2d+s, coordinate d is the distance from the
+       * opposite side.
+       */
+      virtual dealii::Point<dim>
+      box_fraction(const dealii::Point<dim> &logical) const = 0;
+    };
+
+    /// Rows "box". @throws InputError naming the entry of @p parameters.
+    template <int dim>
+    const ChoiceTable<
+      std::unique_ptr<BodyGeometry<dim>>(const BodyMeshParameters &)> &
+    body_geometry_table();
+
+    /// Index of @p name in the boundary names. @throws InputError listing them.
+    template <int dim>
+    unsigned int
+    boundary_index(const BodyGeometry<dim> &geometry, const std::string &name);
+  } // namespace mesh
+} // namespace snug
+
+#endif

@@ -1,0 +1,40 @@
+#ifndef snug_mesh_tearing_h
+#define snug_mesh_tearing_h
+
+#include <snug/mesh/body_mesh.h>
+
+namespace snug
+{
+  namespace mesh
+  {
+    /// One subdomain of this rank.
+    struct Subdomain
+    {
+      unsigned int              body;
+      std::vector<unsigned int> cells; ///< indices into BodyMesh::cells()
+      /// local indices of the unconstrained nodes its cells reach, ascending
+      std::vector<unsigned int> nodes;
+    };
+
+    /// How the bodies are torn; ids are contiguous on each rank.
+    struct Tearing
+    {
+      std::vector<Subdomain>    subdomains; ///< of this rank
+      unsigned int              first_id = 0;
+      unsigned int              n_global = 0;
+      std::vector<unsigned int> first_id_of_rank; ///< n_ranks + 1 entries
+    };
+
+    /**
+     * Tear this rank's cells of each body with METIS into face-connected
+     * subdomains. @p wanted is the total number aimed at; 0 chooses it from
+     * the size (5 to 6 cells per subdomain edge in 3D, 12 in 2D for Q1).
+     * There is at least one per rank and body. Collective.
+     */
+    template <int dim>
+    Tearing
+    tear(const BodyMesh<dim> &mesh, unsigned int wanted);
+  } // namespace mesh
+} // namespace snug
+
+#endif

@@ -1,0 +1,26 @@
+#ifndef snug_optimization_optimization_parameters_h
+#define snug_optimization_optimization_parameters_h
+
+#include <map>
+#include <string>
+
+namespace snug
+{
+  namespace optimization
+  {
+    /// Entries of `subsection Optimization`.
+    struct OptimizationParameters
+    {
+      std::string algorithm = "SLSQP";
+      std::string objective = "potential energy"; ///< a response
+      /// response -> "initial" or a number it must equal
+      std::map<std::string, std::string> constraints;
+      unsigned int maximum_evaluations  = 200;
+      double       objective_tolerance  = 1e-8; ///< relative, of the objective
+      double       design_tolerance     = 1e-7; ///< relative to bound widths
+      double       constraint_tolerance = 1e-8; ///< relative to the target
+    };
+  } // namespace optimization
+} // namespace snug
+
+#endif

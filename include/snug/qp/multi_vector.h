@@ -1,0 +1,90 @@
+#ifndef snug_qp_multi_vector_h
+#define snug_qp_multi_vector_h
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace snug
+{
+  namespace qp
+  {
+    /**
+     * This rank's rows of @p k vectors, stored column by column. One vector is
+     * the case k = 1; blocks of right-hand sides share every operation.
+     */
+    class MultiVector
+    {
+    public:
+      explicit MultiVector(unsigned int n_rows = 0, unsigned int n_columns = 1);
+
+      unsigned int
+      n_rows() const
+      {
+        return rows;
+      }
+
+      unsigned int
+      n_columns() const
+      {
+        return columns;
+      }
+
+      double &
+      operator()(unsigned int i, unsigned int j = 0)
+      {
+        return values[i + std::size_t(j) * rows];
+      }
+
+      double
+      operator()(unsigned int i, unsigned int j = 0) const
+      {
+        return values[i + std::size_t(j) * rows];
+      }
+
+      double *
+      column(unsigned int j)
+      {
+        return values.data() + std::size_t(j) * rows;
+      }
+
+      const double *
+      column(unsigned int j) const
+      {
+        return values.data() + std::size_t(j) * rows;
+      }
+
+      /// this += factor * x; equal sizes.
+      void
+      add(double factor, const MultiVector &x);
+
+      /// this += x * C with C (x.n_columns x n_columns), column by column.
+      void
+      add_product(double factor, const MultiVector &x, const MultiVector &C);
+
+      /// Append the columns of @p x.
+      void
+      append(const MultiVector &x);
+
+      /// Columns [first, first + n).
+      MultiVector
+      columns_from(unsigned int first, unsigned int n) const;
+
+    private:
+      unsigned int        rows;
+      unsigned int        columns;
+      std::vector<double> values;
+    };
+
+    /// X' Y summed over ranks, (X.n_columns x Y.n_columns), equal on all
+    /// ranks. Collective.
+    MultiVector
+    inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm);
+
+    /// Euclidean norms of the columns, equal on all ranks. Collective.
+    std::vector<double>
+    norms(const MultiVector &X, MPI_Comm comm);
+  } // namespace qp
+} // namespace snug
+
+#endif
