@@ -35,7 +35,8 @@ namespace snug
     struct LoadParameters
     {
       std::map<std::string, double> pressure; ///< boundary -> [force/length^2]
-      std::map<std::string, std::vector<double>> traction; ///< boundary -> vector
+      std::map<std::string, std::vector<double>>
+                          traction;   ///< boundary -> vector
       std::vector<double> body_force; ///< [force / length^3]
     };
   } // namespace elasticity

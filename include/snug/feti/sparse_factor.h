@@ -1,0 +1,53 @@
+#ifndef snug_feti_sparse_factor_h
+#define snug_feti_sparse_factor_h
+
+#include <snug/base/petsc_handle.h>
+#include <snug/feti/csr_matrix.h>
+
+#include <string>
+
+namespace snug
+{
+  namespace feti
+  {
+    /**
+     * Cholesky factorization of a sparse symmetric positive definite matrix
+     * on one process, by a package of PETSc. The symbolic part is done once
+     * for the pattern.
+     */
+    class SparseFactor
+    {
+    public:
+      /**
+       * @param[in] matrix referenced, not copied: it must outlive this object
+       *   and keep its arrays. Only its pattern is used here.
+       * @param[in] package "CHOLMOD" or "MUMPS".
+       */
+      SparseFactor(const CsrMatrix &matrix, const std::string &package);
+
+      /**
+       * Factorize the present values of the matrix.
+       * @throws SolveError if the matrix is not positive definite, holds NaN,
+       *   or the solution of one check system is wrong (packages can fail
+       *   silently); @p what names the matrix.
+       */
+      void
+      factorize(const std::string &what);
+
+      /// x = A^{-1} b for every column.
+      void
+      solve(const qp::MultiVector &b, qp::MultiVector &x) const;
+
+    private:
+      void
+      check(const std::string &what) const;
+
+      const CsrMatrix &matrix;
+      petsc::Matrix    wrapped;
+      petsc::Matrix    factor;
+      petsc::Vector    right_hand_side, solution;
+    };
+  } // namespace feti
+} // namespace snug
+
+#endif

@@ -1,0 +1,40 @@
+#ifndef snug_optimization_slsqp_h
+#define snug_optimization_slsqp_h
+
+#include <snug/optimization/minimize.h>
+
+namespace snug
+{
+  namespace optimization
+  {
+    /**
+     * Sequential quadratic programming with NLopt's LD_SLSQP, in variables
+     * scaled by their bound widths and with objective and constraints scaled
+     * to order one (ScaledProblem).
+     *
+     * The search ends at an accepted design x that meets the constraints to
+     * the constraint tolerance when, since the accepted design before, the
+     * objective changed by at most objective_tolerance |f(x)| or every
+     * variable by at most design_tolerance of its bound width; if the line
+     * search shortened that step, the next one must agree. NLopt 2.7.1 has its
+     * own tests, but they also report success at designs that violate the
+     * constraints, so they are switched off.
+     *
+     * NLopt has no value for "this design cannot be solved" (NaN, infinity and
+     * penalties all mislead it). Such a design ends NLopt's run; a new one
+     * begins at the last accepted design, its moves limited to half the move
+     * that failed, and is re-centred as long as it ends at such a limit. After
+     * five failures the search ends. When NLopt ends by round-off, it is
+     * begun again as long as that gains anything.
+     *
+     * Source: Kraft, A software package for sequential quadratic programming,
+     * DFVLR-FB 88-28 (1988); Johnson, The NLopt nonlinear-optimization package.
+     */
+    OptimizationResult
+    slsqp(const DesignProblem          &problem,
+          const OptimizationParameters &parameters,
+          const Hooks                  &hooks);
+  } // namespace optimization
+} // namespace snug
+
+#endif

@@ -1,0 +1,148 @@
+#ifndef snug_state_assembler_h
+#define snug_state_assembler_h
+
+#include <snug/elasticity/element.h>
+#include <snug/elasticity/face_load.h>
+#include <snug/feti/subdomain_system.h>
+#include <snug/mesh/tearing.h>
+
+#include <functional>
+
+namespace snug
+{
+  namespace state
+  {
+    /// Material and loads of one body, boundaries by index.
+    template <int dim>
+    struct BodyModel
+    {
+      struct Load
+      {
+        double                 pressure = 0.; ///< [force / length^2]
+        dealii::Tensor<1, dim> traction;      ///< [force / length^2]
+      };
+      elasticity::Material         material;
+      dealii::Tensor<1, dim>       body_force; ///< [force / length^3]
+      std::map<unsigned int, Load> loads;      ///< per boundary index
+    };
+
+    /**
+     * Assembly of one subdomain. Its unknowns are dim per node of
+     * Subdomain::nodes; cells with hanging nodes act on the masters,
+     * K_e -> T' K_e T.
+     */
+    template <int dim>
+    class Assembler
+    {
+    public:
+      using Field = typename mesh::BodyMesh<dim>::Field;
+      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+      /// A cell's or face's nodal vector from positions X of its nodes.
+      using CellVector = std::function<void(unsigned int cell, Nodes &r)>;
+
+      Assembler(const mesh::BodyMesh<dim>      &mesh,
+                const mesh::Subdomain          &subdomain,
+                const BodyModel<dim>           &model,
+                const elasticity::Element<dim> &element,
+                const elasticity::FaceLoad<dim> &face_load);
+
+      unsigned int
+      n_dofs() const;
+
+      /// Pattern of K.
+      feti::CsrMatrix
+      sparsity() const;
+
+      /// K at the given positions of the local nodes.
+      void
+      stiffness(const Field &positions, feti::CsrMatrix &K) const;
+
+      /// f at the given positions.
+      std::vector<double>
+      load(const Field &positions) const;
+
+      /**
+       * Rigid body modes at the unknowns, orthonormal: dim translations and
+       * rotations about the centre; and Z with R Z = the body's modes,
+       * translations and rotations about @p centre over @p length.
+       */
+      void
+      rigid_modes(const Field                  &positions,
+                  const dealii::Tensor<1, dim> &centre,
+                  double                        length,
+                  qp::MultiVector              &R,
+                  qp::MultiVector              &Z) const;
+
+      /// Unknowns of far-apart nodes (farthest point sampling).
+      std::vector<unsigned int>
+      fixing_dofs(const Field &positions) const;
+
+      /// Subdomain cells and loaded boundary faces as (mesh index).
+      const std::vector<unsigned int> &
+      cells() const;
+      const std::vector<unsigned int> &
+      loaded_faces() const;
+
+      /// Values of a nodal field at the nodes of cell i of cells().
+      Nodes
+      cell_field(unsigned int i, const Field &field) const;
+      /// Values of the subdomain vector u at the nodes of cell i.
+      Nodes
+      cell_values(unsigned int i, const double *u) const;
+      /// u += factor * T' r for cell i.
+      void
+      add_cell_vector(unsigned int i,
+                      double       factor,
+                      const Nodes &r,
+                      double      *u) const;
+
+      /// The same for loaded face i of loaded_faces().
+      Nodes
+      face_field(unsigned int i, const Field &field) const;
+      Nodes
+      face_values(unsigned int i, const double *u) const;
+      void
+      add_face_vector(unsigned int i,
+                      double       factor,
+                      const Nodes &r,
+                      double      *u) const;
+      const typename BodyModel<dim>::Load &
+      face_model(unsigned int i) const;
+      const BodyModel<dim> &
+      body_model() const;
+
+    private:
+      /// Where the nodes of a cell or face find their values: directly, or as
+      /// combinations of subdomain nodes.
+      struct Reach
+      {
+        std::vector<unsigned int> slots; ///< subdomain nodes
+        /// empty, or (n_nodes x slots), row by row
+        std::vector<double> weights;
+      };
+
+      Reach
+      reach(const std::vector<unsigned int> &nodes) const;
+      Nodes
+      values(const Reach &reach, unsigned int n, const double *u) const;
+      void
+      add(const Reach &reach, double factor, const Nodes &r, double *u) const;
+      void
+      build_pattern();
+
+      const mesh::BodyMesh<dim>       &mesh;
+      const mesh::Subdomain           &subdomain;
+      const BodyModel<dim>            &model;
+      const elasticity::Element<dim>  &element;
+      const elasticity::FaceLoad<dim> &face_load;
+      std::vector<unsigned int>        faces; ///< indices of boundary_faces()
+      std::vector<Reach>               cell_reach, face_reach;
+      std::vector<std::vector<unsigned int>> node_neighbours;
+      /// per cell, slot a and slot b: place of b among a's neighbours
+      std::vector<std::vector<unsigned int>> places;
+    };
+  } // namespace state
+} // namespace snug
+
+#endif

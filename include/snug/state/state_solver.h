@@ -1,0 +1,95 @@
+#ifndef snug_state_state_solver_h
+#define snug_state_state_solver_h
+
+#include <snug/contact/contact_rows.h>
+#include <snug/feti/total_feti.h>
+#include <snug/state/assembler.h>
+#include <snug/state/contact_state.h>
+#include <snug/state/gluing.h>
+
+#include <memory>
+
+namespace snug
+{
+  namespace state
+  {
+    /// What a state problem is made of; indices, not names.
+    template <int dim>
+    struct Model
+    {
+      std::vector<std::string>    body_names;
+      std::vector<BodyModel<dim>> bodies;
+      /// (body, boundary) -> fixed components
+      std::vector<Support>       supports;
+      std::vector<contact::Pair> pairs;
+      feti::FetiParameters       feti;
+      qp::SolverParameters       solver;
+      bool                       linear_reference = false;
+    };
+
+    /**
+     * The bridge from bodies at a geometry to Total FETI and back. Topology,
+     * pairing, gluing and symbolic factorizations are made once, at the
+     * geometry given to the constructor; solve() re-assembles and factorizes
+     * only subdomains whose nodes moved since the last solve.
+     */
+    template <int dim>
+    class StateSolver
+    {
+    public:
+      using Field = typename mesh::BodyMesh<dim>::Field;
+
+      /// References must outlive this object. Collective.
+      /// @throws InputError for loads, supports or pairs that cannot be.
+      StateSolver(const mesh::BodyMesh<dim> &mesh,
+                  const mesh::Tearing       &tearing,
+                  const Model<dim>          &model,
+                  const Field               &positions,
+                  RunContext                &context);
+      ~StateSolver();
+
+      /**
+       * The state at @p positions. Solves on until the certificate meets the
+       * tolerance. Collective.
+       * @throws TangledMesh, SolveError.
+       */
+      ContactState<dim>
+      solve(const Field &positions, const qp::WarmStart &start);
+
+      /// Volume of one body at @p positions [length^dim]. Collective.
+      double
+      volume(unsigned int body, const Field &positions) const;
+
+      const mesh::BodyMesh<dim> &
+      mesh() const;
+      const mesh::Tearing &
+      tearing() const;
+      const Model<dim> &
+      model() const;
+      const mesh::Surface<dim> &
+      surface() const;
+      const contact::NodalContact<dim> &
+      contact() const;
+      const elasticity::Element<dim> &
+      element() const;
+      const elasticity::FaceLoad<dim> &
+      face_load() const;
+      /// Assemblers of this rank's subdomains.
+      const std::vector<std::unique_ptr<Assembler<dim>>> &
+      assemblers() const;
+      /// The dual problem of the last geometry solved.
+      const feti::TotalFeti &
+      feti() const;
+      const Gluing<dim> &
+      gluing() const;
+      RunContext &
+      context() const;
+
+    private:
+      struct Data;
+      std::unique_ptr<Data> data;
+    };
+  } // namespace state
+} // namespace snug
+
+#endif

@@ -1,0 +1,104 @@
+#include <snug/feti/local_schur.h>
+
+namespace snug
+{
+  namespace feti
+  {
+    LocalSchur::LocalSchur(const SubdomainSystem &system,
+                           bool                   lumped,
+                           const std::string     &package,
+                           RunContext            &context)
+      : system(system)
+      , context(context)
+      , lumped(lumped)
+    {
+      const unsigned int n = system.n_dofs();
+      std::vector<bool>  on_boundary(n, false);
+      for (const BEntry &entry : system.B)
+        on_boundary[entry.dof] = true;
+      position_b.assign(n, n);
+      position_i.assign(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        if (on_boundary[i])
+          position_b[i] = n_b++;
+        else
+          position_i[i] = n_i++;
+      for (unsigned int &position : position_b)
+        if (position == n)
+          position = n_b;
+      bb = extract(true, true);
+      if (lumped)
+        return;
+      ib = extract(false, true);
+      ii = extract(false, false);
+      if (n_i == 0)
+        return;
+      factor = std::make_unique<SparseFactor>(ii.matrix, package);
+      ++context.work.symbolic_factorizations;
+    }
+
+    LocalSchur::Part
+    LocalSchur::extract(bool rows_on_boundary, bool columns_on_boundary) const
+    {
+      const CsrMatrix                   &K = system.K;
+      std::vector<std::vector<PetscInt>> rows;
+      Part                               part;
+      for (unsigned int i = 0; i < system.n_dofs(); ++i)
+        {
+          if ((position_b[i] < n_b) != rows_on_boundary)
+            continue;
+          rows.emplace_back();
+          for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
+            {
+              const PetscInt j = K.columns[p];
+              if ((position_b[j] < n_b) != columns_on_boundary)
+                continue;
+              rows.back().push_back(columns_on_boundary ? position_b[j] :
+                                                          position_i[j]);
+              part.source.push_back(p);
+            }
+        }
+      part.matrix =
+        CsrMatrix::from_rows(rows, columns_on_boundary ? n_b : n_i);
+      return part;
+    }
+
+    void
+    LocalSchur::factorize(const std::string &what)
+    {
+      for (Part *part : {&bb, &ib, &ii})
+        for (std::size_t p = 0; p < part->source.size(); ++p)
+          part->matrix.values[p] = system.K.values[part->source[p]];
+      if (!factor)
+        return;
+      factor->factorize(what);
+      ++context.work.numeric_factorizations;
+    }
+
+    const std::vector<unsigned int> &
+    LocalSchur::boundary_position() const
+    {
+      return position_b;
+    }
+
+    unsigned int
+    LocalSchur::n_boundary() const
+    {
+      return n_b;
+    }
+
+    qp::MultiVector
+    LocalSchur::apply(const qp::MultiVector &x) const
+    {
+      qp::MultiVector y(n_b, x.n_columns());
+      bb.matrix.multiply_add(1., x, y);
+      if (!factor)
+        return y;
+      qp::MultiVector load(n_i, x.n_columns()), inner(n_i, x.n_columns());
+      ib.matrix.multiply_add(1., x, load);
+      factor->solve(load, inner);
+      ib.matrix.transpose_multiply_add(-1., inner, y);
+      return y;
+    }
+  } // namespace feti
+} // namespace snug

@@ -1,0 +1,534 @@
+#include <snug/mesh/body_mesh.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <deal.II/grid/tria_description.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug
+{
+  namespace mesh
+  {
+    template <int dim>
+    struct BodyMesh<dim>::Data
+    {
+      Data(MPI_Comm communicator, unsigned int degree)
+        : comm(communicator)
+        , degree(degree)
+        , fe(degree)
+        , triangulation(communicator)
+        , nodes(triangulation)
+      {}
+
+      MPI_Comm                                        comm;
+      unsigned int                                    degree;
+      dealii::FE_Q<dim>                               fe;
+      std::vector<std::unique_ptr<BodyGeometry<dim>>> geometries;
+      dealii::parallel::distributed::Triangulation<dim> triangulation;
+      dealii::DoFHandler<dim>                           nodes;
+
+      dealii::IndexSet                 relevant;
+      std::vector<unsigned int>        first_node_of_rank; ///< n_ranks + 1
+      std::vector<unsigned int>        node_body;
+      std::vector<dealii::Point<dim>>  logical;
+      Field                            reference;
+      std::vector<Cell>                cells;
+      std::vector<Face>                faces;
+      std::vector<Hanging>             hanging;
+      std::vector<unsigned int>        hanging_of_node; ///< or n_hanging
+      std::vector<std::pair<unsigned int, unsigned int>> neighbours;
+      unsigned long                                      n_cells      = 0;
+      unsigned long                                      n_free_nodes = 0;
+
+      unsigned int
+      local(unsigned int global) const
+      {
+        return relevant.index_within_set(global);
+      }
+
+      void
+      create_coarse_mesh();
+      void
+      refine(const std::vector<BodyMeshParameters> &bodies);
+      void
+      refine_step(const std::function<bool(unsigned int,
+                                           const dealii::Point<dim> &,
+                                           unsigned int)> &wanted);
+      void
+      number_nodes();
+      void
+      collect_nodes();
+      void
+      collect_hanging();
+      void
+      collect_cells();
+      void
+      add_boundary_face(unsigned int cell, unsigned int face, unsigned int id);
+    };
+
+    namespace
+    {
+      /// The parameter "Refine where" as a function of reference position.
+      template <int dim>
+      std::unique_ptr<dealii::FunctionParser<dim>>
+      refinement_formula(const std::string &formula)
+      {
+        auto parser = std::make_unique<dealii::FunctionParser<dim>>();
+        try
+          {
+            parser->initialize(dim == 2 ? "x,y" : "x,y,z", formula, {});
+            parser->value(dealii::Point<dim>());
+          }
+        catch (const std::exception &)
+          {
+            throw bad_entry("Refine where",
+                            formula,
+                            std::string("must be a formula of ") +
+                              (dim == 2 ? "x, y" : "x, y, z"));
+          }
+        return parser;
+      }
+    } // namespace
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::create_coarse_mesh()
+    {
+      std::vector<dealii::Point<dim>>                vertices;
+      std::vector<dealii::CellData<dim>>             coarse_cells;
+      std::map<std::vector<unsigned int>, unsigned> boundary;
+      for (unsigned int body = 0; body < geometries.size(); ++body)
+        {
+          const auto         mesh   = geometries[body]->coarse_mesh();
+          const unsigned int offset = vertices.size();
+          for (const auto &vertex : mesh.vertices)
+            vertices.push_back(vertex);
+          for (const auto &cell : mesh.cells)
+            {
+              dealii::CellData<dim> data(cell.size());
+              for (unsigned int v = 0; v < cell.size(); ++v)
+                data.vertices[v] = cell[v] + offset;
+              data.material_id = body;
+              coarse_cells.push_back(data);
+            }
+          for (const auto &face : mesh.boundary_faces)
+            {
+              std::vector<unsigned int> key = face.first;
+              for (unsigned int &vertex : key)
+                vertex += offset;
+              std::sort(key.begin(), key.end());
+              boundary[key] = face.second;
+            }
+        }
+      triangulation.create_triangulation(vertices,
+                                         coarse_cells,
+                                         dealii::SubCellData());
+      for (const auto &cell : triangulation.cell_iterators_on_level(0))
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              std::vector<unsigned int> key;
+              for (const unsigned int v : cell->face(f)->vertex_indices())
+                key.push_back(cell->face(f)->vertex_index(v));
+              std::sort(key.begin(), key.end());
+              cell->face(f)->set_boundary_id(boundary.at(key));
+            }
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::refine_step(
+      const std::function<bool(unsigned int,
+                               const dealii::Point<dim> &,
+                               unsigned int)> &wanted)
+    {
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() &&
+            wanted(cell->material_id(), cell->center(), cell->level()))
+          cell->set_refine_flag();
+      triangulation.execute_coarsening_and_refinement();
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::refine(const std::vector<BodyMeshParameters> &bodies)
+    {
+      unsigned int global_steps = 0, local_steps = 0;
+      std::vector<std::unique_ptr<dealii::FunctionParser<dim>>> formulas;
+      for (const auto &body : bodies)
+        {
+          const bool local = !body.refine_where.empty();
+          global_steps     = std::max(global_steps, body.refinements);
+          if (local)
+            local_steps = std::max(local_steps, body.local_refinements);
+          formulas.push_back(
+            local ? refinement_formula<dim>(body.refine_where) : nullptr);
+        }
+      for (unsigned int step = 0; step < global_steps; ++step)
+        refine_step([&](unsigned int body,
+                        const dealii::Point<dim> &,
+                        unsigned int level) {
+          return level < bodies[body].refinements;
+        });
+      for (unsigned int step = 0; step < local_steps; ++step)
+        refine_step([&](unsigned int              body,
+                        const dealii::Point<dim> &centre,
+                        unsigned int              level) {
+          return formulas[body] &&
+                 level < bodies[body].refinements +
+                           bodies[body].local_refinements &&
+                 formulas[body]->value(geometries[body]->position(centre)) > 0.;
+        });
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::number_nodes()
+    {
+      nodes.distribute_dofs(fe);
+      dealii::DoFTools::extract_locally_relevant_dofs(nodes, relevant);
+      relevant.compress();
+      const auto ends = dealii::Utilities::MPI::all_gather(
+        comm, static_cast<unsigned int>(nodes.n_locally_owned_dofs()));
+      first_node_of_rank.assign(1, 0);
+      for (const unsigned int n : ends)
+        first_node_of_rank.push_back(first_node_of_rank.back() + n);
+      n_cells = triangulation.n_global_active_cells();
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::collect_nodes()
+    {
+      logical.resize(relevant.n_elements());
+      node_body.resize(relevant.n_elements());
+      const dealii::MappingQ1<dim>                 mapping;
+      std::vector<dealii::types::global_dof_index> indices(
+        fe.n_dofs_per_cell());
+      for (const auto &cell : nodes.active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            cell->get_dof_indices(indices);
+            for (unsigned int i = 0; i < indices.size(); ++i)
+              {
+                const unsigned int node = local(indices[i]);
+                node_body[node]         = cell->material_id();
+                logical[node]           = mapping.transform_unit_to_real_cell(
+                  cell, fe.unit_support_point(i));
+              }
+          }
+      reference.resize(logical.size());
+      for (unsigned int node = 0; node < logical.size(); ++node)
+        reference[node] = geometries[node_body[node]]->position(logical[node]);
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::collect_hanging()
+    {
+      dealii::AffineConstraints<double> constraints(relevant);
+      dealii::DoFTools::make_hanging_node_constraints(nodes, constraints);
+      constraints.close();
+      const unsigned int none = static_cast<unsigned int>(-1);
+      hanging_of_node.assign(relevant.n_elements(), none);
+      unsigned long owned_hanging = 0;
+      for (unsigned int node = 0; node < relevant.n_elements(); ++node)
+        {
+          const unsigned int global = relevant.nth_index_in_set(node);
+          if (!constraints.is_constrained(global))
+            continue;
+          owned_hanging += nodes.locally_owned_dofs().is_element(global);
+          Hanging entry{node, {}};
+          bool    reachable = true;
+          for (const auto &master : *constraints.get_constraint_entries(global))
+            if (relevant.is_element(master.first))
+              entry.masters.emplace_back(local(master.first), master.second);
+            else
+              reachable = false;
+          // Masters out of reach belong to hanging nodes of ghost cells only.
+          if (!reachable)
+            continue;
+          std::sort(entry.masters.begin(), entry.masters.end());
+          hanging_of_node[node] = hanging.size();
+          hanging.push_back(entry);
+        }
+      n_free_nodes =
+        nodes.n_dofs() - dealii::Utilities::MPI::sum(owned_hanging, comm);
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::add_boundary_face(unsigned int cell,
+                                           unsigned int face,
+                                           unsigned int id)
+    {
+      const unsigned int n      = degree + 1;
+      const unsigned int normal = face / 2;
+      const bool         upper  = face % 2 == 1;
+      const unsigned int fixed  = upper ? degree : 0;
+      Face               result{cells[cell].body, id, cell, {}};
+      unsigned int       stride[3] = {1, n, n * n};
+      if (dim == 2)
+        {
+          // (t_y, -t_x) points out for x+ with t = +y and for y+ with t = -x
+          const unsigned int axis    = 1 - normal;
+          const bool         reverse = (normal == 0) != upper;
+          for (unsigned int i = 0; i < n; ++i)
+            result.nodes.push_back(
+              cells[cell].nodes[fixed * stride[normal] +
+                                (reverse ? degree - i : i) * stride[axis]]);
+        }
+      else
+        {
+          unsigned int a = (normal + 1) % 3, b = (normal + 2) % 3;
+          if (!upper)
+            std::swap(a, b);
+          for (unsigned int j = 0; j < n; ++j)
+            for (unsigned int i = 0; i < n; ++i)
+              result.nodes.push_back(
+                cells[cell].nodes[fixed * stride[normal] + i * stride[a] +
+                                  j * stride[b]]);
+        }
+      faces.push_back(result);
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::collect_cells()
+    {
+      const auto order =
+        dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
+      std::vector<dealii::types::global_dof_index> indices(
+        fe.n_dofs_per_cell());
+      std::vector<unsigned int> index_of_active(triangulation.n_active_cells());
+      for (const auto &cell : nodes.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            index_of_active[cell->active_cell_index()] = cells.size();
+            cell->get_dof_indices(indices);
+            Cell entry{cell->material_id(), {}};
+            for (const unsigned int i : order)
+              entry.nodes.push_back(local(indices[i]));
+            cells.push_back(entry);
+            for (const unsigned int f : cell->face_indices())
+              if (cell->at_boundary(f))
+                add_boundary_face(cells.size() - 1,
+                                  f,
+                                  cell->face(f)->boundary_id());
+          }
+      for (const auto &cell : nodes.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
+                cell->neighbor(f)->is_locally_owned())
+              {
+                const unsigned int a =
+                  index_of_active[cell->active_cell_index()];
+                const unsigned int b =
+                  index_of_active[cell->neighbor(f)->active_cell_index()];
+                neighbours.emplace_back(std::min(a, b), std::max(a, b));
+              }
+      std::sort(neighbours.begin(), neighbours.end());
+      neighbours.erase(std::unique(neighbours.begin(), neighbours.end()),
+                       neighbours.end());
+    }
+
+    template <int dim>
+    BodyMesh<dim>::BodyMesh(MPI_Comm                               communicator,
+                            const std::vector<BodyMeshParameters> &bodies,
+                            unsigned int                           degree)
+      : data(std::make_unique<Data>(communicator, degree))
+    {
+      for (const auto &body : bodies)
+        data->geometries.push_back(
+          choose(body_geometry_table<dim>(), body.source).make(body));
+      data->create_coarse_mesh();
+      data->refine(bodies);
+      data->number_nodes();
+      data->collect_nodes();
+      data->collect_hanging();
+      data->collect_cells();
+      interpolate_hanging(data->reference);
+    }
+
+    template <int dim>
+    BodyMesh<dim>::~BodyMesh() = default;
+
+    template <int dim>
+    MPI_Comm
+    BodyMesh<dim>::communicator() const
+    {
+      return data->comm;
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::degree() const
+    {
+      return data->degree;
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::n_bodies() const
+    {
+      return data->geometries.size();
+    }
+
+    template <int dim>
+    const BodyGeometry<dim> &
+    BodyMesh<dim>::geometry(unsigned int body) const
+    {
+      return *data->geometries[body];
+    }
+
+    template <int dim>
+    const std::vector<typename BodyMesh<dim>::Cell> &
+    BodyMesh<dim>::cells() const
+    {
+      return data->cells;
+    }
+
+    template <int dim>
+    const std::vector<typename BodyMesh<dim>::Face> &
+    BodyMesh<dim>::boundary_faces() const
+    {
+      return data->faces;
+    }
+
+    template <int dim>
+    const std::vector<typename BodyMesh<dim>::Hanging> &
+    BodyMesh<dim>::hanging() const
+    {
+      return data->hanging;
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::n_local_nodes() const
+    {
+      return data->reference.size();
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::global_node(unsigned int node) const
+    {
+      return data->relevant.nth_index_in_set(node);
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::local_node(unsigned int global) const
+    {
+      return data->local(global);
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::owner(unsigned int node) const
+    {
+      const auto &first = data->first_node_of_rank;
+      return std::upper_bound(first.begin(), first.end(), global_node(node)) -
+             first.begin() - 1;
+    }
+
+    template <int dim>
+    bool
+    BodyMesh<dim>::is_hanging(unsigned int node) const
+    {
+      return data->hanging_of_node[node] < data->hanging.size();
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::hanging_index(unsigned int node) const
+    {
+      return data->hanging_of_node[node];
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::body_of_node(unsigned int node) const
+    {
+      return data->node_body[node];
+    }
+
+    template <int dim>
+    const std::vector<dealii::Point<dim>> &
+    BodyMesh<dim>::logical_positions() const
+    {
+      return data->logical;
+    }
+
+    template <int dim>
+    const typename BodyMesh<dim>::Field &
+    BodyMesh<dim>::reference_positions() const
+    {
+      return data->reference;
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::interpolate_hanging(Field &field) const
+    {
+      for (const auto &entry : data->hanging)
+        {
+          dealii::Tensor<1, dim> value;
+          for (const auto &master : entry.masters)
+            value += master.second * field[master.first];
+          field[entry.node] = value;
+        }
+    }
+
+    template <int dim>
+    void
+    BodyMesh<dim>::distribute_hanging(Field &field) const
+    {
+      for (const auto &entry : data->hanging)
+        {
+          for (const auto &master : entry.masters)
+            field[master.first] += master.second * field[entry.node];
+          field[entry.node] = 0.;
+        }
+    }
+
+    template <int dim>
+    unsigned long
+    BodyMesh<dim>::n_global_cells() const
+    {
+      return data->n_cells;
+    }
+
+    template <int dim>
+    unsigned long
+    BodyMesh<dim>::n_global_free_nodes() const
+    {
+      return data->n_free_nodes;
+    }
+
+    template <int dim>
+    const std::vector<std::pair<unsigned int, unsigned int>> &
+    BodyMesh<dim>::cell_neighbours() const
+    {
+      return data->neighbours;
+    }
+
+    template class BodyMesh<2>;
+    template class BodyMesh<3>;
+  } // namespace mesh
+} // namespace snug

@@ -1,0 +1,44 @@
+#include <snug/optimization/minimize.h>
+#include <snug/optimization/slsqp.h>
+
+namespace snug
+{
+  namespace optimization
+  {
+    const ChoiceTable<Algorithm> &
+    algorithm_table()
+    {
+      static const ChoiceTable<Algorithm> table = {
+        {"SLSQP",
+         "sequential quadratic programming (Kraft) of the NLopt library, "
+         "with bounds and equality constraints",
+         slsqp}};
+      return table;
+    }
+
+    OptimizationResult
+    minimize(const DesignProblem          &problem,
+             const OptimizationParameters &parameters,
+             const Hooks                  &hooks)
+    {
+      const auto require = [](bool good, const char *entry, auto value) {
+        if (!good)
+          throw bad_entry(entry, std::to_string(value), "must be positive");
+      };
+      require(parameters.maximum_evaluations > 0,
+              "Maximum evaluations",
+              parameters.maximum_evaluations);
+      require(parameters.objective_tolerance > 0.,
+              "Objective tolerance",
+              parameters.objective_tolerance);
+      require(parameters.design_tolerance > 0.,
+              "Design tolerance",
+              parameters.design_tolerance);
+      require(parameters.constraint_tolerance > 0.,
+              "Constraint tolerance",
+              parameters.constraint_tolerance);
+      return choose(algorithm_table(), parameters.algorithm)
+        .make(problem, parameters, hooks);
+    }
+  } // namespace optimization
+} // namespace snug
