@@ -1,6 +1,7 @@
 # snug_add_unit_test(module RANKS 1 2 3): one GoogleTest program of all
 # tests/unit/<module>/*.cc (start-up costs half a second), run with each number
-# of ranks. The ctest labels are unit and the module's name.
+# of ranks. The ctest labels are unit and the module's name; the target
+# build.unit builds the programs of a label.
 function(snug_add_unit_test module)
   cmake_parse_arguments(ARG "" "LABEL;FOLDER" "RANKS;USES" ${ARGN})
   if(NOT ARG_LABEL)
@@ -19,6 +20,10 @@ function(snug_add_unit_test module)
   endforeach()
   target_link_libraries(${target} GTest::gtest)
   deal_ii_setup_target(${target})
+  if(NOT TARGET build.${ARG_LABEL})
+    add_custom_target(build.${ARG_LABEL})
+  endif()
+  add_dependencies(build.${ARG_LABEL} ${target})
   foreach(ranks ${ARG_RANKS})
     set(test ${target}.np${ranks})
     add_test(NAME ${test}
@@ -28,4 +33,41 @@ function(snug_add_unit_test module)
       LABELS "${ARG_LABEL};${module}" PROCESSORS ${ranks} TIMEOUT 300
       ENVIRONMENT "${SNUG_TEST_ENVIRONMENT}")
   endforeach()
+endfunction()
+
+# snug_add_regression_test(name RANKS 1 2 3 [SCENE file.prm] [LABELS label...]
+# [SET "Subsection/Entry=value"...]): run snug on regression/<name>.prm (or
+# SCENE) with the entries of SET and compare its summary.json with
+# regression/<name>.json. The ctest labels are regression and LABELS.
+function(snug_add_regression_test name)
+  cmake_parse_arguments(ARG "" "SCENE" "RANKS;LABELS;SET" ${ARGN})
+  set(folder ${CMAKE_CURRENT_SOURCE_DIR}/regression)
+  if(NOT ARG_SCENE)
+    set(ARG_SCENE ${folder}/${name}.prm)
+  endif()
+  foreach(ranks ${ARG_RANKS})
+    set(test regression.${name}.np${ranks})
+    add_test(NAME ${test}
+      COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:snug>
+              "-DMPIEXEC=${MPIEXEC_EXECUTABLE};${MPIEXEC_NUMPROC_FLAG}"
+              -DRANKS=${ranks} -DSCENE=${ARG_SCENE} "-DSETTINGS=${ARG_SET}"
+              -DPYTHON=${Python3_EXECUTABLE} -DCOMPARE=${folder}/compare.py
+              -DREFERENCE=${folder}/${name}.json
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/regression/${name}.np${ranks}
+              -P ${PROJECT_SOURCE_DIR}/contrib/cmake/run_case.cmake)
+    set_tests_properties(${test} PROPERTIES
+      LABELS "regression;${ARG_LABELS}" PROCESSORS ${ranks} TIMEOUT 600
+      ENVIRONMENT "${SNUG_TEST_ENVIRONMENT}")
+  endforeach()
+endfunction()
+
+# snug_add_script_test(name LABELS label... SCRIPT file.py [arguments]): a test
+# that is a Python program; it fails with its exit status.
+function(snug_add_script_test name)
+  cmake_parse_arguments(ARG "" "" "LABELS;SCRIPT" ${ARGN})
+  list(POP_FRONT ARG_SCRIPT script)
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} -B
+           ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARG_SCRIPT})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 300
+    ENVIRONMENT "${SNUG_TEST_ENVIRONMENT}")
 endfunction()

@@ -154,6 +154,18 @@ namespace snug
       return systems;
     }
 
+    unsigned int
+    TotalFeti::n_bodies() const
+    {
+      return coarse.subdomains().body_names.size();
+    }
+
+    unsigned int
+    TotalFeti::n_kernel() const
+    {
+      return coarse.n_kernel();
+    }
+
     qp::MultiVector
     TotalFeti::apply(const qp::MultiVector &x) const
     {

@@ -442,8 +442,15 @@ namespace snug
     unsigned int
     BodyMesh<dim>::owner(unsigned int node) const
     {
+      return owner_of_global(global_node(node));
+    }
+
+    template <int dim>
+    unsigned int
+    BodyMesh<dim>::owner_of_global(unsigned int global) const
+    {
       const auto &first = data->first_node_of_rank;
-      return std::upper_bound(first.begin(), first.end(), global_node(node)) -
+      return std::upper_bound(first.begin(), first.end(), global) -
              first.begin() - 1;
     }
 

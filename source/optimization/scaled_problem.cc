@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 namespace snug
@@ -21,11 +20,17 @@ namespace snug
       /// A variable closer to a bound, relative to its width, is at it.
       constexpr double at_bound = 1e-8;
 
+      /// Designs closer than this, relative to the widths, are one design: in
+      /// vain, SLSQP likes to ask for many that differ in their last bits.
+      constexpr double resolution = 1e-13;
+
       bool
-      same_bits(const std::vector<double> &a, const std::vector<double> &b)
+      is_same(const std::vector<double> &a, const std::vector<double> &b)
       {
-        return a.size() == b.size() &&
-               std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+        for (unsigned int i = 0; i < a.size(); ++i)
+          if (!(std::abs(a[i] - b[i]) <= resolution))
+            return false;
+        return true;
       }
 
       double
@@ -126,26 +131,29 @@ namespace snug
     bool
     ScaledProblem::is_known(const std::vector<double> &y) const
     {
-      const auto x = design(y);
-      return std::any_of(recent.begin(), recent.end(), [&](const auto &point) {
-        return same_bits(point->x, x);
-      });
+      return find(y) != nullptr;
+    }
+
+    std::shared_ptr<const ScaledProblem::Point>
+    ScaledProblem::find(const std::vector<double> &y) const
+    {
+      for (const auto &point : recent)
+        if (is_same(point->y, y))
+          return point;
+      return nullptr;
     }
 
     std::shared_ptr<const ScaledProblem::Point>
     ScaledProblem::at(const std::vector<double> &y)
     {
-      const auto x = design(y);
-      for (const auto &point : recent)
-        if (same_bits(point->x, x))
-          return point;
-
+      if (const auto known = find(y))
+        return known;
       const auto point = std::make_shared<Point>();
       point->y         = y;
-      point->x         = x;
+      point->x         = design(y);
       ++evaluations;
-      point->evaluation = problem.evaluate(x);
-      check_values(point->evaluation, x.size());
+      point->evaluation = problem.evaluate(point->x);
+      check_values(point->evaluation, y.size());
       for (const double c : constraints(point->evaluation))
         point->violation = std::max(point->violation, std::abs(c));
       recent.push_front(point);

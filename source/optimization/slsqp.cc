@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/optimization/scaled_problem.h>
+#include <snug/optimization/progress.h>
 #include <snug/optimization/slsqp.h>
 
 #include <algorithm>
@@ -15,21 +15,12 @@ namespace snug
   {
     namespace
     {
-      using PointPointer = std::shared_ptr<const ScaledProblem::Point>;
-
-      /// Why a run of NLopt ended.
-      enum class End
-      {
-        objective,
-        design,
-        evaluations,
-        round_off,
-        no_value,
-        interrupted
-      };
-
       constexpr unsigned int max_failures         = 5;
       constexpr unsigned int max_round_off_starts = 5;
+
+      /// NLopt may repeat a question for ever. More than SLSQP's six line
+      /// searches of at most eleven designs before it gives up by itself.
+      constexpr unsigned int max_idle_questions = 100;
 
       /**
        * The search. NLopt tells nothing about its iterations, but asks in a
@@ -53,7 +44,7 @@ namespace snug
         void
         descend();
         void
-        accept_last_step();
+        ask_nlopt();
         bool
         begins_again();
         void
@@ -65,31 +56,15 @@ namespace snug
         objective(const double *y, double *gradient);
         void
         constraints(double *values, const double *y, double *jacobian);
-        PointPointer
+        Progress::Point
         values_at(const std::vector<double> &y);
         void
-        accept(const PointPointer &point, bool full_step);
-        void
-        check_tolerances(const ScaledProblem::Point &previous, bool full_step);
-        void
-        report();
-        bool
-        is_feasible(const ScaledProblem::Point &point) const;
-        bool
-        is_better(const ScaledProblem::Point &a,
-                  const ScaledProblem::Point &b) const;
-        bool
-        has_gained() const;
+        accept(const Progress::Point &point, bool full);
         [[noreturn]] void
         stop(End reason);
         template <typename Function>
         void
         guarded(const Function &work);
-
-        OptimizationResult
-        result() const;
-        std::string
-        stop_reason() const;
 
         static double
         call_objective(unsigned int,
@@ -107,20 +82,17 @@ namespace snug
         const OptimizationParameters &parameters;
         const Hooks                  &hooks;
         ScaledProblem                 problem;
+        Progress                      progress;
 
-        PointPointer iterate; ///< accepted last
-        PointPointer best;    ///< lowest feasible, else nearest to it
-        unsigned int iterations = 0;
-
-        std::vector<double> centre; ///< of the limits on the moves
+        std::vector<double> centre; ///< moves are limited to centre +- reach
         double              reach    = std::numeric_limits<double>::max();
         unsigned int        failures = 0, round_off_starts = 0;
-        PointPointer        best_before; ///< this run of NLopt
 
-        PointPointer        full_step;            ///< asked, not yet accepted
-        std::vector<double> last;                 ///< design asked for last
-        bool                last_was_full = true; ///< and with gradient
-        bool                was_close     = false;
+        Progress::Point     full_step; ///< asked for, not known to be accepted
+        std::vector<double> last_design;           ///< asked for
+        bool                last_was_full = false; ///< and with gradient
+
+        unsigned int idle_questions = 0; ///< answered by known values
 
         End                 end = End::round_off;
         std::vector<double> failed_design;
@@ -128,15 +100,14 @@ namespace snug
         std::exception_ptr  error;
       };
 
-      Search::Search(const DesignProblem          &problem,
+      Search::Search(const DesignProblem          &design_problem,
                      const OptimizationParameters &parameters,
                      const Hooks                  &hooks)
         : parameters(parameters)
         , hooks(hooks)
-        , problem(problem)
-        , iterate(this->problem.start())
-        , best(iterate)
-        , centre(iterate->y)
+        , problem(design_problem)
+        , progress(problem, parameters, hooks)
+        , centre(problem.start()->y)
       {
       }
 
@@ -145,26 +116,50 @@ namespace snug
       {
         try
           {
-            report();
+            progress.report();
           }
         catch (const Interrupted &)
           {
-            end = End::interrupted;
-            return result();
+            return progress.result(End::interrupted);
           }
         if (!centre.empty())
           do
             descend();
           while (begins_again());
-        return result();
+        return progress.result(end);
       }
 
-      /// One run of NLopt from the iterate.
+      /// One run of NLopt from the iterate; sets how it ended.
       void
       Search::descend()
       {
-        const unsigned int  n = centre.size();
-        const unsigned int  m = iterate->evaluation.constraints.size();
+        progress.begin_run();
+        full_step.reset();
+        last_design.clear();
+        last_was_full  = false;
+        idle_questions = 0;
+        end            = End::round_off;
+        try
+          {
+            ask_nlopt();
+            // It ended by itself. If that was right after a full step, it had
+            // accepted it.
+            if (full_step)
+              guarded([this] { accept(full_step, true); });
+          }
+        catch (const nlopt::forced_stop &)
+          {
+          }
+        if (error)
+          std::rethrow_exception(error);
+      }
+
+      void
+      Search::ask_nlopt()
+      {
+        const unsigned int n = centre.size();
+        const unsigned int m =
+          progress.iterate()->evaluation.constraints.size();
         std::vector<double> lower(n), upper(n);
         for (unsigned int i = 0; i < n; ++i)
           {
@@ -180,49 +175,20 @@ namespace snug
             &Search::call_constraints,
             this,
             std::vector<double>(m, parameters.constraint_tolerance));
-        // NLopt also counts repeated questions, which cost nothing, and may
-        // repeat one for ever.
-        optimizer.set_maxeval(100 + 20 * parameters.maximum_evaluations);
-
-        best_before = best;
-        full_step.reset();
-        last.clear();
-        last_was_full = true;
-        was_close     = false;
-        end           = End::round_off;
-        auto   y      = iterate->y;
-        double f      = 0.;
+        auto   y = progress.iterate()->y;
+        double f = 0.;
         try
           {
             optimizer.optimize(y, f);
           }
         catch (const nlopt::forced_stop &)
           {
-          }
-        catch (const nlopt::roundoff_limited &)
-          {
+            throw;
           }
         catch (const std::runtime_error &)
           {
-            // NLopt's general failure: its quadratic program has no solution,
-            // as for constraints that exclude one another.
-          }
-        if (!error && end == End::round_off && full_step)
-          accept_last_step();
-        if (error)
-          std::rethrow_exception(error);
-      }
-
-      /// NLopt ended by itself right after a full step: it had accepted it.
-      void
-      Search::accept_last_step()
-      {
-        try
-          {
-            guarded([&] { accept(full_step, true); });
-          }
-        catch (const nlopt::forced_stop &)
-          {
+            // Round-off, or NLopt's general failure: its quadratic program has
+            // no solution, as for constraints that exclude one another.
           }
       }
 
@@ -242,18 +208,20 @@ namespace snug
             case End::design:
               if (!is_at_move_limit())
                 return false;
-              centre = iterate->y;
+              centre = progress.iterate()->y;
               return true;
             case End::round_off:
-              if (!has_gained() || round_off_starts == max_round_off_starts)
+              if (!progress.has_gained() ||
+                  round_off_starts == max_round_off_starts)
                 return false;
               ++round_off_starts;
-              centre = iterate->y;
+              centre = progress.iterate()->y;
               if (hooks.log)
                 hooks.log("SLSQP stopped by round-off, begun again from "
                           "iteration " +
-                          std::to_string(iterations));
+                          std::to_string(progress.n_iterations()));
               return true;
+            case End::none:
             case End::evaluations:
             case End::interrupted:
               return false;
@@ -265,17 +233,17 @@ namespace snug
       void
       Search::shrink()
       {
+        centre      = progress.iterate()->y;
         double move = 0.;
-        for (unsigned int i = 0; i < failed_design.size(); ++i)
-          move = std::max(move, std::abs(failed_design[i] - iterate->y[i]));
-        centre = iterate->y;
-        reach  = move / 2.;
+        for (unsigned int i = 0; i < centre.size(); ++i)
+          move = std::max(move, std::abs(failed_design[i] - centre[i]));
+        reach = move / 2.;
         if (!hooks.log)
           return;
         std::ostringstream line;
         line << "design without a value (" << failure << "): restart "
              << failures << " of " << max_failures << " from iteration "
-             << iterations << ", moves limited to " << reach
+             << progress.n_iterations() << ", moves limited to " << reach
              << " of the bound widths";
         hooks.log(line.str());
       }
@@ -285,7 +253,7 @@ namespace snug
       {
         for (unsigned int i = 0; i < centre.size(); ++i)
           {
-            const double y = iterate->y[i];
+            const double y = progress.iterate()->y[i];
             if (std::abs(y - centre[i]) >= reach * (1. - 1e-8) &&
                 y > problem.lower()[i] && y < problem.upper()[i])
               return true;
@@ -297,22 +265,28 @@ namespace snug
       Search::objective(const double *values, double *gradient)
       {
         const std::vector<double> y(values, values + centre.size());
-        const bool                repeated = y == last;
-        if (gradient != nullptr && last_was_full && !repeated && full_step)
+        const bool                is_repeated = y == last_design;
+        const bool                is_full     = gradient != nullptr;
+        if (is_full && !is_repeated && full_step)
           accept(full_step, true);
         full_step.reset();
-        const auto point = values_at(y);
-        if (gradient != nullptr)
+        const unsigned int before = problem.n_evaluations();
+        const auto         point  = values_at(y);
+        idle_questions =
+          problem.n_evaluations() > before ? 0 : idle_questions + 1;
+        if (idle_questions > max_idle_questions)
+          stop(End::round_off);
+        if (is_full)
           {
-            if (repeated && !last_was_full)
+            if (is_repeated && !last_was_full)
               accept(point, false);
             else
               full_step = point;
             const auto g = problem.gradient(point->evaluation);
             std::copy(g.begin(), g.end(), gradient);
           }
-        last          = y;
-        last_was_full = gradient != nullptr;
+        last_design   = y;
+        last_was_full = is_full;
         return point->evaluation.objective / problem.objective_scale();
       }
 
@@ -328,7 +302,7 @@ namespace snug
           jacobian = std::copy(row.begin(), row.end(), jacobian);
       }
 
-      PointPointer
+      Progress::Point
       Search::values_at(const std::vector<double> &y)
       {
         if (!problem.is_known(y) &&
@@ -337,8 +311,7 @@ namespace snug
         try
           {
             const auto point = problem.at(y);
-            if (is_better(*point, *best))
-              best = point;
+            progress.consider(point);
             return point;
           }
         catch (const SolveError &no_value)
@@ -350,76 +323,11 @@ namespace snug
       }
 
       void
-      Search::accept(const PointPointer &point, const bool full)
+      Search::accept(const Progress::Point &point, const bool full)
       {
-        const auto previous = iterate;
-        if (point->x == previous->x)
-          return;
-        iterate = point;
-        ++iterations;
-        report();
-        check_tolerances(*previous, full);
-      }
-
-      void
-      Search::check_tolerances(const ScaledProblem::Point &previous,
-                               const bool                  full)
-      {
-        const double f  = iterate->evaluation.objective;
-        const double df = std::abs(f - previous.evaluation.objective);
-        double       dy = 0.;
-        for (unsigned int i = 0; i < centre.size(); ++i)
-          dy = std::max(dy, std::abs(iterate->y[i] - previous.y[i]));
-
-        const bool by_objective =
-          df <= parameters.objective_tolerance * std::abs(f);
-        const bool by_design = dy <= parameters.design_tolerance;
-        const bool is_close =
-          is_feasible(*iterate) && (by_objective || by_design);
-        if (is_close && (full || was_close))
-          stop(by_objective ? End::objective : End::design);
-        was_close = is_close;
-      }
-
-      void
-      Search::report()
-      {
-        if (!hooks.on_iteration)
-          return;
-        Iteration iteration;
-        iteration.number               = iterations;
-        iteration.x                    = iterate->x;
-        iteration.evaluation           = iterate->evaluation;
-        iteration.constraint_violation = iterate->violation;
-        iteration.projected_gradient   = problem.projected_gradient(*iterate);
-        iteration.evaluations          = problem.n_evaluations();
-        hooks.on_iteration(iteration);
-      }
-
-      bool
-      Search::is_feasible(const ScaledProblem::Point &point) const
-      {
-        return point.violation <= parameters.constraint_tolerance;
-      }
-
-      bool
-      Search::is_better(const ScaledProblem::Point &a,
-                        const ScaledProblem::Point &b) const
-      {
-        if (is_feasible(a) && is_feasible(b))
-          return a.evaluation.objective < b.evaluation.objective;
-        return a.violation < b.violation;
-      }
-
-      /// Whether this run of NLopt was worth another.
-      bool
-      Search::has_gained() const
-      {
-        if (!is_feasible(*best_before))
-          return best->violation < best_before->violation / 2.;
-        const double f = best->evaluation.objective;
-        return best_before->evaluation.objective - f >
-               parameters.objective_tolerance * std::abs(f);
+        const End reached = progress.accept(point, full);
+        if (reached != End::none)
+          stop(reached);
       }
 
       void
@@ -475,49 +383,6 @@ namespace snug
       {
         auto &self = *static_cast<Search *>(search);
         self.guarded([&] { self.constraints(values, y, jacobian); });
-      }
-
-      std::string
-      Search::stop_reason() const
-      {
-        switch (end)
-          {
-            case End::objective:
-              return "objective tolerance";
-            case End::design:
-              return "design tolerance";
-            case End::evaluations:
-              return "maximum evaluations";
-            case End::round_off:
-              return is_feasible(*best) ? "round-off" : "constraints violated";
-            case End::no_value:
-              return "restarts exhausted (tangled meshes)";
-            case End::interrupted:
-              return "interrupted";
-          }
-        return "";
-      }
-
-      OptimizationResult
-      Search::result() const
-      {
-        OptimizationResult result;
-        result.x                    = best->x;
-        result.evaluation           = best->evaluation;
-        result.iterations           = iterations;
-        result.evaluations          = problem.n_evaluations();
-        result.objective_initial    = problem.start()->evaluation.objective;
-        result.objective_final      = best->evaluation.objective;
-        result.constraint_violation = best->violation;
-        result.projected_gradient   = problem.projected_gradient(*best);
-        result.stop_reason          = stop_reason();
-        const bool by_round_off =
-          end == End::round_off && result.projected_gradient <=
-                                     std::sqrt(parameters.objective_tolerance);
-        result.success =
-          is_feasible(*best) &&
-          (end == End::objective || end == End::design || by_round_off);
-        return result;
       }
     } // namespace
 

@@ -1,6 +1,8 @@
 #ifndef snug_contact_contact_rows_h
 #define snug_contact_contact_rows_h
 
+#include <snug/contact/nodal_normals.h>
+#include <snug/contact/projection.h>
 #include <snug/mesh/surface.h>
 
 #include <string>
@@ -24,20 +26,6 @@ namespace snug
     };
 
     /**
-     * Slave node s against master face: closest point with shape function
-     * weights w_k at master nodes k, found once and frozen.
-     * With nodal normals n_k = a_k/|a_k| of the master side (a_k: sum over
-     * its faces of the area vectors t1 x t2 at node k) the unit normal is
-     * n = v/|v|, v = -sum_k w_k n_k: from the slave INTO the master body.
-     */
-    struct Projection
-    {
-      unsigned int                                 pair;
-      unsigned int                                 slave; ///< surface node
-      std::vector<std::pair<unsigned int, double>> masters;
-    };
-
-    /**
      * One row of non-penetration, sum_a c_a . u_a <= gap:
      * c_s = n, c_k = -w_k n, gap = n . (sum_k w_k x_k - x_s) [length].
      * Hanging master nodes are replaced by their masters.
@@ -53,8 +41,14 @@ namespace snug
 
     /**
      * Nodal (node to face) contact of all pairs. Everything is replicated on
-     * all ranks; positions are fields on the surface nodes (hanging nodes
-     * included). Pairing is frozen by the constructor.
+     * all ranks and nothing communicates; positions are fields on the surface
+     * nodes (hanging nodes included). Pairing is frozen by the constructor:
+     * faces and weights stay, normals and gaps follow the positions.
+     *
+     * Rows are ordered by pair, then by the faces of the surface, which does
+     * not depend on the number of ranks.
+     *
+     * All functions of positions throw TangledMesh where a normal vanishes.
      */
     template <int dim>
     class NodalContact
@@ -62,8 +56,12 @@ namespace snug
     public:
       using Field = typename mesh::Surface<dim>::Field;
 
-      /// Pair at the given positions. Slave nodes that hang, or whose closest
-      /// point lies beyond the edge of the master side, carry no row.
+      /**
+       * Pair at the given positions. Slave nodes that hang, or whose closest
+       * point lies beyond the edge of the master side (edge_tolerance), carry
+       * no row. @p surface must outlive this object.
+       * @throws InputError naming a pair that is left without rows.
+       */
       NodalContact(const mesh::Surface<dim> &surface,
                    const std::vector<Pair>  &pairs,
                    unsigned int              degree,
@@ -85,23 +83,34 @@ namespace snug
 
       /**
        * gradient_a = d/dX_a sum_i force_i (sum_b c_ib . u_b - gap_i), the
-       * contact part of the energy gradient; all surface nodes.
+       * contact part of the energy gradient, for all surface nodes: hanging
+       * ones count as independent positions, so their share is still to be
+       * given to their masters.
        */
       Field
       energy_gradient(const Field               &positions,
                       const Field               &displacement,
                       const std::vector<double> &forces) const;
 
-      /// Tributary slave area of each row [length^(dim-1)], shares of hanging
-      /// slave nodes given to their masters.
+      /// Tributary slave area of each row [length^(dim-1)], the integral of
+      /// the slave node's shape function; shares of hanging slave nodes are
+      /// given to their masters.
       std::vector<double>
       areas(const Field &positions) const;
 
     private:
       const mesh::Surface<dim> &surface;
-      std::vector<Pair>         pairs;
-      unsigned int              degree;
+      FaceShape<dim>            shape;
+      std::vector<PairFaces>    sides; ///< of each pair
       std::vector<Projection>   found;
+      /// of each row: surface nodes, ascending, and their factors of n in the
+      /// coefficients: 1 (slave) or -w (masters, none hanging)
+      std::vector<std::vector<std::pair<unsigned int, double>>> factors;
+
+      void
+      resolve_hanging();
+      std::vector<NodalNormals<dim>>
+      master_normals(const Field &positions) const;
     };
   } // namespace contact
 } // namespace snug

@@ -34,10 +34,12 @@ namespace snug
     /// Dead loads of a body, in the geometry of the design.
     struct LoadParameters
     {
-      std::map<std::string, double> pressure; ///< boundary -> [force/length^2]
-      std::map<std::string, std::vector<double>>
-                          traction;   ///< boundary -> vector
-      std::vector<double> body_force; ///< [force / length^3]
+      /// boundary -> [force / length^(dim-1)], positive pushes on the body
+      std::map<std::string, double> pressure;
+      /// boundary -> vector [force / length^(dim-1)]
+      std::map<std::string, std::vector<double>> traction;
+      /// [force / length^dim]
+      std::vector<double> body_force;
     };
   } // namespace elasticity
 } // namespace snug

@@ -99,6 +99,13 @@ namespace snug
       const std::vector<SubdomainSystem> &
       subdomains() const;
 
+      unsigned int
+      n_bodies() const;
+
+      /// Rows of G: rigid modes of all subdomains.
+      unsigned int
+      n_kernel() const;
+
     private:
       class FetiFace;
 

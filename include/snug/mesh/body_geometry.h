@@ -14,17 +14,24 @@ namespace snug
 {
   namespace mesh
   {
-    /// Mesh entries of `subsection Body NAME`.
+    /**
+     * Mesh entries of `subsection Body NAME`. Faces of a box are called left,
+     * right (x-, x+), front, back (y-, y+), bottom, top (z-, z+); in 2D left,
+     * right (x-, x+), bottom, top (y-, y+).
+     */
     struct BodyMeshParameters
     {
       std::string               source = "box";
       std::vector<double>       corner; ///< [length], default 0
       std::vector<double>       size;   ///< [length], default 1
       std::vector<unsigned int> cells;  ///< per axis
-      /// per axis: size of the last cell over the size of the first
+      /// per axis: size of the last cell over the size of the first, cells
+      /// between in geometric progression; default 1
       std::vector<double> grading;
       /// face name -> "sphere R" | "cylinder x R" | formula of x, y, z giving
-      /// the outward displacement of the face [length]; R > 0 is convex
+      /// the outward displacement of the face [length]. The curved face
+      /// touches the flat one at its centre; R > 0 is convex. In 2D a
+      /// cylinder's axis is z.
       std::map<std::string, std::string> curved_faces;
       unsigned int                       refinements = 0;
       /// cells are refined where this formula of x, y, z is positive
@@ -61,6 +68,7 @@ namespace snug
       boundary_names() const = 0;
 
       /// Reference position of the point with logical coordinates @p logical.
+      /// @throws InputError where the formula of a face is not finite.
       virtual dealii::Point<dim>
       position(const dealii::Point<dim> &logical) const = 0;
 
@@ -71,9 +79,16 @@ namespace snug
        */
       virtual dealii::Point<dim>
       box_fraction(const dealii::Point<dim> &logical) const = 0;
+
+      /// The point at @p fraction of the body's box, faces not yet curved.
+      virtual dealii::Point<dim>
+      box_position(const dealii::Point<dim> &fraction) const = 0;
     };
 
-    /// Rows "box". @throws InputError naming the entry of @p parameters.
+    /**
+     * Rows "box". @throws InputError naming the entry: Box corner, Box size,
+     * Box cells, Box grading or Curved faces.
+     */
     template <int dim>
     const ChoiceTable<
       std::unique_ptr<BodyGeometry<dim>>(const BodyMeshParameters &)> &

@@ -89,6 +89,9 @@ namespace snug
       /// Rank that owns a local node.
       unsigned int
       owner(unsigned int node) const;
+      /// Rank that owns a global node.
+      unsigned int
+      owner_of_global(unsigned int global) const;
       bool
       is_hanging(unsigned int node) const;
       /// Index into hanging(), only for hanging nodes.

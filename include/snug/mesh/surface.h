@@ -49,8 +49,8 @@ namespace snug
                 typename BodyMesh<dim>::Field &field) const;
 
     private:
-      const BodyMesh<dim> &mesh;
-      std::vector<Face>    surface_faces;
+      const BodyMesh<dim>                                      &mesh;
+      std::vector<Face>                                         surface_faces;
       std::vector<unsigned int>                                 global_nodes;
       std::vector<std::vector<std::pair<unsigned int, double>>> node_masters;
       /// local node of each surface node this rank owns: (surface, local)

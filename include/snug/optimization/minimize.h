@@ -45,7 +45,11 @@ namespace snug
       std::function<void(const std::string &)> log;
     };
 
-    /// The best design found and how the search for it ended.
+    /**
+     * The design found and how the search for it ended: the last accepted one
+     * if a tolerance was met, else the best one evaluated (the lowest that
+     * meets the constraints or, if there is none, the one nearest to them).
+     */
     struct OptimizationResult
     {
       std::vector<double> x;

@@ -15,10 +15,10 @@ namespace snug
       std::string objective = "potential energy"; ///< a response
       /// response -> "initial" or a number it must equal
       std::map<std::string, std::string> constraints;
-      unsigned int maximum_evaluations  = 200;
-      double       objective_tolerance  = 1e-8; ///< relative, of the objective
-      double       design_tolerance     = 1e-7; ///< relative to bound widths
-      double       constraint_tolerance = 1e-8; ///< relative to the target
+      unsigned int                       maximum_evaluations = 200;
+      double objective_tolerance  = 1e-8; ///< relative, of the objective
+      double design_tolerance     = 1e-7; ///< relative to bound widths
+      double constraint_tolerance = 1e-8; ///< relative to the target
     };
   } // namespace optimization
 } // namespace snug

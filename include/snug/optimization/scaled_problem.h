@@ -43,7 +43,8 @@ namespace snug
        */
       explicit ScaledProblem(const DesignProblem &problem);
 
-      /// The values at @p y. Designs asked for lately are not evaluated again.
+      /// The values at @p y. Designs asked for lately, up to 1e-13 of the bound
+      /// widths, are not evaluated again: their point is returned.
       /// @throws SolveError if one is not finite; what evaluate() throws.
       std::shared_ptr<const Point>
       at(const std::vector<double> &y);
@@ -85,6 +86,8 @@ namespace snug
       n_evaluations() const;
 
     private:
+      std::shared_ptr<const Point>
+      find(const std::vector<double> &y) const;
       std::vector<double>
       design(const std::vector<double> &y) const;
 

@@ -11,9 +11,9 @@ namespace snug
   namespace response
   {
     /**
-     * A scalar function J of the state and the geometry, with the partial
-     * derivatives every sensitivity method is built from:
-     * dJ/dalpha_j = (explicit gradient . V_j) + dJ/du . u'_j.
+     * A scalar function J(u, X) of the state and the node positions, with the
+     * partial derivatives every sensitivity method is built from:
+     * dJ/dalpha_j = dJ/dX . V_j + dJ/du . u'_j.
      */
     template <int dim>
     class Response
@@ -28,26 +28,25 @@ namespace snug
       value(const state::StateSolver<dim>  &solver,
             const state::ContactState<dim> &state) const = 0;
 
-      /**
-       * The energy gradient: total dJ/dX of node positions without any solve,
-       * this rank's share, hanging nodes included; false if there is none.
-       */
-      virtual bool
-      total_gradient(const state::StateSolver<dim>  &solver,
-                     const state::ContactState<dim> &state,
-                     Field                          &gradient) const = 0;
+      /// dJ/dX at fixed u: this rank's share at the local nodes, hanging ones
+      /// included; the sum over ranks is the whole.
+      virtual Field
+      position_gradient(const state::StateSolver<dim>  &solver,
+                        const state::ContactState<dim> &state) const = 0;
 
-      /**
-       * dJ along a direction: @p velocity of the nodes with the derivative
-       * @p u_derivative (per subdomain, column @p k) of the displacement.
-       * Collective.
-       */
-      virtual double
-      derivative(const state::StateSolver<dim>  &solver,
-                 const state::ContactState<dim> &state,
-                 const Field                    &velocity,
-                 const feti::PrimalVectors      &u_derivative,
-                 unsigned int                    k) const = 0;
+      /// dJ/du at fixed X, per subdomain.
+      virtual feti::PrimalVectors
+      state_gradient(const state::StateSolver<dim>  &solver,
+                     const state::ContactState<dim> &state) const = 0;
+
+      /// Whether total_gradient() knows dJ/dalpha without a solve.
+      virtual bool
+      has_total_gradient() const;
+
+      /// dJ/dX through the state as well, as position_gradient(). Collective.
+      virtual Field
+      total_gradient(const state::StateSolver<dim>  &solver,
+                     const state::ContactState<dim> &state) const;
     };
 
     /// Rows "potential energy", "compliance", "strain energy", "volume".

@@ -19,8 +19,8 @@ namespace snug
       std::string               face;           ///< "body.boundary"
       std::vector<unsigned int> control_points; ///< per tangent direction
       std::vector<double>       direction;      ///< of the heights
-      std::vector<double>       bounds;  ///< lower, upper [length]
-      std::vector<double>       initial; ///< [length], default 0
+      std::vector<double>       bounds;         ///< lower, upper [length]
+      std::vector<double>       initial;        ///< [length], default 0
     };
 
     /**
@@ -64,10 +64,10 @@ namespace snug
 
     /// Rows "none" (no variables) and "Bezier patch".
     template <int dim>
-    const ChoiceTable<std::unique_ptr<ShapeBasis<dim>>(
-      const mesh::BodyMesh<dim> &,
-      const BodyNames &,
-      const ShapeParameters &)> &
+    const ChoiceTable<
+      std::unique_ptr<ShapeBasis<dim>>(const mesh::BodyMesh<dim> &,
+                                       const BodyNames &,
+                                       const ShapeParameters &)> &
     shape_basis_table();
   } // namespace shape
 } // namespace snug

@@ -1,25 +1,12 @@
 #ifndef snug_state_gluing_h
 #define snug_state_gluing_h
 
-#include <snug/contact/contact_rows.h>
-#include <snug/feti/row_layout.h>
-#include <snug/feti/subdomain_system.h>
-#include <snug/mesh/tearing.h>
-
-#include <map>
-#include <memory>
+#include <snug/state/gluing_rows.h>
 
 namespace snug
 {
   namespace state
   {
-    /// Fixed displacement components of one boundary of a body.
-    struct Support
-    {
-      unsigned int              body, boundary;
-      std::vector<unsigned int> components;
-    };
-
     /**
      * The rows of B. At a node with m copies (one per subdomain that reaches
      * it): every copy carries one unit row per fixed direction; the other
@@ -66,6 +53,11 @@ namespace snug
              bool                                  derivative,
              std::vector<feti::BEntry>            &B) const;
 
+      /// Contact rows that the supports at their nodes hold entirely: no dual
+      /// row, their gaps must not be negative.
+      std::vector<unsigned int>
+      vanished_rows() const;
+
       /// Right-hand side of the owned rows: gap / nr at contact rows.
       qp::MultiVector
       right_hand_side(const std::vector<contact::Row<dim>> &rows) const;
@@ -80,26 +72,7 @@ namespace snug
       contact_of_row() const;
 
     private:
-      struct Builder;
-
-      /// An entry whose value is fixed, or follows a contact row.
-      struct Entry
-      {
-        unsigned int local_row, dof;
-        double       value;       ///< of a fixed entry
-        unsigned int contact;     ///< contact row, or none
-        unsigned int coefficient; ///< index in the row's coefficients
-      };
-
-      const mesh::Surface<dim>        &surface;
-      std::unique_ptr<feti::RowLayout> rows;
-      std::vector<std::vector<Entry>>  entries; ///< per subdomain
-      std::vector<unsigned int>        owned_contact;
-      std::vector<double>              scales;
-      /// fixed directions at surface nodes, orthonormal
-      std::vector<std::vector<dealii::Tensor<1, dim>>> fixed_directions;
-      std::vector<unsigned int>                        copies; ///< surface nodes
-      unsigned int                                     n_global = 0;
+      GluingRows<dim> rows;
     };
   } // namespace state
 } // namespace snug

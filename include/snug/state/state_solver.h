@@ -56,6 +56,11 @@ namespace snug
       ContactState<dim>
       solve(const Field &positions, const qp::WarmStart &start);
 
+      /// F-mults of one linear TFETI solve on the active set of @p state,
+      /// the last one solved, from zero at the same tolerance. Collective.
+      unsigned long
+      linear_f_mults(const ContactState<dim> &state) const;
+
       /// Volume of one body at @p positions [length^dim]. Collective.
       double
       volume(unsigned int body, const Field &positions) const;

@@ -1,0 +1,25 @@
+#ifndef snug_app_study_h
+#define snug_app_study_h
+
+#include <snug/app/command_line.h>
+#include <snug/base/run_context.h>
+#include <snug/scene/scene.h>
+
+namespace snug
+{
+  namespace app
+  {
+    /**
+     * Do the task of a scene and leave its results in the output directory.
+     * Collective.
+     * @return the exit status: 0 done, 3 not solved to its tolerance.
+     * @throws InputError, SolveError.
+     */
+    int
+    run_study(RunContext         &context,
+              const scene::Scene &scene,
+              const Options      &options);
+  } // namespace app
+} // namespace snug
+
+#endif

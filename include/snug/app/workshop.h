@@ -1,0 +1,88 @@
+#ifndef snug_app_workshop_h
+#define snug_app_workshop_h
+
+#include <snug/app/build_model.h>
+#include <snug/io/contact_output.h>
+#include <snug/io/fields.h>
+#include <snug/io/summary.h>
+#include <snug/sensitivity/gradient.h>
+#include <snug/shape/shape_basis.h>
+
+#include <memory>
+
+namespace snug
+{
+  namespace app
+  {
+    /**
+     * What every task of a scene works with: mesh, tearing, shape basis,
+     * state solver and the writers of results.
+     */
+    template <int dim>
+    class Workshop
+    {
+    public:
+      using Field = typename mesh::BodyMesh<dim>::Field;
+
+      /// Collective. @throws InputError.
+      Workshop(RunContext &context, const scene::Scene &scene);
+
+      /// Node positions of a design.
+      Field
+      positions(const std::vector<double> &design) const;
+
+      /// The state of a design. Collective. @throws SolveError.
+      state::ContactState<dim>
+      solve(const std::vector<double> &design, const qp::WarmStart &start);
+
+      /// Gradient of a response at a state. Collective.
+      sensitivity::Gradient
+      gradient(const response::Response<dim>         &response,
+               const state::ContactState<dim>        &state,
+               const std::vector<double>             &design,
+               const sensitivity::GradientParameters &parameters);
+
+      /// Add a state to the pictures. Collective.
+      void
+      draw(double time, const state::ContactState<dim> &state);
+
+      /// Print what was read. Collective.
+      void
+      print_header() const;
+
+      /// Fill in program, mesh, work and times and write summary.json.
+      /// Collective.
+      void
+      write_summary(io::Summary &summary);
+
+      /// The optimized surface and the control points. Collective.
+      void
+      export_shape(const std::vector<double> &design);
+
+      /// File @p name of the output directory.
+      std::string
+      path(const std::string &name) const;
+
+      std::vector<double>
+      lower_bounds() const;
+      std::vector<double>
+      upper_bounds() const;
+      std::vector<double>
+      start() const;
+
+      RunContext                               &context;
+      const scene::Scene                       &scene;
+      std::unique_ptr<mesh::BodyMesh<dim>>      mesh;
+      mesh::Tearing                             tearing;
+      std::unique_ptr<shape::ShapeBasis<dim>>   basis;
+      std::unique_ptr<state::StateSolver<dim>>  solver;
+      std::unique_ptr<response::Response<dim>>  objective;
+
+    private:
+      std::unique_ptr<io::FieldOutput<dim>>   fields;
+      std::unique_ptr<io::ContactOutput<dim>> contact_output;
+    };
+  } // namespace app
+} // namespace snug
+
+#endif

@@ -1,0 +1,83 @@
+#ifndef snug_io_contact_output_h
+#define snug_io_contact_output_h
+
+#include <snug/contact/contact_rows.h>
+#include <snug/mesh/surface.h>
+#include <snug/state/contact_state.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace snug
+{
+  namespace io
+  {
+    /**
+     * The series contact.pvd of contact faces: state number i is
+     * contact-000i.vtu (all faces of both sides, undeformed) with a table of
+     * the contact rows beside it, contact-000i.csv. Rank 0 writes.
+     *
+     * | field               | meaning                       | units           |
+     * |---------------------|-------------------------------|-----------------|
+     * | pressure            | force / area                  | force/length^2* |
+     * | gap                 | left after deformation        | length          |
+     * | force               | of the contact row            | force           |
+     * | area                | tributary                     | length^2*       |
+     * | active, weak        | 1 or 0                        |                 |
+     * | candidate           | 1 where there is a row        |                 |
+     * | slave               | 1 on the slave side, else 0   |                 |
+     * | body                | index of `Bodies`             |                 |
+     * | displacement        |                               | length          |
+     * | design_displacement | design minus reference        | length          |
+     *
+     * (*) length in 2D, where forces are per unit thickness.
+     *
+     * Pressure, gap and flags stand at slave nodes; hanging ones interpolate
+     * pressure and gap and are active or weak where all their masters are.
+     * Elsewhere they are 0. A node of several pairs shows its largest force.
+     */
+    template <int dim>
+    class ContactOutput
+    {
+    public:
+      /// What it draws on; all must outlive the ContactOutput.
+      struct Sources
+      {
+        const mesh::BodyMesh<dim>              &mesh;
+        const mesh::Surface<dim>               &surface;
+        const std::vector<contact::Pair>       &pairs;
+        const std::vector<contact::Projection> &projections;
+      };
+
+      /// Files go to @p directory, which must exist. Collective.
+      ContactOutput(const Sources &sources, const std::string &directory);
+
+      /// Add @p state to the series as that of @p time. Collective.
+      /// @throws std::runtime_error if a file cannot be written.
+      void
+      write(double time, const state::ContactState<dim> &state);
+
+    private:
+      using Field = typename mesh::Surface<dim>::Field;
+
+      std::vector<state::ContactPoint>
+      nodal_points(const std::vector<state::ContactPoint> &rows) const;
+      std::string
+      faces_text(const state::ContactState<dim> &state,
+                 const Field                    &positions,
+                 const Field                    &displacement) const;
+      std::string
+      rows_text(const state::ContactState<dim> &state,
+                const Field                    &positions) const;
+
+      Sources                                     sources;
+      std::string                                 directory;
+      Field                                       reference;
+      std::vector<bool>                           candidate; ///< surface nodes
+      std::vector<std::pair<double, std::string>> series;
+    };
+  } // namespace io
+} // namespace snug
+
+#endif

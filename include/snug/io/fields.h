@@ -1,0 +1,66 @@
+#ifndef snug_io_fields_h
+#define snug_io_fields_h
+
+#include <snug/elasticity/material.h>
+#include <snug/mesh/tearing.h>
+#include <snug/state/contact_state.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace snug
+{
+  namespace io
+  {
+    /**
+     * The series solution.pvd of fields on the bodies: state number i is
+     * solution-000i.pvtu, which joins one solution-000i.RANK.vtu per rank.
+     *
+     * Points lie on the design, before deformation: "warp by vector
+     * displacement" shows the deformed bodies, by minus design_displacement
+     * those of the reference.
+     *
+     * | field               | components | units            |
+     * |---------------------|------------|------------------|
+     * | displacement        | 3          | length           |
+     * | stress              | 9          | force / length^2 |
+     * | von_mises           | 1          | force / length^2 |
+     * | body                | 1          | index of `Bodies`|
+     * | subdomain           | 1          | global id        |
+     * | design_displacement | 3          | length           |
+     *
+     * Stress is smoothed as nodal_stress() says; von Mises is that of the
+     * smoothed stress. In 2D it holds the out-of-plane stress of plane strain.
+     */
+    template <int dim>
+    class FieldOutput
+    {
+    public:
+      /**
+       * @p mesh and @p tearing must outlive this object.
+       * @param[in] materials One per body.
+       * @param[in] directory Where the files go; it must exist.
+       */
+      FieldOutput(const mesh::BodyMesh<dim>               &mesh,
+                  const mesh::Tearing                     &tearing,
+                  const std::vector<elasticity::Material> &materials,
+                  const std::string                       &directory);
+
+      /// Add @p state to the series as that of @p time (the number of the
+      /// design iteration, say). Collective.
+      /// @throws std::runtime_error if a file cannot be written.
+      void
+      write(double time, const state::ContactState<dim> &state);
+
+    private:
+      const mesh::BodyMesh<dim>                  &mesh;
+      std::vector<unsigned int>                   subdomain_of_cell;
+      std::vector<elasticity::Material>           materials;
+      std::string                                 directory;
+      std::vector<std::pair<double, std::string>> series;
+    };
+  } // namespace io
+} // namespace snug
+
+#endif

@@ -1,0 +1,46 @@
+#ifndef snug_mesh_formula_h
+#define snug_mesh_formula_h
+
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <string>
+
+namespace dealii
+{
+  template <int dim>
+  class FunctionParser;
+}
+
+namespace snug
+{
+  namespace mesh
+  {
+    /**
+     * A muParser formula of the coordinates x, y (2D) or x, y, z (3D), as
+     * users write it in an entry of the parameter file.
+     */
+    template <int dim>
+    class Formula
+    {
+    public:
+      /**
+       * Parse @p text, found in the entry called @p entry.
+       * @throws InputError naming entry, formula and the parser's complaint.
+       */
+      Formula(const std::string &entry, const std::string &text);
+      ~Formula();
+      Formula(Formula &&) noexcept;
+
+      /// @throws InputError if the value is not finite.
+      double
+      value(const dealii::Point<dim> &point) const;
+
+    private:
+      std::string                                  entry, text;
+      std::unique_ptr<dealii::FunctionParser<dim>> parser;
+    };
+  } // namespace mesh
+} // namespace snug
+
+#endif

@@ -1,0 +1,36 @@
+#ifndef snug_response_cell_gradients_h
+#define snug_response_cell_gradients_h
+
+#include <snug/state/state_solver.h>
+
+namespace snug
+{
+  namespace response
+  {
+    /// gradient += factor * d/dX (u'K u), this rank's share.
+    template <int dim>
+    void
+    add_stiffness_gradient(const state::StateSolver<dim>           &solver,
+                           const state::ContactState<dim>          &state,
+                           double                                   factor,
+                           typename mesh::BodyMesh<dim>::Field &gradient);
+
+    /// gradient += factor * d/dX (f'u), this rank's share.
+    template <int dim>
+    void
+    add_load_gradient(const state::StateSolver<dim>           &solver,
+                      const state::ContactState<dim>          &state,
+                      double                                   factor,
+                      typename mesh::BodyMesh<dim>::Field &gradient);
+
+    /// gradient += d/dX of lambda_I'(B_I u - g_I) at fixed u and lambda. The
+    /// share of this rank: its own nodes. Collective.
+    template <int dim>
+    void
+    add_contact_gradient(const state::StateSolver<dim>           &solver,
+                         const state::ContactState<dim>          &state,
+                         typename mesh::BodyMesh<dim>::Field &gradient);
+  } // namespace response
+} // namespace snug
+
+#endif

@@ -1,0 +1,54 @@
+#ifndef snug_scene_check_h
+#define snug_scene_check_h
+
+#include <snug/scene/scene.h>
+#include <snug/scene/statements.h>
+
+#include <string>
+#include <vector>
+
+namespace snug
+{
+  namespace scene
+  {
+    /**
+     * Throw an InputError that begins with the entry's origin unless the scene
+     * makes sense as a whole:
+     *
+     * - numbers are finite, lists have as many entries as the scene has
+     *   dimensions, moduli, sizes, cells and tolerances lie in their ranges;
+     * - bodies are there and have different names; boundaries that supports,
+     *   loads, pairs and shapes name exist; meshes can be made;
+     * - no face is paired with itself or twice;
+     * - tasks that need design variables have some, with bounds that are not
+     *   empty and hold the initial design;
+     * - objective and constraints are responses.
+     */
+    void
+    check(const Scene &scene, const Origins &origins = Origins());
+
+    /// @name Parts of check()
+    /// @{
+    void
+    check_names(const Scene &scene, const Origins &origins);
+    void
+    check_bodies(const Scene &scene, const Origins &origins);
+    void
+    check_contact(const Scene &scene, const Origins &origins);
+    void
+    check_shape(const Scene &scene, const Origins &origins);
+    void
+    check_methods(const Scene &scene, const Origins &origins);
+    /// @}
+
+    /// Names of the responses an objective or a constraint may be.
+    std::vector<std::string>
+    response_names();
+
+    /// "a, b, c".
+    std::string
+    listed(const std::vector<std::string> &names);
+  } // namespace scene
+} // namespace snug
+
+#endif

@@ -1,0 +1,53 @@
+#ifndef snug_scene_read_scene_h
+#define snug_scene_read_scene_h
+
+#include <snug/scene/scene.h>
+
+#include <mpi.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace snug
+{
+  namespace scene
+  {
+    /// What a scene is read from. Later ones of equal entries win.
+    struct SceneSource
+    {
+      std::string              file; ///< only a name, for messages
+      std::string              text; ///< contents of the parameter file
+      std::vector<std::string> sets; ///< "Subsection/Entry=value"
+      std::string              output_directory; ///< if not empty, overrides
+    };
+
+    /**
+     * Contents of a file, read by rank 0 only. Collective.
+     * @throws InputError on all ranks if it cannot be read.
+     */
+    std::string
+    read_text(const std::string &file, MPI_Comm communicator);
+
+    /**
+     * Read and check a scene. Lists left empty that have a default (corner,
+     * size, grading, body force, initial design) are filled in. Not collective;
+     * equal sources give equal scenes and equal errors.
+     *
+     * @throws InputError, one line with file, line, entry, value and what is
+     *   allowed; see check() for what is checked beyond the form of values.
+     */
+    Scene
+    read_scene(const SceneSource &source);
+
+    /// Every entry as a parameter file that reads back to the same scene.
+    void
+    print(const Scene &scene, std::ostream &out);
+
+    /// All entries with defaults, allowed values and meaning, as Markdown.
+    void
+    print_reference(std::ostream &out);
+  } // namespace scene
+} // namespace snug
+
+#endif

@@ -1,0 +1,84 @@
+#ifndef snug_scene_scene_h
+#define snug_scene_scene_h
+
+#include <snug/contact/contact_rows.h>
+#include <snug/elasticity/material.h>
+#include <snug/feti/feti_parameters.h>
+#include <snug/mesh/body_geometry.h>
+#include <snug/optimization/optimization_parameters.h>
+#include <snug/qp/solver.h>
+#include <snug/sensitivity/gradient_parameters.h>
+#include <snug/shape/shape_basis.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace snug
+{
+  namespace scene
+  {
+    /// What a run computes.
+    enum class Task
+    {
+      state,       ///< one contact problem
+      sensitivity, ///< its derivatives by all methods, side by side
+      optimize     ///< the best shape
+    };
+
+    /// Entries of `subsection Body NAME`.
+    struct Body
+    {
+      std::string              name;
+      mesh::BodyMeshParameters mesh;
+      elasticity::Material     material;
+      /// boundary -> components held at zero, a subset of "xyz"
+      std::map<std::string, std::string> supports;
+      elasticity::LoadParameters         loads;
+    };
+
+    /**
+     * Everything a parameter file says. Units are the user's, but consistent:
+     * with mm, N and MPa pressures and moduli are MPa and energies N mm (in
+     * 2D per mm of thickness).
+     */
+    struct Scene
+    {
+      Task              task             = Task::state;
+      unsigned int      dimension        = 3; ///< 2: plane strain
+      std::string       output_directory = "output";
+      unsigned int      degree           = 1; ///< of the elements, 1 or 2
+      std::vector<Body> bodies;
+      unsigned int      subdomains = 0; ///< of all ranks; 0: by size
+      /// also solve the linear problem on the final active set from zero
+      bool report_linear_reference = false;
+
+      contact::ContactParameters           contact;
+      shape::ShapeParameters               shape;
+      feti::FetiParameters                 feti;
+      qp::SolverParameters                 solver;
+      sensitivity::GradientParameters      gradient;
+      optimization::OptimizationParameters optimization;
+    };
+
+    /// "body.boundary" as {body, boundary}; without a dot, boundary is "".
+    std::pair<std::string, std::string>
+    split_face(const std::string &face);
+
+    /// Position of the body called @p name; bodies.size() if there is none.
+    unsigned int
+    body_index(const Scene &scene, const std::string &name);
+
+    /// Names of a body's boundaries, e.g. left, right, bottom, top.
+    /// @throws InputError if the body has no mesh (entries without section).
+    std::vector<std::string>
+    boundary_names(const Body &body, unsigned int dimension);
+
+    /// Number of design variables the shape entries ask for.
+    unsigned int
+    n_design_variables(const shape::ShapeParameters &shape);
+  } // namespace scene
+} // namespace snug
+
+#endif

@@ -1,0 +1,36 @@
+#ifndef snug_sensitivity_data_derivatives_h
+#define snug_sensitivity_data_derivatives_h
+
+#include <snug/sensitivity/gradient_parameters.h>
+#include <snug/state/state_solver.h>
+
+namespace snug
+{
+  namespace sensitivity
+  {
+    /**
+     * Right-hand sides of the sensitivity problem for k velocities V_j, one
+     * column each (equation 14 of Vondrák, Kozubek, Dostál; its c_w, c_s
+     * print f' where the derivative g' of the gap is meant):
+     * primal ft_j = f'_j - K'_j u - B'_j^T lambda per subdomain,
+     * dual ct_j = g'_j - B'_j u on the owned rows.
+     */
+    struct DataDerivatives
+    {
+      feti::PrimalVectors primal;
+      qp::MultiVector     dual;
+    };
+
+    /// The derivatives at @p state along @p velocities, exact or by central
+    /// differences of K, f, B and g (semi-analytic). Collective.
+    template <int dim>
+    DataDerivatives
+    data_derivatives(
+      const state::StateSolver<dim>                          &solver,
+      const state::ContactState<dim>                         &state,
+      const std::vector<typename mesh::BodyMesh<dim>::Field> &velocities,
+      const GradientParameters                               &parameters);
+  } // namespace sensitivity
+} // namespace snug
+
+#endif

@@ -1,0 +1,37 @@
+#include <snug/app/interrupt.h>
+#include <snug/base/errors.h>
+
+#include <csignal>
+
+namespace snug
+{
+  namespace app
+  {
+    namespace
+    {
+      volatile std::sig_atomic_t signal_received = 0;
+
+      void
+      note_signal(int number)
+      {
+        signal_received = number;
+      }
+    } // namespace
+
+    void
+    catch_interrupts()
+    {
+      std::signal(SIGTERM, note_signal);
+      std::signal(SIGINT, note_signal);
+    }
+
+    void
+    check_interrupts(MPI_Comm communicator)
+    {
+      int received = signal_received;
+      MPI_Allreduce(MPI_IN_PLACE, &received, 1, MPI_INT, MPI_MAX, communicator);
+      if (received != 0)
+        throw Interrupted("ended by signal " + std::to_string(received));
+    }
+  } // namespace app
+} // namespace snug

@@ -1,0 +1,240 @@
+#include <snug/app/interrupt.h>
+#include <snug/app/optimize.h>
+#include <snug/scene/read_scene.h>
+
+#include <fstream>
+#include <ostream>
+#include <sstream>
+
+namespace snug
+{
+  namespace app
+  {
+    template <int dim>
+    Optimize<dim>::Optimize(Workshop<dim> &workshop, bool restart)
+      : workshop(workshop)
+      , restart(restart)
+      , history(workshop.path("history.csv"), workshop.basis->n_variables())
+    {
+      choose_constraints();
+    }
+
+    template <int dim>
+    void
+    Optimize<dim>::choose_constraints()
+    {
+      state::ContactState<dim> geometry;
+      geometry.positions = workshop.positions(workshop.start());
+      for (const auto &entry : workshop.scene.optimization.constraints)
+        {
+          Constraint constraint;
+          constraint.name = entry.first;
+          constraint.response =
+            choose(response::response_table<dim>(), entry.first).make();
+          constraint.target =
+            entry.second == "initial" ?
+              constraint.response->value(*workshop.solver, geometry) :
+              std::stod(entry.second);
+          constraints.push_back(std::move(constraint));
+        }
+    }
+
+    template <int dim>
+    optimization::Evaluation
+    Optimize<dim>::evaluate(const Design &design)
+    {
+      check_interrupts(workshop.context.communicator());
+      workshop.context.progress("solving the contact problem ...");
+      last = std::make_unique<state::ContactState<dim>>(
+        workshop.solve(design, warm_start));
+      last_design       = design;
+      warm_start.lambda = last->dual.lambda;
+      warm_start.active = last->dual.active;
+      if (!first)
+        first = std::make_unique<state::ContactState<dim>>(*last);
+
+      const auto              &parameters = workshop.scene.gradient;
+      optimization::Evaluation evaluation;
+      evaluation.objective = workshop.objective->value(*workshop.solver, *last);
+      last_gradient =
+        workshop.gradient(*workshop.objective, *last, design, parameters);
+      evaluation.gradient = last_gradient.values;
+      for (const Constraint &constraint : constraints)
+        {
+          evaluation.constraints.push_back(
+            constraint.response->value(*workshop.solver, *last) -
+            constraint.target);
+          sensitivity::GradientParameters cheapest = parameters;
+          cheapest.method                          = "auto";
+          evaluation.jacobian.push_back(
+            workshop.gradient(*constraint.response, *last, design, cheapest)
+              .values);
+        }
+      evaluation.notes = {double(last->active_contacts),
+                          double(last->f_mults + last_gradient.f_mults),
+                          workshop.context.seconds()};
+      return evaluation;
+    }
+
+    template <int dim>
+    void
+    Optimize<dim>::save_warm_start(const std::string &path) const
+    {
+      std::ofstream       file(path, std::ios::binary);
+      const std::uint64_t n = warm_start.lambda.n_rows();
+      file.write(reinterpret_cast<const char *>(&n), sizeof n);
+      file.write(reinterpret_cast<const char *>(warm_start.lambda.column(0)),
+                 n * sizeof(double));
+      file.write(reinterpret_cast<const char *>(warm_start.active.data()),
+                 warm_start.active.size());
+      if (!file.flush())
+        throw std::runtime_error("cannot write '" + path + "'");
+    }
+
+    template <int dim>
+    void
+    Optimize<dim>::load_warm_start(const std::string &path)
+    {
+      std::ifstream file(path, std::ios::binary);
+      std::uint64_t n = 0;
+      file.read(reinterpret_cast<char *>(&n), sizeof n);
+      if (!file || n != workshop.solver->feti().n_owned())
+        throw std::runtime_error("'" + path +
+                                 "' does not belong to this scene");
+      warm_start.lambda = qp::MultiVector(n);
+      warm_start.active.resize(n);
+      file.read(reinterpret_cast<char *>(warm_start.lambda.column(0)),
+                n * sizeof(double));
+      file.read(reinterpret_cast<char *>(warm_start.active.data()), n);
+      if (!file)
+        throw std::runtime_error("'" + path + "' is incomplete");
+    }
+
+    template <int dim>
+    optimization::JournalSettings
+    Optimize<dim>::journal_settings() const
+    {
+      // Everything but where results go and when to stop decides the numbers.
+      scene::Scene scene     = workshop.scene;
+      scene.output_directory = "";
+      scene.optimization.maximum_evaluations =
+        optimization::OptimizationParameters().maximum_evaluations;
+      std::ostringstream text;
+      scene::print(scene, text);
+      optimization::JournalSettings settings;
+      settings.directory    = workshop.scene.output_directory;
+      settings.fingerprint  = text.str();
+      settings.restart      = restart;
+      settings.communicator = workshop.context.communicator();
+      settings.log          = [this](const std::string &line) {
+        workshop.context.out() << line << std::endl;
+      };
+      return settings;
+    }
+
+    template <int dim>
+    void
+    Optimize<dim>::report(const optimization::Iteration &iteration)
+    {
+      io::HistoryLine line;
+      line.iteration            = iteration.number;
+      line.objective            = iteration.evaluation.objective;
+      line.constraint_violation = iteration.constraint_violation;
+      line.projected_gradient   = iteration.projected_gradient;
+      line.active_contacts      = iteration.evaluation.notes[0];
+      line.f_mults              = iteration.evaluation.notes[1];
+      line.seconds              = iteration.evaluation.notes[2];
+      line.design               = iteration.x;
+      workshop.context.out() << io::log_line(line) << std::endl;
+      everywhere(workshop.context.communicator(), [&]() {
+        if (workshop.context.rank() == 0)
+          history.add(line);
+      });
+    }
+
+    template <int dim>
+    int
+    Optimize<dim>::run()
+    {
+      auto settings            = journal_settings();
+      settings.save_warm_start = [this](unsigned int, const std::string &path) {
+        save_warm_start(path);
+      };
+      settings.load_warm_start = [this](unsigned int, const std::string &path) {
+        load_warm_start(path);
+      };
+      journal = std::make_unique<optimization::Journal>(
+        settings, [this](const Design &x) { return evaluate(x); });
+
+      optimization::DesignProblem problem;
+      problem.lower    = workshop.lower_bounds();
+      problem.upper    = workshop.upper_bounds();
+      problem.start    = workshop.start();
+      problem.evaluate = [this](const Design &x) {
+        return journal->evaluate(x);
+      };
+      for (const Constraint &constraint : constraints)
+        problem.constraint_scales.push_back(
+          constraint.target == 0. ? 1. : std::abs(constraint.target));
+      optimization::Hooks hooks;
+      hooks.on_iteration = [this](const optimization::Iteration &iteration) {
+        report(iteration);
+      };
+      hooks.log = settings.log;
+      workshop.context.out() << io::log_header() << std::endl;
+      const auto result =
+        optimization::minimize(problem,
+                               workshop.scene.optimization,
+                               hooks);
+      finish(result);
+      return result.success || result.stop_reason == "interrupted" ||
+                 result.stop_reason == "maximum evaluations" ?
+               0 :
+               3;
+    }
+
+    template <int dim>
+    void
+    Optimize<dim>::finish(const optimization::OptimizationResult &result)
+    {
+      // after a replay the first design has not been solved in this run
+      if (!first)
+        first = std::make_unique<state::ContactState<dim>>(
+          workshop.solve(workshop.start(), qp::WarmStart()));
+      if (!last || last_design != result.x)
+        last = std::make_unique<state::ContactState<dim>>(
+          workshop.solve(result.x, warm_start));
+      workshop.draw(0., *first);
+      workshop.draw(result.iterations, *last);
+      workshop.export_shape(result.x);
+
+      io::Summary summary;
+      summary.task          = "optimize";
+      if (workshop.scene.report_linear_reference)
+        last->linear_f_mults = workshop.solver->linear_f_mults(*last);
+      summary.initial_state = io::summarize(*first);
+      summary.state         = io::summarize(*last);
+      io::Summary::Gradient gradient;
+      gradient.method       = last_gradient.method;
+      gradient.f_mults      = last_gradient.f_mults;
+      gradient.seconds      = last_gradient.seconds;
+      gradient.values       = result.evaluation.gradient;
+      summary.gradient      = gradient;
+      summary.optimization =
+        io::summarize(result, workshop.scene.optimization.algorithm);
+      workshop.write_summary(summary);
+      workshop.context.out()
+        << "stopped: " << result.stop_reason << " after " << result.iterations
+        << " iterations and " << result.evaluations << " evaluations\n"
+        << workshop.scene.optimization.objective << ' '
+        << result.objective_initial << " -> " << result.objective_final
+        << ", peak pressure " << first->max_pressure << " -> "
+        << last->max_pressure << ", active contacts "
+        << first->active_contacts << " -> " << last->active_contacts
+        << std::endl;
+    }
+
+    template class Optimize<2>;
+    template class Optimize<3>;
+  } // namespace app
+} // namespace snug

@@ -1,0 +1,194 @@
+#include <snug/app/workshop.h>
+#include <snug/io/shape_export.h>
+#include <snug/io/text_file.h>
+#include <snug/scene/read_scene.h>
+
+#include <ostream>
+#include <sstream>
+
+namespace snug
+{
+  namespace app
+  {
+    template <int dim>
+    Workshop<dim>::Workshop(RunContext &context, const scene::Scene &scene)
+      : context(context)
+      , scene(scene)
+    {
+      {
+        const RunContext::Timer timer(context, "setup");
+        io::make_output_directory(context, scene.output_directory);
+        everywhere(context.communicator(), [&]() {
+          std::ostringstream text;
+          scene::print(scene, text);
+          if (context.rank() == 0)
+            io::write_text_file(path("parameters.prm"), text.str());
+        });
+        mesh = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
+                                                     mesh_parameters(scene),
+                                                     scene.degree);
+        tearing = mesh::tear(*mesh, scene.subdomains);
+        shape::BodyNames names;
+        for (const auto &body : scene.bodies)
+          names.names.push_back(body.name);
+        basis = choose(shape::shape_basis_table<dim>(), scene.shape.basis)
+                  .make(*mesh, names, scene.shape);
+        objective = choose(response::response_table<dim>(),
+                           scene.optimization.objective)
+                      .make();
+      }
+      solver = std::make_unique<state::StateSolver<dim>>(
+        *mesh, tearing, build_model(scene, *mesh), positions(start()), context);
+      std::vector<elasticity::Material> materials;
+      for (const auto &body : scene.bodies)
+        materials.push_back(body.material);
+      fields = std::make_unique<io::FieldOutput<dim>>(*mesh,
+                                                      tearing,
+                                                      materials,
+                                                      scene.output_directory);
+      contact_output = std::make_unique<io::ContactOutput<dim>>(
+        typename io::ContactOutput<dim>::Sources{
+          *mesh,
+          solver->surface(),
+          solver->model().pairs,
+          solver->contact().projections()},
+        scene.output_directory);
+    }
+
+    template <int dim>
+    typename Workshop<dim>::Field
+    Workshop<dim>::positions(const std::vector<double> &design) const
+    {
+      return sensitivity::positions(*mesh, *basis, design);
+    }
+
+    template <int dim>
+    state::ContactState<dim>
+    Workshop<dim>::solve(const std::vector<double> &design,
+                         const qp::WarmStart       &start)
+    {
+      return solver->solve(positions(design), start);
+    }
+
+    template <int dim>
+    sensitivity::Gradient
+    Workshop<dim>::gradient(const response::Response<dim>         &response,
+                            const state::ContactState<dim>        &state,
+                            const std::vector<double>             &design,
+                            const sensitivity::GradientParameters &parameters)
+    {
+      std::vector<double> widths;
+      for (unsigned int i = 0; i < design.size(); ++i)
+        widths.push_back(upper_bounds()[i] - lower_bounds()[i]);
+      return sensitivity::gradient<dim>(
+        {*solver, *basis, response, state, design, widths, parameters},
+        parameters.method);
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::draw(double time, const state::ContactState<dim> &state)
+    {
+      const RunContext::Timer timer(context, "output");
+      fields->write(time, state);
+      contact_output->write(time, state);
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::print_header() const
+    {
+      const auto info = io::program_info(context);
+      auto      &out  = context.out();
+      out << "Snug " << info.version << ", deal.II " << info.dealii
+          << ", PETSc " << info.petsc << ", BLAS " << info.blas << '\n';
+      if (!io::blas_warning(info).empty())
+        out << "warning: " << io::blas_warning(info) << '\n';
+      out << scene.bodies.size() << " bodies, " << mesh->n_global_cells()
+          << " cells, " << dim * mesh->n_global_free_nodes()
+          << " unknowns, " << tearing.n_global << " subdomains, "
+          << solver->gluing().n_contact_rows() << " contact rows of "
+          << solver->gluing().n_rows() << " dual rows, "
+          << basis->n_variables() << " design variables, "
+          << context.n_ranks() << " ranks" << std::endl;
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::write_summary(io::Summary &summary)
+    {
+      summary.program               = io::program_info(context);
+      summary.mesh                  = io::summarize(*mesh, tearing);
+      summary.mesh.dual_rows        = solver->gluing().n_rows();
+      summary.mesh.contact_rows     = solver->gluing().n_contact_rows();
+      summary.mesh.kernel_dimension = solver->feti().n_kernel();
+      summary.work                  = context.total_work();
+      summary.times                 = io::collect_times(context);
+      if (!io::blas_warning(summary.program).empty())
+        summary.warnings.push_back(io::blas_warning(summary.program));
+      everywhere(context.communicator(), [&]() {
+        if (context.rank() == 0)
+          summary.write(path("summary.json"));
+      });
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::export_shape(const std::vector<double> &design)
+    {
+      if (basis->n_variables() == 0)
+        return;
+      const RunContext::Timer  timer(context, "output");
+      const mesh::Surface<dim> face(*mesh,
+                                    {find_face(scene,
+                                               *mesh,
+                                               scene.shape.face)});
+      const auto               at_face = face.gather(positions(design));
+      const auto points = basis->control_points(design);
+      everywhere(context.communicator(), [&]() {
+        if (context.rank() != 0)
+          return;
+        io::write_surface(path("surface"), face, at_face);
+        io::write_control_points(path("control-points.csv"), points, design);
+      });
+    }
+
+    template <int dim>
+    std::string
+    Workshop<dim>::path(const std::string &name) const
+    {
+      return scene.output_directory + "/" + name;
+    }
+
+    template <int dim>
+    std::vector<double>
+    Workshop<dim>::lower_bounds() const
+    {
+      const auto &bounds = scene.shape.bounds;
+      return std::vector<double>(basis->n_variables(),
+                                 bounds.empty() ? 0. : bounds[0]);
+    }
+
+    template <int dim>
+    std::vector<double>
+    Workshop<dim>::upper_bounds() const
+    {
+      const auto &bounds = scene.shape.bounds;
+      return std::vector<double>(basis->n_variables(),
+                                 bounds.empty() ? 0. : bounds[1]);
+    }
+
+    template <int dim>
+    std::vector<double>
+    Workshop<dim>::start() const
+    {
+      const auto &initial = scene.shape.initial;
+      return initial.empty() ?
+               std::vector<double>(basis->n_variables(), 0.) :
+               initial;
+    }
+
+    template class Workshop<2>;
+    template class Workshop<3>;
+  } // namespace app
+} // namespace snug

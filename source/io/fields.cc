@@ -1,0 +1,111 @@
+#include <snug/base/run_context.h>
+#include <snug/elasticity/stress.h>
+#include <snug/io/fields.h>
+#include <snug/io/nodal_stress.h>
+#include <snug/io/patch_list.h>
+#include <snug/io/text_file.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace snug
+{
+  namespace io
+  {
+    namespace
+    {
+      /// The components of all quantities of FieldOutput at one node.
+      template <int dim>
+      std::vector<double>
+      field_values(const state::ContactState<dim> &state,
+                   const NodalStress<dim>         &stresses,
+                   const dealii::Tensor<1, dim>   &design_displacement,
+                   unsigned int                    node,
+                   const std::vector<double>      &cell_values)
+      {
+        const auto         &stress       = stresses.stress[node];
+        const double        out_of_plane = stresses.out_of_plane[node];
+        std::vector<double> values;
+        for (unsigned int c = 0; c < dim; ++c)
+          values.push_back(state.displacement[node][c]);
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            if (i < dim && j < dim)
+              values.push_back(stress[i][j]);
+            else
+              values.push_back(i == j ? out_of_plane : 0.);
+        values.push_back(elasticity::von_mises(stress, out_of_plane));
+        values.insert(values.end(), cell_values.begin(), cell_values.end());
+        for (unsigned int c = 0; c < dim; ++c)
+          values.push_back(design_displacement[c]);
+        return values;
+      }
+    } // namespace
+
+    template <int dim>
+    FieldOutput<dim>::FieldOutput(
+      const mesh::BodyMesh<dim>               &mesh,
+      const mesh::Tearing                     &tearing,
+      const std::vector<elasticity::Material> &materials,
+      const std::string                       &directory)
+      : mesh(mesh)
+      , subdomain_of_cell(mesh.cells().size())
+      , materials(materials)
+      , directory(directory)
+    {
+      for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
+        for (const unsigned int cell : tearing.subdomains[s].cells)
+          subdomain_of_cell[cell] = tearing.first_id + s;
+    }
+
+    template <int dim>
+    void
+    FieldOutput<dim>::write(double time, const state::ContactState<dim> &state)
+    {
+      const auto stresses =
+        nodal_stress(mesh, materials, state.positions, state.displacement);
+      PatchList<dim, dim> patches({{"displacement", dim},
+                                   {"stress", 9},
+                                   {"von_mises", 1},
+                                   {"body", 1},
+                                   {"subdomain", 1},
+                                   {"design_displacement", dim}});
+      for (unsigned int k = 0; k < mesh.cells().size(); ++k)
+        {
+          const auto                         &cell = mesh.cells()[k];
+          std::vector<dealii::Tensor<1, dim>> points;
+          std::vector<std::vector<double>>    values;
+          for (const unsigned int node : cell.nodes)
+            {
+              points.push_back(state.positions[node]);
+              values.push_back(field_values(
+                state,
+                stresses,
+                state.positions[node] - mesh.reference_positions()[node],
+                node,
+                {double(cell.body), double(subdomain_of_cell[k])}));
+            }
+          patches.add(points, values);
+        }
+
+      const MPI_Comm    comm = mesh.communicator();
+      const auto        rank = dealii::Utilities::MPI::this_mpi_process(comm);
+      const std::string stem = "solution-" + padded(series.size(), 4);
+      std::vector<std::string> pieces;
+      for (unsigned int r = 0;
+           r < dealii::Utilities::MPI::n_mpi_processes(comm);
+           ++r)
+        pieces.push_back(stem + "." + padded(r, 4) + ".vtu");
+      series.emplace_back(time, stem + ".pvtu");
+      everywhere(comm, [&] {
+        write_text_file(directory + "/" + pieces[rank], patches.vtu());
+        if (rank != 0)
+          return;
+        write_text_file(directory + "/" + stem + ".pvtu", patches.pvtu(pieces));
+        write_text_file(directory + "/solution.pvd", pvd(series));
+      });
+    }
+
+    template class FieldOutput<2>;
+    template class FieldOutput<3>;
+  } // namespace io
+} // namespace snug

@@ -1,0 +1,100 @@
+#include <snug/base/errors.h>
+#include <snug/mesh/formula.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace snug
+{
+  namespace mesh
+  {
+    namespace
+    {
+      /// Keeps std::cerr silent: deal.II 9.4 prints each parser error there,
+      /// on every rank, before it throws it.
+      class SilentErrors
+      {
+      public:
+        SilentErrors() : saved(std::cerr.rdbuf(nullptr))
+        {
+        }
+
+        ~SilentErrors()
+        {
+          std::cerr.rdbuf(saved);
+          std::cerr.clear();
+        }
+
+        SilentErrors(const SilentErrors &) = delete;
+        SilentErrors &
+        operator=(const SilentErrors &) = delete;
+
+      private:
+        std::streambuf *saved;
+      };
+
+      /// muParser's own words within deal.II's message, in one line.
+      std::string
+      parser_message(const dealii::ExceptionBase &error)
+      {
+        std::ostringstream stream;
+        error.print_info(stream);
+        std::string       message = stream.str();
+        const std::string mark    = "The parser said: ";
+        const auto        found   = message.find(mark);
+        if (found == std::string::npos)
+          return "not one formula";
+        message = message.substr(found + mark.size());
+        return message.substr(0, message.find_last_not_of(" .\n") + 1);
+      }
+    } // namespace
+
+    template <int dim>
+    Formula<dim>::Formula(const std::string &entry, const std::string &text)
+      : entry(entry)
+      , text(text)
+      , parser(std::make_unique<dealii::FunctionParser<dim>>())
+    {
+      const std::string variables = dim == 2 ? "x,y" : "x,y,z";
+      try
+        {
+          const SilentErrors guard;
+          parser->initialize(variables, text, {});
+          parser->value(dealii::Point<dim>());
+        }
+      catch (const dealii::ExceptionBase &error)
+        {
+          throw bad_entry(entry,
+                          text,
+                          "must be a formula of " + variables + " (" +
+                            parser_message(error) + ")");
+        }
+    }
+
+    template <int dim>
+    Formula<dim>::~Formula() = default;
+
+    template <int dim>
+    Formula<dim>::Formula(Formula &&) noexcept = default;
+
+    template <int dim>
+    double
+    Formula<dim>::value(const dealii::Point<dim> &point) const
+    {
+      const double value = parser->value(point);
+      if (!std::isfinite(value))
+        {
+          std::ostringstream where;
+          where << "must be finite everywhere, but is not at (" << point << ")";
+          throw bad_entry(entry, text, where.str());
+        }
+      return value;
+    }
+
+    template class Formula<2>;
+    template class Formula<3>;
+  } // namespace mesh
+} // namespace snug

@@ -1,0 +1,203 @@
+#include <snug/mesh/surface.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/utility.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace snug
+{
+  namespace mesh
+  {
+    namespace
+    {
+      /// {body, boundary, logical centre in units of 2^-32, global nodes}: as
+      /// integers, so that sorting gives an order that does not depend on how
+      /// cells and nodes are distributed.
+      using FaceRecord = std::vector<long long>;
+
+      /// Hanging global node and its masters.
+      using HangingRecord =
+        std::pair<unsigned int, std::vector<std::pair<unsigned int, double>>>;
+
+      template <int dim>
+      FaceRecord
+      face_record(const BodyMesh<dim>                &mesh,
+                  const typename BodyMesh<dim>::Face &face)
+      {
+        dealii::Tensor<1, dim> centre;
+        for (const unsigned int node : face.nodes)
+          centre += mesh.logical_positions()[node] / double(face.nodes.size());
+        FaceRecord record = {face.body, face.boundary};
+        for (unsigned int d = 0; d < dim; ++d)
+          record.push_back(std::llround(std::ldexp(centre[d], 32)));
+        for (const unsigned int node : face.nodes)
+          record.push_back(mesh.global_node(node));
+        return record;
+      }
+
+      template <int dim>
+      HangingRecord
+      hanging_record(const BodyMesh<dim> &mesh, unsigned int node)
+      {
+        HangingRecord record(mesh.global_node(node), {});
+        for (const auto &master :
+             mesh.hanging()[mesh.hanging_index(node)].masters)
+          record.second.emplace_back(mesh.global_node(master.first),
+                                     master.second);
+        return record;
+      }
+
+      /// Concatenation over ranks, sorted, each entry once. Collective.
+      template <typename T>
+      std::vector<T>
+      gathered(MPI_Comm communicator, const std::vector<T> &mine)
+      {
+        std::vector<T> all;
+        for (const auto &part :
+             dealii::Utilities::MPI::all_gather(communicator, mine))
+          all.insert(all.end(), part.begin(), part.end());
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        return all;
+      }
+    } // namespace
+
+    template <int dim>
+    Surface<dim>::Surface(
+      const BodyMesh<dim>                                      &mesh,
+      const std::vector<std::pair<unsigned int, unsigned int>> &boundaries)
+      : mesh(mesh)
+    {
+      std::vector<FaceRecord>    face_records;
+      std::vector<HangingRecord> hanging_records;
+      for (const auto &face : mesh.boundary_faces())
+        if (std::find(boundaries.begin(),
+                      boundaries.end(),
+                      std::make_pair(face.body, face.boundary)) !=
+            boundaries.end())
+          {
+            face_records.push_back(face_record(mesh, face));
+            for (const unsigned int node : face.nodes)
+              if (mesh.is_hanging(node))
+                hanging_records.push_back(hanging_record(mesh, node));
+          }
+      face_records    = gathered(mesh.communicator(), face_records);
+      hanging_records = gathered(mesh.communicator(), hanging_records);
+
+      for (const auto &record : face_records)
+        global_nodes.insert(global_nodes.end(),
+                            record.begin() + 2 + dim,
+                            record.end());
+      for (const auto &record : hanging_records)
+        for (const auto &master : record.second)
+          global_nodes.push_back(master.first);
+      std::sort(global_nodes.begin(), global_nodes.end());
+      global_nodes.erase(std::unique(global_nodes.begin(), global_nodes.end()),
+                         global_nodes.end());
+      std::map<unsigned int, unsigned int> surface_node;
+      for (unsigned int node = 0; node < global_nodes.size(); ++node)
+        surface_node[global_nodes[node]] = node;
+
+      for (const auto &record : face_records)
+        {
+          Face face{static_cast<unsigned int>(record[0]),
+                    static_cast<unsigned int>(record[1]),
+                    {}};
+          for (auto node = record.begin() + 2 + dim; node != record.end();
+               ++node)
+            face.nodes.push_back(surface_node.at(*node));
+          surface_faces.push_back(face);
+        }
+      node_masters.resize(global_nodes.size());
+      for (const auto &record : hanging_records)
+        {
+          auto &masters = node_masters[surface_node.at(record.first)];
+          masters.clear();
+          for (const auto &master : record.second)
+            masters.emplace_back(surface_node.at(master.first), master.second);
+        }
+
+      const unsigned int rank =
+        dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
+      for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+        if (mesh.owner(node) == rank)
+          {
+            const auto found = surface_node.find(mesh.global_node(node));
+            if (found != surface_node.end())
+              owned.emplace_back(found->second, node);
+          }
+      std::sort(owned.begin(), owned.end());
+    }
+
+    template <int dim>
+    const std::vector<typename Surface<dim>::Face> &
+    Surface<dim>::faces() const
+    {
+      return surface_faces;
+    }
+
+    template <int dim>
+    unsigned int
+    Surface<dim>::n_nodes() const
+    {
+      return global_nodes.size();
+    }
+
+    template <int dim>
+    unsigned int
+    Surface<dim>::global_node(unsigned int surface_node) const
+    {
+      return global_nodes[surface_node];
+    }
+
+    template <int dim>
+    const std::vector<std::pair<unsigned int, double>> &
+    Surface<dim>::masters(unsigned int surface_node) const
+    {
+      return node_masters[surface_node];
+    }
+
+    template <int dim>
+    typename Surface<dim>::Field
+    Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
+    {
+      AssertDimension(field.size(), mesh.n_local_nodes());
+      std::vector<double> mine;
+      for (const auto &node : owned)
+        for (unsigned int d = 0; d < dim; ++d)
+          mine.push_back(field[node.second][d]);
+      // Ranks own ascending ranges of global nodes, so the parts in rank
+      // order are in the order of surface nodes.
+      const auto parts =
+        dealii::Utilities::MPI::all_gather(mesh.communicator(), mine);
+      Field        result(n_nodes());
+      unsigned int position = 0;
+      for (const auto &part : parts)
+        for (const double value : part)
+          {
+            result[position / dim][position % dim] = value;
+            ++position;
+          }
+      AssertDimension(position, dim * n_nodes());
+      return result;
+    }
+
+    template <int dim>
+    void
+    Surface<dim>::add_owned(const Field                   &surface_field,
+                            typename BodyMesh<dim>::Field &field) const
+    {
+      AssertDimension(surface_field.size(), n_nodes());
+      AssertDimension(field.size(), mesh.n_local_nodes());
+      for (const auto &node : owned)
+        field[node.second] += surface_field[node.first];
+    }
+
+    template class Surface<2>;
+    template class Surface<3>;
+  } // namespace mesh
+} // namespace snug

@@ -1,0 +1,167 @@
+#include <snug/response/response.h>
+#include <snug/scene/check.h>
+#include <snug/scene/values.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace snug
+{
+  namespace scene
+  {
+    namespace
+    {
+      /// @p value must be in [lower, upper] (NaN is not).
+      void
+      require_range(const Origins     &origins,
+                    const std::string &path,
+                    const double       value,
+                    const double       lower,
+                    const double       upper)
+      {
+        if (!(value >= lower && value <= upper))
+          throw origins.error(path,
+                              to_text(value),
+                              "must lie between " + to_text(lower) + " and " +
+                                to_text(upper));
+      }
+
+      void
+      require_positive(const Origins     &origins,
+                       const std::string &path,
+                       const unsigned int value)
+      {
+        if (value == 0)
+          throw origins.error(path, "0", "must be at least 1");
+      }
+
+      void
+      require_response(const Origins     &origins,
+                       const std::string &path,
+                       const std::string &value,
+                       const std::string &response)
+      {
+        const auto known = response_names();
+        if (std::find(known.begin(), known.end(), response) == known.end())
+          throw origins.error(path,
+                              value,
+                              "'" + response + "' is no response, there are " +
+                                listed(known) + did_you_mean(response, known));
+      }
+
+      void
+      check_optimization(const Scene &scene, const Origins &origins)
+      {
+        const auto       &parameters  = scene.optimization;
+        const std::string section     = "Optimization/";
+        const std::string constraints = to_text(parameters.constraints);
+        require_response(origins,
+                         section + "Objective",
+                         parameters.objective,
+                         parameters.objective);
+        for (const auto &[response, target] : parameters.constraints)
+          {
+            const std::string path = section + "Constraints";
+            require_response(origins, path, constraints, response);
+            if (response == parameters.objective)
+              throw origins.error(path,
+                                  constraints,
+                                  "'" + response +
+                                    "' is the objective already");
+            if (target != "initial" && !form_of(0.).pattern->match(target))
+              throw origins.error(path,
+                                  constraints,
+                                  "the value of '" + response +
+                                    "' must be 'initial' or a number");
+          }
+        require_positive(origins,
+                         section + "Maximum evaluations",
+                         parameters.maximum_evaluations);
+        const std::pair<const char *, double> tolerances[] = {
+          {"Objective tolerance", parameters.objective_tolerance},
+          {"Design tolerance", parameters.design_tolerance},
+          {"Constraint tolerance", parameters.constraint_tolerance}};
+        for (const auto &[name, value] : tolerances)
+          require_range(origins, section + name, value, 1e-15, 0.1);
+      }
+
+      void
+      check_gradient(const Scene &scene, const Origins &origins)
+      {
+        const std::set<std::string> with_energy_gradient = {"potential energy",
+                                                            "volume"};
+        const std::string          &objective = scene.optimization.objective;
+        if (scene.gradient.method == "energy" &&
+            with_energy_gradient.count(objective) == 0)
+          throw origins.error("Gradient/Method",
+                              scene.gradient.method,
+                              "must be auto, direct or finite differences for "
+                              "the objective '" +
+                                objective + "'");
+        const std::pair<const char *, double> steps[] = {
+          {"Gradient/Semi-analytic step", scene.gradient.semi_analytic_step},
+          {"Gradient/Step", scene.gradient.step}};
+        for (const auto &[path, value] : steps)
+          if (!(value > 0. && value <= 0.1))
+            throw origins.error(path,
+                                to_text(value),
+                                "must be above 0 and at most 0.1");
+      }
+    } // namespace
+
+    void
+    check(const Scene &scene, const Origins &origins)
+    {
+      if (scene.dimension != 2 && scene.dimension != 3)
+        throw origins.error("Dimension",
+                            to_text(scene.dimension),
+                            "must be one of 2, 3");
+      if (scene.degree != 1 && scene.degree != 2)
+        throw origins.error("Element degree",
+                            to_text(scene.degree),
+                            "must be one of 1, 2");
+      if (scene.output_directory.empty())
+        throw origins.error("Output directory", "", "must not be empty");
+      check_names(scene, origins);
+      check_bodies(scene, origins);
+      check_contact(scene, origins);
+      check_shape(scene, origins);
+      check_methods(scene, origins);
+    }
+
+    void
+    check_methods(const Scene &scene, const Origins &origins)
+    {
+      require_range(origins,
+                    "Solver/Relative tolerance",
+                    scene.solver.relative_tolerance,
+                    1e-14,
+                    0.1);
+      require_positive(origins,
+                       "Solver/Maximum F-mults",
+                       scene.solver.max_iterations);
+      check_optimization(scene, origins);
+      check_gradient(scene, origins);
+    }
+
+    std::vector<std::string>
+    response_names()
+    {
+      std::vector<std::string> names;
+      // The same in 2D and 3D.
+      for (const auto &choice : response::response_table<3>())
+        names.push_back(choice.name);
+      return names;
+    }
+
+    std::string
+    listed(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const auto &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text;
+    }
+  } // namespace scene
+} // namespace snug

@@ -1,0 +1,284 @@
+#include <snug/scene/check.h>
+#include <snug/scene/values.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug
+{
+  namespace scene
+  {
+    namespace
+    {
+      bool
+      is_finite(const std::vector<double> &values)
+      {
+        return std::all_of(values.begin(), values.end(), [](const double v) {
+          return std::isfinite(v);
+        });
+      }
+
+      bool
+      is_positive(const std::vector<double> &values)
+      {
+        return is_finite(values) &&
+               std::all_of(values.begin(), values.end(), [](const double v) {
+                 return v > 0.;
+               });
+      }
+
+      /// Checks the entries of one body.
+      class BodyCheck
+      {
+      public:
+        BodyCheck(const Scene &scene, const Body &body, const Origins &origins)
+          : dimension(scene.dimension), body(body), origins(origins)
+        {
+        }
+
+        void
+        check_material() const
+        {
+          const double E  = body.material.youngs_modulus;
+          const double nu = body.material.poissons_ratio;
+          require(std::isfinite(E) && E > 0.,
+                  "Young's modulus",
+                  to_text(E),
+                  "must be positive");
+          require(nu > -1. && nu < 0.5,
+                  "Poisson's ratio",
+                  to_text(nu),
+                  "must be above -1 and below 0.5");
+        }
+
+        void
+        check_box() const
+        {
+          const auto &mesh = body.mesh;
+          require_length(mesh.corner.size(), "Box corner", mesh.corner);
+          require_length(mesh.size.size(), "Box size", mesh.size);
+          require_length(mesh.cells.size(), "Box cells", mesh.cells);
+          require_length(mesh.grading.size(), "Box grading", mesh.grading);
+          require(is_finite(mesh.corner),
+                  "Box corner",
+                  to_text(mesh.corner),
+                  "must be finite");
+          require(is_positive(mesh.size),
+                  "Box size",
+                  to_text(mesh.size),
+                  "must be positive");
+          require(is_positive(mesh.grading),
+                  "Box grading",
+                  to_text(mesh.grading),
+                  "must be positive");
+          require(std::count(mesh.cells.begin(), mesh.cells.end(), 0U) == 0,
+                  "Box cells",
+                  to_text(mesh.cells),
+                  "must be at least 1 each");
+        }
+
+        void
+        check_refinement() const
+        {
+          const auto &mesh = body.mesh;
+          // p4est numbers at most 2^31 nodes, far beyond this.
+          constexpr double most  = 1e9;
+          double           cells = 1.;
+          for (const unsigned int n : mesh.cells)
+            cells *= n;
+          require(cells <= most,
+                  "Box cells",
+                  to_text(mesh.cells),
+                  "must give at most 1e9 cells");
+          require(mesh.refinements < 30 &&
+                    cells * std::pow(2., dimension * mesh.refinements) <= most,
+                  "Refinements",
+                  to_text(mesh.refinements),
+                  "must give at most 1e9 cells");
+          require(mesh.local_refinements <= 15,
+                  "Local refinements",
+                  to_text(mesh.local_refinements),
+                  "must be at most 15");
+          require(mesh.local_refinements == 0 || !mesh.refine_where.empty(),
+                  "Refine where",
+                  mesh.refine_where,
+                  "must be a formula of x, y, z when there are local "
+                  "refinements");
+        }
+
+        void
+        check_boundaries() const
+        {
+          const auto known = names();
+          require_known(known, "Curved faces", body.mesh.curved_faces);
+          require_known(known, "Supports", body.supports);
+          require_known(known, "Pressure", body.loads.pressure);
+          require_known(known, "Traction", body.loads.traction);
+        }
+
+        void
+        check_supports() const
+        {
+          const std::string axes = std::string("xyz").substr(0, dimension);
+          for (const auto &item : body.supports)
+            {
+              const std::string &components = item.second;
+              bool               valid =
+                !components.empty() && components.size() <= dimension;
+              for (const char c : components)
+                valid =
+                  valid && axes.find(c) != std::string::npos &&
+                  std::count(components.begin(), components.end(), c) == 1;
+              require(valid,
+                      "Supports",
+                      to_text(body.supports),
+                      "'" + quotable(components) + "' must be some of '" +
+                        axes + "', each once");
+            }
+        }
+
+        void
+        check_loads() const
+        {
+          const auto &loads = body.loads;
+          for (const auto &item : loads.pressure)
+            require(std::isfinite(item.second),
+                    "Pressure",
+                    to_text(loads.pressure),
+                    "must be finite");
+          for (const auto &item : loads.traction)
+            require(is_finite(item.second) && item.second.size() == dimension,
+                    "Traction",
+                    to_text(loads.traction),
+                    "the vector of '" + item.first + "' must have " +
+                      to_text(dimension) + " components separated by blanks");
+          if (!loads.body_force.empty())
+            require_length(loads.body_force.size(),
+                           "Body force",
+                           loads.body_force);
+          require(is_finite(loads.body_force),
+                  "Body force",
+                  to_text(loads.body_force),
+                  "must be finite");
+        }
+
+      private:
+        std::string
+        path(const std::string &entry) const
+        {
+          return "Body " + body.name + "/" + entry;
+        }
+
+        void
+        require(const bool         good,
+                const std::string &entry,
+                const std::string &value,
+                const std::string &allowed) const
+        {
+          if (!good)
+            throw origins.error(path(entry), value, allowed);
+        }
+
+        template <typename T>
+        void
+        require_length(const std::size_t     n,
+                       const std::string    &entry,
+                       const std::vector<T> &values) const
+        {
+          require(n == dimension,
+                  entry,
+                  to_text(values),
+                  "must have " + to_text(dimension) +
+                    " numbers separated by commas, one per dimension");
+        }
+
+        template <typename Map>
+        void
+        require_known(const std::vector<std::string> &known,
+                      const std::string              &entry,
+                      const Map                      &map) const
+        {
+          for (const auto &item : map)
+            require(std::find(known.begin(), known.end(), item.first) !=
+                      known.end(),
+                    entry,
+                    to_text(map),
+                    "'" + quotable(item.first) + "' is no boundary of '" +
+                      body.name + "', they are " + listed(known) +
+                      did_you_mean(item.first, known));
+        }
+
+        /// Boundary names of the mesh; it names its entries without ours.
+        std::vector<std::string>
+        names() const
+        {
+          try
+            {
+              return boundary_names(body, dimension);
+            }
+          catch (const InputError &error)
+            {
+              const std::string message = error.what();
+              const std::string begin   = "entry '";
+              const auto        quote   = message.find('\'', begin.size());
+              if (message.rfind(begin, 0) != 0 || quote == std::string::npos)
+                throw origins.error(path("Mesh"), body.mesh.source, message);
+              const std::string entry =
+                message.substr(begin.size(), quote - begin.size());
+              throw InputError(origins.of(path(entry)) + begin + path(entry) +
+                               message.substr(quote));
+            }
+        }
+
+        unsigned int   dimension;
+        const Body    &body;
+        const Origins &origins;
+      };
+
+      bool
+      is_good_name(const std::string &name)
+      {
+        return !name.empty() &&
+               std::all_of(name.begin(), name.end(), [](const unsigned char c) {
+                 return std::isalnum(c) || c == '_' || c == '-' || c == ' ';
+               });
+      }
+    } // namespace
+
+    void
+    check_names(const Scene &scene, const Origins &origins)
+    {
+      std::vector<std::string> names;
+      for (const auto &body : scene.bodies)
+        names.push_back(body.name);
+      const auto require = [&](const bool good, const std::string &allowed) {
+        if (!good)
+          throw origins.error("Bodies", listed(names), allowed);
+      };
+      require(!names.empty(), "must name at least one body");
+      for (const auto &name : names)
+        {
+          require(is_good_name(name),
+                  "names must be made of letters, digits, '_', '-' and blanks");
+          require(std::count(names.begin(), names.end(), name) == 1,
+                  "'" + name + "' must not occur twice");
+        }
+    }
+
+    void
+    check_bodies(const Scene &scene, const Origins &origins)
+    {
+      for (const auto &body : scene.bodies)
+        {
+          const BodyCheck check(scene, body, origins);
+          check.check_material();
+          if (body.mesh.source == "box")
+            check.check_box();
+          check.check_refinement();
+          check.check_boundaries();
+          check.check_supports();
+          check.check_loads();
+        }
+    }
+  } // namespace scene
+} // namespace snug

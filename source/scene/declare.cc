@@ -1,0 +1,321 @@
+#include <snug/optimization/minimize.h>
+#include <snug/scene/check.h>
+#include <snug/scene/entries.h>
+
+namespace snug
+{
+  namespace scene
+  {
+    namespace
+    {
+      template <typename Make>
+      void
+      add_choice(Entries                 &entries,
+                 const std::string       &name,
+                 std::string             &value,
+                 const ChoiceTable<Make> &table,
+                 const std::string       &meaning)
+      {
+        entries.add(name,
+                    value,
+                    choice(names(table)),
+                    meaning + " " + meanings(table) + ".");
+      }
+
+      void
+      declare_general(Entries &entries, Scene &scene)
+      {
+        entries.add("Task",
+                    scene.task,
+                    choice("state|sensitivity|optimize"),
+                    "state: solve one contact problem. sensitivity: also "
+                    "differentiate it by all methods, side by side. optimize: "
+                    "find the best shape.");
+        entries.add("Dimension",
+                    scene.dimension,
+                    choice("2|3"),
+                    "2: plane strain, forces per unit of thickness. 3: solid.");
+        entries.add("Bodies",
+                    {[&scene]() {
+                       std::vector<std::string> names;
+                       for (const auto &body : scene.bodies)
+                         names.push_back(body.name);
+                       return listed(names);
+                     },
+                     [](const std::string &) {}},
+                    pairs("names separated by commas"),
+                    "Names of the bodies, separated by commas; each has its "
+                    "own subsection Body NAME.");
+        entries.add("Output directory",
+                    scene.output_directory,
+                    "Where results go; made if it is not there. Relative to "
+                    "the directory the program is started in.");
+        entries.add("Element degree",
+                    scene.degree,
+                    choice("1|2"),
+                    "Polynomial degree of the elements: 1 (bilinear, "
+                    "trilinear) or 2.");
+      }
+
+      void
+      declare_mesh(Entries &entries, Body &body)
+      {
+        auto &mesh = body.mesh;
+        // Names only; they are the same in 2D and 3D.
+        add_choice(entries,
+                   "Mesh",
+                   mesh.source,
+                   mesh::body_geometry_table<3>(),
+                   "Source of the mesh.");
+        entries.add("Box corner",
+                    mesh.corner,
+                    "Corner with the smallest coordinates [length]; empty: "
+                    "the origin.");
+        entries.add("Box size",
+                    mesh.size,
+                    "Length of the edges along x, y, z [length]; empty: 1.");
+        entries.add("Box cells",
+                    mesh.cells,
+                    "Number of cells along x, y, z, before refinement.");
+        entries.add("Box grading",
+                    mesh.grading,
+                    "Along x, y, z: size of the last cell over the size of the "
+                    "first, sizes growing geometrically; empty: 1, equal "
+                    "cells.");
+        entries.add(
+          "Curved faces",
+          {[&mesh]() { return to_text(mesh.curved_faces, ';'); },
+           [&mesh](const std::string &text) {
+             from_text(text, mesh.curved_faces, ';');
+           }},
+          pairs("a list 'boundary: sphere R; boundary: cylinder AXIS R; "
+                "boundary: FORMULA' of different boundaries, separated by "
+                "semicolons",
+                ';'),
+          "Faces that are not flat, separated by semicolons (formulas may "
+          "hold commas): 'bottom: sphere 4', 'bottom: cylinder x 4' (radius "
+          "[length], positive if convex; the axis is the cylinder's) or a "
+          "formula of x, y, z for the outward displacement of the face "
+          "[length], 'bottom: -(x^2)/8'.");
+        entries.add("Refinements",
+                    mesh.refinements,
+                    "How often every cell is split into 4 (2D) or 8 (3D).");
+        entries.add("Refine where",
+                    mesh.refine_where,
+                    anything("a formula of x, y, z"),
+                    "Cells are refined where this formula of x, y, z is "
+                    "positive at their centre, 'Local refinements' times.");
+        entries.add("Local refinements",
+                    mesh.local_refinements,
+                    "How often cells are split where 'Refine where' says so; "
+                    "adjacent cells differ by one level (hanging nodes).");
+      }
+
+      void
+      declare_body(Entries &entries, Body &body)
+      {
+        entries.begin_section("Body " + body.name,
+                              "One body: its mesh, material, supports and "
+                              "loads. Boundaries of a box are left, right (x), "
+                              "bottom, top (y) in 2D and left, right (x), "
+                              "front, back (y), bottom, top (z) in 3D.");
+        declare_mesh(entries, body);
+        entries.add("Young's modulus",
+                    body.material.youngs_modulus,
+                    "Young's modulus [force/length^2], positive.");
+        entries.add("Poisson's ratio",
+                    body.material.poissons_ratio,
+                    "Poisson's ratio, above -1 and below 0.5.");
+        entries.add("Supports",
+                    body.supports,
+                    pairs("a list 'boundary: components, ...' of different "
+                          "boundaries"),
+                    "Boundaries with the displacement components held at "
+                    "zero: 'bottom: xyz, left: x'.");
+        entries.add("Pressure",
+                    body.loads.pressure,
+                    "Pressure on boundaries [force/length^2], positive "
+                    "pushes: 'top: 100'.");
+        entries.add("Traction",
+                    body.loads.traction,
+                    "Force per area on boundaries [force/length^2], "
+                    "components separated by blanks: 'top: 0 0 -5, left: 1 0 "
+                    "0'.");
+        entries.add("Body force",
+                    body.loads.body_force,
+                    "Force per volume x, y, z [force/length^3]; empty: none.");
+      }
+
+      void
+      declare_contact_and_shape(Entries &entries, Scene &scene)
+      {
+        entries.begin_section("Contact", "Which faces may touch.");
+        entries.add("Pairs",
+                    scene.contact.pairs,
+                    pairs("a list 'body.boundary: body.boundary, ...'"),
+                    "Pairs of faces, slave: master, separated by commas. No "
+                    "slave node penetrates the master face. 'punch.bottom: "
+                    "foundation.top'.");
+
+        auto &shape = scene.shape;
+        entries.begin_section("Shape", "The design variables.");
+        add_choice(entries,
+                   "Basis",
+                   shape.basis,
+                   shape::shape_basis_table<3>(),
+                   "How design variables move the nodes.");
+        entries.add("Face",
+                    shape.face,
+                    anything("body.boundary"),
+                    "The face that is shaped, 'body.boundary'.");
+        entries.add("Control points",
+                    shape.control_points,
+                    "Number of control points along each edge of the face; "
+                    "one design variable each, the first edge fastest.");
+        entries.add("Direction",
+                    shape.direction,
+                    "Direction in which control points move.");
+        entries.add("Bounds",
+                    shape.bounds,
+                    "Smallest and largest move of a control point [length].");
+        entries.add("Initial",
+                    shape.initial,
+                    "Moves of the control points at the start [length]: one "
+                    "for each, one for all, or empty: 0.");
+      }
+
+      void
+      declare_solver(Entries &entries, Scene &scene)
+      {
+        entries.begin_section("Decomposition",
+                              "Tearing the bodies into subdomains.");
+        entries.add("Subdomains",
+                    {[&scene]() {
+                       return scene.subdomains == 0 ? std::string("auto")
+                                                    : to_text(scene.subdomains);
+                     },
+                     [&scene](const std::string &text) {
+                       scene.subdomains = 0;
+                       if (text != "auto")
+                         from_text(text, scene.subdomains);
+                       if (text != "auto" && scene.subdomains == 0)
+                         throw std::invalid_argument("no subdomain");
+                     }},
+                    anything("auto or a whole number of at least 1"),
+                    "Wanted number of subdomains of all bodies and ranks; "
+                    "auto: by size. There is at least one per rank and body.");
+
+        entries.begin_section("Solver", "Solving the contact problem.");
+        add_choice(entries,
+                   "Method",
+                   scene.solver.method,
+                   qp::solver_table(),
+                   "Solver of the dual quadratic program.");
+        entries.add("Relative tolerance",
+                    scene.solver.relative_tolerance,
+                    "What the relative errors of equilibrium, continuity, "
+                    "penetration, negative pressure and complementarity may "
+                    "be; between 1e-14 and 0.1.");
+        entries.add("Maximum F-mults",
+                    scene.solver.max_iterations,
+                    "Largest number of applications of the dual operator in "
+                    "one solve; a state that needs more is an error.");
+        entries.add("Report linear reference",
+                    scene.report_linear_reference,
+                    "Also solve the linear problem on the final contacts from "
+                    "zero and report its number of F-mults.");
+        entries.add("Factorization",
+                    scene.feti.factorization,
+                    choice("CHOLMOD|MUMPS"),
+                    "Package that factorizes the subdomains.");
+        entries.add("Preconditioner",
+                    scene.feti.preconditioner,
+                    choice("Dirichlet|lumped|none"),
+                    "Dirichlet: fewest iterations; lumped: cheaper ones; "
+                    "none: for comparison.");
+        entries.add("Scaling",
+                    scene.feti.scaling,
+                    choice("stiffness|multiplicity"),
+                    "How the preconditioner weighs the copies of a node: by "
+                    "their stiffness, for bodies of different moduli, or by "
+                    "their number.");
+      }
+
+      void
+      declare_gradient(Entries &entries, Scene &scene)
+      {
+        auto &gradient = scene.gradient;
+        entries.begin_section("Gradient", "Derivatives by design variables.");
+        entries.add("Method",
+                    gradient.method,
+                    choice("auto|energy|direct|finite differences"),
+                    "auto: energy where it applies, else direct. energy: "
+                    "without any solve, for potential energy and volume. "
+                    "direct: one right-hand side per variable. finite "
+                    "differences: two states per variable, for comparison.");
+        entries.add("Derivatives",
+                    gradient.derivatives,
+                    choice("exact|finite differences"),
+                    "Derivatives of stiffness, loads and contact rows: exact, "
+                    "or by central differences (semi-analytic).");
+        entries.add("Semi-analytic step",
+                    gradient.semi_analytic_step,
+                    "Step of those differences relative to the cell size; "
+                    "above 0, at most 0.1.");
+        entries.add("Step",
+                    gradient.step,
+                    "Step of overall finite differences relative to the "
+                    "width of the bounds; above 0, at most 0.1.");
+      }
+
+      void
+      declare_optimization(Entries &entries, Scene &scene)
+      {
+        auto &optimization = scene.optimization;
+        entries.begin_section("Optimization", "Finding the best shape.");
+        add_choice(entries,
+                   "Algorithm",
+                   optimization.algorithm,
+                   optimization::algorithm_table(),
+                   "The optimizer.");
+        entries.add("Objective",
+                    optimization.objective,
+                    anything("one of " + listed(response_names())),
+                    "The response to be made least: " +
+                      listed(response_names()) + ".");
+        entries.add("Constraints",
+                    optimization.constraints,
+                    pairs("a list 'response: initial, response: number, ...' "
+                          "of different responses"),
+                    "Responses that must keep their initial value or equal a "
+                    "number: 'volume: initial'.");
+        entries.add("Maximum evaluations",
+                    optimization.maximum_evaluations,
+                    "Largest number of designs that are evaluated.");
+        entries.add("Objective tolerance",
+                    optimization.objective_tolerance,
+                    "Stop when the objective changes by less, relative.");
+        entries.add("Design tolerance",
+                    optimization.design_tolerance,
+                    "Stop when all variables change by less, relative to the "
+                    "width of their bounds.");
+        entries.add("Constraint tolerance",
+                    optimization.constraint_tolerance,
+                    "Allowed error of the constraints, relative to their "
+                    "values.");
+      }
+    } // namespace
+
+    void
+    declare(Entries &entries, Scene &scene)
+    {
+      declare_general(entries, scene);
+      for (auto &body : scene.bodies)
+        declare_body(entries, body);
+      declare_contact_and_shape(entries, scene);
+      declare_solver(entries, scene);
+      declare_gradient(entries, scene);
+      declare_optimization(entries, scene);
+    }
+  } // namespace scene
+} // namespace snug

@@ -1,0 +1,182 @@
+#include <snug/scene/check.h>
+#include <snug/scene/entries.h>
+#include <snug/scene/read_scene.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <ostream>
+#include <sstream>
+
+namespace snug
+{
+  namespace scene
+  {
+    namespace
+    {
+      /// Contents of @p file, or the reason why it cannot be read.
+      bool
+      try_to_read(const std::string &file, std::string &text)
+      {
+        errno = 0;
+        std::ifstream      in(file, std::ios::binary);
+        std::ostringstream contents;
+        if (in && in.peek() != std::ifstream::traits_type::eof())
+          contents << in.rdbuf();
+        const bool good = in.is_open() && !in.bad() && errno == 0;
+        text = good ? contents.str() : std::strerror(errno == 0 ? EIO : errno);
+        return good;
+      }
+
+      /// All statements that count, in the order they are applied.
+      std::vector<Statement>
+      statements_of(const SceneSource &source)
+      {
+        auto statements = parse_statements(source.text, source.file);
+        for (const auto &set : source.sets)
+          statements.push_back(parse_override(set));
+        if (!source.output_directory.empty())
+          statements.push_back(
+            {"", "Output directory", source.output_directory, "--output"});
+        // A value with these would not survive printing and reading again.
+        for (const auto &statement : statements)
+          if (statement.value.find_first_of("#\n\r") != std::string::npos ||
+              (!statement.value.empty() && statement.value.back() == '\\'))
+            throw Origins(statement.origin, {})
+              .error(statement.path(),
+                     statement.value,
+                     "must not contain '#' or line ends, nor end with '\\'");
+        return statements;
+      }
+
+      /// First pass: the bodies, without what they are made of.
+      void
+      make_bodies(const std::vector<Statement> &statements, Scene &scene)
+      {
+        std::string names;
+        for (const auto &statement : statements)
+          if (statement.path() == "Bodies")
+            names = statement.value;
+        for (const auto &name : dealii::Utilities::split_string_list(names))
+          {
+            scene.bodies.emplace_back();
+            scene.bodies.back().name = name;
+          }
+      }
+
+      void
+      fill(std::vector<double> &values,
+           const unsigned int   n,
+           const double         value)
+      {
+        if (values.empty())
+          values.assign(n, value);
+      }
+
+      /// Give lists that were left empty their defaults.
+      void
+      complete(Scene &scene)
+      {
+        for (auto &body : scene.bodies)
+          {
+            fill(body.mesh.corner, scene.dimension, 0.);
+            fill(body.mesh.size, scene.dimension, 1.);
+            fill(body.mesh.grading, scene.dimension, 1.);
+            fill(body.loads.body_force, scene.dimension, 0.);
+          }
+        const unsigned int n = n_design_variables(scene.shape);
+        fill(scene.shape.initial, n, 0.);
+        if (scene.shape.initial.size() == 1)
+          scene.shape.initial.resize(n, scene.shape.initial.front());
+      }
+
+      std::string
+      table_cell(std::string text)
+      {
+        for (auto bar = text.find('|'); bar != std::string::npos;
+             bar      = text.find('|', bar + 2))
+          text.insert(bar, "\\");
+        return text;
+      }
+    } // namespace
+
+    std::string
+    read_text(const std::string &file, MPI_Comm communicator)
+    {
+      int rank;
+      MPI_Comm_rank(communicator, &rank);
+      std::string   text;
+      unsigned long header[2] = {0, 0}; // success, length
+      if (rank == 0)
+        {
+          header[0] = try_to_read(file, text);
+          header[1] = text.size();
+        }
+      MPI_Bcast(header, 2, MPI_UNSIGNED_LONG, 0, communicator);
+      text.resize(header[1]);
+      MPI_Bcast(&text[0], header[1], MPI_CHAR, 0, communicator);
+      if (header[0] == 0)
+        throw InputError("cannot read the parameter file '" + quotable(file) +
+                         "': " + text);
+      return text;
+    }
+
+    Scene
+    read_scene(const SceneSource &source)
+    {
+      const auto    statements = statements_of(source);
+      const Origins origins(source.file, statements);
+      Scene         scene;
+      make_bodies(statements, scene);
+      check_names(scene, origins);
+      Entries entries;
+      declare(entries, scene);
+      for (const auto &statement : statements)
+        entries.set(statement);
+      complete(scene);
+      check(scene, origins);
+      return scene;
+    }
+
+    void
+    print(const Scene &scene, std::ostream &out)
+    {
+      Scene   copy = scene;
+      Entries entries;
+      declare(entries, copy);
+      entries.print(out);
+    }
+
+    void
+    print_reference(std::ostream &out)
+    {
+      Scene scene;
+      scene.bodies.emplace_back();
+      scene.bodies.front().name = "NAME";
+      Entries entries;
+      declare(entries, scene);
+      out << "# Parameters\n\n"
+             "Printed by `snug --print-parameters`. Units are yours, but they "
+             "must be consistent: with mm, N and MPa, energies are N mm.\n";
+      for (const auto &section : entries.sections())
+        {
+          out << "\n## "
+              << (section.name.empty() ? "Outside of subsections"
+                                       : "subsection " + section.name)
+              << "\n\n";
+          if (!section.meaning.empty())
+            out << section.meaning << "\n\n";
+          out << "| entry | default | allowed | meaning |\n"
+                 "|---|---|---|---|\n";
+          for (const auto &entry : entries.descriptions())
+            if (entry.section == section.name)
+              out << "| `" << entry.name << "` | "
+                  << (entry.initial.empty() || entry.name == "Bodies"
+                        ? ""
+                        : "`" + entry.initial + "`")
+                  << " | " << table_cell(entry.form.allowed) << " | "
+                  << table_cell(entry.meaning) << " |\n";
+        }
+    }
+  } // namespace scene
+} // namespace snug

@@ -1,0 +1,59 @@
+#include <snug/scene/scene.h>
+
+#include <numeric>
+
+namespace snug
+{
+  namespace scene
+  {
+    namespace
+    {
+      template <int dim>
+      std::vector<std::string>
+      boundary_names_in(const mesh::BodyMeshParameters &parameters)
+      {
+        return choose(mesh::body_geometry_table<dim>(), parameters.source)
+          .make(parameters)
+          ->boundary_names();
+      }
+    } // namespace
+
+    std::pair<std::string, std::string>
+    split_face(const std::string &face)
+    {
+      const auto dot = face.find('.');
+      if (dot == std::string::npos)
+        return {face, ""};
+      return {face.substr(0, dot), face.substr(dot + 1)};
+    }
+
+    unsigned int
+    body_index(const Scene &scene, const std::string &name)
+    {
+      unsigned int i = 0;
+      while (i < scene.bodies.size() && scene.bodies[i].name != name)
+        ++i;
+      return i;
+    }
+
+    std::vector<std::string>
+    boundary_names(const Body &body, const unsigned int dimension)
+    {
+      return dimension == 2 ? boundary_names_in<2>(body.mesh)
+                            : boundary_names_in<3>(body.mesh);
+    }
+
+    unsigned int
+    n_design_variables(const shape::ShapeParameters &shape)
+    {
+      if (shape.basis == "none")
+        return 0;
+      return std::accumulate(shape.control_points.begin(),
+                             shape.control_points.end(),
+                             1U,
+                             [](unsigned int a, unsigned int b) {
+                               return a * b;
+                             });
+    }
+  } // namespace scene
+} // namespace snug

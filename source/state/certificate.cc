@@ -1,0 +1,119 @@
+#include <snug/state/certificate.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug
+{
+  namespace state
+  {
+    namespace
+    {
+      /// a / b, 0 for 0 / 0; NaN stays NaN.
+      double
+      relative(double a, double b)
+      {
+        return a == 0. ? 0. : a / b;
+      }
+
+      /// The worst over bodies of ||Ku - f + B'lambda|| / (||f|| + ||B'lambda||).
+      double
+      equilibrium_error(const feti::TotalFeti     &feti,
+                        const qp::MultiVector     &lambda,
+                        const feti::PrimalVectors &u)
+      {
+        const auto          forces = feti.multiply_Bt(lambda);
+        const unsigned int  n_bodies = feti.n_bodies();
+        std::vector<double> squares(3 * n_bodies, 0.);
+        for (unsigned int s = 0; s < u.size(); ++s)
+          {
+            const auto     &system = feti.subdomains()[s];
+            double         *of     = &squares[3 * system.body];
+            qp::MultiVector r      = forces[s];
+            system.K.multiply_add(1., u[s], r);
+            for (unsigned int i = 0; i < system.n_dofs(); ++i)
+              {
+                const double error = r(i) - system.f[i];
+                of[0] += error * error;
+                of[1] += system.f[i] * system.f[i];
+                of[2] += forces[s](i) * forces[s](i);
+              }
+          }
+        MPI_Allreduce(MPI_IN_PLACE,
+                      squares.data(),
+                      squares.size(),
+                      MPI_DOUBLE,
+                      MPI_SUM,
+                      feti.context().communicator());
+        double worst = 0.;
+        for (unsigned int body = 0; body < n_bodies; ++body)
+          {
+            const double *of    = &squares[3 * body];
+            const double  error = relative(std::sqrt(of[0]),
+                                          std::sqrt(of[1]) + std::sqrt(of[2]));
+            worst               = error > worst || std::isnan(error) ? error : worst;
+          }
+        return worst;
+      }
+    } // namespace
+
+    double
+    Certificate::worst() const
+    {
+      double worst = 0.;
+      for (const double error : {equilibrium,
+                                 continuity,
+                                 penetration,
+                                 negative_pressure,
+                                 complementarity})
+        if (!(error <= worst))
+          worst = std::isnan(error) ? INFINITY : error;
+      return worst;
+    }
+
+    Certificate
+    certify(const feti::TotalFeti     &feti,
+            const qp::MultiVector     &lambda,
+            const feti::PrimalVectors &u)
+    {
+      auto w = feti.multiply_B(u);
+      w.add(-1., feti.g());
+      // continuity, penetration, most negative and largest contact force,
+      // largest F_ii |lambda_i|
+      double largest[5] = {0., 0., 0., 0., 0.};
+      double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
+      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+        {
+          largest[4] = std::max(largest[4],
+                                feti.diagonal()[i] * std::abs(lambda(i)));
+          if (!feti.bounded()[i])
+            {
+              largest[0] = std::max(largest[0], std::abs(w(i)));
+              continue;
+            }
+          largest[1] = std::max(largest[1], w(i));
+          largest[2] = std::max(largest[2], -lambda(i));
+          largest[3] = std::max(largest[3], lambda(i));
+          sums[0] += lambda(i) * w(i);
+        }
+      for (unsigned int s = 0; s < u.size(); ++s)
+        {
+          qp::MultiVector Ku(u[s].n_rows());
+          feti.subdomains()[s].K.multiply_add(1., u[s], Ku);
+          for (unsigned int i = 0; i < u[s].n_rows(); ++i)
+            sums[1] += Ku(i) * u[s](i);
+        }
+      const MPI_Comm comm = feti.context().communicator();
+      MPI_Allreduce(MPI_IN_PLACE, largest, 5, MPI_DOUBLE, MPI_MAX, comm);
+      MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
+      Certificate certificate;
+      certificate.equilibrium       = equilibrium_error(feti, lambda, u);
+      certificate.continuity        = relative(largest[0], largest[4]);
+      certificate.penetration       = relative(largest[1], largest[4]);
+      certificate.negative_pressure = relative(largest[2], largest[3]);
+      certificate.complementarity =
+        relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
+      return certificate;
+    }
+  } // namespace state
+} // namespace snug

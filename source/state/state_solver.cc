@@ -1,0 +1,504 @@
+#include <snug/base/errors.h>
+#include <snug/qp/pcpg.h>
+#include <snug/state/certificate.h>
+#include <snug/state/state_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace snug
+{
+  namespace state
+  {
+    namespace
+    {
+      /// Cells below this quality are not solved (see Element::quality).
+      const double least_quality = 0.02;
+
+      /// A contact force above this part of the largest is strong; below, and
+      /// with a gap below the same part of the largest F_ii lambda_i, weak.
+      const double strong_part = 1e-6;
+
+      std::vector<std::pair<unsigned int, unsigned int>>
+      contact_boundaries(const std::vector<contact::Pair> &pairs)
+      {
+        std::vector<std::pair<unsigned int, unsigned int>> boundaries;
+        for (const auto &pair : pairs)
+          {
+            boundaries.push_back(pair.slave);
+            boundaries.push_back(pair.master);
+          }
+        std::sort(boundaries.begin(), boundaries.end());
+        boundaries.erase(std::unique(boundaries.begin(), boundaries.end()),
+                         boundaries.end());
+        return boundaries;
+      }
+
+      /// Centre and half diagonal of each body's bounding box. Collective.
+      template <int dim>
+      void
+      measure_bodies(const mesh::BodyMesh<dim>           &mesh,
+                     std::vector<dealii::Tensor<1, dim>> &centres,
+                     std::vector<double>                 &lengths)
+      {
+        const unsigned int  n = mesh.n_bodies();
+        std::vector<double> largest(2 * dim * n,
+                                    -std::numeric_limits<double>::max());
+        for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double x  = mesh.reference_positions()[node][c];
+              double      *of = &largest[2 * dim * mesh.body_of_node(node)];
+              of[c]           = std::max(of[c], x);
+              of[dim + c]     = std::max(of[dim + c], -x);
+            }
+        dealii::Utilities::MPI::max(largest, mesh.communicator(), largest);
+        centres.resize(n);
+        lengths.resize(n);
+        for (unsigned int body = 0; body < n; ++body)
+          {
+            double square = 0.;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                const double upper = largest[2 * dim * body + c];
+                const double lower = -largest[2 * dim * body + dim + c];
+                centres[body][c]   = (upper + lower) / 2;
+                square += (upper - lower) * (upper - lower) / 4;
+              }
+            lengths[body] = std::sqrt(square);
+          }
+      }
+    } // namespace
+
+    template <int dim>
+    struct StateSolver<dim>::Data
+    {
+      Data(const mesh::BodyMesh<dim> &mesh,
+           const mesh::Tearing       &tearing,
+           const Model<dim>          &model,
+           RunContext                &context)
+        : mesh(mesh)
+        , tearing(tearing)
+        , model(model)
+        , context(context)
+        , element(mesh.degree())
+        , face_load(mesh.degree())
+        , surface(mesh, contact_boundaries(model.pairs))
+      {}
+
+      const mesh::BodyMesh<dim>                   &mesh;
+      const mesh::Tearing                         &tearing;
+      Model<dim>                                   model;
+      RunContext                                  &context;
+      elasticity::Element<dim>                     element;
+      elasticity::FaceLoad<dim>                    face_load;
+      mesh::Surface<dim>                           surface;
+      std::unique_ptr<contact::NodalContact<dim>>  contact;
+      std::unique_ptr<Gluing<dim>>                 gluing;
+      std::vector<std::unique_ptr<Assembler<dim>>> assemblers;
+      std::vector<feti::SubdomainSystem>           systems;
+      std::unique_ptr<feti::TotalFeti>             feti;
+      std::vector<dealii::Tensor<1, dim>>          centres;
+      std::vector<double>                          lengths;
+      Field                                        last_positions;
+
+      void
+      set_up(const Field &positions);
+      feti::SubdomainTable
+      subdomain_table() const;
+      std::vector<bool>
+      moved_subdomains(const Field &positions) const;
+      void
+      check_quality(const Field             &positions,
+                    const std::vector<bool> &moved) const;
+      void
+      assemble(const Field &positions, const std::vector<bool> &moved);
+      void
+      check_vanished_rows(
+        const std::vector<contact::Row<dim>> &contact_rows) const;
+      void
+      solve_to_certificate(const qp::WarmStart &start,
+                           ContactState<dim>   &state) const;
+      void
+      describe(const std::vector<contact::Row<dim>> &contact_rows,
+               ContactState<dim>                    &state) const;
+      void
+      describe_contact(const std::vector<contact::Row<dim>> &contact_rows,
+                       ContactState<dim>                    &state) const;
+    };
+
+    template <int dim>
+    feti::SubdomainTable
+    StateSolver<dim>::Data::subdomain_table() const
+    {
+      feti::SubdomainTable table;
+      table.n_modes    = dim == 2 ? 3 : 6;
+      table.first      = tearing.first_id;
+      table.body_names = model.body_names;
+      table.body.assign(tearing.n_global, 0);
+      for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
+        table.body[tearing.first_id + s] = tearing.subdomains[s].body;
+      MPI_Allreduce(MPI_IN_PLACE,
+                    table.body.data(),
+                    table.body.size(),
+                    MPI_UNSIGNED,
+                    MPI_MAX,
+                    context.communicator());
+      return table;
+    }
+
+    template <int dim>
+    void
+    StateSolver<dim>::Data::set_up(const Field &positions)
+    {
+      const RunContext::Timer timer(context, "setup");
+      measure_bodies(mesh, centres, lengths);
+      const auto at_surface = surface.gather(positions);
+      contact               = std::make_unique<contact::NodalContact<dim>>(
+        surface, model.pairs, mesh.degree(), at_surface);
+      gluing = std::make_unique<Gluing<dim>>(
+        mesh, tearing, surface, model.supports, contact->rows(at_surface));
+      systems.resize(tearing.subdomains.size());
+      const auto contact_rows = contact->rows(at_surface);
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        {
+          const auto &subdomain = tearing.subdomains[s];
+          assemblers.push_back(
+            std::make_unique<Assembler<dim>>(mesh,
+                                             subdomain,
+                                             model.bodies[subdomain.body],
+                                             element,
+                                             face_load));
+          systems[s].body        = subdomain.body;
+          systems[s].K           = assemblers[s]->sparsity();
+          systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
+          gluing->fill_B(s, contact_rows, false, systems[s].B);
+        }
+      feti = std::make_unique<feti::TotalFeti>(systems,
+                                               gluing->layout(),
+                                               subdomain_table(),
+                                               model.feti,
+                                               context);
+    }
+
+    template <int dim>
+    std::vector<bool>
+    StateSolver<dim>::Data::moved_subdomains(const Field &positions) const
+    {
+      std::vector<bool> moved(systems.size(), last_positions.empty());
+      if (last_positions.empty())
+        return moved;
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        for (const unsigned int cell : tearing.subdomains[s].cells)
+          for (const unsigned int node : mesh.cells()[cell].nodes)
+            if (positions[node] != last_positions[node])
+              moved[s] = true;
+      return moved;
+    }
+
+    template <int dim>
+    void
+    StateSolver<dim>::Data::check_quality(const Field             &positions,
+                                          const std::vector<bool> &moved) const
+    {
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        if (moved[s])
+          for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
+            {
+              const auto   X       = assemblers[s]->cell_field(i, positions);
+              const double quality = element.quality(X);
+              if (quality >= least_quality)
+                continue;
+              std::ostringstream text;
+              text << "the mesh of body "
+                   << model.body_names[systems[s].body]
+                   << " is tangled near (" << X.front()
+                   << "): cell quality " << quality << " is below "
+                   << least_quality << "; tighten the bounds of the shape";
+              throw TangledMesh(text.str());
+            }
+    }
+
+    template <int dim>
+    void
+    StateSolver<dim>::Data::assemble(const Field             &positions,
+                                     const std::vector<bool> &moved)
+    {
+      const RunContext::Timer timer(context, "assembly");
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        if (moved[s])
+          {
+            auto &system = systems[s];
+            assemblers[s]->stiffness(positions, system.K);
+            system.f = assemblers[s]->load(positions);
+            assemblers[s]->rigid_modes(positions,
+                                       centres[system.body],
+                                       lengths[system.body],
+                                       system.R,
+                                       system.Z);
+            ++context.work.assembled_subdomains;
+          }
+    }
+
+    template <int dim>
+    void
+    StateSolver<dim>::Data::check_vanished_rows(
+      const std::vector<contact::Row<dim>> &contact_rows) const
+    {
+      const double length =
+        *std::max_element(lengths.begin(), lengths.end());
+      for (const unsigned int i : gluing->vanished_rows())
+        if (contact_rows[i].gap < -1e-10 * length)
+          {
+            std::ostringstream text;
+            text << "no equilibrium: contact row " << i
+                 << " overlaps by " << -contact_rows[i].gap
+                 << " between nodes that are held in its direction";
+            throw SolveError(text.str());
+          }
+    }
+
+    template <int dim>
+    void
+    StateSolver<dim>::Data::solve_to_certificate(
+      const qp::WarmStart &start,
+      ContactState<dim>   &state) const
+    {
+      qp::WarmStart        from       = start;
+      qp::SolverParameters parameters = model.solver;
+      const double         wanted     = parameters.relative_tolerance;
+      const unsigned long  mults      = context.work.f_mults;
+      unsigned int         outer      = 0;
+      for (unsigned int attempt = 0; attempt < 5; ++attempt)
+        {
+          const auto this_solver =
+            choose(qp::solver_table(), parameters.method).make(parameters);
+          state.dual        = this_solver->solve(*feti, from);
+          outer += state.dual.outer_iterations;
+          state.u           = feti->recover(feti->loads(),
+                                  state.dual.lambda,
+                                  state.dual.amplitudes);
+          state.certificate = certify(*feti, state.dual.lambda, state.u);
+          if (state.certificate.worst() <= wanted)
+            {
+              state.dual.outer_iterations = outer;
+              state.f_mults               = context.work.f_mults - mults;
+              return;
+            }
+          from.lambda = state.dual.lambda;
+          from.active = state.dual.active;
+          parameters.relative_tolerance *= 0.1;
+        }
+      std::ostringstream text;
+      text << "the certificate of the contact state stays at "
+           << state.certificate.worst() << ", above the tolerance " << wanted
+           << "; allow a larger 'Solver/Relative tolerance'";
+      throw SolveError(text.str());
+    }
+
+    template <int dim>
+    void
+    StateSolver<dim>::Data::describe(
+      const std::vector<contact::Row<dim>> &contact_rows,
+      ContactState<dim>                    &state) const
+    {
+      std::vector<bool> set(mesh.n_local_nodes(), false);
+      state.displacement.assign(mesh.n_local_nodes(),
+                                dealii::Tensor<1, dim>());
+      double sums[3] = {0., 0., 0.}; // u'Ku, f'u, f'K^+f
+      const auto f   = feti->loads();
+      const auto Kf  = feti->apply_inverse(f);
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        {
+          const auto     &nodes = tearing.subdomains[s].nodes;
+          qp::MultiVector Ku(systems[s].n_dofs());
+          systems[s].K.multiply_add(1., state.u[s], Ku);
+          for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+            {
+              sums[0] += Ku(i) * state.u[s](i);
+              sums[1] += f[s](i) * state.u[s](i);
+              sums[2] += f[s](i) * Kf[s](i);
+              if (!set[nodes[i / dim]])
+                state.displacement[nodes[i / dim]][i % dim] = state.u[s](i);
+              if (i % dim == dim - 1)
+                set[nodes[i / dim]] = true;
+            }
+        }
+      mesh.interpolate_hanging(state.displacement);
+      // dual value: its error is the square of the residual's
+      double dual = 0.;
+      for (unsigned int i = 0; i < feti->n_owned(); ++i)
+        dual += 0.5 * state.dual.lambda(i) *
+                (feti->d()(i) + state.dual.residual(i));
+      double all[4] = {sums[0], sums[1], sums[2], dual};
+      MPI_Allreduce(
+        MPI_IN_PLACE, all, 4, MPI_DOUBLE, MPI_SUM, context.communicator());
+      state.strain_energy = all[0] / 2;
+      state.compliance    = all[1];
+      state.energy        = all[3] - all[2] / 2;
+      describe_contact(contact_rows, state);
+    }
+
+    template <int dim>
+    void
+    StateSolver<dim>::Data::describe_contact(
+      const std::vector<contact::Row<dim>> &contact_rows,
+      ContactState<dim>                    &state) const
+    {
+      const auto Bu     = feti->multiply_B(state.u);
+      auto       slack  = feti->g();
+      slack.add(-1., Bu);
+      std::vector<double> compliance(feti->n_owned()), flags(feti->n_owned());
+      for (unsigned int i = 0; i < feti->n_owned(); ++i)
+        {
+          compliance[i] = feti->diagonal()[i];
+          flags[i]      = state.dual.active[i];
+        }
+      const auto lambda = gluing->gather_contact(state.dual.lambda.column(0));
+      const auto gaps   = gluing->gather_contact(slack.column(0));
+      const auto F_ii   = gluing->gather_contact(compliance.data());
+      const auto active = gluing->gather_contact(flags.data());
+      const auto areas  = contact->areas(surface.gather(state.positions));
+      const auto &scales = gluing->contact_scales();
+      double      largest = 0., largest_gap = 0.;
+      for (unsigned int i = 0; i < lambda.size(); ++i)
+        {
+          largest     = std::max(largest, lambda[i]);
+          largest_gap = std::max(largest_gap, F_ii[i] * lambda[i]);
+        }
+      state.contact.resize(lambda.size());
+      state.contact_force   = dealii::Tensor<1, dim>();
+      state.contact_area    = 0.;
+      state.max_pressure    = 0.;
+      state.active_contacts = 0;
+      state.weak_contacts   = 0;
+      for (unsigned int i = 0; i < lambda.size(); ++i)
+        {
+          ContactPoint &point = state.contact[i];
+          point.area          = areas[i];
+          if (scales[i] == 0.)
+            {
+              point.gap = contact_rows[i].gap;
+              continue;
+            }
+          point.force    = lambda[i] / scales[i];
+          point.pressure = areas[i] > 0. ? point.force / areas[i] : 0.;
+          point.gap      = gaps[i] * scales[i];
+          point.active   = active[i] != 0.;
+          point.strong   = lambda[i] > strong_part * largest;
+          point.weak =
+            !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
+          state.contact_force -= point.force * contact_rows[i].normal;
+          state.active_contacts += point.strong;
+          state.weak_contacts += point.weak;
+          state.contact_area += point.strong ? areas[i] : 0.;
+          state.max_pressure = std::max(state.max_pressure, point.pressure);
+        }
+    }
+
+    template <int dim>
+    StateSolver<dim>::StateSolver(const mesh::BodyMesh<dim> &mesh,
+                                  const mesh::Tearing       &tearing,
+                                  const Model<dim>          &model,
+                                  const Field               &positions,
+                                  RunContext                &context)
+      : data(std::make_unique<Data>(mesh, tearing, model, context))
+    {
+      data->set_up(positions);
+    }
+
+    template <int dim>
+    StateSolver<dim>::~StateSolver() = default;
+
+    template <int dim>
+    ContactState<dim>
+    StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start)
+    {
+      const auto moved = data->moved_subdomains(positions);
+      everywhere(data->context.communicator(),
+                 [&]() { data->check_quality(positions, moved); });
+      const auto contact_rows =
+        data->contact->rows(data->surface.gather(positions));
+      data->check_vanished_rows(contact_rows);
+      data->last_positions.clear();
+      data->assemble(positions, moved);
+      for (unsigned int s = 0; s < data->systems.size(); ++s)
+        data->gluing->fill_B(s, contact_rows, false, data->systems[s].B);
+      data->feti->update(moved, data->gluing->right_hand_side(contact_rows));
+      data->last_positions = positions;
+      ContactState<dim> state;
+      state.positions = positions;
+      {
+        const RunContext::Timer timer(data->context, "solve");
+        data->solve_to_certificate(start, state);
+      }
+      data->describe(contact_rows, state);
+      return state;
+    }
+
+    template <int dim>
+    unsigned long
+    StateSolver<dim>::linear_f_mults(const ContactState<dim> &state) const
+    {
+      const auto &feti = *data->feti;
+      const auto  face = feti.face(state.dual.active);
+      const unsigned long before = data->context.work.f_mults;
+      qp::MultiVector     lambda(feti.n_owned());
+      face->make_feasible(lambda, feti.e());
+      qp::MultiVector residual = feti.d();
+      residual.add(-1., feti.apply(lambda));
+      qp::MultiVector projected = residual;
+      face->project(projected);
+      const double scale =
+        qp::norms(projected, data->context.communicator())[0];
+      qp::pcpg(feti,
+               *face,
+               lambda,
+               residual,
+               {data->model.solver.relative_tolerance * scale},
+               data->model.solver.max_iterations);
+      return data->context.work.f_mults - before;
+    }
+
+    template <int dim>
+    double
+    StateSolver<dim>::volume(unsigned int body, const Field &positions) const
+    {
+      double volume = 0.;
+      for (unsigned int s = 0; s < data->systems.size(); ++s)
+        if (data->systems[s].body == body)
+          for (unsigned int i = 0; i < data->assemblers[s]->cells().size();
+               ++i)
+            volume += data->element.volume(
+              data->assemblers[s]->cell_field(i, positions));
+      return dealii::Utilities::MPI::sum(volume, data->context.communicator());
+    }
+
+#define SNUG_GETTER(type, name, value)  \
+  template <int dim>                    \
+  type StateSolver<dim>::name() const   \
+  {                                     \
+    return value;                       \
+  }
+    SNUG_GETTER(const mesh::BodyMesh<dim> &, mesh, data->mesh)
+    SNUG_GETTER(const mesh::Tearing &, tearing, data->tearing)
+    SNUG_GETTER(const Model<dim> &, model, data->model)
+    SNUG_GETTER(const mesh::Surface<dim> &, surface, data->surface)
+    SNUG_GETTER(const contact::NodalContact<dim> &, contact, *data->contact)
+    SNUG_GETTER(const elasticity::Element<dim> &, element, data->element)
+    SNUG_GETTER(const elasticity::FaceLoad<dim> &, face_load, data->face_load)
+    SNUG_GETTER(const std::vector<std::unique_ptr<Assembler<dim>>> &,
+                assemblers,
+                data->assemblers)
+    SNUG_GETTER(const feti::TotalFeti &, feti, *data->feti)
+    SNUG_GETTER(const Gluing<dim> &, gluing, *data->gluing)
+    SNUG_GETTER(RunContext &, context, data->context)
+#undef SNUG_GETTER
+
+    template class StateSolver<2>;
+    template class StateSolver<3>;
+  } // namespace state
+} // namespace snug

@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""The lint checks find what they are for: each on a small tree of its own."""
+
+import pathlib
+import stat
+import tempfile
+import unittest
+
+import formatting
+import layout
+import links
+import modules
+import program
+import words
+
+TABLE = """
+| module | holds | may include |
+|---|---|---|
+| `base` | errors | nothing |
+| `mesh` | meshes | `base` |
+| `feti` | solver | `base` |
+| `io` | files | all |
+
+| label | what | where |
+|---|---|---|
+| `unit` | another table | `tests` |
+"""
+
+
+class Tree(unittest.TestCase):
+    """A temporary project; write() adds a file to it."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name).resolve()
+        self.write("doc/architecture.md", TABLE)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def write_program(self, script):
+        path = self.write("snug", "#!/bin/sh\n" + script)
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+        return str(path)
+
+    def expect(self, messages, *starts):
+        messages = list(messages)
+        self.assertEqual(len(messages), len(starts), messages)
+        for message, start in zip(messages, starts):
+            self.assertTrue(message.startswith(start), message)
+
+
+class Modules(Tree):
+    def test_allowed_includes_pass(self):
+        self.write("include/snug/mesh/a.h", "#include <snug/base/errors.h>\n")
+        self.write("source/mesh/a.cc",
+                   '#include <snug/mesh/a.h>\n#include "a.inst"\n')
+        self.write("source/io/x.cc", "#include <snug/feti/dense.h>\n")
+        self.expect(modules.check(self.root))
+
+    def test_a_sideways_include_is_found(self):
+        self.write("source/feti/a.cc",
+                   "#include <vector>\n#  include <snug/mesh/a.h>\n")
+        self.expect(modules.check(self.root), "source/feti/a.cc:2: module 'feti'")
+
+    def test_a_downward_include_of_a_header_is_found(self):
+        self.write("include/snug/base/a.h", "#include <snug/io/a.h>\n")
+        self.expect(modules.check(self.root),
+                    "include/snug/base/a.h:1: module 'base'")
+
+    def test_detours_are_found(self):
+        self.write("source/feti/a.cc", '#include "../mesh/a.h"\n'
+                   "#include <snug/meshes/a.h>\n")
+        self.write("source/other/a.cc", "")
+        self.expect(modules.check(self.root), "source/feti/a.cc:1: ",
+                    "source/feti/a.cc:2: no module", "source/other/a.cc:1: ")
+
+    def test_a_table_that_points_downward_is_found(self):
+        self.write("doc/architecture.md",
+                   TABLE.replace("| errors | nothing", "| errors | `mesh`"))
+        self.expect(modules.check(self.root), "doc/architecture.md:4: 'base'")
+
+    def test_a_lost_table_is_found(self):
+        self.write("doc/architecture.md", "no table\n")
+        self.expect(modules.check(self.root), "doc/architecture.md:1: ")
+
+
+class Layout(Tree):
+    GUARDED = "#ifndef {0}\n#define {0}\n#endif\n"
+
+    def test_good_files_pass(self):
+        self.write("include/snug/feti/a_b.h",
+                   "// head\n" + self.GUARDED.format("snug_feti_a_b_h"))
+        self.write("source/feti/a.cc", "\n" * 400)
+        self.write(layout.COMPATIBILITY, "#ifndef snug_base_deal_ii_compat_h\n"
+                   "#define snug_base_deal_ii_compat_h\n"
+                   "#if DEAL_II_VERSION_GTE(9, 6, 0)\n#endif\n#endif\n")
+        self.expect(layout.check(self.root))
+
+    def test_a_wrong_guard_is_found(self):
+        self.write("include/snug/feti/a.h", self.GUARDED.format("snug_a_h"))
+        self.write("include/snug/feti/b.h", "#pragma once\n")
+        self.write("include/snug/feti/c.h", "")
+        self.expect(layout.check(self.root), "include/snug/feti/a.h:1: header",
+                    "include/snug/feti/b.h:1: header",
+                    "include/snug/feti/c.h:1: header")
+
+    def test_a_define_of_another_name_is_found(self):
+        self.write("include/snug/feti/a.h",
+                   "\n#ifndef snug_feti_a_h\n#define snug_feti_b_h\n#endif\n")
+        self.expect(layout.check(self.root), "include/snug/feti/a.h:3: header")
+
+    def test_a_long_file_and_a_version_are_found(self):
+        self.write("source/feti/a.cc", "\n" * 401)
+        self.write("tests/x.cc", "\n#  if !DEAL_II_VERSION_GTE(9, 5, 0)\n")
+        self.expect(layout.check(self.root), "source/feti/a.cc:401: longer",
+                    "tests/x.cc:2: ask")
+
+
+class Format(Tree):
+    def test_a_crooked_file_is_found(self):
+        self.write(".clang-format", "BasedOnStyle: LLVM\n")
+        self.write("source/a.cc", "int a;\n")
+        self.expect(formatting.check(self.root))
+        self.write("source/b.cc", "int a;\nint  b;\n")
+        self.expect(formatting.check(self.root), "source/b.cc:2: ")
+
+
+class Words(Tree):
+    def test_a_mark_is_found(self):
+        self.write("source/a.cc", "// Methodology\n// TO" "DO: later\n")
+        self.expect(words.check(self.root), "source/a.cc:2: ")
+
+
+class Links(Tree):
+    def test_a_dead_link_is_found(self):
+        self.write("README.md", "[a](doc/architecture.md#top) [b](https://x)\n"
+                   "`[c](no)` [d](#top)\n```\n[e](no)\n```\n"
+                   "![f](doc/f.png) [g](doc/g.md)\n")
+        self.expect(links.check(self.root), "README.md:6: no file 'doc/f.png'",
+                    "README.md:6: no file 'doc/g.md'")
+
+    def test_a_link_starts_from_its_own_file(self):
+        self.write("doc/a.md", "[a](architecture.md) [b](doc/architecture.md)\n")
+        self.expect(links.check(self.root), "doc/a.md:1: no file 'doc/")
+
+
+class Program(Tree):
+    def test_a_refused_scene_is_found(self):
+        self.write("prm/a.prm", "")
+        self.write("prm/more/bad.prm", "")
+        snug = self.write_program(
+            'case $2 in *bad*) echo "Line <3> of file: no" >&2; exit 2;; esac')
+        self.expect(program.check_scenes(self.root, snug),
+                    "prm/more/bad.prm:3: exit status 2: Line")
+
+    def test_an_old_reference_is_found(self):
+        snug = self.write_program("printf 'a\\nb\\n'")
+        self.write(program.REFERENCE, "a\nb\n")
+        self.expect(program.check_parameters(self.root, snug))
+        self.write(program.REFERENCE, "a\nc\n")
+        self.expect(program.check_parameters(self.root, snug),
+                    program.REFERENCE + ":2: differs")
+
+    def test_a_missing_reference_is_found(self):
+        snug = self.write_program("echo a")
+        self.expect(program.check_parameters(self.root, snug),
+                    program.REFERENCE + ":1: differs")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,138 @@
+#include <snug/elasticity/face_load.h>
+
+#include "cells.h"
+
+using namespace elasticity_cells;
+
+template <typename Case>
+class FaceLoads : public ::testing::Test
+{
+public:
+  static constexpr int          dim    = Case::dim;
+  static constexpr unsigned int degree = Case::degree;
+
+  const FaceLoad<dim> load{degree};
+  const Nodes<dim>    cell = distorted<dim>(degree, 31);
+  const Nodes<dim>    X =
+    extract<dim>(cell, face_nodes<dim>(degree, dim - 1, true));
+  const Nodes<dim>             V        = random_field<dim>(X.size(), 32);
+  const Nodes<dim>             u        = random_field<dim>(X.size(), 33);
+  const dealii::Tensor<1, dim> traction = random_field<dim>(1, 34)[0];
+  const double                 pressure = 1.7;
+};
+TYPED_TEST_SUITE(FaceLoads, AllCases);
+
+TYPED_TEST(FaceLoads, PressureOnAClosedSurfaceIsBalanced)
+{
+  constexpr int dim  = TestFixture::dim;
+  const auto normals = boundary_normals<dim>(TestFixture::degree, this->cell);
+  dealii::Tensor<1, dim> force;
+  dealii::Tensor<2, dim> moment;
+  for (unsigned int a = 0; a < normals.size(); ++a)
+    {
+      force += normals[a];
+      moment += outer_product(this->cell[a], normals[a]);
+    }
+  EXPECT_LT(force.norm(), 1e-13);
+  // int x (x) n dA = volume I: no moment, and the divergence theorem
+  const double volume = Element<dim>(TestFixture::degree).volume(this->cell);
+  for (unsigned int d = 0; d < dim; ++d)
+    moment[d][d] -= volume;
+  EXPECT_LT(moment.norm(), 1e-13 * volume);
+}
+
+TYPED_TEST(FaceLoads, UnitFacesHaveUnitAreaAndPressurePushesInwards)
+{
+  constexpr int dim  = TestFixture::dim;
+  const auto    cube = elasticity_cells::cube<dim>(TestFixture::degree);
+  for (unsigned int d = 0; d < dim; ++d)
+    for (const bool upper : {false, true})
+      {
+        const auto face =
+          extract<dim>(cube, face_nodes<dim>(TestFixture::degree, d, upper));
+        double total = 0.;
+        for (const double area : this->load.areas(face))
+          {
+            EXPECT_GT(area, 0.);
+            total += area;
+          }
+        EXPECT_NEAR(total, 1., 1e-14);
+
+        Nodes<dim> f;
+        this->load.force(face, 5., dealii::Tensor<1, dim>(), f);
+        dealii::Tensor<1, dim> sum;
+        for (const auto &vector : f)
+          sum += vector;
+        sum[d] += upper ? 5. : -5.;
+        EXPECT_LT(sum.norm(), 1e-14);
+      }
+}
+
+TYPED_TEST(FaceLoads, TractionActsOnTributaryAreas)
+{
+  constexpr int dim = TestFixture::dim;
+  Nodes<dim>    f;
+  this->load.force(this->X, 0., this->traction, f);
+  const auto areas = this->load.areas(this->X);
+  for (unsigned int a = 0; a < f.size(); ++a)
+    EXPECT_LT((f[a] - areas[a] * this->traction).norm(), 1e-14);
+}
+
+TYPED_TEST(FaceLoads, DerivativeAgreesWithDifferences)
+{
+  constexpr int dim = TestFixture::dim;
+  for (const double pressure : {0., this->pressure})
+    for (const double scale : {0., 1.})
+      {
+        const auto traction = scale * this->traction;
+        Nodes<dim> found;
+        this->load.force_derivative(
+          this->X, this->V, pressure, traction, found);
+        const auto expected = derivative<dim>(
+          [&](const Nodes<dim> &X) {
+            Nodes<dim> f;
+            this->load.force(X, pressure, traction, f);
+            return f;
+          },
+          this->X,
+          this->V);
+        EXPECT_LE(distance<dim>(found, expected), 1e-10);
+      }
+}
+
+TYPED_TEST(FaceLoads, GradientIsTheTransposeOfTheDerivative)
+{
+  constexpr int dim = TestFixture::dim;
+  Nodes<dim>    f;
+  this->load.force_derivative(
+    this->X, this->V, this->pressure, this->traction, f);
+  Nodes<dim> gradient(this->X.size());
+  gradient[0][0] = 1.;
+  this->load.add_force_gradient(
+    this->X, this->pressure, this->traction, this->u, -3., gradient);
+  gradient[0][0] -= 1.;
+  EXPECT_NEAR(dot<dim>(gradient, this->V),
+              -3. * dot<dim>(f, this->u),
+              1e-13 * norm<dim>(gradient) * norm<dim>(this->V));
+}
+
+TYPED_TEST(FaceLoads, FollowsTranslationsAndRotations)
+{
+  // translations: no change; V = W X with W skew: pressure forces turn,
+  // dead tractions do not
+  constexpr int    dim = TestFixture::dim;
+  const Nodes<dim> translation(this->X.size(), this->traction);
+  Nodes<dim>       f, f_derivative;
+  this->load.force_derivative(
+    this->X, translation, this->pressure, this->traction, f_derivative);
+  EXPECT_LT(norm<dim>(f_derivative), 1e-13);
+
+  const auto W = random_skew<dim>(35);
+  this->load.force(this->X, this->pressure, dealii::Tensor<1, dim>(), f);
+  this->load.force_derivative(this->X,
+                              times<dim>(W, this->X),
+                              this->pressure,
+                              this->traction,
+                              f_derivative);
+  EXPECT_LT(distance<dim>(f_derivative, times<dim>(W, f)), 1e-13);
+}

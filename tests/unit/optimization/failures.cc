@@ -1,0 +1,157 @@
+#include <snug/base/errors.h>
+#include <snug/optimization/minimize.h>
+
+#include <gtest/gtest.h>
+
+#include "problems.h"
+
+#include <limits>
+
+using namespace snug;
+using namespace snug::optimization;
+
+TEST(SlsqpFailures, StepsBackFromTangledDesignsAndArrives)
+{
+  // The valley's minimum is at x = 0.786; the first long steps land beyond.
+  const auto               exact = rosenbrock_minimum();
+  std::vector<std::string> log;
+  Hooks                    hooks;
+  hooks.log          = [&](const std::string &line) { log.push_back(line); };
+  const auto problem = with_hole(rosenbrock_on_circle(), 0.9, 10.);
+  const auto result  = minimize(problem, tight(), hooks);
+  EXPECT_TRUE(result.success) << result.stop_reason;
+  EXPECT_LT(distance(result.x, exact), design_accuracy);
+  ASSERT_FALSE(log.empty());
+  EXPECT_NE(log[0].find("restart 1 of 5"), std::string::npos) << log[0];
+  EXPECT_NE(log[0].find("cell 5 of body punch"), std::string::npos);
+}
+
+TEST(SlsqpFailures, StopsAtTheBestDesignIfTheMinimumIsTangled)
+{
+  const auto exact = rosenbrock_minimum();
+  for (const bool as_nan : {false, true})
+    {
+      auto problem = with_hole(rosenbrock_on_circle(), 0.6, 10.);
+      if (as_nan)
+        problem.evaluate = [inner = problem.evaluate](const auto &x) {
+          try
+            {
+              return inner(x);
+            }
+          catch (const TangledMesh &)
+            {
+              Evaluation nan = rosenbrock_on_circle().evaluate(x);
+              nan.objective  = std::numeric_limits<double>::quiet_NaN();
+              return nan;
+            }
+        };
+      unsigned int restarts = 0;
+      Hooks        hooks;
+      hooks.log = [&](const std::string &line) {
+        restarts += line.find("restart") != std::string::npos;
+      };
+      const auto result = minimize(problem, tight(), hooks);
+      EXPECT_FALSE(result.success);
+      EXPECT_EQ(result.stop_reason, "restarts exhausted (tangled meshes)");
+      EXPECT_EQ(restarts, 5u);
+      EXPECT_LE(result.x[0], 0.6);
+      EXPECT_TRUE(std::isfinite(result.objective_final));
+      EXPECT_LE(result.evaluations, 200u);
+    }
+}
+
+TEST(SlsqpFailures, AStartWithoutValueIsTheCallersError)
+{
+  auto problem = with_hole(rosenbrock_on_circle(), -10., 10.);
+  EXPECT_THROW(minimize(problem, tight()), TangledMesh);
+  problem          = rosenbrock_on_circle();
+  problem.evaluate = [inner = problem.evaluate](const auto &x) {
+    auto value        = inner(x);
+    value.gradient[1] = std::numeric_limits<double>::quiet_NaN();
+    return value;
+  };
+  EXPECT_THROW(minimize(problem, tight()), SolveError);
+}
+
+TEST(SlsqpFailures, OtherExceptionsPassWithTypeAndMessage)
+{
+  struct Special : std::logic_error
+  {
+    using std::logic_error::logic_error;
+  };
+  for (const unsigned int failing : {1, 2, 5})
+    {
+      auto         problem = rosenbrock_on_circle();
+      unsigned int calls   = 0;
+      problem.evaluate     = [&, inner = problem.evaluate](const auto &x) {
+        if (++calls == failing)
+          throw Special("the disk is full");
+        return inner(x);
+      };
+      try
+        {
+          minimize(problem, tight());
+          FAIL();
+        }
+      catch (const Special &error)
+        {
+          EXPECT_STREQ(error.what(), "the disk is full");
+        }
+      EXPECT_EQ(calls, failing);
+    }
+}
+
+TEST(SlsqpFailures, ErrorsOfTheHookPassEvenSolveErrors)
+{
+  for (const unsigned int failing : {0, 1, 3})
+    {
+      Hooks hooks;
+      hooks.on_iteration = [&](const Iteration &iteration) {
+        if (iteration.number == failing)
+          throw SolveError("cannot write the picture");
+      };
+      EXPECT_THROW(minimize(rosenbrock_on_circle(), tight(), hooks),
+                   SolveError);
+    }
+}
+
+TEST(SlsqpFailures, AnInterruptedSearchReturnsTheBestSoFar)
+{
+  auto         problem = rosenbrock_on_circle();
+  unsigned int calls   = 0;
+  problem.evaluate     = [&, inner = problem.evaluate](const auto &x) {
+    if (++calls == 9)
+      throw Interrupted("SIGTERM");
+    return inner(x);
+  };
+  const auto result = minimize(problem, tight());
+  EXPECT_EQ(result.stop_reason, "interrupted");
+  EXPECT_FALSE(result.success);
+  EXPECT_EQ(calls, 9u);
+  EXPECT_EQ(problem.evaluate(result.x).objective, result.objective_final);
+
+  Hooks hooks;
+  hooks.on_iteration = [](const Iteration &iteration) {
+    if (iteration.number == 2)
+      throw Interrupted("SIGTERM");
+  };
+  EXPECT_EQ(minimize(problem, tight(), hooks).stop_reason, "interrupted");
+}
+
+TEST(SlsqpFailures, NoiseEndsTheSearchCloseToTheMinimum)
+{
+  // A solver tolerance's worth of noise: neither a hang nor a bad design.
+  const Knapsack knapsack(9);
+  auto           problem = knapsack.problem();
+  problem.evaluate       = [inner = problem.evaluate](const auto &x) {
+    auto value = inner(x);
+    value.objective *=
+      1. + 1e-7 * std::sin(1e9 * std::accumulate(x.begin(), x.end(), 0.1));
+    return value;
+  };
+  const auto result = minimize(problem, tight());
+  EXPECT_LE(result.constraint_violation, 1e-8);
+  // sqrt(1e-7) = 3e-4 in x times the problem's condition (5)
+  EXPECT_LT(distance(result.x, knapsack.solution()), 2e-3);
+  EXPECT_LE(result.evaluations, 200u);
+}

@@ -1,0 +1,281 @@
+#include <snug/base/errors.h>
+#include <snug/optimization/journal.h>
+#include <snug/optimization/minimize.h>
+
+#include <gtest/gtest.h>
+
+#include "warm_problem.h"
+
+using namespace snug;
+using namespace snug::optimization;
+
+namespace
+{
+  void
+  expect_same_bits(const Evaluation &a, const Evaluation &b)
+  {
+    EXPECT_TRUE(same_bits({a.objective}, {b.objective}));
+    EXPECT_TRUE(same_bits(a.gradient, b.gradient));
+    EXPECT_TRUE(same_bits(a.constraints, b.constraints));
+    EXPECT_TRUE(same_bits(a.notes, b.notes));
+    ASSERT_EQ(a.jacobian.size(), b.jacobian.size());
+    for (unsigned int j = 0; j < a.jacobian.size(); ++j)
+      EXPECT_TRUE(same_bits(a.jacobian[j], b.jacobian[j]));
+  }
+
+  void
+  expect_same_path(const WarmProblem &a, const WarmProblem &b)
+  {
+    ASSERT_EQ(a.path.size(), b.path.size());
+    for (unsigned int i = 0; i < a.path.size(); ++i)
+      {
+        EXPECT_TRUE(same_bits(a.path[i].x, b.path[i].x)) << i;
+        EXPECT_EQ(a.path[i].evaluations, b.path[i].evaluations);
+        expect_same_bits(a.path[i].evaluation, b.path[i].evaluation);
+      }
+  }
+
+  void
+  run_until_killed(WarmProblem       &problem,
+                   WarmProblem::Where where,
+                   unsigned int       when)
+  {
+    problem.where = where;
+    problem.when  = when;
+    EXPECT_THROW(problem.run(), std::runtime_error);
+  }
+} // namespace
+
+TEST(Journal, ARunWithoutRestartDiffersInNothing)
+{
+  Folder      folder;
+  WarmProblem journaled(folder.path);
+  journaled.run();
+  // the scene tests what it should: failures and a long enough path
+  EXPECT_NE(folder.text().find("tangled cell 5"), std::string::npos);
+  EXPECT_GE(journaled.n_live, 10u);
+  EXPECT_EQ(journaled.n_replayed, 0u);
+
+  WarmProblem replayed(folder.path, true);
+  const auto  before = folder.text();
+  const auto  result = replayed.run();
+  EXPECT_EQ(replayed.n_live, 0u);
+  EXPECT_EQ(replayed.n_replayed, result.evaluations);
+  EXPECT_EQ(folder.text(), before);
+  expect_same_path(journaled, replayed);
+
+  // not a restart: from the beginning
+  WarmProblem again(folder.path);
+  again.run();
+  EXPECT_EQ(again.n_live, journaled.n_live);
+  EXPECT_EQ(folder.text(), before);
+}
+
+TEST(Journal, KilledAnywhereTheRestartTakesTheSamePathBitForBit)
+{
+  Folder      folder;
+  WarmProblem whole(folder.path);
+  whole.run();
+  const std::string text = folder.text();
+
+  using Where = WarmProblem::Where;
+  for (const Where where :
+       {Where::evaluating, Where::before_saving, Where::after_saving})
+    for (unsigned int kill = 0; kill < whole.n_live; ++kill)
+      {
+        WarmProblem first(folder.path);
+        run_until_killed(first, where, kill);
+        WarmProblem second(folder.path, true);
+        second.run();
+        EXPECT_EQ(second.n_replayed, kill);
+        EXPECT_EQ(second.n_live, whole.n_live - kill);
+        EXPECT_EQ(folder.text(), text);
+        expect_same_path(whole, second);
+      }
+}
+
+TEST(Journal, KilledWhileWritingTheRecordTheRestartIsTheSameToo)
+{
+  Folder      folder;
+  WarmProblem whole(folder.path);
+  whole.run();
+  const std::string text = folder.text();
+  for (unsigned int kill = 1; kill < whole.n_live; ++kill)
+    for (const double kept : {0., 0.3, 0.99})
+      {
+        WarmProblem first(folder.path);
+        run_until_killed(first, WarmProblem::Where::evaluating, kill);
+        const std::string complete = folder.text();
+        const std::size_t begin =
+          complete.find("record " + std::to_string(kill - 1) + " on");
+        folder.write(complete.substr(
+          0, begin + std::size_t(kept * (complete.size() - begin))));
+        WarmProblem second(folder.path, true);
+        second.run();
+        EXPECT_EQ(second.n_replayed, kill - 1);
+        EXPECT_EQ(folder.text(), text);
+        expect_same_path(whole, second);
+      }
+}
+
+TEST(Journal, KilledAgainAndAgainItStillArrives)
+{
+  Folder      folder;
+  WarmProblem whole(folder.path);
+  whole.run();
+  const std::string text = folder.text();
+  folder.write("");
+  for (unsigned int kill = 1; kill < whole.n_live; kill += 2)
+    {
+      WarmProblem part(folder.path, true);
+      run_until_killed(part, WarmProblem::Where::evaluating, kill);
+    }
+  WarmProblem last(folder.path, true);
+  last.run();
+  EXPECT_EQ(folder.text(), text);
+  expect_same_path(whole, last);
+}
+
+TEST(Journal, ASolveErrorIsReplayedAsOneAndOthersAreNotRecorded)
+{
+  Folder       folder;
+  unsigned int calls    = 0;
+  const auto   evaluate = [&](const std::vector<double> &x) -> Evaluation {
+    ++calls;
+    if (x[0] > 0.)
+      throw SolveError("no equilibrium");
+    throw Interrupted("SIGTERM");
+  };
+  JournalSettings settings;
+  settings.directory    = folder.path;
+  settings.communicator = MPI_COMM_WORLD;
+  {
+    Journal journal(settings, evaluate);
+    EXPECT_THROW(journal.evaluate({1.}), SolveError);
+    EXPECT_THROW(journal.evaluate({-1.}), Interrupted);
+  }
+  settings.restart = true;
+  Journal journal(settings, evaluate);
+  EXPECT_EQ(journal.n_records(), 1u);
+  try
+    {
+      journal.evaluate({1.});
+      FAIL();
+    }
+  catch (const TangledMesh &)
+    {
+      FAIL();
+    }
+  catch (const SolveError &error)
+    {
+      EXPECT_STREQ(error.what(), "no equilibrium");
+    }
+  EXPECT_EQ(calls, 2u);
+}
+
+TEST(Journal, AnotherDesignCutsTheRecordAndStartsCold)
+{
+  Folder      folder;
+  WarmProblem first(folder.path);
+  first.run();
+  WarmProblem second(folder.path, true);
+  const auto  evaluate = [&](const std::vector<double> &x) {
+    return second.live(x);
+  };
+  {
+    Journal journal(second.settings, evaluate);
+    journal.evaluate({0.1, 0.9});
+    journal.evaluate({0.2, 0.8});
+    EXPECT_EQ(journal.n_replayed(), 1u);
+    EXPECT_EQ(journal.n_records(), 2u);
+  }
+  EXPECT_NE(second.log.find("another design"), std::string::npos);
+  EXPECT_EQ(second.n_loads, 0u);
+  const auto contents =
+    parse_journal(folder.text(), second.settings.fingerprint, "journal.txt");
+  ASSERT_EQ(contents.records.size(), 2u);
+  EXPECT_EQ(contents.records[1].x, (std::vector<double>{0.2, 0.8}));
+}
+
+TEST(Journal, CutAndKilledBeforeTheNextRecordItHasNoStaleWarmStart)
+{
+  Folder      folder;
+  WarmProblem first(folder.path);
+  run_until_killed(first, WarmProblem::Where::evaluating, 3);
+  const auto cut_and_die = [&] {
+    WarmProblem second(folder.path, true);
+    Journal     journal(second.settings,
+                    [](const auto &) -> Evaluation { throw Killed(); });
+    journal.evaluate({0.1, 0.9});
+    EXPECT_THROW(journal.evaluate({0.2, 0.8}), Killed);
+    return second.n_loads;
+  };
+  EXPECT_EQ(cut_and_die(), 0u);
+  EXPECT_EQ(cut_and_die(), 0u);
+}
+
+TEST(Journal, RefusesTheJournalOfAnotherProblemSayingWhich)
+{
+  Folder      folder;
+  WarmProblem first(folder.path);
+  first.run();
+  WarmProblem second(folder.path, true);
+  second.settings.fingerprint = "variables = 2\nobjective = compliance";
+  try
+    {
+      second.run();
+      FAIL();
+    }
+  catch (const InputError &error)
+    {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("journal.txt"), std::string::npos) << message;
+      EXPECT_NE(message.find("objective = energy"), std::string::npos);
+      EXPECT_NE(message.find("objective = compliance"), std::string::npos);
+      EXPECT_EQ(message.find("variables"), std::string::npos);
+    }
+}
+
+TEST(Journal, OnAnotherNumberOfRanksItStartsColdAndSaysSo)
+{
+  Folder      folder;
+  WarmProblem first(folder.path);
+  run_until_killed(first, WarmProblem::Where::evaluating, 6);
+  std::string       text  = folder.text();
+  const std::string ranks = " on " + std::to_string(n_all_ranks()) + " ranks";
+  for (auto at = text.find(ranks); at != std::string::npos;
+       at      = text.find(ranks, at + 1))
+    text.replace(at, ranks.size(), " on 17 ranks");
+  folder.write(text);
+  for (unsigned int attempt = 0; attempt < 2; ++attempt)
+    {
+      WarmProblem second(folder.path, true);
+      run_until_killed(second, WarmProblem::Where::evaluating, 6);
+      EXPECT_EQ(second.n_loads, 0u);
+      EXPECT_NE(second.log.find("17 ranks"), std::string::npos);
+    }
+  WarmProblem third(folder.path, true);
+  EXPECT_NO_THROW(third.run());
+  EXPECT_EQ(third.n_replayed, 6u);
+}
+
+TEST(Journal, StartsColdTogetherIfOneRankLostItsData)
+{
+  Folder      folder;
+  WarmProblem first(folder.path);
+  run_until_killed(first, WarmProblem::Where::evaluating, 6);
+  const int loser = n_all_ranks() - 1;
+  if (this_rank() == loser)
+    std::filesystem::remove(folder.path + "/warm-start." +
+                            std::to_string(loser) + ".1");
+  WarmProblem second(folder.path, true);
+  EXPECT_NO_THROW(second.run());
+  EXPECT_EQ(second.n_loads, 0u);
+  EXPECT_NE(second.log.find("no warm-start data"), std::string::npos);
+}
+
+TEST(Journal, SaysWhereItCannotWrite)
+{
+  WarmProblem problem("/nowhere/at/all");
+  EXPECT_THROW(problem.run(), InputError);
+}

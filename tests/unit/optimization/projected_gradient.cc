@@ -1,0 +1,98 @@
+#include <snug/optimization/projected_gradient.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace snug::optimization;
+
+namespace
+{
+  std::vector<double>
+  random_vector(std::mt19937 &random, const unsigned int n)
+  {
+    std::normal_distribution<double> normal;
+    std::vector<double>              v(n);
+    for (double &entry : v)
+      entry = normal(random);
+    return v;
+  }
+
+  double
+  projected_norm(const std::vector<double> &r, const std::vector<Place> &places)
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < r.size(); ++i)
+      if (places[i] == Place::inside ||
+          (places[i] == Place::at_lower && r[i] < 0.) ||
+          (places[i] == Place::at_upper && r[i] > 0.))
+        sum += r[i] * r[i];
+    return std::sqrt(sum);
+  }
+} // namespace
+
+TEST(ProjectedGradient, IsZeroAtAPointOfKarushKuhnAndTucker)
+{
+  std::mt19937       random(3);
+  const auto         row_0 = random_vector(random, 20);
+  const auto         row_1 = random_vector(random, 20);
+  auto               g     = random_vector(random, 20);
+  std::vector<Place> places(20, Place::inside);
+  for (unsigned int i = 0; i < 20; ++i)
+    {
+      const double sign = i < 5 ? 1. : i < 9 ? -1. : 0.;
+      places[i]         = i < 5    ? Place::at_lower
+                          : i < 9  ? Place::at_upper
+                          : i < 10 ? Place::fixed
+                                   : Place::inside;
+      g[i] =
+        3. * row_0[i] - 2. * row_1[i] + (i == 9 ? 11. : sign * std::abs(g[i]));
+    }
+  EXPECT_NEAR(projected_gradient_norm(g, {row_0, row_1}, places), 0., 1e-13);
+  // a dependent row changes nothing
+  EXPECT_NEAR(projected_gradient_norm(g, {row_0, row_1, row_0}, places),
+              0.,
+              1e-13);
+  // a bound multiplier of the wrong sign does
+  g[2] -= 50. * std::abs(g[2]) + 50.;
+  EXPECT_GT(projected_gradient_norm(g, {row_0, row_1}, places), 1.);
+}
+
+TEST(ProjectedGradient, IsTheMinimumOverTheMultiplier)
+{
+  // Compared with a scan over mu, bounds at random.
+  std::mt19937 random(5);
+  for (unsigned int sample = 0; sample < 20; ++sample)
+    {
+      const auto         g = random_vector(random, 12);
+      const auto         a = random_vector(random, 12);
+      std::vector<Place> places(12);
+      for (Place &place : places)
+        place = static_cast<Place>(random() % 4);
+      double scanned = 1e300;
+      for (double mu = -50.; mu < 50.; mu += 1e-3)
+        {
+          auto r = g;
+          for (unsigned int i = 0; i < r.size(); ++i)
+            r[i] += mu * a[i];
+          scanned = std::min(scanned, projected_norm(r, places));
+        }
+      const double computed = projected_gradient_norm(g, {a}, places);
+      EXPECT_LE(computed, scanned + 1e-12);
+      // the scan is off by half a step of 1e-3 at most
+      EXPECT_NEAR(computed, scanned, 4e-3);
+    }
+}
+
+TEST(ProjectedGradient, WithoutConstraintsOrBoundsIsTheNorm)
+{
+  EXPECT_DOUBLE_EQ(
+    projected_gradient_norm({3., -4.}, {}, {Place::inside, Place::inside}), 5.);
+  EXPECT_DOUBLE_EQ(projected_gradient_norm({3., -4.},
+                                           {},
+                                           {Place::at_lower, Place::at_upper}),
+                   0.);
+  EXPECT_DOUBLE_EQ(projected_gradient_norm({}, {}, {}), 0.);
+}

@@ -1,0 +1,192 @@
+#ifndef snug_unit_optimization_warm_problem_h
+#define snug_unit_optimization_warm_problem_h
+
+#include <snug/base/errors.h>
+#include <snug/optimization/journal.h>
+#include <snug/optimization/minimize.h>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "problems.h"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+/// What a kill looks like from inside.
+struct Killed : std::runtime_error
+{
+  Killed() : std::runtime_error("killed")
+  {
+  }
+};
+
+inline int
+this_rank()
+{
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+inline int
+n_all_ranks()
+{
+  int size;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
+
+/// A directory of its own, shared by the ranks, removed at the end.
+class Folder
+{
+public:
+  Folder()
+  {
+    int id = getpid();
+    MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    path = (std::filesystem::temp_directory_path() /
+            ("snug-journal-" + std::to_string(id)))
+             .string();
+    if (this_rank() == 0)
+      std::filesystem::create_directory(path);
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+  ~Folder()
+  {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (this_rank() == 0)
+      std::filesystem::remove_all(path);
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  std::string
+  text() const
+  {
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::ifstream      in(path + "/journal.txt", std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    MPI_Barrier(MPI_COMM_WORLD);
+    return text.str();
+  }
+
+  void
+  write(const std::string &text) const
+  {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (this_rank() == 0)
+      std::ofstream(path + "/journal.txt", std::ios::binary) << text;
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  std::string path;
+};
+
+/// A design problem whose values depend, at 1e-9, on the designs before:
+/// like a solver that starts warm. It can be killed.
+class WarmProblem
+{
+public:
+  enum class Where
+  {
+    nowhere,
+    evaluating,
+    before_saving,
+    after_saving
+  };
+
+  explicit WarmProblem(const std::string &directory, bool restart = false)
+    : problem(with_hole(rosenbrock_on_circle(), 0.6, 10.))
+  {
+    settings.directory       = directory;
+    settings.fingerprint     = "variables = 2\nobjective = energy";
+    settings.restart         = restart;
+    settings.communicator    = MPI_COMM_WORLD;
+    settings.save_warm_start = [this](unsigned int       index,
+                                      const std::string &path) {
+      die(Where::before_saving, index);
+      std::ofstream(path) << std::hexfloat << memory + this_rank() << ' '
+                          << index;
+      die(Where::after_saving, index);
+    };
+    settings.load_warm_start = [this](unsigned int       index,
+                                      const std::string &path) {
+      ++n_loads;
+      std::ifstream in(path);
+      std::string   number;
+      unsigned int  written = 1000;
+      in >> number >> written;
+      memory = std::strtod(number.c_str(), nullptr) - this_rank();
+      EXPECT_EQ(written, index);
+    };
+    settings.log = [this](const std::string &line) { log += line + '\n'; };
+  }
+
+  snug::optimization::Evaluation
+  live(const std::vector<double> &x)
+  {
+    die(Where::evaluating, live_before + n_live);
+    ++n_live;
+    // exact in binary: saved as memory + rank
+    memory     = std::floor(memory / 2. + 1000. * x[0] + 100. * x[1]);
+    auto value = problem.evaluate(x);
+    value.objective += 1e-9 * std::sin(memory);
+    value.notes = {memory, 0.1 * x[0]};
+    return value;
+  }
+
+  snug::optimization::OptimizationResult
+  run()
+  {
+    snug::optimization::Journal journal(settings,
+                                        [this](const std::vector<double> &x) {
+                                          return live(x);
+                                        });
+    live_before                                 = journal.n_records();
+    snug::optimization::DesignProblem journaled = problem;
+    journaled.evaluate = [&](const std::vector<double> &x) {
+      return journal.evaluate(x);
+    };
+    snug::optimization::Hooks hooks;
+    hooks.on_iteration =
+      [this](const snug::optimization::Iteration &iteration) {
+        path.push_back(iteration);
+      };
+    snug::optimization::OptimizationParameters parameters;
+    parameters.maximum_evaluations = 40;
+    const auto result              = minimize(journaled, parameters, hooks);
+    n_replayed                     = journal.n_replayed();
+    return result;
+  }
+
+  snug::optimization::JournalSettings        settings;
+  std::string                                log;
+  std::vector<snug::optimization::Iteration> path;
+  unsigned int n_live = 0, n_loads = 0, n_replayed = 0;
+  Where        where = Where::nowhere;
+  unsigned int when  = 0;
+
+private:
+  void
+  die(Where place, unsigned int index) const
+  {
+    if (where == place && when == index)
+      throw Killed();
+  }
+
+  snug::optimization::DesignProblem problem;
+  double                            memory      = 0.;
+  unsigned int                      live_before = 0;
+};
+
+inline bool
+same_bits(const std::vector<double> &a, const std::vector<double> &b)
+{
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+#endif
