@@ -27,7 +27,7 @@ namespace snug
         mesh = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
                                                      mesh_parameters(scene),
                                                      scene.degree);
-        tearing = mesh::tear(*mesh, scene.subdomains);
+        tearing = mesh::tear(*mesh, scene.tearing);
         shape::BodyNames names;
         for (const auto &body : scene.bodies)
           names.names.push_back(body.name);

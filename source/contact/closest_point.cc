@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace snug
 {
@@ -28,12 +29,6 @@ namespace snug
                        const dealii::Tensor<1, dim>              &p)
           : shape(shape), nodes(nodes), p(p)
         {
-        }
-
-        double
-        phi(const dealii::Point<dim - 1> &xi)
-        {
-          return expand(xi).phi;
         }
 
         DistanceExpansion<dim>
@@ -115,8 +110,10 @@ namespace snug
               break;
             newton = at.gauss_newton;
           }
-        dealii::Tensor<1, dim - 1> step = -(dealii::invert(newton) * slope);
-        bool                       bad  = !positive_definite(newton);
+        dealii::Tensor<1, dim - 1> step;
+        bool                       bad = !positive_definite(newton);
+        if (!bad)
+          step = -(dealii::invert(newton) * slope);
         for (int i = 0; i < dim - 1; ++i)
           bad = bad || held(xi[i], -step[i]);
         if (bad)
@@ -125,25 +122,78 @@ namespace snug
         return step;
       }
 
+      /// A grid of samples of phi; those no neighbour of which is closer.
       template <int dim>
-      dealii::Point<dim - 1>
-      best_sample(const FaceShape<dim> &shape, DistanceToFace<dim> &distance)
+      std::vector<dealii::Point<dim - 1>>
+      starting_points(const FaceShape<dim> &shape,
+                      DistanceToFace<dim>  &distance)
       {
-        const unsigned int     n = 2 * shape.degree() + 1;
-        dealii::Point<dim - 1> best, xi;
-        double                 least = distance.phi(best);
-        for (unsigned int sample = 1; sample < (dim == 2 ? n : n * n); ++sample)
+        const int                           n    = 2 * shape.degree() + 1;
+        const int                           rows = dim == 2 ? 1 : n;
+        std::vector<dealii::Point<dim - 1>> points;
+        std::vector<double>                 phi;
+        for (int j = 0; j < rows; ++j)
+          for (int i = 0; i < n; ++i)
+            {
+              dealii::Point<dim - 1> xi;
+              xi[dim - 2] = j / (n - 1.);
+              xi[0]       = i / (n - 1.);
+              points.push_back(xi);
+              phi.push_back(distance.expand(xi).phi);
+            }
+        std::vector<dealii::Point<dim - 1>> starts;
+        for (int j = 0; j < rows; ++j)
+          for (int i = 0; i < n; ++i)
+            {
+              bool least = true;
+              for (int b = std::max(0, j - 1); b <= std::min(rows - 1, j + 1);
+                   ++b)
+                for (int a = std::max(0, i - 1); a <= std::min(n - 1, i + 1);
+                     ++a)
+                  least = least && phi[a + n * b] >= phi[i + n * j];
+              if (least)
+                starts.push_back(points[i + n * j]);
+            }
+        return starts;
+      }
+
+      /// Projected Newton iteration from @p xi.
+      template <int dim>
+      ClosestPoint<dim>
+      descend(DistanceToFace<dim> &distance, dealii::Point<dim - 1> xi)
+      {
+        // Round-off of phi in units of phi, and of xi
+        const double           phi_noise = 1e-15, converged = 1e-15;
+        const unsigned int     max_iterations = 100;
+        DistanceExpansion<dim> at             = distance.expand(xi);
+        for (unsigned int iteration = 0; iteration < max_iterations;
+             ++iteration)
           {
-            xi[0]            = (sample % n) / (n - 1.);
-            xi[dim - 2]      = (dim == 2 ? sample : sample / n) / (n - 1.);
-            const double phi = distance.phi(xi);
-            if (phi < least)
+            const dealii::Tensor<1, dim - 1> step = newton_step<dim>(xi, at);
+            double                           move = 0.;
+            for (double length = 1.; length > 1e-10; length *= 0.5)
               {
-                least = phi;
-                best  = xi;
+                dealii::Point<dim - 1>     trial = xi + length * step;
+                dealii::Tensor<1, dim - 1> moved;
+                for (int i = 0; i < dim - 1; ++i)
+                  {
+                    trial[i] = std::min(1., std::max(0., trial[i]));
+                    moved[i] = trial[i] - xi[i];
+                  }
+                const DistanceExpansion<dim> next = distance.expand(trial);
+                if (next.phi <=
+                    at.phi * (1. + phi_noise) + 1e-4 * (at.gradient * moved))
+                  {
+                    move = moved.norm();
+                    xi   = trial;
+                    at   = next;
+                    break;
+                  }
               }
+            if (move <= converged)
+              break;
           }
-        return best;
+        return {xi, at.offset, at.offset.norm_square()};
       }
     } // namespace
 
@@ -153,39 +203,17 @@ namespace snug
                   const std::vector<dealii::Tensor<1, dim>> &nodes,
                   const dealii::Tensor<1, dim>              &p)
     {
-      // Round-off of phi in units of phi, and of xi
-      const double           phi_noise = 1e-15, converged = 1e-15;
-      const unsigned int     max_iterations = 100;
-      DistanceToFace<dim>    distance(shape, nodes, p);
-      dealii::Point<dim - 1> xi = best_sample(shape, distance);
-      DistanceExpansion<dim> at = distance.expand(xi);
-      for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+      DistanceToFace<dim> distance(shape, nodes, p);
+      ClosestPoint<dim>   best;
+      best.squared_distance = std::numeric_limits<double>::infinity();
+      for (const auto &start : starting_points<dim>(shape, distance))
         {
-          const dealii::Tensor<1, dim - 1> step = newton_step<dim>(xi, at);
-          double                           move = 0.;
-          for (double length = 1.; length > 1e-10; length *= 0.5)
-            {
-              dealii::Point<dim - 1>     trial = xi + length * step;
-              dealii::Tensor<1, dim - 1> moved;
-              for (int i = 0; i < dim - 1; ++i)
-                {
-                  trial[i] = std::min(1., std::max(0., trial[i]));
-                  moved[i] = trial[i] - xi[i];
-                }
-              const DistanceExpansion<dim> next = distance.expand(trial);
-              if (next.phi <=
-                  at.phi * (1. + phi_noise) + 1e-4 * (at.gradient * moved))
-                {
-                  move = moved.norm();
-                  xi   = trial;
-                  at   = next;
-                  break;
-                }
-            }
-          if (move <= converged)
-            break;
+          const ClosestPoint<dim> found = descend<dim>(distance, start);
+          if (found.squared_distance < best.squared_distance)
+            best = found;
         }
-      return {xi, at.offset + p, at.offset.norm_square()};
+      best.position += p;
+      return best;
     }
 
     template ClosestPoint<2>

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <cmath>
 #include <map>
 
 namespace snug

@@ -193,15 +193,22 @@ namespace snug
     qp::MultiVector
     RowLayout::to_owned(const qp::MultiVector &local) const
     {
-      const unsigned int  k    = local.n_columns();
-      const auto          leaf = interleave(local);
-      std::vector<double> root(std::size_t(n_owned()) * k, 0.);
-      const DoubleTuple   type(k);
-      check(PetscSFReduceBegin(
-        row_forest, type, leaf.data(), root.data(), MPI_SUM));
-      check(
-        PetscSFReduceEnd(row_forest, type, leaf.data(), root.data(), MPI_SUM));
-      return deinterleave(root, n_owned(), k);
+      // PETSc sums only plain numbers: one column at a time
+      qp::MultiVector owned(n_owned(), local.n_columns());
+      for (unsigned int j = 0; j < local.n_columns(); ++j)
+        {
+          check(PetscSFReduceBegin(row_forest,
+                                   MPI_DOUBLE,
+                                   local.column(j),
+                                   owned.column(j),
+                                   MPI_SUM));
+          check(PetscSFReduceEnd(row_forest,
+                                 MPI_DOUBLE,
+                                 local.column(j),
+                                 owned.column(j),
+                                 MPI_SUM));
+        }
+      return owned;
     }
 
     std::vector<double>

@@ -67,7 +67,7 @@ namespace snug
     {
       if (program.blas != "reference")
         return "";
-      return "warning: the reference BLAS is in use; factorizations are 3 to "
+      return "the reference BLAS is in use; factorizations are 3 to "
              "10 times faster with OpenBLAS (sudo apt install "
              "libopenblas0-serial)";
     }

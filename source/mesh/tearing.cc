@@ -1,15 +1,11 @@
+#include <snug/mesh/partition.h>
 #include <snug/mesh/tearing.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace snug
 {
@@ -17,9 +13,6 @@ namespace snug
   {
     namespace
     {
-      /// Adjacency lists of the cells of one body, in positions of @p cells.
-      using CellGraph = std::vector<std::vector<unsigned int>>;
-
       template <int dim>
       CellGraph
       cell_graph(const BodyMesh<dim>             &mesh,
@@ -39,28 +32,6 @@ namespace snug
             graph[b->second].push_back(a->second);
           }
         return graph;
-      }
-
-      std::vector<unsigned int>
-      metis_parts(const CellGraph &graph, unsigned int n_parts)
-      {
-        std::vector<unsigned int> part(graph.size(), 0);
-        if (n_parts <= 1)
-          return part;
-        if (n_parts >= graph.size())
-          {
-            std::iota(part.begin(), part.end(), 0);
-            return part;
-          }
-        dealii::DynamicSparsityPattern dynamic(graph.size(), graph.size());
-        for (unsigned int i = 0; i < graph.size(); ++i)
-          for (const unsigned int j : graph[i])
-            dynamic.add(i, j);
-        dealii::SparsityPattern pattern;
-        pattern.copy_from(dynamic);
-        dealii::SparsityTools::partition(
-          pattern, n_parts, part, dealii::SparsityTools::Partitioner::metis);
-        return part;
       }
 
       /// Split every part into its face-connected pieces, numbered by their
@@ -148,6 +119,22 @@ namespace snug
         return nodes;
       }
 
+      template <int dim>
+      std::vector<dealii::BoundingBox<dim>>
+      cell_boxes(const BodyMesh<dim>             &mesh,
+                 const std::vector<unsigned int> &cells)
+      {
+        std::vector<dealii::BoundingBox<dim>> boxes;
+        for (const unsigned int cell : cells)
+          {
+            std::vector<dealii::Point<dim>> corners;
+            for (const unsigned int node : mesh.cells()[cell].nodes)
+              corners.emplace_back(mesh.reference_positions()[node]);
+            boxes.emplace_back(corners);
+          }
+        return boxes;
+      }
+
       /// Cells of a subdomain that keep factorizations and coarse problem in
       /// balance: 5.5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
       /// degree, by their nodes.
@@ -161,11 +148,14 @@ namespace snug
 
     template <int dim>
     Tearing
-    tear(const BodyMesh<dim> &mesh, unsigned int wanted)
+    tear(const BodyMesh<dim> &mesh, const TearingParameters &parameters)
     {
       const double cells_each =
-        wanted == 0 ? cells_per_subdomain<dim>(mesh.degree()) :
-                      double(mesh.n_global_cells()) / wanted;
+        parameters.subdomains == 0 ?
+          cells_per_subdomain<dim>(mesh.degree()) :
+                      double(mesh.n_global_cells()) / parameters.subdomains;
+      const auto &partition =
+        choose(partition_table<dim>(), parameters.method).make;
       Tearing tearing;
       for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
         {
@@ -176,9 +166,10 @@ namespace snug
           if (cells.empty())
             continue;
           const CellGraph    graph = cell_graph(mesh, cells);
+          const auto         boxes = cell_boxes(mesh, cells);
           const unsigned int n     = std::max(
             1u, static_cast<unsigned int>(std::lround(cells.size() / cells_each)));
-          std::vector<unsigned int> part    = metis_parts(graph, n);
+          std::vector<unsigned int> part    = partition(graph, boxes, n);
           unsigned int              n_parts = split_into_pieces(graph, part);
           n_parts = merge_slivers(graph, part, n_parts, n);
           std::vector<Subdomain> pieces(n_parts);
@@ -206,8 +197,8 @@ namespace snug
     }
 
     template Tearing
-    tear(const BodyMesh<2> &, unsigned int);
+    tear(const BodyMesh<2> &, const TearingParameters &);
     template Tearing
-    tear(const BodyMesh<3> &, unsigned int);
+    tear(const BodyMesh<3> &, const TearingParameters &);
   } // namespace mesh
 } // namespace snug

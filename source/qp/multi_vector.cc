@@ -1,5 +1,7 @@
 #include <snug/qp/multi_vector.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <petscsys.h>
 
 #include <petscblaslapack.h>
@@ -14,11 +16,14 @@ namespace snug
       : rows(n_rows)
       , columns(n_columns)
       , values(std::size_t(n_rows) * n_columns, 0.)
-    {}
+    {
+    }
 
     void
     MultiVector::add(double factor, const MultiVector &x)
     {
+      Assert(rows == x.rows && columns == x.columns,
+             dealii::ExcDimensionMismatch(columns, x.columns));
       for (std::size_t i = 0; i < values.size(); ++i)
         values[i] += factor * x.values[i];
     }
@@ -28,36 +33,52 @@ namespace snug
                              const MultiVector &x,
                              const MultiVector &C)
     {
-      const PetscBLASInt m = rows, n = columns, k = x.columns;
+      Assert(rows == x.rows && x.columns == C.rows && columns == C.columns,
+             dealii::ExcDimensionMismatch(x.columns, C.rows));
+      const PetscBLASInt m = rows, n = columns, k = x.columns, stride = 1;
       const double       one = 1.;
       if (m == 0 || n == 0 || k == 0)
         return;
-      BLASgemm_("N",
-                "N",
-                &m,
-                &n,
-                &k,
-                &factor,
-                x.column(0),
-                &m,
-                C.column(0),
-                &k,
-                &one,
-                column(0),
-                &m);
+      if (n == 1)
+        BLASgemv_("N",
+                  &m,
+                  &k,
+                  &factor,
+                  x.column(0),
+                  &m,
+                  C.column(0),
+                  &stride,
+                  &one,
+                  column(0),
+                  &stride);
+      else
+        BLASgemm_("N",
+                  "N",
+                  &m,
+                  &n,
+                  &k,
+                  &factor,
+                  x.column(0),
+                  &m,
+                  C.column(0),
+                  &k,
+                  &one,
+                  column(0),
+                  &m);
     }
 
     void
     MultiVector::append(const MultiVector &x)
     {
+      Assert(rows == x.rows, dealii::ExcDimensionMismatch(rows, x.rows));
       values.insert(values.end(), x.values.begin(), x.values.end());
-      rows = x.rows;
       columns += x.columns;
     }
 
     MultiVector
     MultiVector::columns_from(unsigned int first, unsigned int n) const
     {
+      AssertIndexRange(first + n, columns + 1);
       MultiVector part(rows, n);
       part.values.assign(column(first), column(first) + std::size_t(n) * rows);
       return part;
@@ -66,10 +87,25 @@ namespace snug
     MultiVector
     inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm)
     {
-      MultiVector        products(X.n_columns(), Y.n_columns());
+      MultiVector products(X.n_columns(), Y.n_columns());
+      Assert(X.n_rows() == Y.n_rows(),
+             dealii::ExcDimensionMismatch(X.n_rows(), Y.n_rows()));
       const PetscBLASInt m = X.n_columns(), n = Y.n_columns(), k = X.n_rows();
+      const PetscBLASInt stride = 1;
       const double       one = 1., zero = 0.;
-      if (k > 0 && m > 0 && n > 0)
+      if (k > 0 && m > 0 && n == 1)
+        BLASgemv_("T",
+                  &k,
+                  &m,
+                  &one,
+                  X.column(0),
+                  &k,
+                  Y.column(0),
+                  &stride,
+                  &zero,
+                  products.column(0),
+                  &stride);
+      else if (k > 0 && m > 0 && n > 0)
         BLASgemm_("T",
                   "N",
                   &m,

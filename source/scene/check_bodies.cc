@@ -1,7 +1,9 @@
+#include <snug/mesh/formula.h>
 #include <snug/scene/check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace snug
@@ -81,15 +83,16 @@ namespace snug
         check_refinement() const
         {
           const auto &mesh = body.mesh;
-          // p4est numbers at most 2^31 nodes, far beyond this.
-          constexpr double most  = 1e9;
+          // Every rank holds all coarse cells; p4est numbers at most 2^31
+          // nodes.
+          constexpr double most_coarse = 4e6, most = 1e9;
           double           cells = 1.;
           for (const unsigned int n : mesh.cells)
             cells *= n;
-          require(cells <= most,
+          require(cells <= most_coarse,
                   "Box cells",
                   to_text(mesh.cells),
-                  "must give at most 1e9 cells");
+                  "must give at most 4e6 cells; use 'Refinements' for more");
           require(mesh.refinements < 30 &&
                     cells * std::pow(2., dimension * mesh.refinements) <= most,
                   "Refinements",
@@ -110,7 +113,6 @@ namespace snug
         check_boundaries() const
         {
           const auto known = names();
-          require_known(known, "Curved faces", body.mesh.curved_faces);
           require_known(known, "Supports", body.supports);
           require_known(known, "Pressure", body.loads.pressure);
           require_known(known, "Traction", body.loads.traction);
@@ -208,26 +210,39 @@ namespace snug
                       did_you_mean(item.first, known));
         }
 
-        /// Boundary names of the mesh; it names its entries without ours.
+        /// Boundary names of the mesh; making it also checks its formulas.
         std::vector<std::string>
         names() const
         {
           try
             {
+              const auto       &formula = body.mesh.refine_where;
+              const std::string entry   = "Refine where";
+              if (!formula.empty() && dimension == 2)
+                mesh::Formula<2>(entry, formula);
+              if (!formula.empty() && dimension == 3)
+                mesh::Formula<3>(entry, formula);
               return boundary_names(body, dimension);
             }
           catch (const InputError &error)
             {
-              const std::string message = error.what();
-              const std::string begin   = "entry '";
-              const auto        quote   = message.find('\'', begin.size());
-              if (message.rfind(begin, 0) != 0 || quote == std::string::npos)
-                throw origins.error(path("Mesh"), body.mesh.source, message);
-              const std::string entry =
-                message.substr(begin.size(), quote - begin.size());
-              throw InputError(origins.of(path(entry)) + begin + path(entry) +
-                               message.substr(quote));
+              throw with_place(error.what());
             }
+        }
+
+        /// The error of a mesh, which names its entries "entry 'Box cells'",
+        /// with origin and section.
+        InputError
+        with_place(const std::string &message) const
+        {
+          const std::string begin = "entry '";
+          const auto        quote = message.find('\'', begin.size());
+          if (message.rfind(begin, 0) != 0 || quote == std::string::npos)
+            return origins.error(path("Mesh"), body.mesh.source, message);
+          const std::string entry =
+            path(message.substr(begin.size(), quote - begin.size()));
+          return InputError(origins.of(entry) + begin + entry +
+                            message.substr(quote));
         }
 
         unsigned int   dimension;

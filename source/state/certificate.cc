@@ -55,6 +55,30 @@ namespace snug
           }
         return worst;
       }
+      /// F_ii |lambda_i| of the row with the largest estimate, @p largest, of
+      /// it: exact for that row, so a lower bound of the maximum over rows.
+      double
+      largest_product(const feti::TotalFeti &feti,
+                      const qp::MultiVector &lambda,
+                      double                 largest)
+      {
+        const MPI_Comm comm = feti.context().communicator();
+        int rank = feti.context().rank(), owner = feti.context().n_ranks();
+        unsigned int row = feti.n_owned();
+        for (unsigned int i = 0; i < feti.n_owned(); ++i)
+          if (feti.diagonal()[i] * std::abs(lambda(i)) == largest)
+            row = std::min(row, i);
+        const int candidate = row < feti.n_owned() ? rank : owner;
+        MPI_Allreduce(&candidate, &owner, 1, MPI_INT, MPI_MIN, comm);
+        qp::MultiVector unit(feti.n_owned());
+        if (rank == owner)
+          unit(row) = 1.;
+        const auto column =
+          feti.multiply_B(feti.apply_inverse(feti.multiply_Bt(unit)));
+        double product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
+        MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
+        return product;
+      }
     } // namespace
 
     double
@@ -106,10 +130,11 @@ namespace snug
       const MPI_Comm comm = feti.context().communicator();
       MPI_Allreduce(MPI_IN_PLACE, largest, 5, MPI_DOUBLE, MPI_MAX, comm);
       MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
+      const double size = largest_product(feti, lambda, largest[4]);
       Certificate certificate;
       certificate.equilibrium       = equilibrium_error(feti, lambda, u);
-      certificate.continuity        = relative(largest[0], largest[4]);
-      certificate.penetration       = relative(largest[1], largest[4]);
+      certificate.continuity        = relative(largest[0], size);
+      certificate.penetration       = relative(largest[1], size);
       certificate.negative_pressure = relative(largest[2], largest[3]);
       certificate.complementarity =
         relative(std::abs(sums[0]), std::abs(sums[1]) / 2);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <iostream>
 
 namespace snug
 {
@@ -282,6 +283,7 @@ namespace snug
                                   state.dual.lambda,
                                   state.dual.amplitudes);
           state.certificate = certify(*feti, state.dual.lambda, state.u);
+          if(getenv("SNUG_TRACE")) std::cerr<<"CERT "<<state.certificate.equilibrium<<" "<<state.certificate.continuity<<" "<<state.certificate.penetration<<" "<<state.certificate.negative_pressure<<" "<<state.certificate.complementarity<<"\n";
           if (state.certificate.worst() <= wanted)
             {
               state.dual.outer_iterations = outer;

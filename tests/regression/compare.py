@@ -44,10 +44,11 @@ SPENT_KEYS = {f"{section}.{key}" for section in SPENT
 
 
 def select(summary, table):
-    """{"section.key": value} of the table's keys that the summary has."""
+    """{"section.key": value} of the table's keys that the summary has; null is
+    what the run did not compute."""
     return {f"{section}.{key}": summary[section][key]
-            for section, keys in table.items()
-            for key in keys if key in (summary.get(section) or {})}
+            for section, keys in table.items() for key in keys
+            if (summary.get(section) or {}).get(key) is not None}
 
 
 def is_number(value):

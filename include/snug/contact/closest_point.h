@@ -21,9 +21,10 @@ namespace snug
      *   min 1/2 |x(xi) - p|^2,  xi in [0,1]^(dim-1),
      * by Newton's method projected onto the bounds, with the Gauss-Newton
      * matrix where the Hessian is not positive definite (Bertsekas, SIAM J.
-     * Control Optim. 20, 1982), started from the closest of (2 degree + 1)
-     * samples per direction. Accurate to round-off, a local minimum only if
-     * the face is curved more than its distance to @p p.
+     * Control Optim. 20, 1982), from each local minimum of a grid of
+     * 2 degree + 1 samples per direction. Accurate to round-off; a quadratic
+     * face whose radius of curvature is below its distance to @p p may have
+     * minima that the grid misses.
      */
     template <int dim>
     ClosestPoint<dim>

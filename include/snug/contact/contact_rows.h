@@ -48,7 +48,8 @@ namespace snug
      * Rows are ordered by pair, then by the faces of the surface, which does
      * not depend on the number of ranks.
      *
-     * All functions of positions throw TangledMesh where a normal vanishes.
+     * All functions of positions throw TangledMesh where a normal vanishes or
+     * a position is not finite.
      */
     template <int dim>
     class NodalContact

@@ -26,8 +26,8 @@ namespace snug
      *
      * Derivatives along V at each Gauss point, with grad V = sum_a V_a (x) g_a
      * and g_a = grad N_a:
-     * g_a' = -(grad V)^T g_a, (det J)' = det J div V, (grad u)' = -grad u grad
-     * V.
+     * g_a' = -(grad V)^T g_a, (det J)' = det J div V,
+     * (grad u)' = -(grad u) (grad V).
      *
      * Nothing is checked here: a cell with quality() <= 0 gives meaningless or,
      * where det J = 0, infinite numbers.

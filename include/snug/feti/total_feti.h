@@ -111,6 +111,9 @@ namespace snug
 
       void
       gather_rows();
+      std::string
+      unheld_body(const qp::MultiVector &free,
+                  const qp::MultiVector &columns) const;
       void
       precondition(qp::MultiVector &x) const;
 

@@ -3,6 +3,9 @@
 
 #include <snug/mesh/body_mesh.h>
 
+#include <string>
+#include <vector>
+
 namespace snug
 {
   namespace mesh
@@ -25,15 +28,21 @@ namespace snug
       std::vector<unsigned int> first_id_of_rank; ///< n_ranks + 1 entries
     };
 
+    /// Entries of `subsection Decomposition`.
+    struct TearingParameters
+    {
+      unsigned int subdomains = 0; ///< of all ranks, a target; 0: by size
+      std::string  method     = "grid"; ///< a name of partition_table()
+    };
+
     /**
-     * Tear this rank's cells of each body with METIS into face-connected
-     * subdomains. @p wanted is the total number aimed at; 0 chooses it from
-     * the size (5 to 6 cells per subdomain edge in 3D, 12 in 2D for Q1).
-     * There is at least one per rank and body. Collective.
+     * Tear this rank's cells of each body into face-connected subdomains. The
+     * number by size aims at 5 to 6 Q1 cells per subdomain edge in 3D, 12 in
+     * 2D. There is at least one per rank and body. Collective.
      */
     template <int dim>
     Tearing
-    tear(const BodyMesh<dim> &mesh, unsigned int wanted);
+    tear(const BodyMesh<dim> &mesh, const TearingParameters &parameters);
   } // namespace mesh
 } // namespace snug
 

@@ -33,7 +33,7 @@ namespace snug
       WarmStartHook save_warm_start;
       /// Read back what save_warm_start wrote after evaluation `index`.
       WarmStartHook load_warm_start;
-      /// Receives one line, without its end.
+      /// Receives one line, without its end; called on every rank.
       std::function<void(const std::string &)> log;
     };
 

@@ -58,11 +58,12 @@ namespace snug
       void
       add(double factor, const MultiVector &x);
 
-      /// this += x * C with C (x.n_columns x n_columns), column by column.
+      /// this += factor * x * C with C (x.n_columns x n_columns).
       void
       add_product(double factor, const MultiVector &x, const MultiVector &C);
 
-      /// Append the columns of @p x.
+      /// Append the columns of @p x, which has as many rows. Start from
+      /// MultiVector(n_rows, 0): the default has one column.
       void
       append(const MultiVector &x);
 

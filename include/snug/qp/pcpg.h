@@ -11,21 +11,74 @@ namespace snug
     {
       unsigned int        iterations = 0;
       std::vector<double> residual_norms; ///< ||P_M (d_j - F lambda_j)||
-      bool                converged = false;
+      /// Every column is within its tolerance or zero up to rounding; false
+      /// if the iterations ran out or the residual no longer falls.
+      bool converged = false;
     };
 
     /**
      * Block preconditioned conjugate projected gradients with full
      * reorthogonalisation for the linear problems on a face,
      * @f[ P_M (d_j - F \lambda_j) = 0, \qquad j = 1, \dots, k. @f]
-     * All k columns share each application of F and of the preconditioner;
-     * converged or linearly dependent directions drop out of the block.
+     * Each iteration adds a block of directions
+     * @f$P_M M^{-1}_M P_M r_j@f$, one per column that is not converged, made
+     * F-orthonormal to all earlier ones, and minimizes all k columns over it.
+     * Linearly dependent directions are dropped before F is applied, so a
+     * block of equal columns costs what one of them does.
      *
-     * @param[in,out] lambda feasible start, then solution (n_owned x k).
-     * @param[in,out] residual d - F lambda for start and solution.
-     * @param[in] tolerances absolute, one per column.
-     * Collective. Costs one F-mult per column and iteration.
+     * The directions are kept: solving again on the same face, with tighter
+     * tolerances or corrected residuals, continues the iteration.
+     *
+     * Source: O'Leary, The block conjugate gradient algorithm, Linear Algebra
+     * Appl. 29 (1980); Farhat, Roux, An unconventional domain decomposition
+     * method, SIAM J. Sci. Stat. Comput. 13 (1992).
      */
+    class Pcpg
+    {
+    public:
+      /// Both must outlive this object.
+      Pcpg(const DualProblem &problem, const Face &face);
+
+      /**
+       * @param[in,out] lambda feasible start, then solution (n_owned x k).
+       * @param[in,out] residual d - F lambda for start and solution, updated
+       *   by recurrence.
+       * @param[in] tolerances absolute, one per column.
+       * Collective. Costs one F-mult per direction; with k = 1 and no earlier
+       * directions at most max_iterations.
+       */
+      PcpgResult
+      solve(MultiVector               &lambda,
+            MultiVector               &residual,
+            const std::vector<double> &tolerances,
+            unsigned int               max_iterations);
+
+    private:
+      /// Minimize over directions already there.
+      void
+      correct(MultiVector &lambda, MultiVector &residual) const;
+
+      /// x <- (I - P (F P)') x.
+      void
+      orthogonalise(MultiVector &x) const;
+
+      /// New directions from the projected residuals @p r.
+      MultiVector
+      directions(const MultiVector &r) const;
+
+      /// Append an F-orthonormal basis of @p Z and minimize over it; false
+      /// if F vanishes on Z up to rounding.
+      bool
+      step(const MultiVector &Z, MultiVector &lambda, MultiVector &residual);
+
+      const DualProblem &problem;
+      const Face        &face;
+      MPI_Comm           comm;
+      MultiVector        P, FP; ///< P' F P = I
+      double             largest_rayleigh_quotient = 0.;
+    };
+
+    /// Pcpg with an empty basis; the directions are forgotten. Collective.
     PcpgResult
     pcpg(const DualProblem         &problem,
          const Face                &face,
@@ -33,6 +86,17 @@ namespace snug
          MultiVector               &residual,
          const std::vector<double> &tolerances,
          unsigned int               max_iterations);
+
+    /**
+     * Rank-revealing Cholesky factorization of the symmetric positive
+     * semidefinite S (k x k): C (k x rank) with C' S C = I. Pivots (of S
+     * scaled to unit diagonal) below @p cut are dropped, and rows whose
+     * diagonal entry is not above their entry of @p smallest.
+     */
+    MultiVector
+    orthonormal_combinations(const MultiVector         &S,
+                             const std::vector<double> &smallest,
+                             double                     cut);
   } // namespace qp
 } // namespace snug
 

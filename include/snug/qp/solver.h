@@ -33,14 +33,14 @@ namespace snug
      */
     struct DualSolution
     {
-      MultiVector  lambda;     ///< n_owned x 1, >= 0 on bounded rows
-      MultiVector  residual;   ///< d - F lambda, n_owned x 1
-      MultiVector  amplitudes; ///< alpha, n_kernel x 1, on all ranks
-      RowSet       active;     ///< equality rows and active contact rows
-      double       kkt_residual     = 0.;
-      unsigned int outer_iterations = 0;
-      unsigned long f_mults         = 0;
-      std::string  method; ///< the solver that finished
+      MultiVector   lambda;     ///< n_owned x 1, >= 0 on bounded rows
+      MultiVector   residual;   ///< d - F lambda, n_owned x 1
+      MultiVector   amplitudes; ///< alpha, n_kernel x 1, on all ranks
+      RowSet        active;     ///< equality rows and active contact rows
+      double        kkt_residual     = 0.;
+      unsigned int  outer_iterations = 0;
+      unsigned long f_mults          = 0;
+      std::string   method; ///< the solver that finished
     };
 
     /// A solver of the dual QP.

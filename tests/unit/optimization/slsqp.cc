@@ -46,7 +46,9 @@ TEST(Slsqp, EndsByItsOwnToleranceWithinDefaults)
     << result.stop_reason;
   EXPECT_LE(result.constraint_violation, 1e-8);
   EXPECT_LT(distance(result.x, knapsack.solution()), 1e-3);
-  EXPECT_LE(result.iterations, result.evaluations);
+  // a convex quadratic is descended by full steps, almost without others
+  EXPECT_LT(result.iterations, result.evaluations);
+  EXPECT_GE(result.iterations + 4, result.evaluations);
 }
 
 TEST(Slsqp, FollowsRosenbrocksValleyAlongACircle)

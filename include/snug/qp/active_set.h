@@ -1,0 +1,53 @@
+#ifndef snug_qp_active_set_h
+#define snug_qp_active_set_h
+
+#include <snug/qp/solver.h>
+
+namespace snug
+{
+  namespace qp
+  {
+    /// When the active set solver takes a set it met before for a cycle.
+    struct CycleGuard
+    {
+      /// Visits of one set after which the inner problems are solved more
+      /// exactly; one more, and only one row changes per step.
+      unsigned int visits = 3;
+      /// Steps of one row each before the fall-back to SMALSE-M.
+      unsigned int single_steps = 50;
+    };
+
+    /**
+     * Inexact primal-dual active set method (a semismooth Newton method):
+     * rows of the active set M are equations, the others carry no force, and
+     * the linear problem on M is solved by Pcpg only as exactly as the set is
+     * known: to a tenth of the last KKT residual. Then
+     * @f[ M \leftarrow E \cup \{ i : \lambda_i + w_i / F_{ii} > 0 \}. @f]
+     * The start is lambda_Im on all rows, or that of an earlier solve. A set
+     * too small to balance the loads gains the contacts that close in the
+     * motion it leaves free. There is no proof of convergence for elasticity:
+     * sets met again lead to more exact inner solves, then to changes of one
+     * row (the one with the largest number), then to SMALSE-M.
+     *
+     * Source: Hintermüller, Ito, Kunisch, The primal-dual active set strategy
+     * as a semismooth Newton method, SIAM J. Optim. 13 (2003); Hüeber,
+     * Wohlmuth, A primal-dual active set strategy for non-linear multibody
+     * contact problems, Comput. Methods Appl. Mech. Engrg. 194 (2005).
+     */
+    class ActiveSet : public Solver
+    {
+    public:
+      explicit ActiveSet(const SolverParameters &parameters,
+                         const CycleGuard       &guard = CycleGuard());
+
+      DualSolution
+      solve(const DualProblem &problem, const WarmStart &start) const override;
+
+    private:
+      SolverParameters parameters;
+      CycleGuard       guard;
+    };
+  } // namespace qp
+} // namespace snug
+
+#endif

@@ -1,0 +1,112 @@
+#include <snug/app/command_line.h>
+#include <snug/app/failure.h>
+#include <snug/app/study.h>
+#include <snug/base/version.h>
+#include <snug/scene/read_scene.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <petscsys.h>
+
+#include <cstdlib>
+#include <iostream>
+
+namespace
+{
+  using namespace snug;
+
+  /// Rank of this process as its launcher (Open MPI, MPICH, Slurm) says, to
+  /// print what needs no MPI only once under mpirun.
+  bool
+  is_first_process()
+  {
+    for (const char *name :
+         {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
+      if (const char *rank = std::getenv(name))
+        return std::string(rank) == "0";
+    return true;
+  }
+
+  /// Print what --help, --version and --print-parameters ask for.
+  bool
+  answer(const app::Options &options, std::ostream &out)
+  {
+    if (options.help)
+      out << app::usage();
+    else if (options.version)
+      out << "snug " SNUG_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION
+             ", PETSc "
+          << PETSC_VERSION_MAJOR << '.' << PETSC_VERSION_MINOR << '.'
+          << PETSC_VERSION_SUBMINOR << ")\n";
+    else if (options.print_parameters)
+      scene::print_reference(out);
+    else
+      return false;
+    out << std::flush;
+    return true;
+  }
+
+  void
+  print_valid(const app::Options &options,
+              const scene::Scene &scene,
+              std::ostream       &out)
+  {
+    for (const auto &body : scene.bodies)
+      {
+        std::size_t cells = std::size_t(1)
+                            << scene.dimension * body.mesh.refinements;
+        for (const unsigned int n : body.mesh.cells)
+          cells *= n;
+        out << "body " << body.name << ": " << cells << " cells";
+        if (body.mesh.local_refinements > 0)
+          out << " before local refinement";
+        out << ", boundaries";
+        for (const auto &name : scene::boundary_names(body, scene.dimension))
+          out << ' ' << name;
+        out << '\n';
+      }
+    out << options.file << " is valid" << std::endl;
+  }
+
+  int
+  run(const app::Options &options)
+  {
+    RunContext         context(MPI_COMM_WORLD, std::cout);
+    const scene::Scene scene =
+      scene::read_scene({options.file,
+                         scene::read_text(options.file, MPI_COMM_WORLD),
+                         options.sets,
+                         options.output});
+    if (!options.validate)
+      return app::run_study(context, scene, options);
+    print_valid(options, scene, context.out());
+    return 0;
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
+  app::Options options;
+  try
+    {
+      options = app::parse(argc, argv);
+      std::ostream nowhere(nullptr);
+      if (answer(options, is_first_process() ? std::cout : nowhere))
+        return 0;
+    }
+  catch (const std::exception &error)
+    {
+      if (is_first_process())
+        std::cerr << "snug: " << app::one_line(error) << std::endl;
+      return app::exit_status(error);
+    }
+  // PETSc would take our options for its own and print its own help.
+  int                                      no_options = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(no_options, argv, 1);
+  // Errors arrive as exceptions of petsc::check() and are printed by us.
+  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
+  PetscPopSignalHandler();
+  return app::guarded(MPI_COMM_WORLD, [&options]() { return run(options); });
+}

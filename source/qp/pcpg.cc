@@ -1,0 +1,248 @@
+#include <snug/qp/pcpg.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace snug
+{
+  namespace qp
+  {
+    namespace
+    {
+      /// Projected residuals below this part of the residual are rounding.
+      const double rounding = 16. * std::numeric_limits<double>::epsilon();
+
+      /// Directions depend on each other if a pivot of their Gram matrix,
+      /// scaled to unit diagonal, is below this.
+      const double dependence_cut = 1e-12;
+
+      /// Iterations without a smaller residual that mean it is at its floor.
+      const unsigned int patience = 40;
+
+      MultiVector
+      selected_columns(const MultiVector               &x,
+                       const std::vector<unsigned int> &columns)
+      {
+        MultiVector part(x.n_rows(), 0);
+        for (const unsigned int j : columns)
+          part.append(x.columns_from(j, 1));
+        return part;
+      }
+
+      /// x * C
+      MultiVector
+      times(const MultiVector &x, const MultiVector &C)
+      {
+        MultiVector product(x.n_rows(), C.n_columns());
+        product.add_product(1., x, C);
+        return product;
+      }
+
+      std::vector<double>
+      diagonal_of(const MultiVector &S, double factor)
+      {
+        std::vector<double> diagonal(S.n_rows());
+        for (unsigned int i = 0; i < S.n_rows(); ++i)
+          diagonal[i] = factor * S(i, i);
+        return diagonal;
+      }
+
+      /// Remembers the smallest worst column and when it was reached.
+      class StagnationTest
+      {
+      public:
+        bool
+        stagnates(double worst)
+        {
+          ++waited;
+          if (worst < 0.99 * best)
+            {
+              best   = worst;
+              waited = 0;
+            }
+          return waited > patience;
+        }
+
+      private:
+        double       best   = std::numeric_limits<double>::infinity();
+        unsigned int waited = 0;
+      };
+    } // namespace
+
+    MultiVector
+    orthonormal_combinations(const MultiVector         &S,
+                             const std::vector<double> &smallest,
+                             double                     cut)
+    {
+      const unsigned int       k = S.n_rows();
+      MultiVector              C(k, 0);
+      std::vector<MultiVector> candidates; // S-orthogonal to C's columns
+      std::vector<double>      squares;    // c'Sc of the candidates
+      for (unsigned int j = 0; j < k; ++j)
+        if (S(j, j) > smallest[j])
+          {
+            candidates.emplace_back(k);
+            candidates.back()(j) = 1. / std::sqrt(S(j, j));
+            squares.push_back(1.);
+          }
+      while (!candidates.empty())
+        {
+          const std::size_t pivot =
+            std::max_element(squares.begin(), squares.end()) - squares.begin();
+          MultiVector       c      = candidates[pivot];
+          const MultiVector Sc     = times(S, c);
+          const double      square = inner_products(c, Sc, MPI_COMM_SELF)(0);
+          if (!(square > cut))
+            break;
+          candidates.erase(candidates.begin() + pivot);
+          squares.erase(squares.begin() + pivot);
+          for (std::size_t j = 0; j < candidates.size(); ++j)
+            {
+              const double part =
+                inner_products(candidates[j], Sc, MPI_COMM_SELF)(0) / square;
+              candidates[j].add(-part, c);
+              squares[j] -= part * part * square;
+            }
+          for (unsigned int i = 0; i < k; ++i)
+            c(i) /= std::sqrt(square);
+          C.append(c);
+        }
+      return C;
+    }
+
+    Pcpg::Pcpg(const DualProblem &problem, const Face &face)
+      : problem(problem)
+      , face(face)
+      , comm(problem.context().communicator())
+      , P(problem.n_owned(), 0)
+      , FP(problem.n_owned(), 0)
+    {
+    }
+
+    void
+    Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
+    {
+      if (P.n_columns() == 0)
+        return;
+      const MultiVector a = inner_products(P, residual, comm);
+      lambda.add_product(1., P, a);
+      residual.add_product(-1., FP, a);
+    }
+
+    void
+    Pcpg::orthogonalise(MultiVector &x) const
+    {
+      if (P.n_columns() > 0)
+        x.add_product(-1., P, inner_products(FP, x, comm));
+    }
+
+    MultiVector
+    Pcpg::directions(const MultiVector &r) const
+    {
+      MultiVector Z = face.precondition(r);
+      face.project(Z);
+      orthogonalise(Z);
+      if (Z.n_columns() == 1)
+        return Z;
+      // A well conditioned basis first: dependent directions cost no F-mult,
+      // and the second pass makes up for the cancellation of the first.
+      const MultiVector gram = inner_products(Z, Z, comm);
+      Z                      = times(Z,
+                orthonormal_combinations(gram,
+                                         diagonal_of(gram, 0.),
+                                         dependence_cut));
+      orthogonalise(Z);
+      return Z;
+    }
+
+    bool
+    Pcpg::step(const MultiVector &Z, MultiVector &lambda, MultiVector &residual)
+    {
+      const unsigned int n = Z.n_columns(), k = residual.n_columns();
+      const MultiVector  FZ    = problem.apply(Z);
+      MultiVector        right = FZ;
+      right.append(Z);
+      right.append(residual);
+      const MultiVector products = inner_products(Z, right, comm);
+      const MultiVector S        = products.columns_from(0, n);
+      const MultiVector ZZ       = products.columns_from(n, n);
+      for (unsigned int j = 0; j < n; ++j)
+        if (ZZ(j, j) > 0.)
+          largest_rayleigh_quotient =
+            std::max(largest_rayleigh_quotient, S(j, j) / ZZ(j, j));
+      const MultiVector C = orthonormal_combinations(
+        S,
+        diagonal_of(ZZ,
+                    std::numeric_limits<double>::epsilon() *
+                      largest_rayleigh_quotient),
+        dependence_cut);
+      if (C.n_columns() == 0)
+        return false;
+      const MultiVector a =
+        inner_products(C, products.columns_from(2 * n, k), MPI_COMM_SELF);
+      const MultiVector new_P = times(Z, C), new_FP = times(FZ, C);
+      lambda.add_product(1., new_P, a);
+      residual.add_product(-1., new_FP, a);
+      P.append(new_P);
+      FP.append(new_FP);
+      return true;
+    }
+
+    PcpgResult
+    Pcpg::solve(MultiVector               &lambda,
+                MultiVector               &residual,
+                const std::vector<double> &tolerances,
+                unsigned int               max_iterations)
+    {
+      const unsigned int k = lambda.n_columns();
+      AssertDimension(residual.n_columns(), k);
+      AssertDimension(tolerances.size(), k);
+      PcpgResult          result;
+      StagnationTest      test;
+      std::vector<double> first;
+      correct(lambda, residual);
+      while (true)
+        {
+          MultiVector r = residual;
+          face.project(r);
+          MultiVector both = r;
+          both.append(residual);
+          const auto                sizes = norms(both, comm);
+          std::vector<unsigned int> remaining;
+          double                    worst = 0.;
+          if (result.iterations == 0)
+            first = sizes;
+          for (unsigned int j = 0; j < k; ++j)
+            if (!(sizes[j] <= std::max(tolerances[j], rounding * sizes[k + j])))
+              {
+                remaining.push_back(j);
+                worst = std::max(worst, sizes[j] / first[j]);
+              }
+          result.residual_norms.assign(sizes.begin(), sizes.begin() + k);
+          result.converged = remaining.empty();
+          if (result.converged || result.iterations == max_iterations ||
+              test.stagnates(worst))
+            return result;
+          const MultiVector Z = directions(selected_columns(r, remaining));
+          if (Z.n_columns() == 0 || !step(Z, lambda, residual))
+            return result;
+          ++result.iterations;
+        }
+    }
+
+    PcpgResult
+    pcpg(const DualProblem         &problem,
+         const Face                &face,
+         MultiVector               &lambda,
+         MultiVector               &residual,
+         const std::vector<double> &tolerances,
+         unsigned int               max_iterations)
+    {
+      return Pcpg(problem, face)
+        .solve(lambda, residual, tolerances, max_iterations);
+    }
+  } // namespace qp
+} // namespace snug

@@ -1,0 +1,319 @@
+#include "two_boxes.h"
+
+#include <gtest/gtest.h>
+
+using namespace snug;
+using namespace snug::contact;
+
+namespace
+{
+  /// Largest difference of two sets of rows with the same nodes.
+  template <int dim>
+  double
+  difference(const std::vector<Row<dim>> &a, const std::vector<Row<dim>> &b)
+  {
+    double worst = 0.;
+    for (unsigned int i = 0; i < a.size(); ++i)
+      {
+        worst = std::max(worst, std::abs(a[i].gap - b[i].gap));
+        worst = std::max(worst, (a[i].normal - b[i].normal).norm());
+        for (unsigned int j = 0; j < a[i].coefficients.size(); ++j)
+          {
+            EXPECT_EQ(a[i].coefficients[j].first, b[i].coefficients[j].first);
+            worst = std::max(worst,
+                             (a[i].coefficients[j].second -
+                              b[i].coefficients[j].second)
+                               .norm());
+          }
+      }
+    return worst;
+  }
+
+  /// rows += factor * more
+  template <int dim>
+  void
+  add(std::vector<Row<dim>>       &rows,
+      double                       factor,
+      const std::vector<Row<dim>> &more)
+  {
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        rows[i].gap += factor * more[i].gap;
+        rows[i].normal += factor * more[i].normal;
+        for (unsigned int j = 0; j < rows[i].coefficients.size(); ++j)
+          rows[i].coefficients[j].second +=
+            factor * more[i].coefficients[j].second;
+      }
+  }
+
+  template <int dim>
+  double
+  derivative_error(unsigned int degree)
+  {
+    TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
+    scene.bend();
+    const auto contact  = scene.contact();
+    const auto velocity = scene.random_field(4);
+    const auto exact    = contact.row_derivatives(scene.positions, velocity);
+    // (f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h
+    const double h       = 1e-5;
+    auto         numbers = exact;
+    add(numbers, -1., exact);
+    for (const auto &term :
+         {std::make_pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}})
+      add(numbers,
+          term.second / (12. * h),
+          contact.rows(sum(scene.positions, term.first * h, velocity)));
+    return difference(exact, numbers);
+  }
+
+  template <int dim>
+  void
+  expect_reverse_equals_directional(unsigned int degree)
+  {
+    TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
+    scene.bend();
+    const auto          contact      = scene.contact();
+    const auto          velocity     = scene.random_field(5);
+    const auto          displacement = scene.random_field(6);
+    std::vector<double> forces(contact.n_rows());
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      forces[i] = std::cos(i + 1.);
+    double     direct = 0., reverse = 0., scale = 0.;
+    const auto rows = contact.row_derivatives(scene.positions, velocity);
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        double term = -rows[i].gap;
+        for (const auto &c : rows[i].coefficients)
+          term += c.second * displacement[c.first];
+        direct += forces[i] * term;
+        scale += std::abs(forces[i] * term);
+      }
+    const auto gradient =
+      contact.energy_gradient(scene.positions, displacement, forces);
+    for (unsigned int node = 0; node < gradient.size(); ++node)
+      reverse += gradient[node] * velocity[node];
+    EXPECT_NEAR(direct, reverse, 1e-13 * scale);
+  }
+
+  /// x -> Q x + shift with a fixed rotation Q.
+  template <int dim>
+  dealii::Tensor<2, dim>
+  some_rotation()
+  {
+    const double           a = 0.7, b = -1.1;
+    dealii::Tensor<2, dim> q;
+    q[0][0] = q[1][1] = std::cos(a);
+    q[0][1]           = -std::sin(a);
+    q[1][0]           = std::sin(a);
+    if (dim == 2)
+      return q;
+    dealii::Tensor<2, dim> r;
+    q[dim - 1][dim - 1] = r[0][0] = 1.;
+    r[1][1] = r[dim - 1][dim - 1] = std::cos(b);
+    r[1][dim - 1]                 = -std::sin(b);
+    r[dim - 1][1]                 = std::sin(b);
+    return q * r;
+  }
+
+  template <int dim>
+  void
+  expect_invariance(unsigned int degree)
+  {
+    TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
+    scene.bend();
+    const auto                   contact = scene.contact();
+    const auto                   rows    = contact.rows(scene.positions);
+    const dealii::Tensor<2, dim> q       = some_rotation<dim>();
+    dealii::Tensor<1, dim>       shift;
+    shift[0] = 3.;
+    shift[1] = -2.;
+    for (auto &x : scene.positions)
+      x = q * x + shift;
+    const auto moved_rows = scene.contact().rows(scene.positions);
+    ASSERT_EQ(rows.size(), moved_rows.size());
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        EXPECT_NEAR(rows[i].gap, moved_rows[i].gap, 1e-13);
+        EXPECT_NEAR((q * rows[i].normal - moved_rows[i].normal).norm(),
+                    0.,
+                    1e-12);
+        // a translation of both bodies does not open the contact
+        dealii::Tensor<1, dim> total;
+        for (const auto &c : rows[i].coefficients)
+          total += c.second;
+        EXPECT_NEAR(total.norm(), 0., 1e-14);
+      }
+  }
+} // namespace
+
+TEST(ContactRows, GapOfSphereOverPlaneIsItsHeight)
+{
+  auto bodies            = TwoBoxes<3>::boxes(4, 4);
+  bodies[0].curved_faces = {{"bottom", "sphere 4"}};
+  const TwoBoxes<3> scene(bodies, 1);
+  const auto        contact = scene.contact();
+  const auto        rows    = contact.rows(scene.positions);
+  ASSERT_EQ(rows.size(), 25u);
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      const auto  &x  = scene.positions[contact.projections()[i].slave];
+      const double r2 = std::pow(x[0] - 0.5, 2) + std::pow(x[1] - 0.5, 2);
+      EXPECT_NEAR(rows[i].gap, 4. - std::sqrt(16. - r2), 1e-14);
+      // from the slave above into the master below
+      EXPECT_NEAR(rows[i].normal[2], -1., 1e-14);
+      ASSERT_EQ(rows[i].coefficients.size(), 2u);
+      for (const auto &c : rows[i].coefficients)
+        EXPECT_NEAR(c.second[2],
+                    c.first == contact.projections()[i].slave ? -1. : 1.,
+                    1e-14);
+    }
+}
+
+TEST(ContactRows, GapOfPlaneOverCurvedMasterConverges)
+{
+  // slave plane 0.2 above the summit of a sphere of radius 3 meshed by Q1: the
+  // distance to the sphere is |x - c| - R, c = (0.5, 0.5, 1 - R); the faces
+  // leave it by O(h^2)
+  std::vector<double> errors;
+  for (const unsigned int n : {4, 8, 16})
+    {
+      auto bodies            = TwoBoxes<3>::boxes(3, n);
+      bodies[0].corner       = {0.25, 0.25, 1.2};
+      bodies[0].size         = {0.5, 0.5, 1.};
+      bodies[1].curved_faces = {{"top", "sphere 3"}};
+      const TwoBoxes<3> scene(bodies, 1);
+      const auto        contact = scene.contact();
+      const auto        rows    = contact.rows(scene.positions);
+      EXPECT_EQ(rows.size(), 16u);
+      double worst = 0.;
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        {
+          const dealii::Point<3> centre(0.5, 0.5, -2.);
+          const double           distance =
+            (scene.positions[contact.projections()[i].slave] - centre).norm() -
+            3.;
+          worst = std::max(worst, std::abs(rows[i].gap - distance));
+        }
+      errors.push_back(worst);
+    }
+  EXPECT_LT(errors[1], errors[0] / 3.);
+  EXPECT_LT(errors[2], errors[1] / 3.);
+  EXPECT_LT(errors[2], 1e-3);
+}
+
+TEST(ContactRows, HangingNodesAreReplacedAndLinearFieldsReproduced)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      TwoBoxes<3> scene(TwoBoxes<3>::hanging_boxes(), degree);
+      scene.bend();
+      const auto   contact    = scene.contact();
+      unsigned int n_replaced = 0;
+      const auto   rows       = contact.rows(scene.positions);
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        {
+          double gap = 0.;
+          for (const auto &c : rows[i].coefficients)
+            {
+              EXPECT_TRUE(scene.surface.masters(c.first).empty());
+              gap -= c.second * scene.positions[c.first];
+            }
+          // hanging positions follow their masters, so the coefficients
+          // without hanging nodes give the same gap
+          EXPECT_NEAR(gap, rows[i].gap, 1e-13);
+          for (const auto &master : contact.projections()[i].masters)
+            n_replaced += !scene.surface.masters(master.first).empty();
+        }
+      EXPECT_GT(n_replaced, 0u);
+    }
+}
+
+TEST(ContactRows, DerivativesAgreeWithFiniteDifferences)
+{
+  // the step is 2e-4 of a Q2 node distance: truncation ~ (2e-4)^4, round-off
+  // ~ 1e-16 / 1e-5
+  for (const unsigned int degree : {1, 2})
+    {
+      EXPECT_LT(derivative_error<2>(degree), 1e-9);
+      EXPECT_LT(derivative_error<3>(degree), 1e-9);
+    }
+}
+
+TEST(ContactRows, ReverseModeEqualsDirectionalDerivative)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      expect_reverse_equals_directional<2>(degree);
+      expect_reverse_equals_directional<3>(degree);
+    }
+}
+
+TEST(ContactRows, RigidMotionsRotateNormalsAndKeepGaps)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      expect_invariance<2>(degree);
+      expect_invariance<3>(degree);
+    }
+}
+
+TEST(ContactRows, FoldedFaceIsTangled)
+{
+  TwoBoxes<3> scene(TwoBoxes<3>::boxes(2, 2), 1);
+  const auto  contact = scene.contact();
+  for (auto &x : scene.positions)
+    x[0] = 0.;
+  EXPECT_THROW(contact.rows(scene.positions), TangledMesh);
+}
+
+TEST(ContactRows, AreasAreTributary)
+{
+  const TwoBoxes<2> line(TwoBoxes<2>::boxes(1, 1), 2);
+  const auto        contact = line.contact();
+  const auto        areas   = contact.areas(line.positions);
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      const double x = line.positions[contact.projections()[i].slave][0];
+      EXPECT_NEAR(areas[i], std::abs(x - 0.5) < 0.1 ? 4. / 6 : 1. / 6, 1e-14);
+    }
+  for (const unsigned int degree : {1, 2})
+    {
+      // hanging slave nodes give their share away: nothing is lost
+      const TwoBoxes<3> scene(TwoBoxes<3>::hanging_boxes(), degree);
+      double            total = 0.;
+      for (const double area : scene.contact().areas(scene.positions))
+        total += area;
+      EXPECT_NEAR(total, 1., 1e-13);
+    }
+}
+
+TEST(ContactRows, DoNotDependOnRanks)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      const auto  bodies = TwoBoxes<3>::hanging_boxes();
+      TwoBoxes<3> all(bodies, degree, MPI_COMM_WORLD);
+      TwoBoxes<3> self(bodies, degree, MPI_COMM_SELF);
+      all.bend();
+      self.bend();
+      const auto contact = all.contact(), own = self.contact();
+      const auto rows = contact.rows(all.positions);
+      const auto one  = own.rows(self.positions);
+      const auto a    = contact.areas(all.positions);
+      const auto b    = own.areas(self.positions);
+      ASSERT_EQ(rows.size(), one.size());
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        {
+          const auto &p = contact.projections()[i];
+          const auto &q = own.projections()[i];
+          EXPECT_NEAR((all.positions[p.slave] - self.positions[q.slave]).norm(),
+                      0.,
+                      1e-14);
+          EXPECT_EQ(p.masters.size(), q.masters.size());
+          EXPECT_NEAR(rows[i].gap, one[i].gap, 1e-13);
+          EXPECT_NEAR((rows[i].normal - one[i].normal).norm(), 0., 1e-12);
+          EXPECT_NEAR(a[i], b[i], 1e-14);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+#ifndef snug_tests_unit_contact_two_boxes_h
+#define snug_tests_unit_contact_two_boxes_h
+
+#include <snug/contact/contact_rows.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+/// A slave box (body 0) whose lower face meets the upper face of a master box
+/// (body 1) at height 1.
+template <int dim>
+struct TwoBoxes
+{
+  using Field  = typename snug::mesh::Surface<dim>::Field;
+  using Bodies = std::vector<snug::mesh::BodyMeshParameters>;
+
+  TwoBoxes(const Bodies &bodies, unsigned int degree, MPI_Comm communicator)
+    : mesh(communicator, bodies, degree)
+    , surface(mesh, {pair().slave, pair().master})
+    , positions(surface.gather(mesh.reference_positions()))
+  {
+  }
+
+  TwoBoxes(const Bodies &bodies, unsigned int degree)
+    : TwoBoxes(bodies, degree, MPI_COMM_WORLD)
+  {
+  }
+
+  /// n_slave and n_master cells per tangent direction.
+  static Bodies
+  boxes(unsigned int n_slave, unsigned int n_master)
+  {
+    Bodies bodies(2);
+    for (unsigned int b = 0; b < 2; ++b)
+      {
+        bodies[b].corner = std::vector<double>(dim, 0.);
+        bodies[b].size   = std::vector<double>(dim, 1.);
+        bodies[b].cells =
+          std::vector<unsigned int>(dim, b == 0 ? n_slave : n_master);
+        bodies[b].cells[dim - 1] = 1;
+      }
+    bodies[0].corner[dim - 1] = 1.;
+    return bodies;
+  }
+
+  /// Hanging nodes on both sides, not opposite to each other.
+  static Bodies
+  hanging_boxes()
+  {
+    Bodies bodies               = boxes(3, 4);
+    bodies[0].refine_where      = "0.5-x";
+    bodies[0].local_refinements = 1;
+    bodies[1].refine_where      = dim == 3 ? "x+y-1" : "x-0.5";
+    bodies[1].local_refinements = 1;
+    return bodies;
+  }
+
+  static snug::contact::Pair
+  pair()
+  {
+    return {{0, 2 * dim - 2}, {1, 2 * dim - 1}};
+  }
+
+  snug::contact::NodalContact<dim>
+  contact() const
+  {
+    return {surface, {pair()}, mesh.degree(), positions};
+  }
+
+  /// Bend both sides, without penetration at first sight; hanging nodes follow
+  /// their masters.
+  void
+  bend()
+  {
+    for (auto &x : positions)
+      {
+        const double y = dim == 3 ? x[1] : 0.3;
+        x[dim - 1] += 0.08 * std::sin(2. * x[0] + y) + 0.05 * y * x[0];
+        x[0] += 0.03 * std::cos(3. * y + x[0]);
+      }
+    for (unsigned int node = 0; node < positions.size(); ++node)
+      if (!surface.masters(node).empty())
+        {
+          positions[node] = 0.;
+          for (const auto &master : surface.masters(node))
+            positions[node] += master.second * positions[master.first];
+        }
+  }
+
+  Field
+  random_field(unsigned int seed) const
+  {
+    std::mt19937                           random(seed);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    Field                                  field(surface.n_nodes());
+    for (auto &value : field)
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = uniform(random);
+    return field;
+  }
+
+  bool
+  is_master(unsigned int node) const
+  {
+    for (const auto &face : surface.faces())
+      if (face.body == pair().master.first &&
+          std::find(face.nodes.begin(), face.nodes.end(), node) !=
+            face.nodes.end())
+        return true;
+    return false;
+  }
+
+  snug::mesh::BodyMesh<dim> mesh;
+  snug::mesh::Surface<dim>  surface;
+  Field                     positions;
+};
+
+/// a + factor * b
+template <typename Field>
+Field
+sum(const Field &a, double factor, const Field &b)
+{
+  Field result = a;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    result[i] += factor * b[i];
+  return result;
+}
+
+#endif

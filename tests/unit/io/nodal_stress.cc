@@ -1,0 +1,201 @@
+#include <snug/io/nodal_stress.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "boxes.h"
+
+namespace snug
+{
+  namespace
+  {
+    template <int dim>
+    std::set<unsigned int>
+    nodes_of_owned_cells(const mesh::BodyMesh<dim> &mesh)
+    {
+      std::set<unsigned int> nodes;
+      for (const auto &cell : mesh.cells())
+        nodes.insert(cell.nodes.begin(), cell.nodes.end());
+      return nodes;
+    }
+
+    template <int dim>
+    dealii::Tensor<2, 3>
+    full_stress(const io::NodalStress<dim> &stress, unsigned int node)
+    {
+      dealii::Tensor<2, 3> sigma;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          sigma[i][j] = stress.stress[node][i][j];
+      if (dim == 2)
+        sigma[2][2] = stress.out_of_plane[node];
+      return sigma;
+    }
+
+    template <int dim>
+    void
+    expect_constant_stress(unsigned int degree)
+    {
+      auto bodies                    = test::two_boxes<dim>(true);
+      bodies[1].curved_faces["top"]  = "0.1*x*x";
+      bodies[0].curved_faces["left"] = dim == 2 ? "0.1*y" : "0.1*y*z";
+      const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, bodies, degree);
+      const auto                materials = test::two_materials();
+      const auto                stress    = io::nodal_stress<dim>(mesh,
+                                                materials,
+                                                mesh.reference_positions(),
+                                                test::linear_field<dim>(
+                                                  mesh.reference_positions()));
+      for (const unsigned int node : nodes_of_owned_cells(mesh))
+        {
+          const auto expected = test::hooke(materials[mesh.body_of_node(node)],
+                                            test::displacement_gradient<dim>());
+          // round-off of a few hundred operations on numbers of order 10
+          EXPECT_LT((full_stress(stress, node) - expected).norm(), 1e-11)
+            << "degree " << degree << ", node " << node;
+        }
+    }
+
+    TEST(NodalStress, OfALinearDisplacementIsConstant)
+    {
+      for (const unsigned int degree : {1, 2})
+        {
+          expect_constant_stress<2>(degree);
+          expect_constant_stress<3>(degree);
+        }
+    }
+
+    /// u_k = x_k^2 + x_0 x_1 / 2 and its gradient: linear stress.
+    template <int dim>
+    dealii::Tensor<2, dim>
+    quadratic_gradient(const dealii::Tensor<1, dim> &x)
+    {
+      dealii::Tensor<2, dim> gradient;
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          gradient[k][k] += 2. * x[k];
+          gradient[k][0] += 0.5 * x[1];
+          gradient[k][1] += 0.5 * x[0];
+        }
+      return gradient;
+    }
+
+    template <int dim>
+    typename mesh::BodyMesh<dim>::Field
+    quadratic_field(const typename mesh::BodyMesh<dim>::Field &positions)
+    {
+      auto u = positions;
+      for (auto &value : u)
+        {
+          const auto x = value;
+          for (unsigned int k = 0; k < dim; ++k)
+            value[k] = x[k] * x[k] + 0.5 * x[0] * x[1];
+        }
+      return u;
+    }
+
+    template <int dim>
+    void
+    expect_linear_stress(unsigned int degree, bool hanging, bool inside_only)
+    {
+      auto bodies = test::two_boxes<dim>(hanging);
+      bodies[0].cells.assign(dim, 3);
+      if (degree == 1) // graded Q2 cells are curved: they miss x^2
+        bodies[0].grading.assign(dim, 3.);
+      const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, bodies, degree);
+      const auto                materials = test::two_materials();
+      const auto               &x         = mesh.reference_positions();
+      const auto                stress =
+        io::nodal_stress<dim>(mesh, materials, x, quadratic_field<dim>(x));
+      unsigned int checked = 0;
+      for (const unsigned int node : nodes_of_owned_cells(mesh))
+        {
+          bool inside = true;
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              const double lower =
+                k == dim - 1 && mesh.body_of_node(node) == 1 ? 1. : 0.;
+              inside = inside && x[node][k] > lower + 1e-9 &&
+                       x[node][k] < lower + 1. - 1e-9;
+            }
+          if (inside_only && !inside)
+            continue;
+          ++checked;
+          const auto expected = test::hooke(materials[mesh.body_of_node(node)],
+                                            quadratic_gradient(x[node]));
+          EXPECT_LT((full_stress(stress, node) - expected).norm(), 1e-9)
+            << x[node];
+        }
+      unsigned int total = 0;
+      MPI_Allreduce(&checked, &total, 1, MPI_UNSIGNED, MPI_SUM, MPI_COMM_WORLD);
+      EXPECT_GE(total, 2u);
+    }
+
+    TEST(NodalStress, OfQuadraticElementsIsExactIfLinear)
+    {
+      expect_linear_stress<2>(2, true, false);
+      expect_linear_stress<3>(2, true, false);
+    }
+
+    TEST(NodalStress, OfLinearElementsIsExactInsideGradedBoxesIfLinear)
+    {
+      expect_linear_stress<2>(1, false, true);
+      expect_linear_stress<3>(1, false, true);
+    }
+
+    template <int dim>
+    std::vector<long>
+    place_of_node(const mesh::BodyMesh<dim> &mesh, unsigned int node)
+    {
+      std::vector<long> key(1, mesh.body_of_node(node));
+      for (unsigned int k = 0; k < dim; ++k)
+        key.push_back(std::lround(1e6 * mesh.reference_positions()[node][k]));
+      return key;
+    }
+
+    template <int dim>
+    typename mesh::BodyMesh<dim>::Field
+    wavy_field(const mesh::BodyMesh<dim> &mesh)
+    {
+      auto u = mesh.reference_positions();
+      for (auto &value : u)
+        {
+          const auto x = value;
+          for (unsigned int k = 0; k < dim; ++k)
+            value[k] = std::sin(3. * x[k] + x[dim - 1 - k]);
+        }
+      mesh.interpolate_hanging(u);
+      return u;
+    }
+
+    TEST(NodalStress, DoesNotDependOnTheRanks)
+    {
+      const auto              bodies    = test::two_boxes<3>(true);
+      const auto              materials = test::two_materials();
+      const mesh::BodyMesh<3> whole(MPI_COMM_SELF, bodies, 1);
+      const auto              serial = io::nodal_stress<3>(whole,
+                                              materials,
+                                              whole.reference_positions(),
+                                              wavy_field(whole));
+      std::map<std::vector<long>, unsigned int> node_at;
+      for (unsigned int node = 0; node < whole.n_local_nodes(); ++node)
+        node_at[place_of_node(whole, node)] = node;
+
+      const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, bodies, 1);
+      const auto              parallel = io::nodal_stress<3>(mesh,
+                                                materials,
+                                                mesh.reference_positions(),
+                                                wavy_field(mesh));
+      for (const unsigned int node : nodes_of_owned_cells(mesh))
+        {
+          const auto difference =
+            full_stress(parallel, node) -
+            full_stress(serial, node_at.at(place_of_node(mesh, node)));
+          EXPECT_LT(difference.norm(), 1e-10); // sums in another order
+        }
+    }
+  } // namespace
+} // namespace snug

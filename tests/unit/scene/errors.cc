@@ -1,0 +1,278 @@
+#include <gtest/gtest.h>
+
+#include "scene_text.h"
+
+#include <limits>
+
+#include <snug/scene/check.h>
+
+using namespace snug;
+
+namespace
+{
+  bool
+  has(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  /// One wrong entry: its path, its value, and what the message must say.
+  struct Wrong
+  {
+    std::string path, value, says;
+  };
+
+  /// The error names where, entry and value in one line, and says what counts.
+  void
+  expect_error(const Wrong &wrong, const std::vector<std::string> &before = {})
+  {
+    auto sets = before;
+    sets.push_back(wrong.path + "=" + wrong.value);
+    const std::string message = error_of(sets);
+    EXPECT_TRUE(has(message, "--set: ")) << message;
+    EXPECT_TRUE(
+      has(message, "entry '" + wrong.path + "' = '" + wrong.value + "': "))
+      << wrong.path << " = " << wrong.value << ": " << message;
+    EXPECT_TRUE(has(message, wrong.says)) << message << "\n" << wrong.says;
+    EXPECT_FALSE(has(message, "\n")) << message;
+    EXPECT_FALSE(has(message, "---")) << message;
+  }
+} // namespace
+
+TEST(Errors, TheSceneIsGoodWithoutThem)
+{
+  EXPECT_EQ(error_of({}), "");
+}
+
+TEST(Errors, NameFileLineEntryAndValue)
+{
+  EXPECT_EQ(error_of({},
+                     replaced(scene_text(),
+                              "Poisson's ratio = 0.3",
+                              "Poisson's ratio = 0.7")),
+            "scene.prm, line 11: entry 'Body punch/Poisson's ratio' = '0.7': "
+            "must be above -1 and below 0.5");
+  // Also where nobody set the entry, and after continued lines.
+  EXPECT_EQ(error_of({},
+                     replaced(scene_text(), "  set Box cells       = 2", "#")),
+            "scene.prm: entry 'Body foundation/Box cells' = '': must have 3 "
+            "numbers separated by commas, one per dimension");
+  EXPECT_EQ(error_of({}, replaced(scene_text(), "top: 100", "top: much")),
+            "scene.prm, line 14: entry 'Body punch/Pressure' = 'top: much': "
+            "must be a list 'boundary: number, ...' of different boundaries");
+}
+
+TEST(Errors, UnknownEntriesAndSections)
+{
+  EXPECT_EQ(
+    error_of({}, replaced(scene_text(), "Young's modulus", "Yuong's modulus")),
+    "scene.prm, line 10: unknown entry 'Body punch/Yuong's modulus'; "
+    "did you mean 'Young's modulus'?");
+  EXPECT_EQ(error_of({"Solver/Maximum evaluations=3"}),
+            "--set: unknown entry 'Solver/Maximum evaluations'; it belongs to "
+            "subsection 'Optimization'");
+  EXPECT_EQ(error_of({"Optimization/Task=state"}),
+            "--set: unknown entry 'Optimization/Task'; it belongs outside of "
+            "subsections");
+  EXPECT_TRUE(has(error_of({}, scene_text() + "subsection Solvr\nend\n"),
+                  "scene.prm, line 38: unknown subsection 'Solvr'; did you "
+                  "mean 'Solver'?"));
+  EXPECT_TRUE(has(error_of({}, replaced(scene_text(), "Body punch", "Body p")),
+                  "line 6: unknown subsection 'Body p'"));
+  EXPECT_TRUE(has(error_of({"Body punhc/Box cells=1,1,1"}),
+                  "did you mean 'Body punch'?"));
+}
+
+TEST(Errors, LinesThatAreNoStatements)
+{
+  const auto message = [](const std::string &line) {
+    return error_of({}, "set Task = state\n" + line + "\n");
+  };
+  for (const std::string line : {"Task : state",
+                                 "set Task",
+                                 "set = 1",
+                                 "subsection",
+                                 "sett Task = 1",
+                                 "include other.prm",
+                                 "end here"})
+    EXPECT_TRUE(has(message(line), "scene.prm, line 2: '" + line + "' must"))
+      << message(line);
+  EXPECT_EQ(message("subsection Solver"),
+            "scene.prm, line 2: 'subsection Solver' has no 'end'");
+  EXPECT_EQ(message("end"), "scene.prm, line 2: 'end' without a 'subsection'");
+  EXPECT_TRUE(has(error_of({"Task"}), "--set 'Task': must read"));
+  EXPECT_TRUE(has(error_of({"Output directory=a#b"}), "must not contain '#'"));
+}
+
+TEST(Errors, Choices)
+{
+  expect_error({"Task",
+                "optimise",
+                "one of state, sensitivity, optimize; did "
+                "you mean 'optimize'?"});
+  expect_error({"Dimension", "4", "one of 2, 3"});
+  expect_error({"Element degree", "3", "one of 1, 2"});
+  expect_error({"Solver/Method", "active sett", "did you mean 'active set'?"});
+  expect_error({"Solver/Factorization", "LAPACK", "CHOLMOD, MUMPS"});
+  expect_error({"Solver/Preconditioner", "dirichlet", "'Dirichlet'?"});
+  expect_error({"Gradient/Method", "adjoint", "finite differences"});
+  expect_error({"Shape/Basis", "Bezier", "Bezier patch"});
+  expect_error({"Solver/Report linear reference", "maybe", "true or false"});
+}
+
+TEST(Errors, TypesAndNumbersThatAreNone)
+{
+  expect_error({"Body punch/Young's modulus", "stiff", "a number"});
+  expect_error({"Body punch/Young's modulus", "nan", "a number"});
+  expect_error({"Body punch/Young's modulus", "inf", "a number"});
+  expect_error({"Body punch/Young's modulus", "1e999", "a number"});
+  expect_error({"Body punch/Young's modulus", "1 2", "a number"});
+  expect_error({"Body punch/Young's modulus", "", "a number"});
+  expect_error({"Body punch/Box cells", "2, two, 2", "whole numbers"});
+  expect_error({"Body punch/Box cells", "2, 2.5, 2", "whole numbers"});
+  expect_error({"Body punch/Box cells", "0, 4, 4", "at least 1"});
+  expect_error({"Body punch/Box cells", "4, 4, 99999999999", "whole numbers"});
+  expect_error({"Body punch/Box corner", "0, nan, 0", "numbers"});
+  expect_error({"Body punch/Pressure", "top: nan", "boundary: number"});
+  expect_error({"Body punch/Pressure", "top: 1, top: 2", "different"});
+  expect_error({"Body punch/Traction", "top: 0 0 inf", "x y z"});
+  expect_error({"Body punch/Refinements", "-1", "whole number"});
+  expect_error({"Decomposition/Subdomains", "2.5", "auto or a whole number"});
+  expect_error({"Decomposition/Subdomains", "0", "auto or a whole number"});
+}
+
+TEST(Errors, NumbersThatDoNotFitTheDimension)
+{
+  expect_error({"Body punch/Box cells", "4, 4", "must have 3 numbers"});
+  expect_error({"Body punch/Box corner", "4, 4", "must have 3 numbers"});
+  expect_error({"Body punch/Box size", "4, 4, 4, 4", "must have 3 numbers"});
+  expect_error({"Body punch/Box grading", "1", "must have 3 numbers"});
+  expect_error({"Body punch/Body force", "1, 2", "must have 3 numbers"});
+  expect_error({"Body punch/Traction", "top: 1 2", "must have 3 components"});
+  expect_error({"Shape/Control points", "3, 3, 3", "must have 2 numbers"});
+  expect_error({"Shape/Direction", "0, 1", "must be 3 numbers"});
+  expect_error({"Shape/Bounds", "1", "two numbers"});
+  expect_error({"Shape/Initial", "0, 0.1", "1 number or 6 numbers"});
+}
+
+TEST(Errors, BodiesAndBoundaries)
+{
+  expect_error({"Bodies", "punch, punch", "must not occur twice"});
+  expect_error({"Bodies", "", "at least one body"});
+  expect_error({"Bodies", "punch.1", "letters"});
+  EXPECT_EQ(error_of({}, "set Dimension = 2\n"),
+            "scene.prm: entry 'Bodies' = '': must name at least one body");
+  expect_error({"Body punch/Supports", "topp: z", "did you mean 'top'?"});
+  expect_error({"Body punch/Supports", "top: w", "must be some of 'xyz'"});
+  expect_error({"Body punch/Supports", "top: xx", "each once"});
+  expect_error({"Body punch/Supports", "top", "boundary: components"});
+  expect_error({"Body punch/Pressure", "side: 1", "left, right, front, back"});
+  expect_error({"Body punch/Traction", "side: 1 0 0", "is no boundary"});
+  expect_error({"Body punch/Curved faces", "side: sphere 4", "the faces are"});
+  expect_error({"Contact/Pairs",
+                "punch.bottom: foundaton.top",
+                "did you mean 'foundation'?"});
+  expect_error(
+    {"Contact/Pairs", "punch.bottom: foundation.side", "bottom, top"});
+  expect_error({"Contact/Pairs", "punch: foundation.top", "body.boundary"});
+  expect_error({"Contact/Pairs", "punch.top: punch.top", "with itself"});
+  expect_error({"Contact/Pairs",
+                "punch.bottom: foundation.top, foundation.top: punch.bottom",
+                "paired twice"});
+  expect_error({"Shape/Face", "foundation.topp", "did you mean 'top'?"});
+  expect_error({"Shape/Face", "block.top", "there is no body 'block'"});
+}
+
+TEST(Errors, PropertiesAndMeshes)
+{
+  expect_error({"Body punch/Young's modulus", "-1", "must be positive"});
+  expect_error({"Body punch/Young's modulus", "0", "must be positive"});
+  expect_error({"Body punch/Poisson's ratio", "0.5", "below 0.5"});
+  expect_error({"Body punch/Poisson's ratio", "-1", "above -1"});
+  expect_error({"Body punch/Box size", "1, 1, 0", "must be positive"});
+  expect_error({"Body punch/Box grading", "1, 1, -2", "must be positive"});
+  expect_error({"Body punch/Box cells", "9999, 9999, 9999", "4e6 cells"});
+  expect_error({"Body punch/Refinements", "29", "1e9 cells"});
+  expect_error({"Body punch/Local refinements", "16", "at most 15"});
+  expect_error({"Body punch/Refine where", "x+(", "formula"});
+  EXPECT_TRUE(has(error_of({"Body punch/Local refinements=1"}),
+                  "entry 'Body punch/Refine where' = ''"));
+  EXPECT_TRUE(has(error_of({"Body punch/Curved faces=bottom: sphere 0.1"}),
+                  "--set: entry 'Body punch/Curved faces' = "));
+  EXPECT_TRUE(has(error_of({"Body punch/Curved faces=bottom: x+("}),
+                  "--set: entry 'Body punch/Curved faces' = "));
+}
+
+TEST(Errors, Designs)
+{
+  expect_error({"Shape/Bounds", "0.1, -0.1", "the first below the second"});
+  expect_error({"Shape/Bounds", "0.1, 0.1", "the first below the second"});
+  expect_error({"Shape/Direction", "0, 0, 0", "not all zero"});
+  EXPECT_TRUE(has(error_of({"Shape/Initial=0.3"}),
+                  "0.3 must lie within the bounds -0.25, 0.25"));
+  expect_error({"Shape/Initial", "0, 0, 0, 0, 0, -0.3", "within the bounds"});
+  expect_error({"Shape/Basis", "none", "for the task optimize"});
+  EXPECT_EQ(error_of({"Shape/Basis=none", "Task=state"}), "");
+}
+
+TEST(Errors, MethodsAndResponses)
+{
+  expect_error({"Optimization/Objective", "beauty", "potential energy, "});
+  expect_error({"Optimization/Constraints", "weight: initial", "volume"});
+  expect_error({"Optimization/Constraints", "volume: same", "'initial' or"});
+  expect_error({"Optimization/Constraints", "volume: nan", "'initial' or"});
+  expect_error({"Optimization/Constraints", "potential energy: 1", "already"});
+  expect_error({"Optimization/Maximum evaluations", "0", "at least 1"});
+  expect_error({"Optimization/Objective tolerance", "0", "between"});
+  expect_error({"Optimization/Design tolerance", "1", "between"});
+  expect_error({"Optimization/Constraint tolerance", "-1", "between"});
+  expect_error({"Solver/Relative tolerance", "0", "between 1e-14 and 0.1"});
+  expect_error({"Solver/Maximum F-mults", "0", "at least 1"});
+  expect_error({"Gradient/Step", "0", "above 0 and at most 0.1"});
+  expect_error({"Gradient/Semi-analytic step", "1", "at most 0.1"});
+  expect_error({"Gradient/Method", "energy", "objective 'compliance'"},
+               {"Optimization/Objective=compliance"});
+}
+
+TEST(Errors, LongValuesAreCutAndStayOneLine)
+{
+  const std::string message =
+    error_of({"Body punch/Young's modulus=1\t" + std::string(1000, 'x')});
+  EXPECT_LT(message.size(), 200U);
+  EXPECT_FALSE(has(message, "\t"));
+}
+
+TEST(Check, FindsNumbersThatAreNoneInScenesFromPrograms)
+{
+  const double nan      = std::numeric_limits<double>::quiet_NaN();
+  const auto   spoilers = {
+      +[](scene::Scene &s, double x) { s.bodies[0].mesh.corner[1] = x; },
+      +[](scene::Scene &s, double x) { s.bodies[0].mesh.size[1] = x; },
+      +[](scene::Scene &s, double x) { s.bodies[1].mesh.grading[0] = x; },
+      +[](scene::Scene &s, double x) { s.bodies[1].material.youngs_modulus = x; },
+      +[](scene::Scene &s, double x) { s.bodies[1].material.poissons_ratio = x; },
+      +[](scene::Scene &s, double x) { s.bodies[0].loads.pressure["top"] = x; },
+      +[](scene::Scene &s, double x) { s.bodies[0].loads.body_force[0] = x; },
+      +[](scene::Scene &s, double x) {
+      s.bodies[0].loads.traction["top"][1] = x;
+    },
+      +[](scene::Scene &s, double x) { s.shape.bounds[1] = x; },
+      +[](scene::Scene &s, double x) { s.shape.initial[3] = x; },
+      +[](scene::Scene &s, double x) { s.shape.direction[2] = x; },
+      +[](scene::Scene &s, double x) { s.solver.relative_tolerance = x; },
+      +[](scene::Scene &s, double x) { s.gradient.step = x; },
+      +[](scene::Scene &s, double x) { s.optimization.design_tolerance = x; }};
+  const scene::Scene good = read_with({});
+  EXPECT_NO_THROW(scene::check(good));
+  unsigned int number = 0;
+  for (const auto spoil : spoilers)
+    {
+      scene::Scene bad = good;
+      spoil(bad, nan);
+      EXPECT_THROW(scene::check(bad), InputError) << "spoiler " << number;
+      bad = good;
+      spoil(bad, std::numeric_limits<double>::infinity());
+      EXPECT_THROW(scene::check(bad), InputError) << "spoiler " << number;
+      ++number;
+    }
+}

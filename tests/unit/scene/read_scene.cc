@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include "scene_text.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+using namespace snug;
+
+using Numbers  = std::vector<double>;
+using Integers = std::vector<unsigned int>;
+
+TEST(ReadScene, FillsTheParametersOfEveryModule)
+{
+  const scene::Scene scene = read_with({});
+  EXPECT_EQ(scene.task, scene::Task::optimize);
+  EXPECT_EQ(scene.dimension, 3U);
+  EXPECT_EQ(scene.contact.pairs.size(), 1U);
+  EXPECT_EQ(scene.contact.pairs.at(0).first, "punch.bottom");
+  EXPECT_EQ(scene.contact.pairs.at(0).second, "foundation.top");
+  EXPECT_EQ(scene.shape.basis, "Bezier patch");
+  EXPECT_EQ(scene.shape.control_points, (Integers{3, 2}));
+  EXPECT_EQ(scene.shape.bounds, (Numbers{-0.25, 0.25}));
+  EXPECT_EQ(scene.optimization.constraints.at("volume"), "initial");
+  EXPECT_EQ(scene.optimization.objective, "potential energy");
+}
+
+TEST(ReadScene, KeepsTwoBodiesApart)
+{
+  const scene::Scene scene = read_with({});
+  ASSERT_EQ(scene.bodies.size(), 2U);
+  const auto &punch      = scene.bodies[0];
+  const auto &foundation = scene.bodies[1];
+  EXPECT_EQ(punch.name, "punch");
+  EXPECT_EQ(punch.mesh.corner, (Numbers{0, 0, 1}));
+  EXPECT_EQ(punch.mesh.cells, (Integers{3, 4, 5}));
+  EXPECT_EQ(punch.mesh.curved_faces.at("bottom"), "sphere 4");
+  EXPECT_EQ(punch.mesh.curved_faces.at("top"), "0.1*min(x,y)");
+  EXPECT_EQ(punch.material.youngs_modulus, 210000.);
+  EXPECT_EQ(punch.supports.at("left"), "x");
+  EXPECT_EQ(punch.supports.at("front"), "y");
+  EXPECT_EQ(punch.loads.pressure.at("top"), 100.);
+  EXPECT_EQ(punch.loads.traction.at("top"), (Numbers{0, 0, -5.5}));
+  EXPECT_EQ(punch.loads.traction.at("left"), (Numbers{1, 0, 0}));
+  EXPECT_EQ(foundation.mesh.cells, (Integers{2, 2, 2}));
+  EXPECT_EQ(foundation.mesh.grading, (Numbers{1, 1, 0.5}));
+  EXPECT_EQ(foundation.mesh.refinements, 1U);
+  EXPECT_EQ(foundation.material.youngs_modulus, 70000.);
+  EXPECT_TRUE(foundation.loads.pressure.empty());
+}
+
+TEST(ReadScene, FillsEmptyListsWithTheirDefaults)
+{
+  const scene::Scene scene = read_with({});
+  EXPECT_EQ(scene.bodies[0].mesh.size, (Numbers{1, 1, 1}));
+  EXPECT_EQ(scene.bodies[0].mesh.grading, (Numbers{1, 1, 1}));
+  EXPECT_EQ(scene.bodies[1].mesh.corner, (Numbers{0, 0, 0}));
+  EXPECT_EQ(scene.bodies[0].loads.body_force, (Numbers{0, 0, 0}));
+  EXPECT_EQ(scene.shape.initial, Numbers(6, 0.));
+  EXPECT_EQ(read_with({"Shape/Initial=0.1"}).shape.initial, Numbers(6, 0.1));
+}
+
+TEST(ReadScene, OverridesComeAfterTheFile)
+{
+  const scene::Scene scene = read_with({"Body punch/Box cells=4,4,4",
+                                        "Task = state",
+                                        "Body punch/Young's modulus=1",
+                                        "Body punch/Young's modulus=2"});
+  EXPECT_EQ(scene.bodies[0].mesh.cells, (Integers{4, 4, 4}));
+  EXPECT_EQ(scene.task, scene::Task::state);
+  EXPECT_EQ(scene.bodies[0].material.youngs_modulus, 2.);
+  EXPECT_EQ(scene::read_scene({"scene.prm", scene_text(), {}, "elsewhere"})
+              .output_directory,
+            "elsewhere");
+}
+
+TEST(ReadScene, SubdomainsAreANumberOrChosen)
+{
+  const std::string entry = "Decomposition/Subdomains=";
+  EXPECT_EQ(read_with({}).subdomains, 0U);
+  EXPECT_EQ(read_with({entry + "12"}).subdomains, 12U);
+  EXPECT_EQ(read_with({entry + "12", entry + "auto"}).subdomains, 0U);
+}
+
+TEST(ReadScene, LaterStatementsOfAFileWinAndLineEndsDoNotMatter)
+{
+  std::string text = scene_text() + "SET  Output   directory =  a b \nEnd";
+  text.resize(text.size() - 4);
+  EXPECT_EQ(read_with({}, text).output_directory, "a b");
+  std::string windows = "\xEF\xBB\xBF";
+  for (const char c : scene_text())
+    windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  EXPECT_EQ(printed(read_with({}, windows)), printed(read_with({})));
+}
+
+TEST(PrintScene, ReadsBackToTheSameScene)
+{
+  // Numbers without a short decimal form, and every kind of value.
+  const scene::Scene scene =
+    read_with({"Body punch/Young's modulus=0.1234567890123456789",
+               "Body punch/Poisson's ratio=-3.3333333333333333e-5",
+               "Body punch/Refine where=0.3-x^2-y^2",
+               "Body punch/Local refinements=2",
+               "Body foundation/Body force=0,0,-7.85e-5",
+               "Decomposition/Subdomains=7",
+               "Solver/Relative tolerance=1e-9",
+               "Solver/Report linear reference=true",
+               "Shape/Initial=0.1,0.2,-0.1,0,0.01,0.02",
+               "Element degree=2"});
+  const scene::Scene again = read_with({}, printed(scene));
+  EXPECT_EQ(printed(again), printed(scene));
+  EXPECT_EQ(again.bodies[0].material.youngs_modulus,
+            scene.bodies[0].material.youngs_modulus);
+  EXPECT_EQ(again.bodies[0].material.poissons_ratio,
+            scene.bodies[0].material.poissons_ratio);
+  EXPECT_EQ(again.bodies[0].loads.traction, scene.bodies[0].loads.traction);
+  EXPECT_EQ(again.bodies[0].mesh.curved_faces,
+            scene.bodies[0].mesh.curved_faces);
+  EXPECT_EQ(again.bodies[0].mesh.refine_where, "0.3-x^2-y^2");
+  EXPECT_EQ(again.bodies[1].loads.body_force, scene.bodies[1].loads.body_force);
+  EXPECT_EQ(again.contact.pairs, scene.contact.pairs);
+  EXPECT_EQ(again.shape.initial, scene.shape.initial);
+  EXPECT_EQ(again.solver.relative_tolerance, 1e-9);
+  EXPECT_TRUE(again.report_linear_reference);
+  EXPECT_EQ(again.subdomains, 7U);
+  EXPECT_EQ(again.degree, 2U);
+}
+
+TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
+{
+  std::ostringstream reference;
+  scene::print_reference(reference);
+  std::istringstream lines(printed(read_with({"Bodies=punch"},
+                                             "set Dimension = 2\n"
+                                             "subsection Body punch\n"
+                                             "set Box cells = 1, 1\n"
+                                             "end\n")));
+  std::string        line;
+  unsigned int       n_entries = 0;
+  while (std::getline(lines, line))
+    {
+      const auto begin = line.find("set ");
+      if (begin == std::string::npos)
+        continue;
+      std::string name = line.substr(begin + 4, line.find('=') - begin - 4);
+      name.erase(name.find_last_not_of(' ') + 1);
+      EXPECT_NE(reference.str().find("| `" + name + "` |"), std::string::npos)
+        << name;
+      ++n_entries;
+    }
+  const std::string text = reference.str();
+  std::size_t       rows = 0;
+  for (auto place = text.find("\n| `"); place != std::string::npos;
+       place      = text.find("\n| `", place + 1))
+    ++rows;
+  EXPECT_EQ(rows, n_entries);
+}
+
+TEST(ReadText, GivesTheContentsOfAFile)
+{
+  const std::string file = ::testing::TempDir() + "snug-read-text.prm";
+  std::ofstream(file) << "a\n\nb";
+  EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD), "a\n\nb");
+  std::ofstream(file).close();
+  EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD), "");
+  std::remove(file.c_str());
+}
+
+TEST(ReadText, NamesAFileThatCannotBeRead)
+{
+  for (const std::string file : {"nowhere/nothing.prm", "/"})
+    try
+      {
+        scene::read_text(file, MPI_COMM_WORLD);
+        ADD_FAILURE() << file;
+      }
+    catch (const InputError &error)
+      {
+        EXPECT_NE(std::string(error.what()).find("'" + file + "'"),
+                  std::string::npos);
+      }
+}
