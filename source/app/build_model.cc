@@ -18,7 +18,7 @@ namespace snug
 
       template <int dim>
       state::BodyModel<dim>
-      body_model(const scene::Body              &body,
+      body_model(const scene::Body             &body,
                  const mesh::BodyGeometry<dim> &geometry)
       {
         state::BodyModel<dim> model;
@@ -53,8 +53,7 @@ namespace snug
       const unsigned int body  = scene::body_index(scene, names.first);
       if (body == scene.bodies.size())
         throw InputError("there is no body '" + names.first + "'");
-      return {body,
-              mesh::boundary_index(mesh.geometry(body), names.second)};
+      return {body, mesh::boundary_index(mesh.geometry(body), names.second)};
     }
 
     template <int dim>
@@ -72,9 +71,9 @@ namespace snug
           for (const auto &support : body.supports)
             {
               state::Support entry;
-              entry.body     = b;
-              entry.boundary = mesh::boundary_index(mesh.geometry(b),
-                                                    support.first);
+              entry.body = b;
+              entry.boundary =
+                mesh::boundary_index(mesh.geometry(b), support.first);
               for (const char component : support.second)
                 entry.components.push_back(component - 'x');
               model.supports.push_back(entry);
@@ -86,10 +85,10 @@ namespace snug
       return model;
     }
 
-#define SNUG_INSTANTIATE(dim)                                               \
-  template state::Model<dim> build_model(const scene::Scene &,              \
-                                         const mesh::BodyMesh<dim> &);      \
-  template std::pair<unsigned int, unsigned int> find_face(                 \
+#define SNUG_INSTANTIATE(dim)                                          \
+  template state::Model<dim> build_model(const scene::Scene &,         \
+                                         const mesh::BodyMesh<dim> &); \
+  template std::pair<unsigned int, unsigned int> find_face(            \
     const scene::Scene &, const mesh::BodyMesh<dim> &, const std::string &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

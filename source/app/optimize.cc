@@ -32,9 +32,9 @@ namespace snug
           constraint.response =
             choose(response::response_table<dim>(), entry.first).make();
           constraint.target =
-            entry.second == "initial" ?
-              constraint.response->value(*workshop.solver, geometry) :
-              std::stod(entry.second);
+            entry.second == "initial"
+              ? constraint.response->value(*workshop.solver, geometry)
+              : std::stod(entry.second);
           constraints.push_back(std::move(constraint));
         }
     }
@@ -183,14 +183,12 @@ namespace snug
       hooks.log = settings.log;
       workshop.context.out() << io::log_header() << std::endl;
       const auto result =
-        optimization::minimize(problem,
-                               workshop.scene.optimization,
-                               hooks);
+        optimization::minimize(problem, workshop.scene.optimization, hooks);
       finish(result);
       return result.success || result.stop_reason == "interrupted" ||
-                 result.stop_reason == "maximum evaluations" ?
-               0 :
-               3;
+                 result.stop_reason == "maximum evaluations"
+               ? 0
+               : 3;
     }
 
     template <int dim>
@@ -209,17 +207,17 @@ namespace snug
       workshop.export_shape(result.x);
 
       io::Summary summary;
-      summary.task          = "optimize";
+      summary.task = "optimize";
       if (workshop.scene.report_linear_reference)
         last->linear_f_mults = workshop.solver->linear_f_mults(*last);
       summary.initial_state = io::summarize(*first);
       summary.state         = io::summarize(*last);
       io::Summary::Gradient gradient;
-      gradient.method       = last_gradient.method;
-      gradient.f_mults      = last_gradient.f_mults;
-      gradient.seconds      = last_gradient.seconds;
-      gradient.values       = result.evaluation.gradient;
-      summary.gradient      = gradient;
+      gradient.method  = last_gradient.method;
+      gradient.f_mults = last_gradient.f_mults;
+      gradient.seconds = last_gradient.seconds;
+      gradient.values  = result.evaluation.gradient;
+      summary.gradient = gradient;
       summary.optimization =
         io::summarize(result, workshop.scene.optimization.algorithm);
       workshop.write_summary(summary);
@@ -229,9 +227,8 @@ namespace snug
         << workshop.scene.optimization.objective << ' '
         << result.objective_initial << " -> " << result.objective_final
         << ", peak pressure " << first->max_pressure << " -> "
-        << last->max_pressure << ", active contacts "
-        << first->active_contacts << " -> " << last->active_contacts
-        << std::endl;
+        << last->max_pressure << ", active contacts " << first->active_contacts
+        << " -> " << last->active_contacts << std::endl;
     }
 
     template class Optimize<2>;

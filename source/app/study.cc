@@ -25,13 +25,12 @@ namespace snug
       void
       print_state(std::ostream &out, const state::ContactState<dim> &state)
       {
-        out << "energy " << state.energy << ", compliance "
-            << state.compliance << ", strain energy " << state.strain_energy
-            << "\ncontact force (" << state.contact_force << "), area "
-            << state.contact_area << ", peak pressure " << state.max_pressure
-            << ", " << state.active_contacts << " active and "
-            << state.weak_contacts << " weakly active of "
-            << state.contact.size() << " contact rows\n"
+        out << "energy " << state.energy << ", compliance " << state.compliance
+            << ", strain energy " << state.strain_energy << "\ncontact force ("
+            << state.contact_force << "), area " << state.contact_area
+            << ", peak pressure " << state.max_pressure << ", "
+            << state.active_contacts << " active and " << state.weak_contacts
+            << " weakly active of " << state.contact.size() << " contact rows\n"
             << state.dual.method << ": " << state.dual.outer_iterations
             << " outer iterations, " << state.f_mults << " F-mults\n";
         print_certificate(out, state.certificate);
@@ -77,8 +76,7 @@ namespace snug
         if (response.has_total_gradient())
           methods.push_back({"energy", "energy", "exact"});
         methods.push_back({"direct", "direct", "exact"});
-        methods.push_back(
-          {"semi-analytic", "direct", "finite differences"});
+        methods.push_back({"semi-analytic", "direct", "finite differences"});
         // last: they leave the solver at another design
         methods.push_back(
           {"finite differences", "finite differences", "exact"});
@@ -86,7 +84,7 @@ namespace snug
       }
 
       void
-      print_table(std::ostream                              &out,
+      print_table(std::ostream                                &out,
                   const std::vector<io::Summary::GradientRow> &rows)
       {
         const int name_width = 20, width = 17;
@@ -94,8 +92,8 @@ namespace snug
         for (const auto &row : rows)
           out << std::setw(width + 2) << row.method;
         const auto line = [&](const std::string &name, const auto &value) {
-          out << '\n' << std::left << std::setw(name_width) << name
-              << std::right;
+          out << '\n'
+              << std::left << std::setw(name_width) << name << std::right;
           for (const auto &row : rows)
             out << "  " << std::setw(width) << value(row);
         };
@@ -129,10 +127,8 @@ namespace snug
             auto parameters        = workshop.scene.gradient;
             parameters.method      = method.method;
             parameters.derivatives = method.derivatives;
-            const auto result      = workshop.gradient(*workshop.objective,
-                                                  state,
-                                                  design,
-                                                  parameters);
+            const auto result =
+              workshop.gradient(*workshop.objective, state, design, parameters);
             gradient.methods.push_back({method.name,
                                         result.f_mults,
                                         result.numeric_factorizations,
@@ -183,8 +179,8 @@ namespace snug
               const Options      &options)
     {
       catch_interrupts();
-      return scene.dimension == 2 ? run_task<2>(context, scene, options) :
-                                    run_task<3>(context, scene, options);
+      return scene.dimension == 2 ? run_task<2>(context, scene, options)
+                                  : run_task<3>(context, scene, options);
     }
   } // namespace app
 } // namespace snug

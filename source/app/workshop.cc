@@ -12,8 +12,7 @@ namespace snug
   {
     template <int dim>
     Workshop<dim>::Workshop(RunContext &context, const scene::Scene &scene)
-      : context(context)
-      , scene(scene)
+      : context(context), scene(scene)
     {
       {
         const RunContext::Timer timer(context, "setup");
@@ -24,7 +23,7 @@ namespace snug
           if (context.rank() == 0)
             io::write_text_file(path("parameters.prm"), text.str());
         });
-        mesh = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
+        mesh    = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
                                                      mesh_parameters(scene),
                                                      scene.degree);
         tearing = mesh::tear(*mesh, scene.tearing);
@@ -33,16 +32,16 @@ namespace snug
           names.names.push_back(body.name);
         basis = choose(shape::shape_basis_table<dim>(), scene.shape.basis)
                   .make(*mesh, names, scene.shape);
-        objective = choose(response::response_table<dim>(),
-                           scene.optimization.objective)
-                      .make();
+        objective =
+          choose(response::response_table<dim>(), scene.optimization.objective)
+            .make();
       }
       solver = std::make_unique<state::StateSolver<dim>>(
         *mesh, tearing, build_model(scene, *mesh), positions(start()), context);
       std::vector<elasticity::Material> materials;
       for (const auto &body : scene.bodies)
         materials.push_back(body.material);
-      fields = std::make_unique<io::FieldOutput<dim>>(*mesh,
+      fields         = std::make_unique<io::FieldOutput<dim>>(*mesh,
                                                       tearing,
                                                       materials,
                                                       scene.output_directory);
@@ -105,12 +104,12 @@ namespace snug
       if (!io::blas_warning(info).empty())
         out << "warning: " << io::blas_warning(info) << '\n';
       out << scene.bodies.size() << " bodies, " << mesh->n_global_cells()
-          << " cells, " << dim * mesh->n_global_free_nodes()
-          << " unknowns, " << tearing.n_global << " subdomains, "
+          << " cells, " << dim * mesh->n_global_free_nodes() << " unknowns, "
+          << tearing.n_global << " subdomains, "
           << solver->gluing().n_contact_rows() << " contact rows of "
-          << solver->gluing().n_rows() << " dual rows, "
-          << basis->n_variables() << " design variables, "
-          << context.n_ranks() << " ranks" << std::endl;
+          << solver->gluing().n_rows() << " dual rows, " << basis->n_variables()
+          << " design variables, " << context.n_ranks() << " ranks"
+          << std::endl;
     }
 
     template <int dim>
@@ -139,12 +138,10 @@ namespace snug
       if (basis->n_variables() == 0)
         return;
       const RunContext::Timer  timer(context, "output");
-      const mesh::Surface<dim> face(*mesh,
-                                    {find_face(scene,
-                                               *mesh,
-                                               scene.shape.face)});
-      const auto               at_face = face.gather(positions(design));
-      const auto points = basis->control_points(design);
+      const mesh::Surface<dim> face(
+        *mesh, {find_face(scene, *mesh, scene.shape.face)});
+      const auto at_face = face.gather(positions(design));
+      const auto points  = basis->control_points(design);
       everywhere(context.communicator(), [&]() {
         if (context.rank() != 0)
           return;
@@ -183,9 +180,8 @@ namespace snug
     Workshop<dim>::start() const
     {
       const auto &initial = scene.shape.initial;
-      return initial.empty() ?
-               std::vector<double>(basis->n_variables(), 0.) :
-               initial;
+      return initial.empty() ? std::vector<double>(basis->n_variables(), 0.)
+                             : initial;
     }
 
     template class Workshop<2>;

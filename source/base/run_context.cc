@@ -73,10 +73,9 @@ namespace snug
   }
 
   RunContext::Timer::Timer(RunContext &context, const std::string &stage)
-    : context(context)
-    , stage(stage)
-    , start(std::chrono::steady_clock::now())
-  {}
+    : context(context), stage(stage), start(std::chrono::steady_clock::now())
+  {
+  }
 
   RunContext::Timer::~Timer()
   {
@@ -103,11 +102,11 @@ namespace snug
   Work
   RunContext::total_work() const
   {
-    Work           total    = work;
-    unsigned long  local[3] = {work.symbolic_factorizations,
-                               work.numeric_factorizations,
-                               work.assembled_subdomains};
-    unsigned long  sum[3];
+    Work          total    = work;
+    unsigned long local[3] = {work.symbolic_factorizations,
+                              work.numeric_factorizations,
+                              work.assembled_subdomains};
+    unsigned long sum[3];
     MPI_Allreduce(local, sum, 3, MPI_UNSIGNED_LONG, MPI_SUM, comm);
     total.symbolic_factorizations = sum[0];
     total.numeric_factorizations  = sum[1];

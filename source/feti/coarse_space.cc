@@ -60,8 +60,7 @@ namespace snug
 
     CoarseSpace::CoarseSpace(const RowLayout      &layout,
                              const SubdomainTable &table)
-      : layout(layout)
-      , table(table)
+      : layout(layout), table(table)
     {
       const auto &start    = layout.entry_start();
       const auto &unknowns = layout.entry_unknowns();
@@ -70,8 +69,7 @@ namespace snug
         {
           for (unsigned int e = start[row]; e < start[row + 1]; ++e)
             {
-              if (e == start[row] ||
-                  unknowns[e].first != unknowns[e - 1].first)
+              if (e == start[row] || unknowns[e].first != unknowns[e - 1].first)
                 block_subdomain.push_back(unknowns[e].first);
               block_of_entry.push_back(block_subdomain.size() - 1);
             }
@@ -157,7 +155,7 @@ namespace snug
       sum_over_ranks(equality_gram, layout.communicator());
 
       const unsigned int n_bodies = table.body_names.size();
-      modes = qp::MultiVector(n_kernel(), n_bodies * m);
+      modes                       = qp::MultiVector(n_kernel(), n_bodies * m);
       for (unsigned int s = 0; s < Z.size(); ++s)
         for (unsigned int i = 0; i < m; ++i)
           for (unsigned int j = 0; j < m; ++j)
@@ -170,9 +168,9 @@ namespace snug
                     MPI_SUM,
                     layout.communicator());
       // Z (Z'Z)^{-1/2}: orthonormal, and each body keeps its own columns
-      qp::MultiVector vectors   = dense::transpose_product(modes, modes);
-      const auto      values    = dense::eigen(vectors);
-      qp::MultiVector scaled    = vectors;
+      qp::MultiVector vectors = dense::transpose_product(modes, modes);
+      const auto      values  = dense::eigen(vectors);
+      qp::MultiVector scaled  = vectors;
       for (unsigned int j = 0; j < values.size(); ++j)
         for (unsigned int i = 0; i < values.size(); ++i)
           scaled(i, j) = vectors(i, j) / std::sqrt(values[j]);

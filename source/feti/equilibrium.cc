@@ -20,9 +20,9 @@ namespace snug
       qp::MultiVector
       contact_columns(const CoarseSpace &coarse, const RowLayout &layout)
       {
-        const unsigned int  n_modes = coarse.body_modes().n_columns();
-        const auto          rows = coarse.transpose_multiply(coarse.body_modes(),
-                                                    nullptr);
+        const unsigned int n_modes = coarse.body_modes().n_columns();
+        const auto         rows =
+          coarse.transpose_multiply(coarse.body_modes(), nullptr);
         std::vector<double> mine;
         for (unsigned int i = 0; i < layout.n_owned(); ++i)
           if (layout.bounded()[i])
@@ -97,9 +97,9 @@ namespace snug
         for (unsigned int i = 0; i < m; ++i)
           {
             const double part = motion(body * m + i) / std::sqrt(best);
-            text << (i == 0              ? "translation (" :
-                     i == n_translations ? "), rotation (" :
-                                           " ")
+            text << (i == 0                ? "translation ("
+                     : i == n_translations ? "), rotation ("
+                                           : " ")
                  << (std::abs(part) < 5e-3 ? 0. : part);
           }
         text << ")";
@@ -146,8 +146,7 @@ namespace snug
                 square += free(body * m + i, j) * free(body * m + i, j);
               held = std::max(held, 1. - square);
               for (unsigned int k = 0; k < columns.n_columns(); ++k)
-                touched = std::max(touched,
-                                   std::abs(columns(body * m + i, k)));
+                touched = std::max(touched, std::abs(columns(body * m + i, k)));
             }
           if (held < 1e-8 && touched == 0.)
             return "body " + coarse.subdomains().body_names[body] +

@@ -4,11 +4,10 @@ namespace snug
 {
   namespace feti
   {
-    TotalFeti::FetiFace::FetiFace(const TotalFeti  &feti,
-                                  const qp::RowSet &free)
-      : feti(feti)
-      , free(free)
-    {}
+    TotalFeti::FetiFace::FetiFace(const TotalFeti &feti, const qp::RowSet &free)
+      : feti(feti), free(free)
+    {
+    }
 
     const qp::RowSet &
     TotalFeti::FetiFace::rows() const
@@ -24,8 +23,7 @@ namespace snug
       return *problem;
     }
 
-    void
-    TotalFeti::FetiFace::restrict(qp::MultiVector &x) const
+    void TotalFeti::FetiFace::restrict(qp::MultiVector &x) const
     {
       for (unsigned int k = 0; k < x.n_columns(); ++k)
         for (unsigned int row = 0; row < x.n_rows(); ++row)
@@ -85,8 +83,9 @@ namespace snug
     std::vector<double>
     TotalFeti::FetiFace::closing_rates(const qp::MultiVector &e) const
     {
-      const qp::MultiVector rates = feti.coarse.transpose_multiply(
-        coarse_problem().kernel_part(e), nullptr);
+      const qp::MultiVector rates =
+        feti.coarse.transpose_multiply(coarse_problem().kernel_part(e),
+                                       nullptr);
       return std::vector<double>(rates.column(0),
                                  rates.column(0) + rates.n_rows());
     }

@@ -34,9 +34,7 @@ namespace snug
     GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &system,
                                            const std::string     &package,
                                            RunContext            &context)
-      : system(system)
-      , context(context)
-      , K_rho(coupled_pattern(system))
+      : system(system), context(context), K_rho(coupled_pattern(system))
     {
       const CsrMatrix &K = system.K;
       for (unsigned int i = 0; i < system.n_dofs(); ++i)

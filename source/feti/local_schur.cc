@@ -8,9 +8,7 @@ namespace snug
                            bool                   lumped,
                            const std::string     &package,
                            RunContext            &context)
-      : system(system)
-      , context(context)
-      , lumped(lumped)
+      : system(system), context(context), lumped(lumped)
     {
       const unsigned int n = system.n_dofs();
       std::vector<bool>  on_boundary(n, false);
@@ -53,13 +51,12 @@ namespace snug
               const PetscInt j = K.columns[p];
               if ((position_b[j] < n_b) != columns_on_boundary)
                 continue;
-              rows.back().push_back(columns_on_boundary ? position_b[j] :
-                                                          position_i[j]);
+              rows.back().push_back(columns_on_boundary ? position_b[j]
+                                                        : position_i[j]);
               part.source.push_back(p);
             }
         }
-      part.matrix =
-        CsrMatrix::from_rows(rows, columns_on_boundary ? n_b : n_i);
+      part.matrix = CsrMatrix::from_rows(rows, columns_on_boundary ? n_b : n_i);
       return part;
     }
 

@@ -41,8 +41,7 @@ namespace snug
       }
     } // namespace
 
-    RowGram::RowGram(const RowLayout &layout)
-      : layout(layout)
+    RowGram::RowGram(const RowLayout &layout) : layout(layout)
     {
       const auto &start    = layout.entry_start();
       const auto &unknowns = layout.entry_unknowns();
@@ -64,9 +63,8 @@ namespace snug
             unknowns_of_row[row].push_back(found->second);
             row_of_entry.push_back(row);
           }
-      const auto coupled = coupled_to_contact(layout.bounded(),
-                                              rows_of_unknown,
-                                              unknowns_of_row);
+      const auto coupled =
+        coupled_to_contact(layout.bounded(), rows_of_unknown, unknowns_of_row);
       for (unsigned int row = 0; row < layout.n_owned(); ++row)
         {
           Group &group = coupled[row] ? contact : fixed;
@@ -87,8 +85,7 @@ namespace snug
                             columns.end());
               pattern.push_back(columns);
             }
-          group->matrix =
-            CsrMatrix::from_rows(pattern, group->rows.size());
+          group->matrix = CsrMatrix::from_rows(pattern, group->rows.size());
         }
       if (!fixed.rows.empty())
         fixed_factor = std::make_unique<SparseFactor>(fixed.matrix, "CHOLMOD");
@@ -98,9 +95,7 @@ namespace snug
     RowGram::update(const std::vector<double> &entries, unsigned int stride)
     {
       for (Group *group : {&fixed, &contact})
-        std::fill(group->matrix.values.begin(),
-                  group->matrix.values.end(),
-                  0.);
+        std::fill(group->matrix.values.begin(), group->matrix.values.end(), 0.);
       for (const auto &sharing : entries_of_unknown)
         for (const unsigned int a : sharing)
           for (const unsigned int b : sharing)
@@ -140,9 +135,7 @@ namespace snug
     }
 
     RowGram::Factor::Factor(const RowGram &gram, const qp::RowSet &free)
-      : gram(gram)
-      , free(free)
-      , matrix(gram.contact.matrix)
+      : gram(gram), free(free), matrix(gram.contact.matrix)
     {
       const auto &rows = gram.contact.rows;
       for (unsigned int i = 0; i < matrix.n_rows; ++i)

@@ -96,8 +96,7 @@ namespace snug
                          const qp::RowSet                      &bounded,
                          const std::vector<std::vector<Entry>> &entries,
                          unsigned int                           first_subdomain)
-      : comm(communicator)
-      , is_bounded(bounded)
+      : comm(communicator), is_bounded(bounded)
     {
       int n_ranks;
       MPI_Comm_size(comm, &n_ranks);
@@ -197,16 +196,10 @@ namespace snug
       qp::MultiVector owned(n_owned(), local.n_columns());
       for (unsigned int j = 0; j < local.n_columns(); ++j)
         {
-          check(PetscSFReduceBegin(row_forest,
-                                   MPI_DOUBLE,
-                                   local.column(j),
-                                   owned.column(j),
-                                   MPI_SUM));
-          check(PetscSFReduceEnd(row_forest,
-                                 MPI_DOUBLE,
-                                 local.column(j),
-                                 owned.column(j),
-                                 MPI_SUM));
+          check(PetscSFReduceBegin(
+            row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
+          check(PetscSFReduceEnd(
+            row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
         }
       return owned;
     }

@@ -46,8 +46,7 @@ namespace snug
         petsc::check(MatMumpsSetIcntl(factor, 7, 4)); // PORD: METIS is absent
       MatFactorInfo info;
       petsc::check(MatFactorInfoInitialize(&info));
-      petsc::check(
-        MatCholeskyFactorSymbolic(factor, wrapped, nullptr, &info));
+      petsc::check(MatCholeskyFactorSymbolic(factor, wrapped, nullptr, &info));
       petsc::check(VecCreateSeqWithArray(
         PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, right_hand_side.put()));
       petsc::check(VecCreateSeqWithArray(

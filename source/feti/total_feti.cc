@@ -69,10 +69,10 @@ namespace snug
     void
     TotalFeti::gather_rows()
     {
-      const unsigned int  n_modes = coarse.subdomains().n_modes;
-      const unsigned int  width   = 2 + n_modes;
-      const bool          scaled  = parameters.scaling == "stiffness";
-      std::vector<double> values;
+      const unsigned int           n_modes = coarse.subdomains().n_modes;
+      const unsigned int           width   = 2 + n_modes;
+      const bool                   scaled  = parameters.scaling == "stiffness";
+      std::vector<double>          values;
       std::vector<qp::MultiVector> Z;
       for (const SubdomainSystem &system : systems)
         {
@@ -97,12 +97,12 @@ namespace snug
       if (!scaled)
         for (std::size_t e = 0; e < start.back(); ++e)
           gathered[e * width + 1] = 1.;
-      coarse.update(std::vector<double>(gathered.begin() +
-                                          std::min<std::size_t>(
-                                            2, gathered.size()),
-                                        gathered.end()),
-                    width,
-                    Z);
+      coarse.update(
+        std::vector<double>(gathered.begin() +
+                              std::min<std::size_t>(2, gathered.size()),
+                            gathered.end()),
+        width,
+        Z);
       gram.update(gathered, width);
     }
 
@@ -304,7 +304,8 @@ namespace snug
           norm_e += square;
           largest = std::max(largest, square);
         }
-      return std::sqrt(largest) + coarse.norm() * qp::norms(lambda, run.communicator())[0];
+      return std::sqrt(largest) +
+             coarse.norm() * qp::norms(lambda, run.communicator())[0];
     }
 
     void
@@ -321,14 +322,12 @@ namespace snug
           std::vector<double> weight(schur[s]->n_boundary(), 1.);
           if (scaled)
             for (const BEntry &entry : system.B)
-              weight[position[entry.dof]] =
-                1. / system.K.diagonal(entry.dof);
+              weight[position[entry.dof]] = 1. / system.K.diagonal(entry.dof);
           qp::MultiVector boundary(schur[s]->n_boundary(), k);
           for (unsigned int j = 0; j < k; ++j)
             for (const BEntry &entry : system.B)
               boundary(position[entry.dof], j) +=
-                weight[position[entry.dof]] * entry.value *
-                local(entry.row, j);
+                weight[position[entry.dof]] * entry.value * local(entry.row, j);
           const qp::MultiVector forces = schur[s]->apply(boundary);
           for (unsigned int j = 0; j < k; ++j)
             for (const BEntry &entry : system.B)

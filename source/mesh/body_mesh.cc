@@ -1,9 +1,7 @@
 #include <snug/mesh/body_mesh.h>
+#include <snug/mesh/triangulate.h>
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/mpi.h>
-
-#include <deal.II/distributed/tria.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -11,8 +9,6 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/fe/mapping_q1.h>
-
-#include <deal.II/grid/tria_description.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
@@ -32,24 +28,25 @@ namespace snug
         , fe(degree)
         , triangulation(communicator)
         , nodes(triangulation)
-      {}
+      {
+      }
 
-      MPI_Comm                                        comm;
-      unsigned int                                    degree;
-      dealii::FE_Q<dim>                               fe;
-      std::vector<std::unique_ptr<BodyGeometry<dim>>> geometries;
+      MPI_Comm                                          comm;
+      unsigned int                                      degree;
+      dealii::FE_Q<dim>                                 fe;
+      std::vector<std::unique_ptr<BodyGeometry<dim>>>   geometries;
       dealii::parallel::distributed::Triangulation<dim> triangulation;
       dealii::DoFHandler<dim>                           nodes;
 
-      dealii::IndexSet                 relevant;
-      std::vector<unsigned int>        first_node_of_rank; ///< n_ranks + 1
-      std::vector<unsigned int>        node_body;
-      std::vector<dealii::Point<dim>>  logical;
-      Field                            reference;
-      std::vector<Cell>                cells;
-      std::vector<Face>                faces;
-      std::vector<Hanging>             hanging;
-      std::vector<unsigned int>        hanging_of_node; ///< or n_hanging
+      dealii::IndexSet                relevant;
+      std::vector<unsigned int>       first_node_of_rank; ///< n_ranks + 1
+      std::vector<unsigned int>       node_body;
+      std::vector<dealii::Point<dim>> logical;
+      Field                           reference;
+      std::vector<Cell>               cells;
+      std::vector<Face>               faces;
+      std::vector<Hanging>            hanging;
+      std::vector<unsigned int>       hanging_of_node; ///< or n_hanging
       std::vector<std::pair<unsigned int, unsigned int>> neighbours;
       unsigned long                                      n_cells      = 0;
       unsigned long                                      n_free_nodes = 0;
@@ -61,14 +58,6 @@ namespace snug
       }
 
       void
-      create_coarse_mesh();
-      void
-      refine(const std::vector<BodyMeshParameters> &bodies);
-      void
-      refine_step(const std::function<bool(unsigned int,
-                                           const dealii::Point<dim> &,
-                                           unsigned int)> &wanted);
-      void
       number_nodes();
       void
       collect_nodes();
@@ -79,121 +68,6 @@ namespace snug
       void
       add_boundary_face(unsigned int cell, unsigned int face, unsigned int id);
     };
-
-    namespace
-    {
-      /// The parameter "Refine where" as a function of reference position.
-      template <int dim>
-      std::unique_ptr<dealii::FunctionParser<dim>>
-      refinement_formula(const std::string &formula)
-      {
-        auto parser = std::make_unique<dealii::FunctionParser<dim>>();
-        try
-          {
-            parser->initialize(dim == 2 ? "x,y" : "x,y,z", formula, {});
-            parser->value(dealii::Point<dim>());
-          }
-        catch (const std::exception &)
-          {
-            throw bad_entry("Refine where",
-                            formula,
-                            std::string("must be a formula of ") +
-                              (dim == 2 ? "x, y" : "x, y, z"));
-          }
-        return parser;
-      }
-    } // namespace
-
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::create_coarse_mesh()
-    {
-      std::vector<dealii::Point<dim>>                vertices;
-      std::vector<dealii::CellData<dim>>             coarse_cells;
-      std::map<std::vector<unsigned int>, unsigned> boundary;
-      for (unsigned int body = 0; body < geometries.size(); ++body)
-        {
-          const auto         mesh   = geometries[body]->coarse_mesh();
-          const unsigned int offset = vertices.size();
-          for (const auto &vertex : mesh.vertices)
-            vertices.push_back(vertex);
-          for (const auto &cell : mesh.cells)
-            {
-              dealii::CellData<dim> data(cell.size());
-              for (unsigned int v = 0; v < cell.size(); ++v)
-                data.vertices[v] = cell[v] + offset;
-              data.material_id = body;
-              coarse_cells.push_back(data);
-            }
-          for (const auto &face : mesh.boundary_faces)
-            {
-              std::vector<unsigned int> key = face.first;
-              for (unsigned int &vertex : key)
-                vertex += offset;
-              std::sort(key.begin(), key.end());
-              boundary[key] = face.second;
-            }
-        }
-      triangulation.create_triangulation(vertices,
-                                         coarse_cells,
-                                         dealii::SubCellData());
-      for (const auto &cell : triangulation.cell_iterators_on_level(0))
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
-            {
-              std::vector<unsigned int> key;
-              for (const unsigned int v : cell->face(f)->vertex_indices())
-                key.push_back(cell->face(f)->vertex_index(v));
-              std::sort(key.begin(), key.end());
-              cell->face(f)->set_boundary_id(boundary.at(key));
-            }
-    }
-
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::refine_step(
-      const std::function<bool(unsigned int,
-                               const dealii::Point<dim> &,
-                               unsigned int)> &wanted)
-    {
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned() &&
-            wanted(cell->material_id(), cell->center(), cell->level()))
-          cell->set_refine_flag();
-      triangulation.execute_coarsening_and_refinement();
-    }
-
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::refine(const std::vector<BodyMeshParameters> &bodies)
-    {
-      unsigned int global_steps = 0, local_steps = 0;
-      std::vector<std::unique_ptr<dealii::FunctionParser<dim>>> formulas;
-      for (const auto &body : bodies)
-        {
-          const bool local = !body.refine_where.empty();
-          global_steps     = std::max(global_steps, body.refinements);
-          if (local)
-            local_steps = std::max(local_steps, body.local_refinements);
-          formulas.push_back(
-            local ? refinement_formula<dim>(body.refine_where) : nullptr);
-        }
-      for (unsigned int step = 0; step < global_steps; ++step)
-        refine_step([&](unsigned int body,
-                        const dealii::Point<dim> &,
-                        unsigned int level) {
-          return level < bodies[body].refinements;
-        });
-      for (unsigned int step = 0; step < local_steps; ++step)
-        refine_step([&](unsigned int              body,
-                        const dealii::Point<dim> &centre,
-                        unsigned int              level) {
-          return formulas[body] &&
-                 level < bodies[body].refinements +
-                           bodies[body].local_refinements &&
-                 formulas[body]->value(geometries[body]->position(centre)) > 0.;
-        });
-    }
 
     template <int dim>
     void
@@ -227,8 +101,9 @@ namespace snug
               {
                 const unsigned int node = local(indices[i]);
                 node_body[node]         = cell->material_id();
-                logical[node]           = mapping.transform_unit_to_real_cell(
-                  cell, fe.unit_support_point(i));
+                logical[node] =
+                  mapping.transform_unit_to_real_cell(cell,
+                                                      fe.unit_support_point(i));
               }
           }
       reference.resize(logical.size());
@@ -356,8 +231,8 @@ namespace snug
       for (const auto &body : bodies)
         data->geometries.push_back(
           choose(body_geometry_table<dim>(), body.source).make(body));
-      data->create_coarse_mesh();
-      data->refine(bodies);
+      create_coarse_mesh(data->geometries, data->triangulation);
+      refine(bodies, data->geometries, data->triangulation);
       data->number_nodes();
       data->collect_nodes();
       data->collect_hanging();

@@ -183,10 +183,10 @@ namespace snug
     } // namespace
 
     template <int dim>
-    const ChoiceTable<std::vector<unsigned int>(
-      const CellGraph &,
-      const std::vector<dealii::BoundingBox<dim>> &,
-      unsigned int)> &
+    const ChoiceTable<
+      std::vector<unsigned int>(const CellGraph &,
+                                const std::vector<dealii::BoundingBox<dim>> &,
+                                unsigned int)> &
     partition_table()
     {
       static const ChoiceTable<std::vector<unsigned int>(
@@ -202,15 +202,15 @@ namespace snug
       return table;
     }
 
-    template const ChoiceTable<std::vector<unsigned int>(
-      const CellGraph &,
-      const std::vector<dealii::BoundingBox<2>> &,
-      unsigned int)> &
+    template const ChoiceTable<
+      std::vector<unsigned int>(const CellGraph &,
+                                const std::vector<dealii::BoundingBox<2>> &,
+                                unsigned int)> &
     partition_table<2>();
-    template const ChoiceTable<std::vector<unsigned int>(
-      const CellGraph &,
-      const std::vector<dealii::BoundingBox<3>> &,
-      unsigned int)> &
+    template const ChoiceTable<
+      std::vector<unsigned int>(const CellGraph &,
+                                const std::vector<dealii::BoundingBox<3>> &,
+                                unsigned int)> &
     partition_table<3>();
   } // namespace mesh
 } // namespace snug

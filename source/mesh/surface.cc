@@ -64,6 +64,23 @@ namespace snug
         all.erase(std::unique(all.begin(), all.end()), all.end());
         return all;
       }
+
+      /// The global nodes of all records, ascending.
+      std::vector<unsigned int>
+      nodes_of(const std::vector<FaceRecord>    &faces,
+               const std::vector<HangingRecord> &hanging,
+               unsigned int                      n_leading)
+      {
+        std::vector<unsigned int> nodes;
+        for (const auto &face : faces)
+          nodes.insert(nodes.end(), face.begin() + n_leading, face.end());
+        for (const auto &node : hanging)
+          for (const auto &master : node.second)
+            nodes.push_back(master.first);
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        return nodes;
+      }
     } // namespace
 
     template <int dim>
@@ -72,62 +89,51 @@ namespace snug
       const std::vector<std::pair<unsigned int, unsigned int>> &boundaries)
       : mesh(mesh)
     {
-      std::vector<FaceRecord>    face_records;
-      std::vector<HangingRecord> hanging_records;
+      std::vector<FaceRecord>    faces;
+      std::vector<HangingRecord> hanging;
       for (const auto &face : mesh.boundary_faces())
         if (std::find(boundaries.begin(),
                       boundaries.end(),
                       std::make_pair(face.body, face.boundary)) !=
             boundaries.end())
           {
-            face_records.push_back(face_record(mesh, face));
+            faces.push_back(face_record(mesh, face));
             for (const unsigned int node : face.nodes)
               if (mesh.is_hanging(node))
-                hanging_records.push_back(hanging_record(mesh, node));
+                hanging.push_back(hanging_record(mesh, node));
           }
-      face_records    = gathered(mesh.communicator(), face_records);
-      hanging_records = gathered(mesh.communicator(), hanging_records);
+      faces   = gathered(mesh.communicator(), faces);
+      hanging = gathered(mesh.communicator(), hanging);
 
-      for (const auto &record : face_records)
-        global_nodes.insert(global_nodes.end(),
-                            record.begin() + 2 + dim,
-                            record.end());
-      for (const auto &record : hanging_records)
-        for (const auto &master : record.second)
-          global_nodes.push_back(master.first);
-      std::sort(global_nodes.begin(), global_nodes.end());
-      global_nodes.erase(std::unique(global_nodes.begin(), global_nodes.end()),
-                         global_nodes.end());
-      std::map<unsigned int, unsigned int> surface_node;
+      const unsigned int n_leading = 2 + dim;
+      global_nodes                 = nodes_of(faces, hanging, n_leading);
+      std::map<unsigned int, unsigned int> index;
       for (unsigned int node = 0; node < global_nodes.size(); ++node)
-        surface_node[global_nodes[node]] = node;
-
-      for (const auto &record : face_records)
+        index[global_nodes[node]] = node;
+      for (const auto &record : faces)
         {
           Face face{static_cast<unsigned int>(record[0]),
                     static_cast<unsigned int>(record[1]),
                     {}};
-          for (auto node = record.begin() + 2 + dim; node != record.end();
-               ++node)
-            face.nodes.push_back(surface_node.at(*node));
+          for (unsigned int i = n_leading; i < record.size(); ++i)
+            face.nodes.push_back(index.at(record[i]));
           surface_faces.push_back(face);
         }
       node_masters.resize(global_nodes.size());
-      for (const auto &record : hanging_records)
+      for (const auto &record : hanging)
         {
-          auto &masters = node_masters[surface_node.at(record.first)];
+          auto &masters = node_masters[index.at(record.first)];
           masters.clear();
           for (const auto &master : record.second)
-            masters.emplace_back(surface_node.at(master.first), master.second);
+            masters.emplace_back(index.at(master.first), master.second);
         }
-
       const unsigned int rank =
         dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
       for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
         if (mesh.owner(node) == rank)
           {
-            const auto found = surface_node.find(mesh.global_node(node));
-            if (found != surface_node.end())
+            const auto found = index.find(mesh.global_node(node));
+            if (found != index.end())
               owned.emplace_back(found->second, node);
           }
       std::sort(owned.begin(), owned.end());

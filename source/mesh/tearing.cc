@@ -151,9 +151,9 @@ namespace snug
     tear(const BodyMesh<dim> &mesh, const TearingParameters &parameters)
     {
       const double cells_each =
-        parameters.subdomains == 0 ?
-          cells_per_subdomain<dim>(mesh.degree()) :
-                      double(mesh.n_global_cells()) / parameters.subdomains;
+        parameters.subdomains == 0
+          ? cells_per_subdomain<dim>(mesh.degree())
+          : double(mesh.n_global_cells()) / parameters.subdomains;
       const auto &partition =
         choose(partition_table<dim>(), parameters.method).make;
       Tearing tearing;
@@ -165,10 +165,11 @@ namespace snug
               cells.push_back(cell);
           if (cells.empty())
             continue;
-          const CellGraph    graph = cell_graph(mesh, cells);
-          const auto         boxes = cell_boxes(mesh, cells);
-          const unsigned int n     = std::max(
-            1u, static_cast<unsigned int>(std::lround(cells.size() / cells_each)));
+          const CellGraph           graph   = cell_graph(mesh, cells);
+          const auto                boxes   = cell_boxes(mesh, cells);
+          const unsigned int        n       = std::max(1u,
+                                          static_cast<unsigned int>(std::lround(
+                                            cells.size() / cells_each)));
           std::vector<unsigned int> part    = partition(graph, boxes, n);
           unsigned int              n_parts = split_into_pieces(graph, part);
           n_parts = merge_slivers(graph, part, n_parts, n);
@@ -182,9 +183,10 @@ namespace snug
               tearing.subdomains.push_back(piece);
             }
         }
-      const auto counts = dealii::Utilities::MPI::all_gather(
-        mesh.communicator(),
-        static_cast<unsigned int>(tearing.subdomains.size()));
+      const auto counts =
+        dealii::Utilities::MPI::all_gather(mesh.communicator(),
+                                           static_cast<unsigned int>(
+                                             tearing.subdomains.size()));
       tearing.first_id_of_rank.assign(1, 0);
       for (const unsigned int count : counts)
         tearing.first_id_of_rank.push_back(tearing.first_id_of_rank.back() +

@@ -188,7 +188,10 @@ namespace snug
             bool grows = false;
             for (unsigned int i = 0; i < rates.size(); ++i)
               if (!mask[i] && rates[i] > 1e-10 * fastest)
-                grows = mask[i] = true;
+                {
+                  mask[i] = 1;
+                  grows   = true;
+                }
             if (!any(grows, comm))
               throw SolveError("no equilibrium: the contacts cannot balance "
                                "the loads of a floating body");

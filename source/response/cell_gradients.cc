@@ -8,9 +8,9 @@ namespace snug
     {
       template <int dim>
       void
-      add_to_nodes(const std::vector<unsigned int>                 &nodes,
-                   const std::vector<dealii::Tensor<1, dim>>       &values,
-                   typename mesh::BodyMesh<dim>::Field &gradient)
+      add_to_nodes(const std::vector<unsigned int>           &nodes,
+                   const std::vector<dealii::Tensor<1, dim>> &values,
+                   typename mesh::BodyMesh<dim>::Field       &gradient)
       {
         for (unsigned int a = 0; a < nodes.size(); ++a)
           gradient[nodes[a]] += values[a];
@@ -19,9 +19,9 @@ namespace snug
 
     template <int dim>
     void
-    add_stiffness_gradient(const state::StateSolver<dim>           &solver,
-                           const state::ContactState<dim>          &state,
-                           double                                   factor,
+    add_stiffness_gradient(const state::StateSolver<dim>       &solver,
+                           const state::ContactState<dim>      &state,
+                           double                               factor,
                            typename mesh::BodyMesh<dim>::Field &gradient)
     {
       for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
@@ -29,8 +29,7 @@ namespace snug
           const auto &assembler = *solver.assemblers()[s];
           for (unsigned int i = 0; i < assembler.cells().size(); ++i)
             {
-              const auto u =
-                assembler.cell_values(i, state.u[s].column(0));
+              const auto u = assembler.cell_values(i, state.u[s].column(0));
               std::vector<dealii::Tensor<1, dim>> values(u.size());
               solver.element().add_energy_gradient(
                 assembler.cell_field(i, state.positions),
@@ -49,9 +48,9 @@ namespace snug
 
     template <int dim>
     void
-    add_load_gradient(const state::StateSolver<dim>           &solver,
-                      const state::ContactState<dim>          &state,
-                      double                                   factor,
+    add_load_gradient(const state::StateSolver<dim>       &solver,
+                      const state::ContactState<dim>      &state,
+                      double                               factor,
                       typename mesh::BodyMesh<dim>::Field &gradient)
     {
       for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
@@ -61,8 +60,7 @@ namespace snug
           if (b.norm() > 0.)
             for (unsigned int i = 0; i < assembler.cells().size(); ++i)
               {
-                const auto u =
-                  assembler.cell_values(i, state.u[s].column(0));
+                const auto u = assembler.cell_values(i, state.u[s].column(0));
                 std::vector<dealii::Tensor<1, dim>> values(u.size());
                 solver.element().add_body_force_gradient(
                   assembler.cell_field(i, state.positions),
@@ -77,8 +75,7 @@ namespace snug
               }
           for (unsigned int i = 0; i < assembler.loaded_faces().size(); ++i)
             {
-              const auto u =
-                assembler.face_values(i, state.u[s].column(0));
+              const auto u = assembler.face_values(i, state.u[s].column(0));
               std::vector<dealii::Tensor<1, dim>> values(u.size());
               const auto &load = assembler.face_model(i);
               solver.face_load().add_force_gradient(
@@ -88,20 +85,19 @@ namespace snug
                 u,
                 factor,
                 values);
-              add_to_nodes<dim>(
-                solver.mesh()
-                  .boundary_faces()[assembler.loaded_faces()[i]]
-                  .nodes,
-                values,
-                gradient);
+              add_to_nodes<dim>(solver.mesh()
+                                  .boundary_faces()[assembler.loaded_faces()[i]]
+                                  .nodes,
+                                values,
+                                gradient);
             }
         }
     }
 
     template <int dim>
     void
-    add_contact_gradient(const state::StateSolver<dim>           &solver,
-                         const state::ContactState<dim>          &state,
+    add_contact_gradient(const state::StateSolver<dim>       &solver,
+                         const state::ContactState<dim>      &state,
                          typename mesh::BodyMesh<dim>::Field &gradient)
     {
       const auto         &surface = solver.surface();
@@ -115,17 +111,17 @@ namespace snug
       surface.add_owned(at_surface, gradient);
     }
 
-#define SNUG_INSTANTIATE(dim)                                             \
-  template void add_stiffness_gradient(const state::StateSolver<dim> &,   \
-                                       const state::ContactState<dim> &,  \
-                                       double,                            \
-                                       mesh::BodyMesh<dim>::Field &);     \
-  template void add_load_gradient(const state::StateSolver<dim> &,        \
-                                  const state::ContactState<dim> &,       \
-                                  double,                                 \
-                                  mesh::BodyMesh<dim>::Field &);          \
-  template void add_contact_gradient(const state::StateSolver<dim> &,     \
-                                     const state::ContactState<dim> &,    \
+#define SNUG_INSTANTIATE(dim)                                            \
+  template void add_stiffness_gradient(const state::StateSolver<dim> &,  \
+                                       const state::ContactState<dim> &, \
+                                       double,                           \
+                                       mesh::BodyMesh<dim>::Field &);    \
+  template void add_load_gradient(const state::StateSolver<dim> &,       \
+                                  const state::ContactState<dim> &,      \
+                                  double,                                \
+                                  mesh::BodyMesh<dim>::Field &);         \
+  template void add_contact_gradient(const state::StateSolver<dim> &,    \
+                                     const state::ContactState<dim> &,   \
                                      mesh::BodyMesh<dim>::Field &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

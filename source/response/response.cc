@@ -30,8 +30,8 @@ namespace snug
       typename mesh::BodyMesh<dim>::Field
       zero_field(const state::StateSolver<dim> &solver)
       {
-        return typename mesh::BodyMesh<dim>::Field(
-          solver.mesh().n_local_nodes());
+        return
+          typename mesh::BodyMesh<dim>::Field(solver.mesh().n_local_nodes());
       }
 
       /// K u per subdomain.
@@ -243,9 +243,9 @@ namespace snug
         {"strain energy",
          "1/2 u'Ku [force length]",
          []() { return std::make_unique<StrainEnergy<dim>>(); }},
-        {"volume",
-         "volume of all bodies [length^dim]",
-         []() { return std::make_unique<Volume<dim>>(); }}};
+        {"volume", "volume of all bodies [length^dim]", []() {
+           return std::make_unique<Volume<dim>>();
+         }}};
       return table;
     }
 

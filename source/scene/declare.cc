@@ -1,6 +1,9 @@
+#include <snug/mesh/partition.h>
 #include <snug/optimization/minimize.h>
+#include <snug/response/response.h>
 #include <snug/scene/check.h>
 #include <snug/scene/entries.h>
+#include <snug/sensitivity/gradient.h>
 
 namespace snug
 {
@@ -8,6 +11,8 @@ namespace snug
   {
     namespace
     {
+      /// A choice from a factory table. Of tables for 2D and 3D, which have
+      /// the same names, the one for 3D is passed.
       template <typename Make>
       void
       add_choice(Entries                 &entries,
@@ -61,7 +66,6 @@ namespace snug
       declare_mesh(Entries &entries, Body &body)
       {
         auto &mesh = body.mesh;
-        // Names only; they are the same in 2D and 3D.
         add_choice(entries,
                    "Mesh",
                    mesh.source,
@@ -94,7 +98,8 @@ namespace snug
                 ';'),
           "Faces that are not flat, separated by semicolons (formulas may "
           "hold commas): 'bottom: sphere 4', 'bottom: cylinder x 4' (radius "
-          "[length], positive if convex; the axis is the cylinder's) or a "
+          "[length], positive if convex; the axis is the cylinder's, z in 2D) "
+          "or a "
           "formula of x, y, z for the outward displacement of the face "
           "[length], 'bottom: -(x^2)/8'.");
         entries.add("Refinements",
@@ -191,19 +196,26 @@ namespace snug
                               "Tearing the bodies into subdomains.");
         entries.add("Subdomains",
                     {[&scene]() {
-                       return scene.subdomains == 0 ? std::string("auto")
-                                                    : to_text(scene.subdomains);
+                       return scene.tearing.subdomains == 0
+                                ? std::string("auto")
+                                : to_text(scene.tearing.subdomains);
                      },
                      [&scene](const std::string &text) {
-                       scene.subdomains = 0;
+                       scene.tearing.subdomains = 0;
                        if (text != "auto")
-                         from_text(text, scene.subdomains);
-                       if (text != "auto" && scene.subdomains == 0)
+                         from_text(text, scene.tearing.subdomains);
+                       if (text != "auto" && scene.tearing.subdomains == 0)
                          throw std::invalid_argument("no subdomain");
                      }},
                     anything("auto or a whole number of at least 1"),
                     "Wanted number of subdomains of all bodies and ranks; "
                     "auto: by size. There is at least one per rank and body.");
+
+        add_choice(entries,
+                   "Method",
+                   scene.tearing.method,
+                   mesh::partition_table<3>(),
+                   "How a body is divided.");
 
         entries.begin_section("Solver", "Solving the contact problem.");
         add_choice(entries,
@@ -246,13 +258,11 @@ namespace snug
       {
         auto &gradient = scene.gradient;
         entries.begin_section("Gradient", "Derivatives by design variables.");
-        entries.add("Method",
-                    gradient.method,
-                    choice("auto|energy|direct|finite differences"),
-                    "auto: energy where it applies, else direct. energy: "
-                    "without any solve, for potential energy and volume. "
-                    "direct: one right-hand side per variable. finite "
-                    "differences: two states per variable, for comparison.");
+        add_choice(entries,
+                   "Method",
+                   gradient.method,
+                   sensitivity::gradient_table<3>(),
+                   "How the objective is differentiated.");
         entries.add("Derivatives",
                     gradient.derivatives,
                     choice("exact|finite differences"),
@@ -278,11 +288,11 @@ namespace snug
                    optimization.algorithm,
                    optimization::algorithm_table(),
                    "The optimizer.");
-        entries.add("Objective",
-                    optimization.objective,
-                    anything("one of " + listed(response_names())),
-                    "The response to be made least: " +
-                      listed(response_names()) + ".");
+        add_choice(entries,
+                   "Objective",
+                   optimization.objective,
+                   response::response_table<3>(),
+                   "The response to be made least.");
         entries.add("Constraints",
                     optimization.constraints,
                     pairs("a list 'response: initial, response: number, ...' "

@@ -125,10 +125,10 @@ namespace snug
       /// Derivatives of the contact rows along a velocity of the surface.
       template <int dim>
       std::vector<contact::Row<dim>>
-      contact_derivatives(const state::StateSolver<dim>                  &solver,
-                          const typename mesh::Surface<dim>::Field       &X,
-                          const typename mesh::Surface<dim>::Field       &V,
-                          const GradientParameters &parameters)
+      contact_derivatives(const state::StateSolver<dim>            &solver,
+                          const typename mesh::Surface<dim>::Field &X,
+                          const typename mesh::Surface<dim>::Field &V,
+                          const GradientParameters                 &parameters)
       {
         if (parameters.derivatives == "exact")
           return solver.contact().row_derivatives(X, V);
@@ -136,7 +136,7 @@ namespace snug
         const double area  = *std::max_element(areas.begin(), areas.end());
         const double step =
           parameters.semi_analytic_step * std::pow(area, 1. / (dim - 1));
-        auto         forward = X, backward = X;
+        auto forward = X, backward = X;
         for (unsigned int a = 0; a < X.size(); ++a)
           {
             forward[a] += step * V[a];
@@ -193,18 +193,17 @@ namespace snug
       std::vector<feti::BEntry> B_derivative;
       for (unsigned int j = 0; j < k; ++j)
         {
-          const auto rows =
-            contact_derivatives<dim>(solver,
-                                     X,
-                                     solver.surface().gather(velocities[j]),
-                                     parameters);
+          const auto rows = contact_derivatives<dim>(
+            solver, X, solver.surface().gather(velocities[j]), parameters);
           const auto g = solver.gluing().right_hand_side(rows);
           std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
           for (unsigned int s = 0; s < state.u.size(); ++s)
             {
-              const SubdomainDerivative<dim> derivative{
-                solver, state, parameters, s};
-              double *ft = result.primal[s].column(j);
+              const SubdomainDerivative<dim> derivative{solver,
+                                                        state,
+                                                        parameters,
+                                                        s};
+              double                        *ft = result.primal[s].column(j);
               derivative.add_cells(velocities[j], ft);
               derivative.add_faces(velocities[j], ft);
               solver.gluing().fill_B(s, rows, true, B_derivative);
@@ -216,11 +215,11 @@ namespace snug
       return result;
     }
 
-#define SNUG_INSTANTIATE(dim)                                         \
-  template DataDerivatives data_derivatives(                          \
-    const state::StateSolver<dim> &,                                  \
-    const state::ContactState<dim> &,                                 \
-    const std::vector<mesh::BodyMesh<dim>::Field> &,                  \
+#define SNUG_INSTANTIATE(dim)                        \
+  template DataDerivatives data_derivatives(         \
+    const state::StateSolver<dim> &,                 \
+    const state::ContactState<dim> &,                \
+    const std::vector<mesh::BodyMesh<dim>::Field> &, \
     const GradientParameters &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

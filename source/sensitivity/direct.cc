@@ -83,11 +83,11 @@ namespace snug
       return result;
     }
 
-#define SNUG_INSTANTIATE(dim)                                              \
-  template StateDerivatives direct(                                        \
-    const state::StateSolver<dim> &,                                       \
-    const state::ContactState<dim> &,                                      \
-    const std::vector<mesh::BodyMesh<dim>::Field> &,                       \
+#define SNUG_INSTANTIATE(dim)                        \
+  template StateDerivatives direct(                  \
+    const state::StateSolver<dim> &,                 \
+    const state::ContactState<dim> &,                \
+    const std::vector<mesh::BodyMesh<dim>::Field> &, \
     const GradientParameters &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

@@ -37,15 +37,12 @@ namespace snug
       std::vector<double>
       direct_gradient(const GradientProblem<dim> &problem)
       {
-        const unsigned int                                k =
-          problem.basis.n_variables();
+        const unsigned int k = problem.basis.n_variables();
         std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
         for (unsigned int j = 0; j < k; ++j)
           velocities.push_back(problem.basis.column(j));
-        const auto derivatives = direct(problem.solver,
-                                        problem.state,
-                                        velocities,
-                                        problem.parameters);
+        const auto derivatives =
+          direct(problem.solver, problem.state, velocities, problem.parameters);
         const auto dJ_du =
           problem.response.state_gradient(problem.solver, problem.state);
         std::vector<double> through_state(k, 0.);
@@ -144,16 +141,15 @@ namespace snug
       return result;
     }
 
-#define SNUG_INSTANTIATE(dim)                                                \
-  template mesh::BodyMesh<dim>::Field positions(                             \
-    const mesh::BodyMesh<dim> &,                                             \
-    const shape::ShapeBasis<dim> &,                                          \
-    const std::vector<double> &);                                            \
-  template const ChoiceTable<std::vector<double>(                            \
-    const GradientProblem<dim> &)>                                           \
-    &gradient_table<dim>();                                                  \
-  template Gradient gradient(const GradientProblem<dim> &,                   \
-                             const std::string &);
+#define SNUG_INSTANTIATE(dim)                     \
+  template mesh::BodyMesh<dim>::Field positions(  \
+    const mesh::BodyMesh<dim> &,                  \
+    const shape::ShapeBasis<dim> &,               \
+    const std::vector<double> &);                 \
+  template const ChoiceTable<std::vector<double>( \
+    const GradientProblem<dim> &)>                \
+                   &gradient_table<dim>();        \
+  template Gradient gradient(const GradientProblem<dim> &, const std::string &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

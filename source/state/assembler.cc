@@ -1,4 +1,5 @@
 #include <snug/state/assembler.h>
+#include <snug/state/rigid_modes.h>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ namespace snug
       , face_load(face_load)
     {
       for (const unsigned int cell : subdomain.cells)
-        cell_reach.push_back(reach(mesh.cells()[cell].nodes));
+        cell_reach.emplace_back(mesh, subdomain, mesh.cells()[cell].nodes);
       std::vector<unsigned int> cells = subdomain.cells;
       std::sort(cells.begin(), cells.end());
       for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
@@ -31,54 +32,10 @@ namespace snug
               std::binary_search(cells.begin(), cells.end(), face.cell))
             {
               faces.push_back(f);
-              face_reach.push_back(reach(face.nodes));
+              face_reach.emplace_back(mesh, subdomain, face.nodes);
             }
         }
       build_pattern();
-    }
-
-    template <int dim>
-    typename Assembler<dim>::Reach
-    Assembler<dim>::reach(const std::vector<unsigned int> &nodes) const
-    {
-      const auto slot = [&](unsigned int node) {
-        return static_cast<unsigned int>(
-          std::lower_bound(subdomain.nodes.begin(),
-                           subdomain.nodes.end(),
-                           node) -
-          subdomain.nodes.begin());
-      };
-      Reach result;
-      bool  hanging = false;
-      for (const unsigned int node : nodes)
-        hanging = hanging || mesh.is_hanging(node);
-      if (!hanging)
-        {
-          for (const unsigned int node : nodes)
-            result.slots.push_back(slot(node));
-          return result;
-        }
-      std::vector<std::map<unsigned int, double>> rows;
-      for (const unsigned int node : nodes)
-        {
-          rows.emplace_back();
-          if (mesh.is_hanging(node))
-            for (const auto &master :
-                 mesh.hanging()[mesh.hanging_index(node)].masters)
-              rows.back()[slot(master.first)] += master.second;
-          else
-            rows.back()[slot(node)] = 1.;
-          for (const auto &entry : rows.back())
-            result.slots.push_back(entry.first);
-        }
-      std::sort(result.slots.begin(), result.slots.end());
-      result.slots.erase(
-        std::unique(result.slots.begin(), result.slots.end()),
-        result.slots.end());
-      for (const auto &row : rows)
-        for (const unsigned int s : result.slots)
-          result.weights.push_back(row.count(s) ? row.at(s) : 0.);
-      return result;
     }
 
     template <int dim>
@@ -86,23 +43,22 @@ namespace snug
     Assembler<dim>::build_pattern()
     {
       node_neighbours.resize(subdomain.nodes.size());
-      for (const Reach &cell : cell_reach)
-        for (const unsigned int a : cell.slots)
+      for (const NodeReach<dim> &cell : cell_reach)
+        for (const unsigned int a : cell.slots())
           node_neighbours[a].insert(node_neighbours[a].end(),
-                                    cell.slots.begin(),
-                                    cell.slots.end());
+                                    cell.slots().begin(),
+                                    cell.slots().end());
       for (auto &neighbours : node_neighbours)
         {
           std::sort(neighbours.begin(), neighbours.end());
-          neighbours.erase(
-            std::unique(neighbours.begin(), neighbours.end()),
-            neighbours.end());
+          neighbours.erase(std::unique(neighbours.begin(), neighbours.end()),
+                           neighbours.end());
         }
-      for (const Reach &cell : cell_reach)
+      for (const NodeReach<dim> &cell : cell_reach)
         {
           places.emplace_back();
-          for (const unsigned int a : cell.slots)
-            for (const unsigned int b : cell.slots)
+          for (const unsigned int a : cell.slots())
+            for (const unsigned int b : cell.slots())
               places.back().push_back(
                 std::lower_bound(node_neighbours[a].begin(),
                                  node_neighbours[a].end(),
@@ -134,37 +90,6 @@ namespace snug
       return feti::CsrMatrix::from_rows(rows, n_dofs());
     }
 
-    namespace
-    {
-      /// T' K T for T (n x m) acting on each component: condensation of a
-      /// cell matrix onto the masters of its hanging nodes.
-      template <int dim>
-      std::vector<double>
-      condense(const std::vector<double> &K,
-               const std::vector<double> &T,
-               unsigned int               n,
-               unsigned int               m)
-      {
-        std::vector<double> KT(std::size_t(n) * dim * m * dim, 0.);
-        for (unsigned int row = 0; row < n * dim; ++row)
-          for (unsigned int b = 0; b < n; ++b)
-            for (unsigned int s = 0; s < m; ++s)
-              if (T[b * m + s] != 0.)
-                for (unsigned int d = 0; d < dim; ++d)
-                  KT[row * m * dim + s * dim + d] +=
-                    K[row * n * dim + b * dim + d] * T[b * m + s];
-        std::vector<double> result(std::size_t(m) * dim * m * dim, 0.);
-        for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int s = 0; s < m; ++s)
-            if (T[a * m + s] != 0.)
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int column = 0; column < m * dim; ++column)
-                  result[(s * dim + c) * m * dim + column] +=
-                    T[a * m + s] * KT[(a * dim + c) * m * dim + column];
-        return result;
-      }
-    } // namespace
-
     template <int dim>
     void
     Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
@@ -173,19 +98,17 @@ namespace snug
       std::vector<double> cell_matrix;
       for (unsigned int i = 0; i < cell_reach.size(); ++i)
         {
-          const Reach &cell = cell_reach[i];
+          const NodeReach<dim> &cell = cell_reach[i];
           element.stiffness(cell_field(i, positions),
                             model.material,
                             cell_matrix);
-          const unsigned int m = cell.slots.size();
-          if (!cell.weights.empty())
-            cell_matrix =
-              condense<dim>(cell_matrix, cell.weights, element.n_nodes(), m);
+          const unsigned int m = cell.slots().size();
+          cell.condense(cell_matrix);
           for (unsigned int a = 0; a < m; ++a)
             for (unsigned int c = 0; c < dim; ++c)
               {
-                double *row = K.values.data() +
-                              K.row_start[dim * cell.slots[a] + c];
+                double *row =
+                  K.values.data() + K.row_start[dim * cell.slots()[a] + c];
                 const double *from =
                   cell_matrix.data() + std::size_t(a * dim + c) * m * dim;
                 const unsigned int *place = places[i].data() + a * m;
@@ -219,61 +142,6 @@ namespace snug
       return f;
     }
 
-    namespace
-    {
-      /// Translations and rotations about @p centre over @p length, column by
-      /// column: dim + (1 or 3) modes.
-      template <int dim>
-      qp::MultiVector
-      motions(const std::vector<dealii::Tensor<1, dim>> &positions,
-              const dealii::Tensor<1, dim>              &centre,
-              double                                     length)
-      {
-        qp::MultiVector modes(dim * positions.size(), dim == 2 ? 3 : 6);
-        for (unsigned int a = 0; a < positions.size(); ++a)
-          {
-            const dealii::Tensor<1, dim> x = (positions[a] - centre) / length;
-            for (unsigned int c = 0; c < dim; ++c)
-              modes(dim * a + c, c) = 1.;
-            if (dim == 2)
-              {
-                modes(dim * a, 2)     = -x[1];
-                modes(dim * a + 1, 2) = x[0];
-                continue;
-              }
-            for (unsigned int axis = 0; axis < 3; ++axis)
-              {
-                const unsigned int b = (axis + 1) % 3, c = (axis + 2) % 3;
-                modes(dim * a + b, dim + axis) = -x[c % dim];
-                modes(dim * a + c, dim + axis) = x[b % dim];
-              }
-          }
-        return modes;
-      }
-
-      /// Orthonormalise the columns; twice, for round-off.
-      void
-      orthonormalise(qp::MultiVector &R)
-      {
-        for (unsigned int sweep = 0; sweep < 2; ++sweep)
-          for (unsigned int j = 0; j < R.n_columns(); ++j)
-            {
-              for (unsigned int k = 0; k <= j; ++k)
-                {
-                  double product = 0.;
-                  for (unsigned int i = 0; i < R.n_rows(); ++i)
-                    product += R(i, j) * R(i, k);
-                  const double scale = 1. / std::sqrt(product);
-                  for (unsigned int i = 0; i < R.n_rows(); ++i)
-                    if (k < j)
-                      R(i, j) -= product * R(i, k);
-                    else
-                      R(i, j) *= scale;
-                }
-            }
-      }
-    } // namespace
-
     template <int dim>
     void
     Assembler<dim>::rigid_modes(const Field                  &positions,
@@ -292,9 +160,9 @@ namespace snug
       double radius = 0.;
       for (const auto &point : x)
         radius = std::max(radius, (point - mean).norm());
-      R = motions<dim>(x, mean, radius);
+      R = rigid_motions<dim>(x, mean, radius);
       orthonormalise(R);
-      const auto whole = motions<dim>(x, centre, length);
+      const auto whole = rigid_motions<dim>(x, centre, length);
       Z                = qp::inner_products(R, whole, MPI_COMM_SELF);
     }
 
@@ -365,66 +233,20 @@ namespace snug
     }
 
     template <int dim>
-    typename Assembler<dim>::Nodes
-    Assembler<dim>::values(const Reach  &reach,
-                           unsigned int  n,
-                           const double *u) const
-    {
-      Nodes              result(n);
-      const unsigned int m = reach.slots.size();
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (reach.weights.empty())
-            result[a][c] = u[dim * reach.slots[a] + c];
-          else
-            for (unsigned int s = 0; s < m; ++s)
-              result[a][c] +=
-                reach.weights[a * m + s] * u[dim * reach.slots[s] + c];
-      return result;
-    }
-
-    template <int dim>
-    void
-    Assembler<dim>::add(const Reach &reach,
-                        double       factor,
-                        const Nodes &r,
-                        double      *u) const
-    {
-      const unsigned int m = reach.slots.size();
-      for (unsigned int a = 0; a < r.size(); ++a)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (reach.weights.empty())
-            u[dim * reach.slots[a] + c] += factor * r[a][c];
-          else
-            for (unsigned int s = 0; s < m; ++s)
-              u[dim * reach.slots[s] + c] +=
-                factor * reach.weights[a * m + s] * r[a][c];
-    }
-
-    template <int dim>
-    typename Assembler<dim>::Nodes
-    Assembler<dim>::cell_values(unsigned int i, const double *u) const
-    {
-      return values(cell_reach[i], element.n_nodes(), u);
-    }
-
-    template <int dim>
     void
     Assembler<dim>::add_cell_vector(unsigned int i,
                                     double       factor,
                                     const Nodes &r,
                                     double      *u) const
     {
-      add(cell_reach[i], factor, r, u);
+      cell_reach[i].add(factor, r, u);
     }
 
     template <int dim>
     typename Assembler<dim>::Nodes
     Assembler<dim>::face_values(unsigned int i, const double *u) const
     {
-      return values(face_reach[i],
-                    mesh.boundary_faces()[faces[i]].nodes.size(),
-                    u);
+      return face_reach[i].values(u);
     }
 
     template <int dim>
@@ -434,7 +256,7 @@ namespace snug
                                     const Nodes &r,
                                     double      *u) const
     {
-      add(face_reach[i], factor, r, u);
+      face_reach[i].add(factor, r, u);
     }
 
     template <int dim>

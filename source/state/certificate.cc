@@ -16,13 +16,14 @@ namespace snug
         return a == 0. ? 0. : a / b;
       }
 
-      /// The worst over bodies of ||Ku - f + B'lambda|| / (||f|| + ||B'lambda||).
+      /// The worst over bodies of ||Ku - f + B'lambda|| / (||f|| +
+      /// ||B'lambda||).
       double
       equilibrium_error(const feti::TotalFeti     &feti,
                         const qp::MultiVector     &lambda,
                         const feti::PrimalVectors &u)
       {
-        const auto          forces = feti.multiply_Bt(lambda);
+        const auto          forces   = feti.multiply_Bt(lambda);
         const unsigned int  n_bodies = feti.n_bodies();
         std::vector<double> squares(3 * n_bodies, 0.);
         for (unsigned int s = 0; s < u.size(); ++s)
@@ -48,10 +49,10 @@ namespace snug
         double worst = 0.;
         for (unsigned int body = 0; body < n_bodies; ++body)
           {
-            const double *of    = &squares[3 * body];
-            const double  error = relative(std::sqrt(of[0]),
-                                          std::sqrt(of[1]) + std::sqrt(of[2]));
-            worst               = error > worst || std::isnan(error) ? error : worst;
+            const double *of = &squares[3 * body];
+            const double  error =
+              relative(std::sqrt(of[0]), std::sqrt(of[1]) + std::sqrt(of[2]));
+            worst = error > worst || std::isnan(error) ? error : worst;
           }
         return worst;
       }
@@ -75,7 +76,8 @@ namespace snug
           unit(row) = 1.;
         const auto column =
           feti.multiply_B(feti.apply_inverse(feti.multiply_Bt(unit)));
-        double product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
+        double product =
+          rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
         MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
         return product;
       }
@@ -108,8 +110,8 @@ namespace snug
       double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
       for (unsigned int i = 0; i < feti.n_owned(); ++i)
         {
-          largest[4] = std::max(largest[4],
-                                feti.diagonal()[i] * std::abs(lambda(i)));
+          largest[4] =
+            std::max(largest[4], feti.diagonal()[i] * std::abs(lambda(i)));
           if (!feti.bounded()[i])
             {
               largest[0] = std::max(largest[0], std::abs(w(i)));
@@ -131,7 +133,7 @@ namespace snug
       MPI_Allreduce(MPI_IN_PLACE, largest, 5, MPI_DOUBLE, MPI_MAX, comm);
       MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
       const double size = largest_product(feti, lambda, largest[4]);
-      Certificate certificate;
+      Certificate  certificate;
       certificate.equilibrium       = equilibrium_error(feti, lambda, u);
       certificate.continuity        = relative(largest[0], size);
       certificate.penetration       = relative(largest[1], size);

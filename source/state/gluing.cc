@@ -11,7 +11,8 @@ namespace snug
                         const std::vector<Support>           &supports,
                         const std::vector<contact::Row<dim>> &reference_rows)
       : rows(mesh, tearing, surface, supports, reference_rows)
-    {}
+    {
+    }
 
     template <int dim>
     const feti::RowLayout &
@@ -72,8 +73,8 @@ namespace snug
           double value = derivative ? 0. : entry.value;
           if (entry.contact < rows.scales.size())
             {
-              const auto &c = contact_rows[entry.contact]
-                                .coefficients[entry.coefficient];
+              const auto &c =
+                contact_rows[entry.contact].coefficients[entry.coefficient];
               value = rows.projected(c.first, c.second)[entry.dof % dim] /
                       (rows.copies[c.first] * rows.scales[entry.contact]);
             }

@@ -44,60 +44,6 @@ namespace snug
       Message() = default;
     };
 
-    namespace
-    {
-      template <int dim>
-      using FixedFlags = std::array<bool, dim>;
-
-      /// Components fixed at the local nodes by the supports on own faces.
-      template <int dim>
-      std::map<unsigned int, FixedFlags<dim>>
-      fixed_components(const mesh::BodyMesh<dim>  &mesh,
-                       const std::vector<Support> &supports)
-      {
-        std::map<unsigned int, FixedFlags<dim>> fixed;
-        for (const auto &face : mesh.boundary_faces())
-          for (const Support &support : supports)
-            if (support.body == face.body && support.boundary == face.boundary)
-              for (const unsigned int node : face.nodes)
-                for (const unsigned int c : support.components)
-                  fixed[node][c] = true;
-        return fixed;
-      }
-
-      template <int dim>
-      dealii::Tensor<1, dim>
-      axis(unsigned int c)
-      {
-        dealii::Tensor<1, dim> e;
-        e[c] = 1.;
-        return e;
-      }
-
-      /// An orthonormal basis of the complement of orthonormal @p fixed,
-      /// nearest the axes.
-      template <int dim>
-      std::vector<dealii::Tensor<1, dim>>
-      complement(const std::vector<dealii::Tensor<1, dim>> &fixed)
-      {
-        std::vector<dealii::Tensor<1, dim>> basis = fixed;
-        while (basis.size() < dim)
-          {
-            dealii::Tensor<1, dim> best;
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                dealii::Tensor<1, dim> candidate = axis<dim>(c);
-                for (const auto &b : basis)
-                  candidate -= (candidate * b) * b;
-                if (candidate.norm() > best.norm() + 1e-12)
-                  best = candidate;
-              }
-            basis.push_back(best / best.norm());
-          }
-        return {basis.begin() + fixed.size(), basis.end()};
-      }
-    } // namespace
-
     template <int dim>
     GluingRows<dim>::GluingRows(
       const mesh::BodyMesh<dim>            &mesh,
@@ -105,8 +51,7 @@ namespace snug
       const mesh::Surface<dim>             &surface,
       const std::vector<Support>           &supports,
       const std::vector<contact::Row<dim>> &reference_rows)
-      : mesh(mesh)
-      , surface(surface)
+      : mesh(mesh), surface(surface)
     {
       collect_surface(tearing, supports);
       scale_rows(reference_rows);
@@ -121,7 +66,7 @@ namespace snug
     template <int dim>
     dealii::Tensor<1, dim>
     GluingRows<dim>::projected(unsigned int                  surface_node,
-                           const dealii::Tensor<1, dim> &coefficient) const
+                               const dealii::Tensor<1, dim> &coefficient) const
     {
       dealii::Tensor<1, dim> result = coefficient;
       for (const auto &direction : fixed_directions[surface_node])
@@ -149,9 +94,9 @@ namespace snug
     template <int dim>
     void
     GluingRows<dim>::collect_surface(const mesh::Tearing        &tearing,
-                                 const std::vector<Support> &supports)
+                                     const std::vector<Support> &supports)
     {
-      const unsigned int n = surface.n_nodes();
+      const unsigned int                   n = surface.n_nodes();
       std::map<unsigned int, unsigned int> surface_of_global;
       for (unsigned int i = 0; i < n; ++i)
         surface_of_global[surface.global_node(i)] = i;
@@ -236,8 +181,8 @@ namespace snug
       const auto send = [&](unsigned int local, unsigned int what, bool fixed) {
         const unsigned int node  = mesh.global_node(local);
         const auto         found = special.find(node);
-        auto &buffer = out[found == special.end() ? mesh.owner(local) :
-                                                    found->second];
+        auto              &buffer =
+          out[found == special.end() ? mesh.owner(local) : found->second];
         buffer.insert(buffer.end(), {node, what, fixed ? 1u : 0u});
       };
       for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
@@ -249,8 +194,8 @@ namespace snug
             if (entry.second[c])
               send(entry.first, c, true);
 
-      std::map<unsigned int, NodeCopies>           nodes;
-      std::map<unsigned int, FixedFlags<dim>>      fixed;
+      std::map<unsigned int, NodeCopies>      nodes;
+      std::map<unsigned int, FixedFlags<dim>> fixed;
       for (const auto &message :
            dealii::Utilities::MPI::some_to_some(mesh.communicator(), out))
         for (std::size_t i = 0; i < message.second.size(); i += 3)
@@ -263,8 +208,7 @@ namespace snug
               nodes[node].subdomains.push_back(what);
           }
       for (auto &node : nodes)
-        std::sort(node.second.subdomains.begin(),
-                  node.second.subdomains.end());
+        std::sort(node.second.subdomains.begin(), node.second.subdomains.end());
       for (const auto &entry : fixed)
         for (unsigned int c = 0; c < dim; ++c)
           if (entry.second[c])
@@ -343,11 +287,12 @@ namespace snug
     template <int dim>
     void
     GluingRows<dim>::deliver(const std::vector<Message> &messages,
-                         const mesh::Tearing        &tearing,
-                         const qp::RowSet           &bounded)
+                             const mesh::Tearing        &tearing,
+                             const qp::RowSet           &bounded)
     {
-      const MPI_Comm     comm    = mesh.communicator();
-      const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+      const MPI_Comm     comm = mesh.communicator();
+      const unsigned int my_rank =
+        dealii::Utilities::MPI::this_mpi_process(comm);
       const auto counts = dealii::Utilities::MPI::all_gather(
         comm, static_cast<unsigned int>(bounded.size()));
       const unsigned int first_row =
@@ -393,9 +338,9 @@ namespace snug
               }
           }
       layout = std::make_unique<feti::RowLayout>(comm,
-                                               bounded,
-                                               layout_entries,
-                                               tearing.first_id);
+                                                 bounded,
+                                                 layout_entries,
+                                                 tearing.first_id);
       for (auto &of_subdomain : entries)
         for (Entry &entry : of_subdomain)
           entry.local_row = layout->local_row(entry.local_row);

@@ -49,12 +49,12 @@ namespace snug
         double                                   target;
       };
 
-      Workshop<dim>                        &workshop;
-      bool                                  restart;
-      std::vector<Constraint>               constraints;
-      qp::WarmStart                         warm_start;
+      Workshop<dim>                         &workshop;
+      bool                                   restart;
+      std::vector<Constraint>                constraints;
+      qp::WarmStart                          warm_start;
       std::unique_ptr<optimization::Journal> journal;
-      io::History                           history;
+      io::History                            history;
       /// the last state solved, and the first one
       std::unique_ptr<state::ContactState<dim>> last, first;
       Design                                    last_design;

@@ -70,13 +70,13 @@ namespace snug
       std::vector<double>
       start() const;
 
-      RunContext                               &context;
-      const scene::Scene                       &scene;
-      std::unique_ptr<mesh::BodyMesh<dim>>      mesh;
-      mesh::Tearing                             tearing;
-      std::unique_ptr<shape::ShapeBasis<dim>>   basis;
-      std::unique_ptr<state::StateSolver<dim>>  solver;
-      std::unique_ptr<response::Response<dim>>  objective;
+      RunContext                              &context;
+      const scene::Scene                      &scene;
+      std::unique_ptr<mesh::BodyMesh<dim>>     mesh;
+      mesh::Tearing                            tearing;
+      std::unique_ptr<shape::ShapeBasis<dim>>  basis;
+      std::unique_ptr<state::StateSolver<dim>> solver;
+      std::unique_ptr<response::Response<dim>> objective;
 
     private:
       std::unique_ptr<io::FieldOutput<dim>>   fields;

@@ -32,7 +32,8 @@ namespace snug
 
       Handle(Handle &&other) noexcept
         : object(std::exchange(other.object, nullptr))
-      {}
+      {
+      }
 
       Handle &
       operator=(Handle &&other) noexcept

@@ -17,11 +17,11 @@ namespace snug
      */
     struct CsrMatrix
     {
-      unsigned int           n_rows    = 0;
-      unsigned int           n_columns = 0;
-      std::vector<PetscInt>  row_start; ///< n_rows + 1
-      std::vector<PetscInt>  columns;
-      std::vector<double>    values;
+      unsigned int          n_rows    = 0;
+      unsigned int          n_columns = 0;
+      std::vector<PetscInt> row_start; ///< n_rows + 1
+      std::vector<PetscInt> columns;
+      std::vector<double>   values;
 
       /// Empty pattern of the given rows; values are zero.
       static CsrMatrix

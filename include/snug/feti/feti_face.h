@@ -30,8 +30,7 @@ namespace snug
     private:
       const CoarseProblem &
       coarse_problem() const;
-      void
-      restrict(qp::MultiVector &x) const;
+      void restrict(qp::MultiVector &x) const;
 
       const TotalFeti                         &feti;
       qp::RowSet                               free;

@@ -41,12 +41,12 @@ namespace snug
       apply(const qp::MultiVector &b, qp::MultiVector &x) const;
 
     private:
-      const SubdomainSystem            &system;
-      RunContext                       &context;
-      CsrMatrix                         K_rho;
-      std::vector<std::size_t>          place_of_K;      ///< in K_rho.values
-      std::vector<std::size_t>          place_of_fixing; ///< row by row
-      std::unique_ptr<SparseFactor>     factor;
+      const SubdomainSystem        &system;
+      RunContext                   &context;
+      CsrMatrix                     K_rho;
+      std::vector<std::size_t>      place_of_K;      ///< in K_rho.values
+      std::vector<std::size_t>      place_of_fixing; ///< row by row
+      std::unique_ptr<SparseFactor> factor;
     };
   } // namespace feti
 } // namespace snug

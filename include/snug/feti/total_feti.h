@@ -125,8 +125,8 @@ namespace snug
       RowGram                                          gram;
       std::vector<std::unique_ptr<GeneralizedInverse>> inverses;
       std::vector<std::unique_ptr<LocalSchur>>         schur;
-      qp::MultiVector                                  gap, dual_load, rigid_load;
-      std::vector<double>                              F_diagonal;
+      qp::MultiVector     gap, dual_load, rigid_load;
+      std::vector<double> F_diagonal;
     };
   } // namespace feti
 } // namespace snug

@@ -23,10 +23,10 @@ namespace snug
      * cells, two cubes: 13 against 29 for a linear solve to 1e-6).
      */
     template <int dim>
-    const ChoiceTable<std::vector<unsigned int>(
-      const CellGraph &,
-      const std::vector<dealii::BoundingBox<dim>> &,
-      unsigned int)> &
+    const ChoiceTable<
+      std::vector<unsigned int>(const CellGraph &,
+                                const std::vector<dealii::BoundingBox<dim>> &,
+                                unsigned int)> &
     partition_table();
   } // namespace mesh
 } // namespace snug

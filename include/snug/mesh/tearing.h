@@ -31,7 +31,7 @@ namespace snug
     /// Entries of `subsection Decomposition`.
     struct TearingParameters
     {
-      unsigned int subdomains = 0; ///< of all ranks, a target; 0: by size
+      unsigned int subdomains = 0;      ///< of all ranks, a target; 0: by size
       std::string  method     = "grid"; ///< a name of partition_table()
     };
 

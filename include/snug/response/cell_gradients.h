@@ -10,25 +10,25 @@ namespace snug
     /// gradient += factor * d/dX (u'K u), this rank's share.
     template <int dim>
     void
-    add_stiffness_gradient(const state::StateSolver<dim>           &solver,
-                           const state::ContactState<dim>          &state,
-                           double                                   factor,
+    add_stiffness_gradient(const state::StateSolver<dim>       &solver,
+                           const state::ContactState<dim>      &state,
+                           double                               factor,
                            typename mesh::BodyMesh<dim>::Field &gradient);
 
     /// gradient += factor * d/dX (f'u), this rank's share.
     template <int dim>
     void
-    add_load_gradient(const state::StateSolver<dim>           &solver,
-                      const state::ContactState<dim>          &state,
-                      double                                   factor,
+    add_load_gradient(const state::StateSolver<dim>       &solver,
+                      const state::ContactState<dim>      &state,
+                      double                               factor,
                       typename mesh::BodyMesh<dim>::Field &gradient);
 
     /// gradient += d/dX of lambda_I'(B_I u - g_I) at fixed u and lambda. The
     /// share of this rank: its own nodes. Collective.
     template <int dim>
     void
-    add_contact_gradient(const state::StateSolver<dim>           &solver,
-                         const state::ContactState<dim>          &state,
+    add_contact_gradient(const state::StateSolver<dim>       &solver,
+                         const state::ContactState<dim>      &state,
                          typename mesh::BodyMesh<dim>::Field &gradient);
   } // namespace response
 } // namespace snug

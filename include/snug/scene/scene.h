@@ -5,6 +5,7 @@
 #include <snug/elasticity/material.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/mesh/body_geometry.h>
+#include <snug/mesh/tearing.h>
 #include <snug/optimization/optimization_parameters.h>
 #include <snug/qp/solver.h>
 #include <snug/sensitivity/gradient_parameters.h>
@@ -54,6 +55,7 @@ namespace snug
       /// also solve the linear problem on the final active set from zero
       bool report_linear_reference = false;
 
+      mesh::TearingParameters              tearing;
       contact::ContactParameters           contact;
       shape::ShapeParameters               shape;
       feti::FetiParameters                 feti;

@@ -23,13 +23,13 @@ namespace snug
     template <int dim>
     struct GradientProblem
     {
-      state::StateSolver<dim>           &solver;
-      const shape::ShapeBasis<dim>      &basis;
-      const response::Response<dim>     &response;
-      const state::ContactState<dim>    &state; ///< at design
-      const std::vector<double>         &design;
-      const std::vector<double>         &bound_widths; ///< per variable
-      const GradientParameters          &parameters;
+      state::StateSolver<dim>        &solver;
+      const shape::ShapeBasis<dim>   &basis;
+      const response::Response<dim>  &response;
+      const state::ContactState<dim> &state; ///< at design
+      const std::vector<double>      &design;
+      const std::vector<double>      &bound_widths; ///< per variable
+      const GradientParameters       &parameters;
     };
 
     /// Node positions of a design: reference + V alpha.

@@ -5,8 +5,9 @@
 #include <snug/elasticity/face_load.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>
+#include <snug/state/node_reach.h>
 
-#include <functional>
+#include <map>
 
 namespace snug
 {
@@ -38,13 +39,10 @@ namespace snug
       using Field = typename mesh::BodyMesh<dim>::Field;
       using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-      /// A cell's or face's nodal vector from positions X of its nodes.
-      using CellVector = std::function<void(unsigned int cell, Nodes &r)>;
-
-      Assembler(const mesh::BodyMesh<dim>      &mesh,
-                const mesh::Subdomain          &subdomain,
-                const BodyModel<dim>           &model,
-                const elasticity::Element<dim> &element,
+      Assembler(const mesh::BodyMesh<dim>       &mesh,
+                const mesh::Subdomain           &subdomain,
+                const BodyModel<dim>            &model,
+                const elasticity::Element<dim>  &element,
                 const elasticity::FaceLoad<dim> &face_load);
 
       unsigned int
@@ -113,21 +111,6 @@ namespace snug
       body_model() const;
 
     private:
-      /// Where the nodes of a cell or face find their values: directly, or as
-      /// combinations of subdomain nodes.
-      struct Reach
-      {
-        std::vector<unsigned int> slots; ///< subdomain nodes
-        /// empty, or (n_nodes x slots), row by row
-        std::vector<double> weights;
-      };
-
-      Reach
-      reach(const std::vector<unsigned int> &nodes) const;
-      Nodes
-      values(const Reach &reach, unsigned int n, const double *u) const;
-      void
-      add(const Reach &reach, double factor, const Nodes &r, double *u) const;
       void
       build_pattern();
 
@@ -137,7 +120,7 @@ namespace snug
       const elasticity::Element<dim>  &element;
       const elasticity::FaceLoad<dim> &face_load;
       std::vector<unsigned int>        faces; ///< indices of boundary_faces()
-      std::vector<Reach>               cell_reach, face_reach;
+      std::vector<NodeReach<dim>>      cell_reach, face_reach;
       std::vector<std::vector<unsigned int>> node_neighbours;
       /// per cell, slot a and slot b: place of b among a's neighbours
       std::vector<std::vector<unsigned int>> places;

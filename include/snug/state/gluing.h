@@ -26,11 +26,11 @@ namespace snug
        * contact rows at the reference geometry (equal on all ranks).
        * Collective.
        */
-      Gluing(const mesh::BodyMesh<dim>             &mesh,
-             const mesh::Tearing                   &tearing,
-             const mesh::Surface<dim>              &surface,
-             const std::vector<Support>            &supports,
-             const std::vector<contact::Row<dim>>  &reference_rows);
+      Gluing(const mesh::BodyMesh<dim>            &mesh,
+             const mesh::Tearing                  &tearing,
+             const mesh::Surface<dim>             &surface,
+             const std::vector<Support>           &supports,
+             const std::vector<contact::Row<dim>> &reference_rows);
 
       const feti::RowLayout &
       layout() const;

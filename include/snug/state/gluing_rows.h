@@ -5,6 +5,7 @@
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>
+#include <snug/state/support.h>
 
 #include <map>
 #include <memory>
@@ -13,13 +14,6 @@ namespace snug
 {
   namespace state
   {
-    /// Fixed displacement components of one boundary of a body.
-    struct Support
-    {
-      unsigned int              body, boundary;
-      std::vector<unsigned int> components;
-    };
-
     /**
      * Who owns which row of B and which copies of which nodes it joins: the
      * topology of Gluing. Each node's copies meet on one rank, which numbers
@@ -53,10 +47,10 @@ namespace snug
                 const dealii::Tensor<1, dim> &coefficient) const;
 
       std::unique_ptr<feti::RowLayout> layout;
-      std::vector<std::vector<Entry>>  entries; ///< per subdomain
+      std::vector<std::vector<Entry>>  entries;       ///< per subdomain
       std::vector<unsigned int>        owned_contact; ///< per owned row
-      std::vector<double>              scales;  ///< nr per contact row
-      std::vector<unsigned int>        copies;  ///< per surface node
+      std::vector<double>              scales;        ///< nr per contact row
+      std::vector<unsigned int>        copies;        ///< per surface node
       unsigned int                     n_global = 0;
 
     private:

@@ -78,9 +78,9 @@ TEST(ReadScene, OverridesComeAfterTheFile)
 TEST(ReadScene, SubdomainsAreANumberOrChosen)
 {
   const std::string entry = "Decomposition/Subdomains=";
-  EXPECT_EQ(read_with({}).subdomains, 0U);
-  EXPECT_EQ(read_with({entry + "12"}).subdomains, 12U);
-  EXPECT_EQ(read_with({entry + "12", entry + "auto"}).subdomains, 0U);
+  EXPECT_EQ(read_with({}).tearing.subdomains, 0U);
+  EXPECT_EQ(read_with({entry + "12"}).tearing.subdomains, 12U);
+  EXPECT_EQ(read_with({entry + "12", entry + "auto"}).tearing.subdomains, 0U);
 }
 
 TEST(ReadScene, LaterStatementsOfAFileWinAndLineEndsDoNotMatter)
@@ -123,7 +123,7 @@ TEST(PrintScene, ReadsBackToTheSameScene)
   EXPECT_EQ(again.shape.initial, scene.shape.initial);
   EXPECT_EQ(again.solver.relative_tolerance, 1e-9);
   EXPECT_TRUE(again.report_linear_reference);
-  EXPECT_EQ(again.subdomains, 7U);
+  EXPECT_EQ(again.tearing.subdomains, 7U);
   EXPECT_EQ(again.degree, 2U);
 }
 

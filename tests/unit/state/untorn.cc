@@ -92,7 +92,7 @@ namespace
     narrow_punch(scene);
     set_design(scene, 3, 0.03);
     for (auto &body : scene.bodies)
-      body.refined_below = 0.5;
+      body.refined_below = 0.45;
     scene.bodies[0].body_force[1]                = -3.;
     scene.bodies[1].body_force[0]                = 2.;
     scene.bodies[1].loads[face_index(0, 1)]      = {1.5, {}};
@@ -106,7 +106,7 @@ namespace
     auto scene   = two_blocks<2>(3, 4, 2.);
     scene.degree = 2;
     set_design(scene, 4, 0.03);
-    scene.bodies[1].refined_below = 0.5;
+    scene.bodies[1].refined_below = 0.45;
     scene.bodies[0].refined_below = 0.4;
     expect_same(scene);
   }
@@ -117,7 +117,7 @@ namespace
     auto scene = two_blocks<3>(4, 4, 3.);
     set_design(scene, 3, 0.02);
     for (auto &body : scene.bodies)
-      body.refined_below = 0.5;
+      body.refined_below = 0.45;
     scene.bodies[1].supports[face_index(0, 0)] = {0};
     expect_same(scene);
   }
@@ -127,10 +127,47 @@ namespace
     auto scene = two_blocks<3>(3, 4, 2.);
     narrow_punch(scene);
     set_design(scene, 3, 0.02);
-    scene.bodies[1].refined_below               = 0.5;
+    scene.bodies[1].refined_below               = 0.45;
     scene.bodies[1].loads[face_index(0, 1)]     = {1.5, {}};
     scene.bodies[0].body_force[2]               = -3.;
     scene.subdomains                            = 12;
+    expect_same(scene);
+  }
+  TEST(Try, A)
+  {
+    auto scene = two_blocks<3>(2, 2, 0.);
+    scene.bodies[0].refined_below = 0.45;
+    expect_same(scene);
+  }
+  TEST(Try, B)
+  {
+    auto scene = two_blocks<3>(2, 2, 0.);
+    scene.bodies[1].refined_below = 0.45;
+    expect_same(scene);
+  }
+  TEST(Try, C)
+  {
+    auto scene = two_blocks<3>(2, 2, 0.);
+    scene.bodies[0].refined_below = 0.45;
+    scene.bodies[1].refined_below = 0.45;
+    scene.subdomains=2;
+    expect_same(scene);
+  }
+  TEST(Try, D)
+  {
+    auto scene = two_blocks<3>(2, 2, 3.);
+    scene.bodies[0].refined_below = 0.45;
+    scene.bodies[1].refined_below = 0.45;
+    scene.subdomains=2;
+    expect_same(scene);
+  }
+  TEST(Try, E)
+  {
+    auto scene = two_blocks<3>(2, 2, 0.);
+    set_design(scene, 3, 0.02);
+    scene.bodies[0].refined_below = 0.45;
+    scene.bodies[1].refined_below = 0.45;
+    scene.subdomains=2;
     expect_same(scene);
   }
 } // namespace

@@ -115,7 +115,7 @@ namespace snug
       handler.distribute_dofs(fe);
       dealii::DoFTools::make_hanging_node_constraints(handler, hanging);
       hanging.close();
-      constraints.copy_from(hanging);
+      dealii::DoFTools::make_hanging_node_constraints(handler, constraints);
       for (const auto &support : body.supports)
         {
           dealii::ComponentMask mask(dim, false);

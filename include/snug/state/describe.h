@@ -1,0 +1,21 @@
+#ifndef snug_state_describe_h
+#define snug_state_describe_h
+
+#include <snug/state/state_solver.h>
+
+namespace snug
+{
+  namespace state
+  {
+    /// Fill in displacement, energies and contact points of a state from its
+    /// u and dual solution. @p contact_rows are those of its geometry.
+    /// Collective.
+    template <int dim>
+    void
+    describe(const StateSolver<dim>               &solver,
+             const std::vector<contact::Row<dim>> &contact_rows,
+             ContactState<dim>                    &state);
+  } // namespace state
+} // namespace snug
+
+#endif

@@ -1,0 +1,28 @@
+#ifndef snug_state_rigid_modes_h
+#define snug_state_rigid_modes_h
+
+#include <snug/qp/multi_vector.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace snug
+{
+  namespace state
+  {
+    /// Translations and rotations about @p centre over @p length at
+    /// @p positions, one mode per column: dim + 1 (2D) or dim + 3 of them.
+    template <int dim>
+    qp::MultiVector
+    rigid_motions(const std::vector<dealii::Tensor<1, dim>> &positions,
+                  const dealii::Tensor<1, dim>              &centre,
+                  double                                     length);
+
+    /// Orthonormalise the columns by Gram-Schmidt, twice for round-off.
+    void
+    orthonormalise(qp::MultiVector &R);
+  } // namespace state
+} // namespace snug
+
+#endif
