@@ -19,6 +19,12 @@ namespace snug
       /// scaled to unit diagonal, is below this.
       const double dependence_cut = 1e-12;
 
+      /// A direction is rounding if orthogonalisation leaves less than this
+      /// of the square of its F-norm, and is orthogonalised again below
+      /// `cancellation`.
+      const double noise        = 1e-16;
+      const double cancellation = 1e-8;
+
       /// Iterations without a smaller residual that mean it is at its floor.
       const unsigned int patience = 40;
 
@@ -39,15 +45,6 @@ namespace snug
         MultiVector product(x.n_rows(), C.n_columns());
         product.add_product(1., x, C);
         return product;
-      }
-
-      std::vector<double>
-      diagonal_of(const MultiVector &S, double factor)
-      {
-        std::vector<double> diagonal(S.n_rows());
-        for (unsigned int i = 0; i < S.n_rows(); ++i)
-          diagonal[i] = factor * S(i, i);
-        return diagonal;
       }
 
       /// Remembers the smallest worst column and when it was reached.
@@ -132,53 +129,80 @@ namespace snug
       residual.add_product(-1., FP, a);
     }
 
-    void
+    std::vector<double>
     Pcpg::orthogonalise(MultiVector &x) const
     {
-      if (P.n_columns() > 0)
-        x.add_product(-1., P, inner_products(FP, x, comm));
+      std::vector<double> removed(x.n_columns(), 0.);
+      if (P.n_columns() == 0)
+        return removed;
+      const MultiVector parts = inner_products(FP, x, comm);
+      x.add_product(-1., P, parts);
+      for (unsigned int j = 0; j < parts.n_columns(); ++j)
+        for (unsigned int i = 0; i < parts.n_rows(); ++i)
+          removed[j] += parts(i, j) * parts(i, j);
+      return removed;
     }
 
     MultiVector
-    Pcpg::directions(const MultiVector &r) const
+    Pcpg::directions(const MultiVector &r, std::vector<double> &removed) const
     {
       MultiVector Z = face.precondition(r);
       face.project(Z);
-      orthogonalise(Z);
+      removed = orthogonalise(Z);
       if (Z.n_columns() == 1)
         return Z;
       // A well conditioned basis first: dependent directions cost no F-mult,
       // and the second pass makes up for the cancellation of the first.
-      const MultiVector gram = inner_products(Z, Z, comm);
-      Z                      = times(Z,
-                orthonormal_combinations(gram,
-                                         diagonal_of(gram, 0.),
+      std::vector<double> smallest(Z.n_columns(), 0.);
+      for (unsigned int j = 0; j < Z.n_columns(); ++j)
+        if (removed[j] > 0.)
+          smallest[j] = noise * removed[j] / largest_rayleigh_quotient;
+      Z = times(Z,
+                orthonormal_combinations(inner_products(Z, Z, comm),
+                                         smallest,
                                          dependence_cut));
       orthogonalise(Z);
+      removed.assign(Z.n_columns(), 0.);
       return Z;
     }
 
     bool
-    Pcpg::step(const MultiVector &Z, MultiVector &lambda, MultiVector &residual)
+    Pcpg::step(MultiVector                Z,
+               const std::vector<double> &removed,
+               MultiVector               &lambda,
+               MultiVector               &residual)
     {
       const unsigned int n = Z.n_columns(), k = residual.n_columns();
-      const MultiVector  FZ    = problem.apply(Z);
-      MultiVector        right = FZ;
-      right.append(Z);
-      right.append(residual);
-      const MultiVector products = inner_products(Z, right, comm);
-      const MultiVector S        = products.columns_from(0, n);
-      const MultiVector ZZ       = products.columns_from(n, n);
+      MultiVector        FZ = problem.apply(Z);
+      MultiVector        products;
+      for (unsigned int pass = 0; pass < 2; ++pass)
+        {
+          MultiVector right = FZ;
+          right.append(Z);
+          right.append(residual);
+          products = inner_products(Z, right, comm);
+          // one column of which little was left: orthogonalise again
+          if (pass == 1 || !(products(0, 0) < cancellation * removed[0]))
+            break;
+          const MultiVector parts = inner_products(FP, Z, comm);
+          Z.add_product(-1., P, parts);
+          FZ.add_product(-1., FP, parts);
+        }
+      std::vector<double> smallest(n);
       for (unsigned int j = 0; j < n; ++j)
-        if (ZZ(j, j) > 0.)
-          largest_rayleigh_quotient =
-            std::max(largest_rayleigh_quotient, S(j, j) / ZZ(j, j));
-      const MultiVector C = orthonormal_combinations(
-        S,
-        diagonal_of(ZZ,
-                    std::numeric_limits<double>::epsilon() *
-                      largest_rayleigh_quotient),
-        dependence_cut);
+        {
+          const double ZZ = products(j, n + j);
+          if (ZZ > 0.)
+            largest_rayleigh_quotient =
+              std::max(largest_rayleigh_quotient, products(j, j) / ZZ);
+          smallest[j] = std::max(std::numeric_limits<double>::epsilon() *
+                                   largest_rayleigh_quotient * ZZ,
+                                 noise * removed[j]);
+        }
+      const MultiVector C =
+        orthonormal_combinations(products.columns_from(0, n),
+                                 smallest,
+                                 dependence_cut);
       if (C.n_columns() == 0)
         return false;
       const MultiVector a =
@@ -226,8 +250,10 @@ namespace snug
           if (result.converged || result.iterations == max_iterations ||
               test.stagnates(worst))
             return result;
-          const MultiVector Z = directions(selected_columns(r, remaining));
-          if (Z.n_columns() == 0 || !step(Z, lambda, residual))
+          std::vector<double> removed;
+          const MultiVector   Z =
+            directions(selected_columns(r, remaining), removed);
+          if (Z.n_columns() == 0 || !step(Z, removed, lambda, residual))
             return result;
           ++result.iterations;
         }

@@ -233,6 +233,13 @@ namespace snug
     }
 
     template <int dim>
+    typename Assembler<dim>::Nodes
+    Assembler<dim>::cell_values(unsigned int i, const double *u) const
+    {
+      return cell_reach[i].values(u);
+    }
+
+    template <int dim>
     void
     Assembler<dim>::add_cell_vector(unsigned int i,
                                     double       factor,

@@ -58,18 +58,22 @@ namespace snug
       void
       correct(MultiVector &lambda, MultiVector &residual) const;
 
-      /// x <- (I - P (F P)') x.
-      void
+      /// x <- (I - P (F P)') x; squares of the F-norms of what was removed.
+      std::vector<double>
       orthogonalise(MultiVector &x) const;
 
-      /// New directions from the projected residuals @p r.
+      /// New directions from the projected residuals @p r, and what the last
+      /// orthogonalisation removed from them.
       MultiVector
-      directions(const MultiVector &r) const;
+      directions(const MultiVector &r, std::vector<double> &removed) const;
 
       /// Append an F-orthonormal basis of @p Z and minimize over it; false
       /// if F vanishes on Z up to rounding.
       bool
-      step(const MultiVector &Z, MultiVector &lambda, MultiVector &residual);
+      step(MultiVector                Z,
+           const std::vector<double> &removed,
+           MultiVector               &lambda,
+           MultiVector               &residual);
 
       const DualProblem &problem;
       const Face        &face;

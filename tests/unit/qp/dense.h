@@ -61,7 +61,7 @@ namespace dense
   pseudo_inverse(Matrix A)
   {
     const auto   values = eigen(A);
-    const double cut = values.empty() ? 0. : 1e-10 * std::abs(values.back());
+    const double cut    = values.empty() ? 0. : 1e-10 * std::abs(values.back());
     Matrix       scaled = A;
     for (unsigned int j = 0; j < A.n_columns(); ++j)
       for (unsigned int i = 0; i < A.n_rows(); ++i)
@@ -73,10 +73,9 @@ namespace dense
   inline Matrix
   solve(Matrix A, Matrix b)
   {
-    PetscBLASInt n = A.n_rows(), k = b.n_columns(), info = 0;
+    PetscBLASInt              n = A.n_rows(), k = b.n_columns(), info = 0;
     std::vector<PetscBLASInt> pivots(n);
-    LAPACKgesv_(
-      &n, &k, A.column(0), &n, pivots.data(), b.column(0), &n, &info);
+    LAPACKgesv_(&n, &k, A.column(0), &n, pivots.data(), b.column(0), &n, &info);
     EXPECT_EQ(info, 0);
     return b;
   }

@@ -11,10 +11,10 @@
 /// The data of a dual problem, whole on every rank.
 struct DenseData
 {
-  dense::Matrix     F, G, d, e;
-  dense::Matrix     preconditioner; ///< M^{-1} of all rows; none if empty
-  snug::qp::RowSet  bounded;
-  std::string       escaping;
+  dense::Matrix    F, G, d, e;
+  dense::Matrix    preconditioner; ///< M^{-1} of all rows; none if empty
+  snug::qp::RowSet bounded;
+  std::string      escaping;
 };
 
 /// A dual problem with dense matrices; every rank owns a slice of the rows.
@@ -25,8 +25,7 @@ public:
   using RowSet      = snug::qp::RowSet;
 
   explicit DenseProblem(const DenseData &data)
-    : data(data)
-    , run(MPI_COMM_WORLD, log)
+    : data(data), run(MPI_COMM_WORLD, log)
   {
     const unsigned int n = data.F.n_rows();
     first                = n * run.rank() / run.n_ranks();
@@ -226,9 +225,8 @@ public:
     restrict(x);
     const MultiVector missing = unbalanced(x, e);
     x.add(1.,
-          problem.slice(
-            dense::product(dense::transpose(G),
-                           dense::product(inverse, missing))));
+          problem.slice(dense::product(dense::transpose(G),
+                                       dense::product(inverse, missing))));
     return norms(unbalanced(x, e), MPI_COMM_SELF);
   }
 
@@ -247,8 +245,7 @@ public:
   }
 
 private:
-  void
-  restrict(MultiVector &x) const
+  void restrict(MultiVector &x) const
   {
     for (unsigned int j = 0; j < x.n_columns(); ++j)
       for (unsigned int i = 0; i < x.n_rows(); ++i)

@@ -17,12 +17,12 @@ class Membranes
 public:
   struct Shape
   {
-    unsigned int columns     = 2; ///< subdomains per body and direction
-    unsigned int rows        = 1;
-    unsigned int cells       = 4; ///< per subdomain and direction
-    double       load        = 1.; ///< on the whole top; < 0 pulls
-    double       curvature   = 0.5; ///< of the gap between the bodies
-    double       shift       = 0.; ///< of the lowest point of the gap
+    unsigned int columns   = 2; ///< subdomains per body and direction
+    unsigned int rows      = 1;
+    unsigned int cells     = 4;   ///< per subdomain and direction
+    double       load      = 1.;  ///< on the whole top; < 0 pulls
+    double       curvature = 0.5; ///< of the gap between the bodies
+    double       shift     = 0.;  ///< of the lowest point of the gap
   };
 
   explicit Membranes(const Shape &shape)
@@ -94,9 +94,9 @@ public:
         for (unsigned int c = 0; c < nx; ++c)
           {
             const double open = gap(c) - x(lower_top(c)) + x(nx * ny + c);
-            const bool next = active[c] ? x(N + c) > 0. : open < -1e-13;
-            changed         = changed || next != active[c];
-            active[c]       = next;
+            const bool   next = active[c] ? x(N + c) > 0. : open < -1e-13;
+            changed           = changed || next != active[c];
+            active[c]         = next;
           }
         if (!changed)
           {
@@ -204,10 +204,9 @@ private:
   void
   add_contact(unsigned int c)
   {
-    const auto            &slave  = copies[nx * ny + c];
-    const auto            &master = copies[lower_top(c)];
-    const double           scale =
-      std::sqrt(1. / slave.size() + 1. / master.size());
+    const auto  &slave  = copies[nx * ny + c];
+    const auto  &master = copies[lower_top(c)];
+    const double scale  = std::sqrt(1. / slave.size() + 1. / master.size());
     std::map<Copy, double> row;
     for (const Copy &copy : slave)
       row[copy] = -1. / slave.size() / scale;

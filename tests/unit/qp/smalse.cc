@@ -1,0 +1,124 @@
+#include "known_solution.h"
+#include "membranes.h"
+
+#include <snug/base/errors.h>
+#include <snug/qp/smalse.h>
+
+#include <gtest/gtest.h>
+
+using namespace snug::qp;
+
+namespace
+{
+  Membranes::Shape
+  two_by_two()
+  {
+    Membranes::Shape shape;
+    shape.rows  = 2;
+    shape.load  = 0.05;
+    shape.shift = 0.03;
+    return shape;
+  }
+
+  DualSolution
+  solve_by(const std::string  &method,
+           const DenseProblem &problem,
+           double              tolerance,
+           const WarmStart    &start = WarmStart())
+  {
+    SolverParameters parameters;
+    parameters.relative_tolerance = tolerance;
+    return snug::choose(solver_table(), method)
+      .make(parameters)
+      ->solve(problem, start);
+  }
+} // namespace
+
+TEST(Smalse, FindsKnownSolutions)
+{
+  for (unsigned int seed = 0; seed < 6; ++seed)
+    {
+      KnownShape shape;
+      shape.n_active   = 2 + 2 * seed;
+      shape.n_weak     = seed % 3;
+      const auto known = known_solution(shape, seed);
+      for (const double tolerance : {1e-6, 1e-9})
+        {
+          const DenseProblem problem(known.data);
+          const auto solution = solve_by("SMALSE-M", problem, tolerance);
+          EXPECT_LE(solution.kkt_residual, tolerance);
+          EXPECT_EQ(solution.f_mults, problem.context().work.f_mults);
+          EXPECT_EQ(solution.method, "SMALSE-M");
+          EXPECT_LT(dense::distance(problem.gather(solution.lambda),
+                                    known.lambda),
+                    error_bound(known, tolerance));
+        }
+    }
+}
+
+TEST(Smalse, EqualsActiveSetOnMembranes)
+{
+  const Membranes membranes(two_by_two());
+  const auto      exact = membranes.untorn_forces();
+  for (const double tolerance : {1e-6, 1e-9, 1e-12})
+    {
+      const DenseProblem one(membranes.data()), two(membranes.data());
+      const auto         smalse = solve_by("SMALSE-M", one, tolerance);
+      const auto         active = solve_by("active set", two, tolerance);
+      const auto         forces = membranes.forces(one.gather(smalse.lambda));
+      EXPECT_LT(dense::distance(forces,
+                                membranes.forces(two.gather(active.lambda))),
+                tolerance);
+      EXPECT_LT(dense::distance(forces, exact), tolerance);
+      EXPECT_EQ(smalse.active, active.active);
+      EXPECT_LT(smalse.f_mults, 120u);
+      for (unsigned int c = 0; c < forces.n_rows(); ++c)
+        EXPECT_GE(forces(c), 0.);
+    }
+}
+
+TEST(Smalse, WithoutPreconditioner)
+{
+  auto       data     = Membranes(two_by_two()).data();
+  const auto exact    = Membranes(two_by_two()).untorn_forces();
+  data.preconditioner = dense::Matrix(0, 0);
+  const DenseProblem problem(data);
+  const auto         solution = solve_by("SMALSE-M", problem, 1e-9);
+  EXPECT_LT(dense::distance(
+              Membranes(two_by_two()).forces(problem.gather(solution.lambda)),
+              exact),
+            1e-8);
+}
+
+TEST(Smalse, StartFromASolutionIsCheaper)
+{
+  const auto         data = Membranes(two_by_two()).data();
+  const DenseProblem problem(data), again(data);
+  const auto         cold = solve_by("SMALSE-M", problem, 1e-9);
+  const auto         warm =
+    solve_by("SMALSE-M", again, 1e-8, {cold.lambda, cold.active});
+  // the scale, ten power steps, the start and the check of the result
+  EXPECT_LE(warm.f_mults, 14u);
+  EXPECT_LT(dense::distance(warm.lambda, cold.lambda), 1e-8);
+}
+
+TEST(Smalse, PullingLoadEndsWithAnError)
+{
+  auto shape      = two_by_two();
+  shape.load      = -0.1;
+  DenseData  data = Membranes(shape).data();
+  const auto run  = [&]() {
+    const DenseProblem problem(data);
+    SolverParameters   parameters;
+    parameters.max_iterations = 150;
+    Smalse(parameters).solve(problem, WarmStart());
+  };
+  EXPECT_THROW(run(), snug::SolveError); // iterations run out
+  data.escaping = "body upper escapes";
+  EXPECT_THROW(run(), snug::SolveError); // named at once
+}
+
+TEST(SolverTable, ListsBothSolvers)
+{
+  EXPECT_EQ(snug::names(solver_table()), "active set|SMALSE-M");
+}
