@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
 #include <streambuf>
 
@@ -15,6 +16,16 @@ namespace snug
     {
       static std::ostream stream(nullptr);
       return stream;
+    }
+    /// MPI launchers put a pseudo terminal between the program and a file.
+    bool
+    under_launcher()
+    {
+      for (const char *name :
+           {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_PROCID"})
+        if (std::getenv(name) != nullptr)
+          return true;
+      return false;
     }
   } // namespace
 
@@ -33,7 +44,8 @@ namespace snug
     size    = s;
     if (my_rank != 0)
       stream = &null_stream();
-    live_line = my_rank == 0 && &out == &std::cout && isatty(STDOUT_FILENO);
+    live_line = my_rank == 0 && &out == &std::cout && isatty(STDOUT_FILENO) &&
+                !under_launcher();
   }
 
   MPI_Comm

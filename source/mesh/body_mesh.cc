@@ -1,4 +1,5 @@
 #include <snug/mesh/body_mesh.h>
+#include <snug/mesh/face_nodes.h>
 #include <snug/mesh/triangulate.h>
 
 #include <deal.II/base/mpi.h>
@@ -65,8 +66,6 @@ namespace snug
       collect_hanging();
       void
       collect_cells();
-      void
-      add_boundary_face(unsigned int cell, unsigned int face, unsigned int id);
     };
 
     template <int dim>
@@ -147,42 +146,6 @@ namespace snug
 
     template <int dim>
     void
-    BodyMesh<dim>::Data::add_boundary_face(unsigned int cell,
-                                           unsigned int face,
-                                           unsigned int id)
-    {
-      const unsigned int n      = degree + 1;
-      const unsigned int normal = face / 2;
-      const bool         upper  = face % 2 == 1;
-      const unsigned int fixed  = upper ? degree : 0;
-      Face               result{cells[cell].body, id, cell, {}};
-      unsigned int       stride[3] = {1, n, n * n};
-      if (dim == 2)
-        {
-          // (t_y, -t_x) points out for x+ with t = +y and for y+ with t = -x
-          const unsigned int axis    = 1 - normal;
-          const bool         reverse = (normal == 0) != upper;
-          for (unsigned int i = 0; i < n; ++i)
-            result.nodes.push_back(
-              cells[cell].nodes[fixed * stride[normal] +
-                                (reverse ? degree - i : i) * stride[axis]]);
-        }
-      else
-        {
-          unsigned int a = (normal + 1) % 3, b = (normal + 2) % 3;
-          if (!upper)
-            std::swap(a, b);
-          for (unsigned int j = 0; j < n; ++j)
-            for (unsigned int i = 0; i < n; ++i)
-              result.nodes.push_back(
-                cells[cell].nodes[fixed * stride[normal] + i * stride[a] +
-                                  j * stride[b]]);
-        }
-      faces.push_back(result);
-    }
-
-    template <int dim>
-    void
     BodyMesh<dim>::Data::collect_cells()
     {
       const auto order =
@@ -201,9 +164,11 @@ namespace snug
             cells.push_back(entry);
             for (const unsigned int f : cell->face_indices())
               if (cell->at_boundary(f))
-                add_boundary_face(cells.size() - 1,
-                                  f,
-                                  cell->face(f)->boundary_id());
+                faces.push_back(
+                  {entry.body,
+                   cell->face(f)->boundary_id(),
+                   static_cast<unsigned int>(cells.size() - 1),
+                   oriented_face_nodes<dim>(entry.nodes, degree, f)});
           }
       for (const auto &cell : nodes.active_cell_iterators())
         if (cell->is_locally_owned())

@@ -20,10 +20,8 @@ namespace snug
       const double dependence_cut = 1e-12;
 
       /// A direction is rounding if orthogonalisation leaves less than this
-      /// of the square of its F-norm, and is orthogonalised again below
-      /// `cancellation`.
-      const double noise        = 1e-16;
-      const double cancellation = 1e-8;
+      /// of the square of its F-norm.
+      const double noise = 1e-12;
 
       /// Iterations without a smaller residual that mean it is at its floor.
       const unsigned int patience = 40;
@@ -167,27 +165,17 @@ namespace snug
     }
 
     bool
-    Pcpg::step(MultiVector                Z,
+    Pcpg::step(const MultiVector         &Z,
                const std::vector<double> &removed,
                MultiVector               &lambda,
                MultiVector               &residual)
     {
       const unsigned int n = Z.n_columns(), k = residual.n_columns();
-      MultiVector        FZ = problem.apply(Z);
-      MultiVector        products;
-      for (unsigned int pass = 0; pass < 2; ++pass)
-        {
-          MultiVector right = FZ;
-          right.append(Z);
-          right.append(residual);
-          products = inner_products(Z, right, comm);
-          // one column of which little was left: orthogonalise again
-          if (pass == 1 || !(products(0, 0) < cancellation * removed[0]))
-            break;
-          const MultiVector parts = inner_products(FP, Z, comm);
-          Z.add_product(-1., P, parts);
-          FZ.add_product(-1., FP, parts);
-        }
+      const MultiVector  FZ    = problem.apply(Z);
+      MultiVector        right = FZ;
+      right.append(Z);
+      right.append(residual);
+      const MultiVector   products = inner_products(Z, right, comm);
       std::vector<double> smallest(n);
       for (unsigned int j = 0; j < n; ++j)
         {

@@ -90,7 +90,8 @@ namespace snug
       if (statement.name.empty())
         return;
       throw InputError(
-        origin + "unknown entry '" + quotable(statement.path()) + "'" +
+        origin + "unknown entry '" + quotable(statement.path()) + "' = '" +
+        quotable(statement.value) + "'" +
         (elsewhere.empty() ? did_you_mean(statement.name, names) : elsewhere));
     }
 

@@ -48,7 +48,8 @@ namespace snug
 
     /**
      * Show @p text as the live line of a long stage, over the previous one.
-     * Only rank 0 and only when standard output is a terminal.
+     * Only rank 0, when standard output is a terminal and no MPI launcher is
+     * in between.
      */
     void
     progress(const std::string &text);

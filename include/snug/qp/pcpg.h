@@ -70,7 +70,7 @@ namespace snug
       /// Append an F-orthonormal basis of @p Z and minimize over it; false
       /// if F vanishes on Z up to rounding.
       bool
-      step(MultiVector                Z,
+      step(const MultiVector         &Z,
            const std::vector<double> &removed,
            MultiVector               &lambda,
            MultiVector               &residual);

@@ -128,12 +128,13 @@ TEST(ActiveSet, FindsKnownSolutions)
 
 TEST(ActiveSet, TornEqualsUntornMembranes)
 {
-  for (const double load : {0.001, 0.1, 10.}) // 3, 16 and all of 16 contacts
+  for (const double load : {0.001, 0.1, 10.}) // few, most and all contacts
     {
       auto shape = partial_contact();
       shape.load = load;
       const Membranes membranes(shape);
       const auto      exact = membranes.untorn_forces();
+      std::cout<<"A "; for(unsigned c=0;c<16;++c) std::cout<<(exact(c)>0.); std::cout<<std::endl;
       for (const double tolerance : {1e-6, 1e-9, 1e-12})
         {
           const DenseProblem problem(membranes.data());
@@ -142,9 +143,10 @@ TEST(ActiveSet, TornEqualsUntornMembranes)
           const auto forces = membranes.forces(problem.gather(solution.lambda));
           EXPECT_LT(dense::distance(forces, exact),
                     10. * tolerance * (0.1 + load));
-          if (tolerance < 1e-6)
-            for (unsigned int c = 0; c < membranes.n_contacts(); ++c)
-              EXPECT_EQ(forces(c) > 0., exact(c) > 0.) << c;
+          for (unsigned int c = 0; c < membranes.n_contacts(); ++c)
+            EXPECT_TRUE(tolerance == 1e-6 ||
+                        (forces(c) > 0.) == (exact(c) > 0.))
+              << c;
         }
     }
 }
@@ -155,7 +157,8 @@ TEST(ActiveSet, CostsAboutTwoLinearSolvesColdAndOneWarm)
   const DenseProblem problem(Membranes(shape).data());
   const auto         cold   = solve_cold(problem, 1e-6);
   const auto         linear = linear_f_mults(problem, cold.active, 1e-6);
-  EXPECT_LE(cold.f_mults, 2.3 * linear);
+  // 10 against 7; with exact inner solves it would be 15
+  EXPECT_LE(cold.f_mults, 1.8 * linear);
   shape.load *= 1.02;
   const DenseProblem moved(Membranes(shape).data());
   const auto         warm =
@@ -264,6 +267,24 @@ TEST(ActiveSet, StaticallyDeterminateProblem)
   const auto         solution = solve_cold(problem, 1e-12);
   EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
             1e-11);
+}
+
+TEST(ActiveSet, StopsAtRoundingOfTheRigidPart)
+{
+  // d is almost all G' alpha, 1e11 times the rest: the residual w is known to
+  // 1e-5 at best, and a relative tolerance below that has no meaning
+  KnownShape shape;
+  shape.n        = 12;
+  shape.n_kernel = 3;
+  shape.n_active = 3;
+  auto known     = known_solution(shape, 31);
+  auto rigid     = known.alpha;
+  rigid.add(1e11, known.alpha);
+  known.data.d.add(-1., dense::product(dense::transpose(known.data.G), rigid));
+  const DenseProblem problem(known.data);
+  const auto         solution = solve_cold(problem, 1e-9);
+  EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
+            1e-2);
 }
 
 TEST(ActiveSet, PullingLoadHasNoEquilibrium)

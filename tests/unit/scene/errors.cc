@@ -66,14 +66,17 @@ TEST(Errors, UnknownEntriesAndSections)
 {
   EXPECT_EQ(
     error_of({}, replaced(scene_text(), "Young's modulus", "Yuong's modulus")),
-    "scene.prm, line 10: unknown entry 'Body punch/Yuong's modulus'; "
+    "scene.prm, line 10: unknown entry 'Body punch/Yuong's modulus' = "
+    "'210000'; "
     "did you mean 'Young's modulus'?");
-  EXPECT_EQ(error_of({"Solver/Maximum evaluations=3"}),
-            "--set: unknown entry 'Solver/Maximum evaluations'; it belongs to "
-            "subsection 'Optimization'");
-  EXPECT_EQ(error_of({"Optimization/Task=state"}),
-            "--set: unknown entry 'Optimization/Task'; it belongs outside of "
-            "subsections");
+  EXPECT_EQ(
+    error_of({"Solver/Maximum evaluations=3"}),
+    "--set: unknown entry 'Solver/Maximum evaluations' = '3'; it belongs to "
+    "subsection 'Optimization'");
+  EXPECT_EQ(
+    error_of({"Optimization/Task=state"}),
+    "--set: unknown entry 'Optimization/Task' = 'state'; it belongs outside of "
+    "subsections");
   EXPECT_TRUE(has(error_of({}, scene_text() + "subsection Solvr\nend\n"),
                   "scene.prm, line 38: unknown subsection 'Solvr'; did you "
                   "mean 'Solver'?"));

@@ -52,6 +52,7 @@ namespace snug
       qp::SolverParameters       solver{"active set", 1e-10, 5000};
       feti::FetiParameters       feti;
       unsigned int               subdomains = 6;
+      bool punch_slides = false; ///< nothing holds it horizontally
     };
 
     /// Height of the design at box fractions (s, t) of the top.
@@ -213,7 +214,8 @@ namespace snug
       make_model(const TestScene<dim> &scene)
       {
         state::Model<dim> model;
-        model.body_names = {"punch", "foundation"};
+        model.body_names = {"punch", "foundation", "block"};
+        model.body_names.resize(scene.bodies.size());
         for (unsigned int b = 0; b < scene.bodies.size(); ++b)
           {
             const auto &body = scene.bodies[b];

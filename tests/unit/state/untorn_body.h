@@ -97,6 +97,8 @@ namespace snug
       void
       make_mesh();
       void
+      pin_slides();
+      void
       collect_nodes();
       void
       place_nodes(const TestScene<dim> &scene, bool moved);
@@ -126,6 +128,8 @@ namespace snug
                                                            constraints,
                                                            mask);
         }
+      if (scene.punch_slides && index == 0)
+        pin_slides();
       constraints.close();
       dealii::DynamicSparsityPattern dynamic(n_dofs());
       dealii::DoFTools::make_sparsity_pattern(handler, dynamic, constraints);
@@ -148,6 +152,25 @@ namespace snug
       triangulation.execute_coarsening_and_refinement();
     }
 
+    /// Hold the horizontal motions, statically determinate: all but the last
+    /// component of the lower left corner, in 3D also y of another corner.
+    template <int dim>
+    void
+    UntornBody<dim>::pin_slides()
+    {
+      dealii::Point<dim> right = body.corner;
+      right[0] += body.size[0];
+      for (const auto &cell : handler.active_cell_iterators())
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            if (cell->vertex(v).distance(body.corner) < 1e-10)
+              for (unsigned int d = 0; d + 1 < dim; ++d)
+                constraints.add_line(cell->vertex_dof_index(v, d));
+            if (dim == 3 && cell->vertex(v).distance(right) < 1e-10)
+              constraints.add_line(cell->vertex_dof_index(v, 1));
+          }
+    }
+
     template <int dim>
     void
     UntornBody<dim>::collect_nodes()
@@ -156,24 +179,28 @@ namespace snug
       dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<dim>(),
                                                    handler,
                                                    support);
-      std::map<std::array<long, dim>, unsigned int> nodes;
-      std::vector<dealii::types::global_dof_index>  dofs(fe.n_dofs_per_cell());
+      // two dofs may share a point (Q2, hanging): a node is named by the dof of
+      // its first component
+      std::map<unsigned int, unsigned int>         nodes;
+      std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
       node_of_dof.resize(n_dofs());
       for (const auto &cell : handler.active_cell_iterators())
         {
           cell->get_dof_indices(dofs);
           for (unsigned int i = 0; i < dofs.size(); ++i)
             {
-              const auto entry = nodes.emplace(node_key<dim>(support[dofs[i]]),
-                                               unsigned(nodes.size()));
+              const auto         local = fe.system_to_component_index(i);
+              const unsigned int first =
+                dofs[fe.component_to_system_index(0, local.second)];
+              const auto entry = nodes.emplace(first, unsigned(nodes.size()));
               if (entry.second)
                 {
-                  flat.push_back(support[dofs[i]]);
+                  flat.push_back(support[first]);
                   node_dofs.emplace_back();
                 }
-              const unsigned int node = entry.first->second;
-              node_dofs[node][fe.system_to_component_index(i).first] = dofs[i];
-              node_of_dof[dofs[i]]                                   = node;
+              const unsigned int node      = entry.first->second;
+              node_dofs[node][local.first] = dofs[i];
+              node_of_dof[dofs[i]]         = node;
             }
         }
     }

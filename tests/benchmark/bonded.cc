@@ -1,0 +1,167 @@
+#include <snug/base/errors.h>
+#include <snug/state/support.h>
+
+#include <benchmark/bonded.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace snug
+{
+  namespace benchmark
+  {
+    namespace
+    {
+      using petsc::check;
+
+      const unsigned int dim        = 3;
+      const unsigned int eliminated = static_cast<unsigned int>(-1);
+
+      /// Local node -> the node it is glued to (itself if to none).
+      std::vector<unsigned int>
+      glue(const state::StateSolver<dim> &solver)
+      {
+        const auto               &mesh    = solver.mesh();
+        const auto               &surface = solver.surface();
+        std::vector<unsigned int> target(mesh.n_local_nodes());
+        std::iota(target.begin(), target.end(), 0);
+        for (const auto &projection : solver.contact().projections())
+          {
+            const auto nearest =
+              std::max_element(projection.masters.begin(),
+                               projection.masters.end(),
+                               [](const auto &a, const auto &b) {
+                                 return a.second < b.second;
+                               });
+            if (nearest->second < 0.99)
+              throw InputError("slave and master nodes do not match");
+            target[mesh.local_node(surface.global_node(projection.slave))] =
+              mesh.local_node(surface.global_node(nearest->first));
+          }
+        return target;
+      }
+    } // namespace
+
+    Bonded::Bonded(const state::StateSolver<dim> &solver)
+    {
+      assemble(solver, number_unknowns(solver));
+      analyse();
+    }
+
+    /// Unknown of each degree of freedom dim * node + component.
+    std::vector<unsigned int>
+    Bonded::number_unknowns(const state::StateSolver<dim> &solver)
+    {
+      const auto                target = glue(solver);
+      std::vector<unsigned int> unknown(dim * target.size(), 0);
+      for (const auto &fixed :
+           state::fixed_components<dim>(solver.mesh(), solver.model().supports))
+        for (unsigned int c = 0; c < dim; ++c)
+          if (fixed.second[c])
+            unknown[dim * target[fixed.first] + c] = eliminated;
+      for (unsigned int node = 0; node < target.size(); ++node)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (target[node] == node && unknown[dim * node + c] != eliminated)
+            unknown[dim * node + c] = K.n_rows++;
+      for (unsigned int node = 0; node < target.size(); ++node)
+        for (unsigned int c = 0; c < dim; ++c)
+          unknown[dim * node + c] = unknown[dim * target[node] + c];
+      K.n_columns = K.n_rows;
+      return unknown;
+    }
+
+    void
+    Bonded::assemble(const state::StateSolver<dim>   &solver,
+                     const std::vector<unsigned int> &unknown)
+    {
+      const auto &systems = solver.feti().subdomains();
+      std::vector<std::vector<unsigned int>> maps;
+      for (const auto &subdomain : solver.tearing().subdomains)
+        {
+          maps.emplace_back();
+          for (const unsigned int node : subdomain.nodes)
+            for (unsigned int c = 0; c < dim; ++c)
+              maps.back().push_back(unknown[dim * node + c]);
+        }
+      // i and j: unknowns, p: position in the subdomain's matrix
+      const auto for_all_entries = [&](const auto &visit) {
+        for (unsigned int s = 0; s < systems.size(); ++s)
+          for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
+            for (PetscInt p = systems[s].K.row_start[row];
+                 p < systems[s].K.row_start[row + 1];
+                 ++p)
+              {
+                const unsigned int i = maps[s][row];
+                const unsigned int j = maps[s][systems[s].K.columns[p]];
+                if (i != eliminated && j != eliminated)
+                  visit(i, j, systems[s].K.values[p]);
+              }
+      };
+      std::vector<std::vector<PetscInt>> pattern(K.n_rows);
+      for_all_entries([&](unsigned int i, unsigned int j, double) {
+        pattern[i].push_back(j);
+      });
+      for (auto &row : pattern)
+        {
+          std::sort(row.begin(), row.end());
+          row.erase(std::unique(row.begin(), row.end()), row.end());
+        }
+      K = feti::CsrMatrix::from_rows(pattern, K.n_columns);
+      for_all_entries([&](unsigned int i, unsigned int j, double value) {
+        K.values[K.position(i, j)] += value;
+      });
+      f = u = qp::MultiVector(K.n_rows);
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
+          if (maps[s][row] != eliminated)
+            f(maps[s][row]) += systems[s].f[row];
+    }
+
+    /// As SparseFactor does, whose options for the ordering hold here too, but
+    /// without its check of every factorization.
+    void
+    Bonded::analyse()
+    {
+      check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF,
+                                      K.n_rows,
+                                      K.n_rows,
+                                      K.row_start.data(),
+                                      K.columns.data(),
+                                      K.values.data(),
+                                      matrix.put()));
+      check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+      check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+      check(MatGetFactor(
+        matrix, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor.put()));
+      MatFactorInfo info;
+      check(MatFactorInfoInitialize(&info));
+      check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
+      check(VecCreateSeqWithArray(
+        PETSC_COMM_SELF, 1, K.n_rows, f.column(0), right_hand_side.put()));
+      check(VecCreateSeqWithArray(
+        PETSC_COMM_SELF, 1, K.n_rows, u.column(0), solution.put()));
+    }
+
+    void
+    Bonded::factorize()
+    {
+      MatFactorInfo info;
+      check(MatFactorInfoInitialize(&info));
+      check(MatCholeskyFactorNumeric(factor, matrix, &info));
+    }
+
+    void
+    Bonded::solve()
+    {
+      check(MatSolve(factor, right_hand_side, solution));
+    }
+
+    double
+    Bonded::residual() const
+    {
+      qp::MultiVector rest = f;
+      K.multiply_add(-1., u, rest);
+      return qp::norms(rest, MPI_COMM_SELF)[0] / qp::norms(f, MPI_COMM_SELF)[0];
+    }
+  } // namespace benchmark
+} // namespace snug

@@ -1,0 +1,146 @@
+#include <snug/base/errors.h>
+#include <snug/state/certificate.h>
+
+#include <benchmark/torn.h>
+
+namespace snug
+{
+  namespace benchmark
+  {
+    namespace
+    {
+      const unsigned int repeats = 7;
+
+      feti::SubdomainTable
+      subdomain_table(const state::StateSolver<3> &solver)
+      {
+        feti::SubdomainTable table;
+        table.n_modes    = 6;
+        table.body_names = solver.model().body_names;
+        for (const auto &subdomain : solver.tearing().subdomains)
+          table.body.push_back(subdomain.body);
+        return table;
+      }
+
+      /// The tolerance at which StateSolver begins: see its margin.
+      qp::SolverParameters
+      tightened(qp::SolverParameters parameters)
+      {
+        parameters.relative_tolerance *= 0.25;
+        return parameters;
+      }
+    } // namespace
+
+    Torn::Torn(const state::StateSolver<3> &solver, RunContext &context)
+      : solver(solver)
+      , context(context)
+      , parameters(tightened(solver.model().solver))
+      , all(solver.tearing().subdomains.size(), true)
+      , none(all.size(), false)
+      , feti(solver.feti().subdomains(),
+             solver.gluing().layout(),
+             subdomain_table(solver),
+             solver.model().feti,
+             context)
+    {
+    }
+
+    void
+    Torn::factorize()
+    {
+      feti.update(all, solver.feti().g());
+    }
+
+    void
+    Torn::solve()
+    {
+      const Work before = context.work;
+      dual              = choose(qp::solver_table(), parameters.method)
+               .make(parameters)
+               ->solve(feti, qp::WarmStart());
+      const auto   u = feti.recover(feti.loads(), dual.lambda, dual.amplitudes);
+      const double error = state::certify(feti, dual.lambda, u).worst();
+      if (error > solver.model().solver.relative_tolerance)
+        throw SolveError("the certificate of the state is " +
+                         std::to_string(error));
+      work = context.work;
+      work.f_mults -= before.f_mults;
+      work.preconditioner_applications -= before.preconditioner_applications;
+      work.coarse_solves -= before.coarse_solves;
+    }
+
+    Stage
+    Torn::factorization_of_inverses() const
+    {
+      std::vector<std::unique_ptr<feti::GeneralizedInverse>> inverses;
+      for (const auto &system : feti.subdomains())
+        inverses.push_back(std::make_unique<feti::GeneralizedInverse>(
+          system, solver.model().feti.factorization, context));
+      const auto factorize = [&]() {
+        for (auto &inverse : inverses)
+          inverse->factorize("K");
+      };
+      factorize(); // touches the memory
+      return {"factorization of K + rho Q", 1, median_time(repeats, factorize)};
+    }
+
+    Stage
+    Torn::factorization_of_interiors() const
+    {
+      std::vector<std::unique_ptr<feti::LocalSchur>> schur;
+      for (const auto &system : feti.subdomains())
+        schur.push_back(std::make_unique<feti::LocalSchur>(
+          system, false, solver.model().feti.factorization, context));
+      const auto factorize = [&]() {
+        for (auto &part : schur)
+          part->factorize("K_ii");
+      };
+      factorize();
+      return {"factorization of K_ii", 1, median_time(repeats, factorize)};
+    }
+
+    std::vector<Stage>
+    Torn::stages(const Seconds &whole)
+    {
+      const unsigned int n_mults    = work.f_mults,
+                         n_preconds = work.preconditioner_applications,
+                         n_coarse   = work.coarse_solves,
+                         n_outer    = dual.outer_iterations;
+
+      const auto x    = feti.d();
+      const auto face = feti.face(dual.active);
+      auto       y    = x;
+      face->project(y); // makes the coarse problem
+      face->precondition(x);
+      const auto make_face = [&]() {
+        const auto fresh = feti.face(dual.active);
+        fresh->project(y);
+        fresh->precondition(x);
+      };
+      const Seconds apply = median_time(repeats, [&]() { feti.apply(x); });
+      const Seconds precondition =
+        median_time(repeats, [&]() { face->precondition(x); });
+      const Seconds project = median_time(repeats, [&]() { face->project(y); });
+      const Seconds fresh =
+        median_time(repeats, make_face) - project - precondition;
+      const Seconds coarse =
+        median_time(repeats, [&]() { feti.update(none, solver.feti().g()); });
+
+      std::vector<Stage> stages = {factorization_of_inverses(),
+                                   factorization_of_interiors(),
+                                   {"coarse space, W, d and e", 1, coarse},
+                                   {"F", n_mults, apply},
+                                   {"preconditioner", n_preconds, precondition},
+                                   {"projection", n_coarse, project},
+                                   {"coarse problem and W of a face",
+                                    n_outer + 1,
+                                    fresh}};
+      Seconds            rest   = whole;
+      for (const Stage &stage : stages)
+        rest = rest - double(stage.count) * stage.each;
+      stages.push_back(
+        {"rest: reorthogonalisation, KKT, u, certificate", 1, rest});
+      return stages;
+    }
+  } // namespace benchmark
+} // namespace snug

@@ -1,0 +1,73 @@
+#ifndef snug_tests_benchmark_torn_h
+#define snug_tests_benchmark_torn_h
+
+#include <snug/qp/solver.h>
+#include <snug/state/state_solver.h>
+
+#include <benchmark/stopwatch.h>
+
+#include <string>
+
+namespace snug
+{
+  namespace benchmark
+  {
+    /// Part of a state: its name, how often it occurs, seconds of one.
+    struct Stage
+    {
+      std::string  name;
+      unsigned int count;
+      Seconds      each;
+    };
+
+    /**
+     * The contact state by Total FETI with everything assembled and symbolic
+     * factorizations kept: what StateSolver::solve() does after assembly, from
+     * a cold start and with all subdomains factorized anew.
+     */
+    class Torn
+    {
+    public:
+      /// Both must outlive this object; the solver has solved a state. One
+      /// rank.
+      Torn(const state::StateSolver<3> &solver, RunContext &context);
+
+      /// Numeric factorizations, coarse space, d.
+      void
+      factorize();
+
+      /// The QP, u and the certificate.
+      /// @throws SolveError if the certificate misses the tolerance.
+      void
+      solve();
+
+      /// F-mults of the last solve().
+      unsigned long
+      f_mults() const
+      {
+        return dual.f_mults;
+      }
+
+      /// What a state consists of, as measured one by one; @p whole is the
+      /// time of factorize() and solve() together.
+      std::vector<Stage>
+      stages(const Seconds &whole);
+
+    private:
+      Stage
+      factorization_of_inverses() const;
+      Stage
+      factorization_of_interiors() const;
+
+      const state::StateSolver<3> &solver;
+      RunContext                  &context;
+      qp::SolverParameters         parameters;
+      std::vector<bool>            all, none;
+      feti::TotalFeti              feti;
+      qp::DualSolution             dual;
+      Work                         work; ///< of the last solve
+    };
+  } // namespace benchmark
+} // namespace snug
+
+#endif

@@ -1,0 +1,160 @@
+#include <gradient/sensitivity/differences.h>
+
+namespace
+{
+  using namespace snug;
+  using namespace snug::test;
+
+  /// Relative errors against differences of states solved to 1e-12: u' and
+  /// what follows from it is limited by round-off over the step, the energy's
+  /// error is of second order.
+  const double direct_tolerance = 1e-7;
+  const double energy_tolerance = 1e-8;
+  const double difference_step  = 2e-4;
+
+  /// Displacement derivative at the nodes of this rank's cells.
+  template <int dim>
+  typename mesh::BodyMesh<dim>::Field
+  nodal(const Problem<dim>                  &problem,
+        const sensitivity::StateDerivatives &derivatives,
+        const std::vector<double>           &direction)
+  {
+    typename mesh::BodyMesh<dim>::Field field(problem.mesh.n_local_nodes());
+    for (unsigned int s = 0; s < derivatives.u.size(); ++s)
+      {
+        const auto &nodes = problem.tearing.subdomains[s].nodes;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          {
+            field[nodes[a]] = dealii::Tensor<1, dim>();
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int j = 0; j < direction.size(); ++j)
+                field[nodes[a]][c] +=
+                  direction[j] * derivatives.u[s](dim * a + c, j);
+          }
+      }
+    problem.mesh.interpolate_hanging(field);
+    return field;
+  }
+
+  template <int dim>
+  double
+  field_error(const Problem<dim>                        &problem,
+              const typename mesh::BodyMesh<dim>::Field &a,
+              const typename mesh::BodyMesh<dim>::Field &b)
+  {
+    double error = 0., largest = 0.;
+    for (const auto &cell : problem.mesh.cells())
+      for (const unsigned int node : cell.nodes)
+        {
+          error   = std::max(error, (a[node] - b[node]).norm());
+          largest = std::max(largest, b[node].norm());
+        }
+    const MPI_Comm comm = problem.mesh.communicator();
+    return dealii::Utilities::MPI::max(error, comm) /
+           dealii::Utilities::MPI::max(largest, comm);
+  }
+
+  template <int dim>
+  void
+  check_derivatives(GradientScene<dim> &scene)
+  {
+    const unsigned int k      = scene.basis->n_variables();
+    auto              &solver = scene.problem.solver;
+    const auto         state  = scene.solve(scene.problem.scene.design);
+    ASSERT_EQ(state.weak_contacts, 0u);
+    ASSERT_GT(state.active_contacts, 1u);
+    ASSERT_LT(state.active_contacts, state.contact.size());
+    std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
+    for (unsigned int j = 0; j < k; ++j)
+      velocities.push_back(scene.basis->column(j));
+    const auto derivatives = sensitivity::direct(
+      solver, state, velocities, sensitivity::GradientParameters());
+    sensitivity::GradientParameters parameters;
+    std::vector<std::vector<double>> gradients;
+    for (const std::string method : {"direct", "energy"})
+      for (const auto response : {energy, compliance, strain_energy})
+        if (method == "direct" || response == energy)
+          {
+            parameters.method = method;
+            gradients.push_back(
+              scene.gradient(state, response, parameters).values);
+          }
+    for (const auto &direction : test_directions(k))
+      {
+        const auto exact = scene.differences(direction, difference_step);
+        EXPECT_LT(field_error(scene.problem,
+                              nodal(scene.problem, derivatives, direction),
+                              exact.displacement),
+                  direct_tolerance);
+        std::cout << "u' "
+                  << field_error(scene.problem,
+                                 nodal(scene.problem, derivatives, direction),
+                                 exact.displacement);
+        for (unsigned int i = 0; i < gradients.size(); ++i)
+          {
+            const auto   response = i == 3 ? energy : ResponseIndex(i);
+            const double error =
+              std::abs(dot(gradients[i], direction) -
+                       exact.responses[response]) /
+              (norm(gradients[i]) * norm(direction));
+            EXPECT_LT(error, i == 3 ? energy_tolerance : direct_tolerance);
+            std::cout << "  " << error;
+          }
+        std::cout << std::endl;
+      }
+  }
+
+  template <int dim>
+  TestScene<dim>
+  curved_scene(unsigned int n_cells, unsigned int n_heights, double bound)
+  {
+    auto scene = two_blocks<dim>(n_cells, n_cells, 3.);
+    set_design(scene, n_heights, bound);
+    scene.solver.relative_tolerance = 1e-12;
+    return scene;
+  }
+
+  TEST(Gradient, Curved2D)
+  {
+    GradientScene<2> scene(curved_scene<2>(8, 4, 0.04), 0.05);
+    check_derivatives(scene);
+  }
+
+  TEST(Gradient, LoadsOnTheMovingBody2D)
+  {
+    auto given = curved_scene<2>(6, 5, 0.04);
+    narrow_punch(given);
+    given.bodies[1].refined_below                       = 0.45;
+    given.bodies[1].body_force[1]                       = -2.;
+    given.bodies[1].loads[face_index(1, 1)].pressure    = 0.7;
+    given.bodies[1].loads[face_index(0, 1)].pressure    = 1.5;
+    given.bodies[1].loads[face_index(0, 0)].traction[1] = 0.5;
+    GradientScene<2> scene(given, 0.05);
+    check_derivatives(scene);
+  }
+
+  TEST(Gradient, Quadratic2D)
+  {
+    auto given                    = curved_scene<2>(3, 4, 0.04);
+    given.degree                  = 2;
+    given.bodies[0].refined_below = 0.4;
+    GradientScene<2> scene(given, 0.05);
+    check_derivatives(scene);
+  }
+
+  TEST(Gradient, NineHeights3D)
+  {
+    GradientScene<3> scene(curved_scene<3>(4, 3, 0.04), 0.05);
+    check_derivatives(scene);
+  }
+
+  TEST(Gradient, SixteenHeightsAndLoads3D)
+  {
+    auto given                                        = curved_scene<3>(3, 4, 0.04);
+    given.bodies[1].refined_below                     = 0.45;
+    given.bodies[1].loads[face_index(2, 1)].pressure  = 0.7;
+    given.bodies[1].body_force[2]                     = -2.;
+    GradientScene<3> scene(given, 0.05);
+    check_derivatives(scene);
+  }
+} // namespace

@@ -1,0 +1,179 @@
+#ifndef snug_tests_gradient_sensitivity_differences_h
+#define snug_tests_gradient_sensitivity_differences_h
+
+#include <snug/sensitivity/direct.h>
+#include <snug/sensitivity/gradient.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+#include <unit/state/test_scene.h>
+
+namespace snug
+{
+  namespace test
+  {
+    /// What is differentiated: responses in the order of response_table() and
+    /// the displacement of the local nodes.
+    template <int dim>
+    struct Values
+    {
+      std::vector<double>                 responses;
+      typename mesh::BodyMesh<dim>::Field displacement;
+      std::vector<bool>                   strong;
+    };
+
+    /// A scene whose foundation's top is a Bézier patch, solved to 1e-12.
+    template <int dim>
+    class GradientScene
+    {
+    public:
+      using Field = typename mesh::BodyMesh<dim>::Field;
+
+      /// @p scene.design gives the heights where derivatives are taken.
+      GradientScene(const TestScene<dim> &scene, double bound)
+        : problem(scene)
+        , basis(make_basis(problem, scene, bound))
+        , widths(scene.design.size(), 2. * bound)
+      {
+        for (const auto &row : response::response_table<dim>())
+          responses.push_back(row.make());
+      }
+
+      state::ContactState<dim>
+      solve(const std::vector<double> &design)
+      {
+        // cold: a warm start would stop at once and hide the derivative
+        return problem.solver.solve(
+          sensitivity::positions(problem.mesh, *basis, design),
+          qp::WarmStart());
+      }
+
+      Values<dim>
+      values(const std::vector<double> &design)
+      {
+        const auto  state = solve(design);
+        Values<dim> result;
+        for (const auto &response : responses)
+          result.responses.push_back(response->value(problem.solver, state));
+        result.displacement = state.displacement;
+        for (const auto &point : state.contact)
+          result.strong.push_back(point.strong);
+        return result;
+      }
+
+      /// Fourth-order central differences along @p direction; all four states
+      /// must have the contacts of the middle one.
+      Values<dim>
+      differences(const std::vector<double> &direction, double step)
+      {
+        const auto  middle  = values(problem.scene.design);
+        Values<dim> result  = middle;
+        const double weight[] = {1. / 12., -8. / 12., 8. / 12., -1. / 12.};
+        const int    place[]  = {-2, -1, 1, 2};
+        for (double &value : result.responses)
+          value = 0.;
+        for (auto &value : result.displacement)
+          value = dealii::Tensor<1, dim>();
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            auto design = problem.scene.design;
+            for (unsigned int i = 0; i < design.size(); ++i)
+              design[i] += place[k] * step * direction[i];
+            const auto at = values(design);
+            EXPECT_EQ(at.strong, middle.strong);
+            for (unsigned int r = 0; r < at.responses.size(); ++r)
+              result.responses[r] += weight[k] / step * at.responses[r];
+            for (unsigned int node = 0; node < at.displacement.size(); ++node)
+              result.displacement[node] +=
+                weight[k] / step * at.displacement[node];
+          }
+        return result;
+      }
+
+      sensitivity::Gradient
+      gradient(const state::ContactState<dim>          &state,
+               unsigned int                             response,
+               const sensitivity::GradientParameters   &parameters)
+      {
+        return sensitivity::gradient<dim>({problem.solver,
+                                           *basis,
+                                           *responses[response],
+                                           state,
+                                           problem.scene.design,
+                                           widths,
+                                           parameters},
+                                          parameters.method);
+      }
+
+      Problem<dim>                                            problem;
+      std::unique_ptr<shape::ShapeBasis<dim>>                 basis;
+      std::vector<double>                                     widths;
+      std::vector<std::unique_ptr<response::Response<dim>>>   responses;
+
+    private:
+      static std::unique_ptr<shape::ShapeBasis<dim>>
+      make_basis(const Problem<dim>   &problem,
+                 const TestScene<dim> &scene,
+                 double                bound)
+      {
+        shape::ShapeParameters parameters;
+        parameters.basis          = "Bezier patch";
+        parameters.face           = "foundation.top";
+        parameters.control_points = scene.control_points;
+        parameters.control_points.resize(dim - 1);
+        parameters.direction.assign(dim, 0.);
+        parameters.direction[dim - 1] = 1.;
+        parameters.bounds             = {-bound, bound};
+        const shape::BodyNames names{problem.model.body_names};
+        return choose(shape::shape_basis_table<dim>(), parameters.basis)
+          .make(problem.mesh, names, parameters);
+      }
+    };
+
+    /// Two random directions and two single components of n variables.
+    inline std::vector<std::vector<double>>
+    test_directions(unsigned int n)
+    {
+      std::mt19937                           generator(3);
+      std::uniform_real_distribution<double> uniform(-1., 1.);
+      std::vector<std::vector<double>>       directions(4);
+      for (auto &direction : directions)
+        direction.assign(n, 0.);
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          directions[0][i] = uniform(generator);
+          directions[1][i] = uniform(generator);
+        }
+      directions[2][0]     = 1.;
+      directions[3][n / 2] = 1.;
+      return directions;
+    }
+
+    inline double
+    dot(const std::vector<double> &a, const std::vector<double> &b)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+
+    inline double
+    norm(const std::vector<double> &a)
+    {
+      return std::sqrt(dot(a, a));
+    }
+
+    /// Index in response_table().
+    enum ResponseIndex : unsigned int
+    {
+      energy,
+      compliance,
+      strain_energy,
+      volume
+    };
+  } // namespace test
+} // namespace snug
+
+#endif
