@@ -4,8 +4,9 @@
 #include <snug/qp/row_set.h>
 #include <snug/qp/smalse.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <ostream>
@@ -145,6 +146,10 @@ namespace snug
         const bool     has_set = any(!from.active.empty(), comm);
         mask                   = RowSet(problem.n_owned(), 1);
         lambda = warm ? from.lambda : MultiVector(problem.n_owned());
+        AssertDimension(lambda.n_rows(), problem.n_owned());
+        Assert(!has_set || from.active.size() == problem.n_owned(),
+               dealii::ExcDimensionMismatch(from.active.size(),
+                                            problem.n_owned()));
         for (unsigned int i = 0; i < problem.n_owned(); ++i)
           if (problem.bounded()[i] && (warm || has_set))
             mask[i] = has_set ? from.active[i] != 0 : lambda(i) > 0.;

@@ -32,34 +32,59 @@ namespace snug
             "energy gradient, or a tolerance of at most 1e-8 if the state "
             "was solved coarsely");
       }
-      /// Block PCPG; where round-off of the recurrences stops it, again from
-      /// the true residual. @return block iterations.
+      /// The linear problems min 1/2 mu'F mu - mu'd, G mu = e on a face.
+      struct FaceProblem
+      {
+        const feti::TotalFeti     &feti;
+        const qp::Face            &face;
+        const qp::MultiVector     &d;
+        const qp::MultiVector     &e;
+        const std::vector<double> &tolerances; ///< of the projected residuals
+      };
+
+      /// Are all columns of G mu = e, up to round-off? B and R are orthonormal
+      /// but for a few rows, so ||G mu|| is at most about ||mu||.
+      bool
+      feasible(const FaceProblem &problem, const qp::MultiVector &mu)
+      {
+        const double round_off = 1e-12;
+        auto         missing   = problem.e;
+        missing.add(-1., problem.feti.apply_G(mu));
+        const auto errors = qp::norms(missing, MPI_COMM_SELF);
+        const auto loads  = qp::norms(problem.e, MPI_COMM_SELF);
+        const auto sizes = qp::norms(mu, problem.feti.context().communicator());
+        for (unsigned int j = 0; j < errors.size(); ++j)
+          if (!(errors[j] <= round_off * (loads[j] + sizes[j])))
+            return false;
+        return true;
+      }
+
+      /// Block PCPG; where round-off stops it or carries it off G mu = e,
+      /// again from the true residual. @return block iterations.
       unsigned int
-      solve_refined(const feti::TotalFeti     &feti,
-                    const qp::Face            &face,
-                    const qp::MultiVector     &d,
-                    const std::vector<double> &tolerances,
-                    unsigned int               max_iterations,
-                    qp::MultiVector           &lambda,
-                    qp::MultiVector           &residual)
+      solve_refined(const FaceProblem &problem,
+                    unsigned int       max_iterations,
+                    qp::MultiVector   &mu,
+                    qp::MultiVector   &residual)
       {
         const unsigned int attempts   = 4;
         unsigned int       iterations = 0;
         for (unsigned int attempt = 0; attempt < attempts; ++attempt)
           {
-            const auto solved = qp::pcpg(feti,
-                                         face,
-                                         lambda,
+            const auto solved = qp::pcpg(problem.feti,
+                                         problem.face,
+                                         mu,
                                          residual,
-                                         tolerances,
+                                         problem.tolerances,
                                          max_iterations - iterations);
             iterations += solved.iterations;
-            if (solved.converged)
+            if (solved.converged && feasible(problem, mu))
               return iterations;
             if (iterations >= max_iterations)
               break;
-            residual = d;
-            residual.add(-1., feti.apply(lambda));
+            problem.face.make_feasible(mu, problem.e);
+            residual = problem.d;
+            residual.add(-1., problem.feti.apply(mu));
           }
         throw SolveError("the sensitivities were not solved to the relative "
                          "tolerance; allow a larger 'Solver/Relative "
@@ -87,7 +112,8 @@ namespace snug
       d.add(-1., data.dual);
       StateDerivatives result;
       result.lambda = qp::MultiVector(feti.n_owned(), velocities.size());
-      face->make_feasible(result.lambda, feti.rigid_part(data.primal));
+      const auto e  = feti.rigid_part(data.primal);
+      face->make_feasible(result.lambda, e);
       qp::MultiVector residual = d;
       residual.add(-1., feti.apply(result.lambda));
       qp::MultiVector projected = residual;
@@ -96,10 +122,7 @@ namespace snug
         qp::norms(projected, context.communicator());
       for (double &tolerance : tolerances)
         tolerance *= limits.relative_tolerance;
-      result.sweeps = solve_refined(feti,
-                                    *face,
-                                    d,
-                                    tolerances,
+      result.sweeps = solve_refined({feti, *face, d, e, tolerances},
                                     limits.max_iterations,
                                     result.lambda,
                                     residual);

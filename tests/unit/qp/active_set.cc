@@ -128,13 +128,12 @@ TEST(ActiveSet, FindsKnownSolutions)
 
 TEST(ActiveSet, TornEqualsUntornMembranes)
 {
-  for (const double load : {0.001, 0.1, 10.}) // few, most and all contacts
+  for (const double load : {0.001, 0.1, 10.}) // 1, 10 and all of 16 contacts
     {
       auto shape = partial_contact();
       shape.load = load;
       const Membranes membranes(shape);
       const auto      exact = membranes.untorn_forces();
-      std::cout<<"A "; for(unsigned c=0;c<16;++c) std::cout<<(exact(c)>0.); std::cout<<std::endl;
       for (const double tolerance : {1e-6, 1e-9, 1e-12})
         {
           const DenseProblem problem(membranes.data());
