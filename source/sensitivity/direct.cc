@@ -32,15 +32,31 @@ namespace snug
             "energy gradient, or a tolerance of at most 1e-8 if the state "
             "was solved coarsely");
       }
+
       /// The linear problems min 1/2 mu'F mu - mu'd, G mu = e on a face.
       struct FaceProblem
       {
-        const feti::TotalFeti     &feti;
-        const qp::Face            &face;
-        const qp::MultiVector     &d;
-        const qp::MultiVector     &e;
-        const std::vector<double> &tolerances; ///< of the projected residuals
+        const feti::TotalFeti &feti;
+        const qp::Face        &face;
+        const DataDerivatives &data;       ///< d = B K^+ primal - dual
+        const qp::MultiVector  e;          ///< R' primal
+        std::vector<double>    tolerances; ///< of the projected residuals
       };
+
+      /// d - F mu = B K^+ (primal - B' mu) - dual: with d for the price of F.
+      qp::MultiVector
+      true_residual(const FaceProblem &problem, const qp::MultiVector &mu)
+      {
+        const auto &feti   = problem.feti;
+        const auto  forces = feti.multiply_Bt(mu);
+        auto        loads  = problem.data.primal;
+        for (unsigned int s = 0; s < forces.size(); ++s)
+          loads[s].add(-1., forces[s]);
+        auto residual = feti.multiply_B(feti.apply_inverse(loads));
+        residual.add(-1., problem.data.dual);
+        feti.context().work.f_mults += mu.n_columns();
+        return residual;
+      }
 
       /// Are all columns of G mu = e, up to round-off? B and R are orthonormal
       /// but for a few rows, so ||G mu|| is at most about ||mu||.
@@ -83,8 +99,7 @@ namespace snug
             if (iterations >= max_iterations)
               break;
             problem.face.make_feasible(mu, problem.e);
-            residual = problem.d;
-            residual.add(-1., problem.feti.apply(mu));
+            residual = true_residual(problem, mu);
           }
         throw SolveError("the sensitivities were not solved to the relative "
                          "tolerance; allow a larger 'Solver/Relative "
@@ -106,27 +121,21 @@ namespace snug
       const unsigned long   before  = context.work.f_mults;
       const DataDerivatives data =
         data_derivatives(solver, state, velocities, parameters);
-      const auto face = feti.face(strong_rows(solver, state));
+      const auto  face = feti.face(strong_rows(solver, state));
+      FaceProblem problem{feti, *face, data, feti.rigid_part(data.primal), {}};
 
-      qp::MultiVector d = feti.multiply_B(feti.apply_inverse(data.primal));
-      d.add(-1., data.dual);
       StateDerivatives result;
       result.lambda = qp::MultiVector(feti.n_owned(), velocities.size());
-      const auto e  = feti.rigid_part(data.primal);
-      face->make_feasible(result.lambda, e);
-      qp::MultiVector residual = d;
-      residual.add(-1., feti.apply(result.lambda));
+      face->make_feasible(result.lambda, problem.e);
+      qp::MultiVector residual  = true_residual(problem, result.lambda);
       qp::MultiVector projected = residual;
       face->project(projected);
-      std::vector<double> tolerances =
-        qp::norms(projected, context.communicator());
-      for (double &tolerance : tolerances)
+      problem.tolerances = qp::norms(projected, context.communicator());
+      for (double &tolerance : problem.tolerances)
         tolerance *= limits.relative_tolerance;
-      result.sweeps = solve_refined({feti, *face, d, e, tolerances},
-                                    limits.max_iterations,
-                                    result.lambda,
-                                    residual);
-      auto alpha    = face->amplitudes(residual);
+      result.sweeps =
+        solve_refined(problem, limits.max_iterations, result.lambda, residual);
+      auto alpha = face->amplitudes(residual);
       for (unsigned int j = 0; j < alpha.n_columns(); ++j)
         for (unsigned int i = 0; i < alpha.n_rows(); ++i)
           alpha(i, j) *= -1.;

@@ -86,10 +86,6 @@ namespace
                               nodal(scene.problem, derivatives, direction),
                               exact.displacement),
                   direct_tolerance);
-        std::cout << "u' "
-                  << field_error(scene.problem,
-                                 nodal(scene.problem, derivatives, direction),
-                                 exact.displacement);
         for (unsigned int i = 0; i < gradients.size(); ++i)
           {
             const auto   response = i == 3 ? energy : ResponseIndex(i);
@@ -98,9 +94,7 @@ namespace
                        exact.responses[response]) /
               (norm(gradients[i]) * norm(direction));
             EXPECT_LT(error, i == 3 ? energy_tolerance : direct_tolerance);
-            std::cout << "  " << error;
           }
-        std::cout << std::endl;
       }
   }
 
