@@ -79,19 +79,29 @@ namespace snug
       solve(b, x);
       qp::MultiVector residual = b;
       matrix.multiply_add(-1., x, residual);
-      double error = 0., size = 0.;
+      double error = 0., size = 0., energy = 0.; // energy: b' A^-1 b
       for (unsigned int i = 0; i < matrix.n_rows; ++i)
         {
           error = std::max(error, std::abs(residual(i)));
           size  = std::max(size, std::abs(x(i)));
+          energy += b(i) * x(i);
           if (!std::isfinite(x(i)))
             error = INFINITY;
+          // LDL' of an indefinite matrix works; its diagonal often tells
+          if (b(i) <= 0.)
+            energy = -INFINITY;
         }
       // backward error of a Cholesky solve is near 1e-15 |A| |x|
       if (!(error <= 1e-8 * std::max(largest, largest * size)))
         throw SolveError("the factorization of " + what +
                          " is inaccurate or the matrix holds NaN: look for "
                          "degenerate cells and extreme material constants");
+      // b is the diagonal, about; a solution of this size has lost all but
+      // five digits: the matrix is singular up to round-off
+      const double singular_size = 1e11;
+      if (matrix.n_rows > 0 && !(energy > 0. && size < singular_size))
+        throw SolveError(what + " is not positive definite: look for "
+                                "degenerate cells and unconnected parts");
     }
 
     void

@@ -147,6 +147,7 @@ namespace
     scene.bodies[1].supports[face_index(0, 0)] = {0};
     scene.subdomains                           = 20;
     const auto hanging                         = count_hanging(scene);
+    for (unsigned int n : {3,4,5}) for (unsigned int s : {8,12,20,30,40,60}) { auto t = two_blocks<3>(n,n,3.); t.subdomains = s; for (auto &b : t.bodies) b.refined_below = 0.45; const auto h = count_hanging(t); std::cout << "dbg " << n << " " << s << " " << h.first << " " << h.second << std::endl; }
     EXPECT_GT(hanging.first, 0u);
     EXPECT_GT(hanging.second, 0u);
     expect_same(scene);
