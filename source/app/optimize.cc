@@ -31,10 +31,14 @@ namespace snug
           constraint.name = entry.first;
           constraint.response =
             choose(response::response_table<dim>(), entry.first).make();
+          const bool initial = entry.second == "initial";
+          if (initial && constraint.response->needs_solution() && !first)
+            first = std::make_unique<state::ContactState<dim>>(
+              workshop.solve(workshop.start(), qp::WarmStart()));
           constraint.target =
-            entry.second == "initial"
-              ? constraint.response->value(*workshop.solver, geometry)
-              : std::stod(entry.second);
+            !initial ? std::stod(entry.second)
+                     : constraint.response->value(*workshop.solver,
+                                                  first ? *first : geometry);
           constraints.push_back(std::move(constraint));
         }
     }

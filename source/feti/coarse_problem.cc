@@ -1,6 +1,8 @@
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/dense.h>
 
+#include <algorithm>
+
 namespace snug
 {
   namespace feti
@@ -39,10 +41,12 @@ namespace snug
 
     CoarseProblem::CoarseProblem(const CoarseSpace &space,
                                  const qp::RowSet  &free)
-      : matrix(space.pattern())
+      : A(space.factors().take(space.pattern()))
     {
-      matrix.values = space.gram_values(free);
-      N             = kernel_of(matrix, space.body_modes());
+      CsrMatrix &matrix = A->matrix;
+      const auto values = space.gram_values(free);
+      std::copy(values.begin(), values.end(), matrix.values.begin());
+      N = kernel_of(matrix, space.body_modes());
       if (N.n_columns() > 0)
         {
           const auto        &f = space.representatives();
@@ -62,15 +66,14 @@ namespace snug
             for (unsigned int j = 0; j < f.size(); ++j)
               matrix.values[matrix.position(f[i], f[j])] += rho * Q(i, j);
         }
-      factor = std::make_unique<SparseFactor>(matrix, "CHOLMOD");
-      factor->factorize("the coarse problem G G'");
+      A->factor.factorize("the coarse problem G G'");
     }
 
     qp::MultiVector
     CoarseProblem::solve(const qp::MultiVector &c) const
     {
       qp::MultiVector alpha(c.n_rows(), c.n_columns());
-      factor->solve(c, alpha);
+      A->factor.solve(c, alpha);
       alpha.add(-1., kernel_part(alpha));
       return alpha;
     }

@@ -127,14 +127,14 @@ namespace snug
       for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
         for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
           {
-            const unsigned int column = block_subdomain[b] * m;
-            for (unsigned int i = 0; i < m; ++i)
-              {
-                const std::size_t place =
-                  gram.position(block_subdomain[a] * m + i, column);
-                for (unsigned int j = 0; j < m; ++j)
-                  values[place + j] += blocks[a * m + i] * blocks[b * m + j];
-              }
+            // the m rows of a block row have the same pattern
+            const unsigned int first = block_subdomain[a] * m;
+            const unsigned int length =
+              gram.row_start[first + 1] - gram.row_start[first];
+            double *to = &values[gram.position(first, block_subdomain[b] * m)];
+            for (unsigned int i = 0; i < m; ++i, to += length)
+              for (unsigned int j = 0; j < m; ++j)
+                to[j] += blocks[a * m + i] * blocks[b * m + j];
           }
     }
 
@@ -198,9 +198,13 @@ namespace snug
           if (free == nullptr || (*free)[row])
             for (unsigned int b = block_start[row]; b < block_start[row + 1];
                  ++b)
-              for (unsigned int i = 0; i < m; ++i)
-                c(block_subdomain[b] * m + i, k) +=
-                  blocks[b * m + i] * x(row, k);
+              {
+                const double *G     = &blocks[std::size_t(b) * m];
+                double       *c_s   = c.column(k) + block_subdomain[b] * m;
+                const double  x_row = x(row, k);
+                for (unsigned int i = 0; i < m; ++i)
+                  c_s[i] += G[i] * x_row;
+              }
       MPI_Allreduce(MPI_IN_PLACE,
                     c.column(0),
                     c.n_rows() * c.n_columns(),
@@ -219,11 +223,19 @@ namespace snug
       for (unsigned int k = 0; k < alpha.n_columns(); ++k)
         for (unsigned int row = 0; row < layout.n_owned(); ++row)
           if (free == nullptr || (*free)[row])
-            for (unsigned int b = block_start[row]; b < block_start[row + 1];
-                 ++b)
-              for (unsigned int i = 0; i < m; ++i)
-                y(row, k) +=
-                  blocks[b * m + i] * alpha(block_subdomain[b] * m + i, k);
+            {
+              double sum = 0.;
+              for (unsigned int b = block_start[row]; b < block_start[row + 1];
+                   ++b)
+                {
+                  const double *G = &blocks[std::size_t(b) * m];
+                  const double *alpha_s =
+                    alpha.column(k) + block_subdomain[b] * m;
+                  for (unsigned int i = 0; i < m; ++i)
+                    sum += G[i] * alpha_s[i];
+                }
+              y(row, k) = sum;
+            }
       return y;
     }
 
@@ -248,6 +260,12 @@ namespace snug
     CoarseSpace::pattern() const
     {
       return gram;
+    }
+
+    const FactorPool &
+    CoarseSpace::factors() const
+    {
+      return factor_pool;
     }
 
     const qp::MultiVector &

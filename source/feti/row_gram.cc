@@ -135,9 +135,13 @@ namespace snug
     }
 
     RowGram::Factor::Factor(const RowGram &gram, const qp::RowSet &free)
-      : gram(gram), free(free), matrix(gram.contact.matrix)
+      : gram(gram), free(free)
     {
       const auto &rows = gram.contact.rows;
+      if (rows.empty())
+        return;
+      W                 = gram.contact_factors.take(gram.contact.matrix);
+      CsrMatrix &matrix = W->matrix;
       for (unsigned int i = 0; i < matrix.n_rows; ++i)
         for (PetscInt p = matrix.row_start[i]; p < matrix.row_start[i + 1]; ++p)
           {
@@ -145,11 +149,8 @@ namespace snug
             if (!free[rows[i]] || !free[rows[j]])
               matrix.values[p] = i == j ? 1. : 0.;
           }
-      if (rows.empty())
-        return;
-      factor = std::make_unique<SparseFactor>(matrix, "CHOLMOD");
-      factor->factorize("B D^-1 B' of the contact rows (are two contact rows "
-                        "the same?)");
+      W->factor.factorize("B D^-1 B' of the contact rows (are two contact rows "
+                          "the same?)");
     }
 
     void
@@ -161,8 +162,8 @@ namespace snug
             x(row, k) = 0.;
       if (gram.fixed_factor)
         gram.fixed.solve(*gram.fixed_factor, x);
-      if (factor)
-        gram.contact.solve(*factor, x);
+      if (W)
+        gram.contact.solve(W->factor, x);
     }
   } // namespace feti
 } // namespace snug

@@ -1,6 +1,8 @@
 #include <snug/base/errors.h>
 #include <snug/feti/sparse_factor.h>
 
+#include <dlfcn.h>
+
 #include <cmath>
 
 namespace snug
@@ -20,6 +22,20 @@ namespace snug
         if (set == PETSC_FALSE)
           petsc::check(PetscOptionsSetValue(nullptr, name, "3"));
       }
+
+      /// CHOLMOD asks OpenMP for four threads whatever OMP_NUM_THREADS says;
+      /// starting them takes as long as factorizing a subdomain, and ranks
+      /// are what runs in parallel here. Parallel regions nested in none are
+      /// serial. Looked up by name: CHOLMOD brings its runtime if it has one.
+      void
+      keep_to_one_thread()
+      {
+        using Function                          = void(int);
+        static const auto set_max_active_levels = reinterpret_cast<Function *>(
+          dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+        if (set_max_active_levels != nullptr)
+          set_max_active_levels(0);
+      }
     } // namespace
 
     SparseFactor::SparseFactor(const CsrMatrix   &matrix,
@@ -27,6 +43,7 @@ namespace snug
       : matrix(matrix)
     {
       prefer_nested_dissection();
+      keep_to_one_thread();
       const bool mumps = package == "MUMPS";
       auto      &csr   = const_cast<CsrMatrix &>(matrix);
       petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF,

@@ -14,6 +14,36 @@ namespace snug
       {
         return "the stiffness of subdomain " + std::to_string(id);
       }
+
+      /// y += B x
+      void
+      add_product(const std::vector<BEntry> &B,
+                  const qp::MultiVector     &x,
+                  qp::MultiVector           &y)
+      {
+        for (unsigned int j = 0; j < x.n_columns(); ++j)
+          {
+            const double *from = x.column(j);
+            double       *to   = y.column(j);
+            for (const BEntry &entry : B)
+              to[entry.row] += entry.value * from[entry.dof];
+          }
+      }
+
+      /// y += B' x
+      void
+      add_transposed(const std::vector<BEntry> &B,
+                     const qp::MultiVector     &x,
+                     qp::MultiVector           &y)
+      {
+        for (unsigned int j = 0; j < x.n_columns(); ++j)
+          {
+            const double *from = x.column(j);
+            double       *to   = y.column(j);
+            for (const BEntry &entry : B)
+              to[entry.dof] += entry.value * from[entry.row];
+          }
+      }
     } // namespace
 
     TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &systems,
@@ -61,6 +91,7 @@ namespace snug
       });
       const RunContext::Timer timer(run, "solve");
       gather_rows();
+      weight_rows();
       rigid_load = rigid_part(loads());
       dual_load  = multiply_B(apply_inverse(loads()));
       dual_load.add(-1., gap);
@@ -104,6 +135,24 @@ namespace snug
         width,
         Z);
       gram.update(gathered, width);
+    }
+
+    void
+    TotalFeti::weight_rows()
+    {
+      const bool scaled = parameters.scaling == "stiffness";
+      weighted_B.resize(schur.size());
+      for (unsigned int s = 0; s < schur.size(); ++s)
+        {
+          const auto &position = schur[s]->boundary_position();
+          weighted_B[s]        = systems[s].B;
+          for (BEntry &entry : weighted_B[s])
+            {
+              if (scaled)
+                entry.value *= 1. / systems[s].K.diagonal(entry.dof);
+              entry.dof = position[entry.dof];
+            }
+        }
     }
 
     RunContext &
@@ -193,13 +242,7 @@ namespace snug
         MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
       qp::MultiVector local(layout.n_local(), k);
       for (unsigned int s = 0; s < systems.size(); ++s)
-        for (unsigned int j = 0; j < k; ++j)
-          {
-            const double *from = v[s].column(j);
-            double       *to   = local.column(j);
-            for (const BEntry &entry : systems[s].B)
-              to[entry.row] += entry.value * from[entry.dof];
-          }
+        add_product(systems[s].B, v[s], local);
       return layout.to_owned(local);
     }
 
@@ -211,13 +254,7 @@ namespace snug
       for (const SubdomainSystem &system : systems)
         {
           v.emplace_back(system.n_dofs(), lambda.n_columns());
-          for (unsigned int j = 0; j < lambda.n_columns(); ++j)
-            {
-              const double *from = local.column(j);
-              double       *to   = v.back().column(j);
-              for (const BEntry &entry : system.B)
-                to[entry.dof] += entry.value * from[entry.row];
-            }
+          add_transposed(system.B, local, v.back());
         }
       return v;
     }
@@ -311,29 +348,14 @@ namespace snug
     void
     TotalFeti::precondition(qp::MultiVector &x) const
     {
-      const bool            scaled = parameters.scaling == "stiffness";
-      const qp::MultiVector local  = layout.to_local(x);
-      const unsigned int    k      = x.n_columns();
+      const qp::MultiVector local = layout.to_local(x);
+      const unsigned int    k     = x.n_columns();
       qp::MultiVector       result(layout.n_local(), k);
       for (unsigned int s = 0; s < systems.size(); ++s)
         {
-          const auto         &system   = systems[s];
-          const auto         &position = schur[s]->boundary_position();
-          std::vector<double> weight(schur[s]->n_boundary(), 1.);
-          if (scaled)
-            for (const BEntry &entry : system.B)
-              weight[position[entry.dof]] = 1. / system.K.diagonal(entry.dof);
           qp::MultiVector boundary(schur[s]->n_boundary(), k);
-          for (unsigned int j = 0; j < k; ++j)
-            for (const BEntry &entry : system.B)
-              boundary(position[entry.dof], j) +=
-                weight[position[entry.dof]] * entry.value * local(entry.row, j);
-          const qp::MultiVector forces = schur[s]->apply(boundary);
-          for (unsigned int j = 0; j < k; ++j)
-            for (const BEntry &entry : system.B)
-              result(entry.row, j) += weight[position[entry.dof]] *
-                                      entry.value *
-                                      forces(position[entry.dof], j);
+          add_transposed(weighted_B[s], local, boundary);
+          add_product(weighted_B[s], schur[s]->apply(boundary), result);
         }
       x = layout.to_owned(result);
     }

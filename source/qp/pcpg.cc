@@ -17,7 +17,7 @@ namespace snug
 
       /// Directions depend on each other if a pivot of their Gram matrix,
       /// scaled to unit diagonal, is below this.
-      const double dependence_cut = 1e-12;
+      const double dependence_cut = 1e-3;
 
       /// A direction is rounding if orthogonalisation leaves less than this
       /// of the square of its F-norm.
@@ -149,8 +149,9 @@ namespace snug
       removed = orthogonalise(Z);
       if (Z.n_columns() == 1)
         return Z;
-      // A well conditioned basis first: dependent directions cost no F-mult,
-      // and the second pass makes up for the cancellation of the first.
+      // A well conditioned basis first: dependent directions cost no F-mult.
+      // It amplifies round-off, so the directions are projected and made
+      // F-orthogonal once more, or residuals grow again near convergence.
       std::vector<double> smallest(Z.n_columns(), 0.);
       for (unsigned int j = 0; j < Z.n_columns(); ++j)
         if (removed[j] > 0.)
@@ -159,6 +160,7 @@ namespace snug
                 orthonormal_combinations(inner_products(Z, Z, comm),
                                          smallest,
                                          dependence_cut));
+      face.project(Z);
       orthogonalise(Z);
       removed.assign(Z.n_columns(), 0.);
       return Z;

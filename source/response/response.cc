@@ -9,6 +9,13 @@ namespace snug
   {
     template <int dim>
     bool
+    Response<dim>::needs_solution() const
+    {
+      return true;
+    }
+
+    template <int dim>
+    bool
     Response<dim>::has_total_gradient() const
     {
       return false;
@@ -174,6 +181,12 @@ namespace snug
       {
       public:
         using Field = typename Response<dim>::Field;
+
+        bool
+        needs_solution() const override
+        {
+          return false;
+        }
 
         double
         value(const state::StateSolver<dim>  &solver,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace snug
 {
@@ -89,11 +88,12 @@ namespace snug
       void
       check_gradient(const Scene &scene, const Origins &origins)
       {
-        const std::set<std::string> with_energy_gradient = {"potential energy",
-                                                            "volume"};
-        const std::string          &objective = scene.optimization.objective;
+        // The same in 2D and 3D.
+        const std::string &objective = scene.optimization.objective;
         if (scene.gradient.method == "energy" &&
-            with_energy_gradient.count(objective) == 0)
+            !choose(response::response_table<3>(), objective)
+               .make()
+               ->has_total_gradient())
           throw origins.error("Gradient/Method",
                               scene.gradient.method,
                               "must be auto, direct or finite differences for "

@@ -254,7 +254,7 @@ namespace snug
     template <int dim>
     void
     StateSolver<dim>::Data::solve_to_certificate(const qp::WarmStart &start,
-                                                 ContactState<dim> &state)
+                                                 ContactState<dim>   &state)
     {
       qp::WarmStart        from       = start;
       qp::SolverParameters parameters = model.solver;

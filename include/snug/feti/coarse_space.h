@@ -1,8 +1,8 @@
 #ifndef snug_feti_coarse_space_h
 #define snug_feti_coarse_space_h
 
+#include <snug/feti/factor_pool.h>
 #include <snug/feti/row_layout.h>
-#include <snug/feti/sparse_factor.h>
 #include <snug/feti/subdomain_system.h>
 
 #include <memory>
@@ -63,6 +63,10 @@ namespace snug
       const CsrMatrix &
       pattern() const;
 
+      /// Where faces find their matrix and factorization.
+      const FactorPool &
+      factors() const;
+
       /// Orthonormal body modes in coarse coordinates, n_kernel x n_bodies
       /// n_modes; equal on all ranks.
       const qp::MultiVector &
@@ -92,6 +96,7 @@ namespace snug
       CsrMatrix                 gram;
       std::vector<std::size_t>  bounded_places; ///< in gram of contact rows
       std::vector<double>       equality_gram;
+      FactorPool                factor_pool; ///< of gram's pattern
       qp::MultiVector           modes;
       std::vector<unsigned int> representative;
 
@@ -122,9 +127,8 @@ namespace snug
       kernel() const;
 
     private:
-      CsrMatrix                     matrix;
-      qp::MultiVector               N;
-      std::unique_ptr<SparseFactor> factor;
+      std::shared_ptr<FactorPool::Item> A;
+      qp::MultiVector                   N;
     };
   } // namespace feti
 } // namespace snug

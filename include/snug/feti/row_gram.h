@@ -1,8 +1,8 @@
 #ifndef snug_feti_row_gram_h
 #define snug_feti_row_gram_h
 
+#include <snug/feti/factor_pool.h>
 #include <snug/feti/row_layout.h>
-#include <snug/feti/sparse_factor.h>
 
 #include <memory>
 
@@ -41,10 +41,9 @@ namespace snug
         solve(qp::MultiVector &x) const;
 
       private:
-        const RowGram                &gram;
-        qp::RowSet                    free;
-        CsrMatrix                     matrix;
-        std::unique_ptr<SparseFactor> factor;
+        const RowGram                    &gram;
+        qp::RowSet                        free;
+        std::shared_ptr<FactorPool::Item> W; ///< of the contact group
       };
 
     private:
@@ -59,6 +58,7 @@ namespace snug
 
       const RowLayout                       &layout;
       Group                                  fixed, contact;
+      FactorPool                             contact_factors;
       std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)
       std::unique_ptr<SparseFactor>          fixed_factor;
       /// entries by unknown: (subdomain, dof) -> gathered entries

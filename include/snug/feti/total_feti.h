@@ -111,6 +111,8 @@ namespace snug
 
       void
       gather_rows();
+      void
+      weight_rows();
       std::string
       unheld_body(const qp::MultiVector &free,
                   const qp::MultiVector &columns) const;
@@ -125,8 +127,10 @@ namespace snug
       RowGram                                          gram;
       std::vector<std::unique_ptr<GeneralizedInverse>> inverses;
       std::vector<std::unique_ptr<LocalSchur>>         schur;
-      qp::MultiVector     gap, dual_load, rigid_load;
-      std::vector<double> F_diagonal;
+      /// B D^{-1} of each subdomain on the boundary positions of its schur
+      std::vector<std::vector<BEntry>> weighted_B;
+      qp::MultiVector                  gap, dual_load, rigid_load;
+      std::vector<double>              F_diagonal;
     };
   } // namespace feti
 } // namespace snug

@@ -23,6 +23,11 @@ namespace snug
 
       virtual ~Response() = default;
 
+      /// Whether J depends on u at all, or on the geometry alone: then only
+      /// the positions of a state are read.
+      virtual bool
+      needs_solution() const;
+
       /// J. Collective.
       virtual double
       value(const state::StateSolver<dim>  &solver,

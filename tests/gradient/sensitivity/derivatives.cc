@@ -69,7 +69,7 @@ namespace
       velocities.push_back(scene.basis->column(j));
     const auto derivatives = sensitivity::direct(
       solver, state, velocities, sensitivity::GradientParameters());
-    sensitivity::GradientParameters parameters;
+    sensitivity::GradientParameters  parameters;
     std::vector<std::vector<double>> gradients;
     for (const std::string method : {"direct", "energy"})
       for (const auto response : {energy, compliance, strain_energy})
@@ -89,10 +89,9 @@ namespace
         for (unsigned int i = 0; i < gradients.size(); ++i)
           {
             const auto   response = i == 3 ? energy : ResponseIndex(i);
-            const double error =
-              std::abs(dot(gradients[i], direction) -
-                       exact.responses[response]) /
-              (norm(gradients[i]) * norm(direction));
+            const double error    = std::abs(dot(gradients[i], direction) -
+                                          exact.responses[response]) /
+                                 (norm(gradients[i]) * norm(direction));
             EXPECT_LT(error, i == 3 ? energy_tolerance : direct_tolerance);
           }
       }
@@ -144,10 +143,10 @@ namespace
 
   TEST(Gradient, SixteenHeightsAndLoads3D)
   {
-    auto given                                        = curved_scene<3>(3, 4, 0.04);
-    given.bodies[1].refined_below                     = 0.45;
-    given.bodies[1].loads[face_index(2, 1)].pressure  = 0.7;
-    given.bodies[1].body_force[2]                     = -2.;
+    auto given                    = curved_scene<3>(3, 4, 0.04);
+    given.bodies[1].refined_below = 0.45;
+    given.bodies[1].loads[face_index(2, 1)].pressure = 0.7;
+    given.bodies[1].body_force[2]                    = -2.;
     GradientScene<3> scene(given, 0.05);
     check_derivatives(scene);
   }

@@ -44,9 +44,10 @@ namespace snug
       solve(const std::vector<double> &design)
       {
         // cold: a warm start would stop at once and hide the derivative
-        return problem.solver.solve(
-          sensitivity::positions(problem.mesh, *basis, design),
-          qp::WarmStart());
+        return problem.solver.solve(sensitivity::positions(problem.mesh,
+                                                           *basis,
+                                                           design),
+                                    qp::WarmStart());
       }
 
       Values<dim>
@@ -67,8 +68,8 @@ namespace snug
       Values<dim>
       differences(const std::vector<double> &direction, double step)
       {
-        const auto  middle  = values(problem.scene.design);
-        Values<dim> result  = middle;
+        const auto   middle   = values(problem.scene.design);
+        Values<dim>  result   = middle;
         const double weight[] = {1. / 12., -8. / 12., 8. / 12., -1. / 12.};
         const int    place[]  = {-2, -1, 1, 2};
         for (double &value : result.responses)
@@ -92,9 +93,9 @@ namespace snug
       }
 
       sensitivity::Gradient
-      gradient(const state::ContactState<dim>          &state,
-               unsigned int                             response,
-               const sensitivity::GradientParameters   &parameters)
+      gradient(const state::ContactState<dim>        &state,
+               unsigned int                           response,
+               const sensitivity::GradientParameters &parameters)
       {
         return sensitivity::gradient<dim>({problem.solver,
                                            *basis,
@@ -106,10 +107,10 @@ namespace snug
                                           parameters.method);
       }
 
-      Problem<dim>                                            problem;
-      std::unique_ptr<shape::ShapeBasis<dim>>                 basis;
-      std::vector<double>                                     widths;
-      std::vector<std::unique_ptr<response::Response<dim>>>   responses;
+      Problem<dim>                                          problem;
+      std::unique_ptr<shape::ShapeBasis<dim>>               basis;
+      std::vector<double>                                   widths;
+      std::vector<std::unique_ptr<response::Response<dim>>> responses;
 
     private:
       static std::unique_ptr<shape::ShapeBasis<dim>>

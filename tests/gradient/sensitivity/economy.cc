@@ -18,7 +18,7 @@ namespace
   TEST(GradientCost, DirectSharesFactorizationsAndMults)
   {
     GradientScene<3> scene(sixteen_heights(1e-6), 0.05);
-    const auto       state = scene.solve(scene.problem.scene.design);
+    const auto       state  = scene.solve(scene.problem.scene.design);
     const auto       before = scene.problem.context.total_work();
     sensitivity::GradientParameters parameters;
     parameters.method   = "direct";
@@ -37,7 +37,7 @@ namespace
   TEST(GradientCost, EnergyNeedsNoSolve)
   {
     GradientScene<3> scene(sixteen_heights(1e-6), 0.05);
-    const auto       state = scene.solve(scene.problem.scene.design);
+    const auto       state  = scene.solve(scene.problem.scene.design);
     const auto       before = scene.problem.context.total_work();
     for (const auto response : {energy, volume})
       {
@@ -103,14 +103,15 @@ namespace
       scene.responses[volume]->value(scene.problem.solver, state);
     for (unsigned int i = 0; i < gradient.values.size(); ++i)
       {
-        auto moved      = scene.problem.scene.design;
-        moved[i]       += 0.5;
+        auto moved = scene.problem.scene.design;
+        moved[i] += 0.5;
         auto there      = state;
         there.positions = scene.problem.positions(moved);
-        EXPECT_NEAR(
-          scene.responses[volume]->value(scene.problem.solver, there) - here,
-          0.5 * gradient.values[i],
-          1e-13);
+        EXPECT_NEAR(scene.responses[volume]->value(scene.problem.solver,
+                                                   there) -
+                      here,
+                    0.5 * gradient.values[i],
+                    1e-13);
       }
   }
 } // namespace

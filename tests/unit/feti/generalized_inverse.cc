@@ -1,7 +1,7 @@
 #include <snug/base/errors.h>
 
 #include <gtest/gtest.h>
-#include <unit/feti/truss.h>
+#include <unit/feti/truss_block.h>
 
 #include <random>
 
@@ -161,17 +161,16 @@ namespace
         for (unsigned int k = 0; k < 2; ++k)
           for (unsigned int i = 0; i < K.m(); ++i)
             for (unsigned int j = 0; j < K.m(); ++j)
-              if (position[j] < schur.n_boundary() &&
-                  (!lumped || i == j))
+              if (position[j] < schur.n_boundary() && (!lumped || i == j))
                 inner(i, k) +=
                   (lumped ? 1. : extended(i, j)) * x(position[j], k);
         const auto forces = times(system.K, inner);
         for (unsigned int k = 0; k < 2; ++k)
           for (unsigned int i = 0; i < K.m(); ++i)
-            {
-              if (position[i] < schur.n_boundary())
+            if (position[i] < schur.n_boundary())
+              {
                 EXPECT_NEAR(y(position[i], k), forces(i, k), 1e-10);
-            }
+              }
       }
   }
 } // namespace

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <unit/feti/truss.h>
+#include <unit/feti/torn_truss.h>
 
 #include <random>
 
@@ -101,13 +101,11 @@ namespace
   TEST_P(Trusses, DualOperatorOnTheKernelOfG)
   {
     // P F P with the Moore-Penrose inverse: any K^+ gives the same
-    const auto   feti = truss.make({});
+    const auto   feti     = truss.make({});
     const Matrix K_pseudo = pseudo_inverse(truss.K, truss.R);
-    const Matrix F =
-      product(truss.B, product(K_pseudo, transposed(truss.B)));
-    const auto face =
-      feti->face(truss.owned(qp::RowSet(truss.n_rows(), 1)));
-    auto x = truss.owned(random_rows(truss, 3));
+    const Matrix F = product(truss.B, product(K_pseudo, transposed(truss.B)));
+    const auto   face = feti->face(truss.owned(qp::RowSet(truss.n_rows(), 1)));
+    auto         x    = truss.owned(random_rows(truss, 3));
     face->project(x);
     const unsigned long before = feti->context().work.f_mults;
     auto                Fx     = feti->apply(x);
@@ -121,8 +119,8 @@ namespace
   TEST_P(Trusses, CoarseSpaceIsRB)
   {
     const auto   feti = truss.make({});
-    const Matrix G = product(transposed(truss.R), transposed(truss.B));
-    const auto   x = random_rows(truss, 2);
+    const Matrix G    = product(transposed(truss.R), transposed(truss.B));
+    const auto   x    = random_rows(truss, 2);
     expect_near(feti->apply_G(truss.owned(x)), times(G, x), 1e-12);
     qp::MultiVector alpha(feti->n_kernel(), 2);
     for (unsigned int i = 0; i < alpha.n_rows(); ++i)
@@ -217,9 +215,9 @@ namespace
           Matrix BD(truss.n_rows(), n);
           for (unsigned int i = 0; i < truss.n_rows(); ++i)
             for (unsigned int j = 0; j < n; ++j)
-              BD(i, j) = truss.B(i, j) /
-                         (scaling == "stiffness" ? truss.K(j, j) : 1.);
-          const Matrix BSB = product(BD, product(S, transposed(BD)));
+              BD(i, j) =
+                truss.B(i, j) / (scaling == "stiffness" ? truss.K(j, j) : 1.);
+          const Matrix BSB   = product(BD, product(S, transposed(BD)));
           const Matrix W_all = product(BD, transposed(truss.B));
           for (const auto &mask : masks(truss))
             {
@@ -239,10 +237,9 @@ namespace
                   y(i, k) *= mask[i];
               const auto expected = times(W, y);
               const auto face     = feti->face(truss.owned(mask));
-              expect_near(
-                truss.gathered(face->precondition(truss.owned(x))),
-                expected,
-                1e-10);
+              expect_near(truss.gathered(face->precondition(truss.owned(x))),
+                          expected,
+                          1e-10);
             }
         }
   }
@@ -308,12 +305,11 @@ namespace
            (info.param.second ? "NodeToSegment" : "NodeToNode");
   }
 
-  INSTANTIATE_TEST_SUITE_P(
-    TotalFeti,
-    Trusses,
-    ::testing::Values(std::make_pair(false, false),
-                      std::make_pair(true, false),
-                      std::make_pair(false, true),
-                      std::make_pair(true, true)),
-    truss_name);
+  INSTANTIATE_TEST_SUITE_P(TotalFeti,
+                           Trusses,
+                           ::testing::Values(std::make_pair(false, false),
+                                             std::make_pair(true, false),
+                                             std::make_pair(false, true),
+                                             std::make_pair(true, true)),
+                           truss_name);
 } // namespace

@@ -41,9 +41,7 @@ namespace
     auto residual = feti.multiply_Bt(derivatives.lambda);
     for (unsigned int s = 0; s < residual.size(); ++s)
       {
-        feti.subdomains()[s].K.multiply_add(1.,
-                                            derivatives.u[s],
-                                            residual[s]);
+        feti.subdomains()[s].K.multiply_add(1., derivatives.u[s], residual[s]);
         residual[s].add(-1., data.primal[s]);
       }
     EXPECT_LT(largest(residual), 1e-8 * largest(data.primal));

@@ -17,9 +17,9 @@ namespace
     scene.subdomains = 10;
     for (auto &body : scene.bodies)
       {
-        body.refined_below                         = 0.45;
-        body.body_force[0]                         = 0.7;
-        body.loads[face_index(0, 1)].pressure      = 1.5;
+        body.refined_below                             = 0.45;
+        body.body_force[0]                             = 0.7;
+        body.loads[face_index(0, 1)].pressure          = 1.5;
         body.loads[face_index(0, 1)].traction[dim - 1] = -0.4;
       }
     return scene;
@@ -93,9 +93,9 @@ namespace
   TEST(Assembler, LoadsHaveTheRightResultant)
   {
     // a flat unit box: resultant = traction + pressure + weight
-    auto scene = loaded_scene<2>(1);
+    auto scene             = loaded_scene<2>(1);
     scene.bodies[0].radius = 0.;
-    Problem<2>             problem(scene);
+    Problem<2> problem(scene);
     problem.solve();
     dealii::Tensor<1, 2> sum;
     for (const auto &system : problem.solver.feti().subdomains())

@@ -73,7 +73,7 @@ namespace
 
   TYPED_TEST(NoEquilibrium, PullOff)
   {
-    const unsigned int top = face_index(this->dim - 1, 1);
+    const unsigned int top                    = face_index(this->dim - 1, 1);
     this->scene.bodies[0].loads[top].pressure = -10.;
     this->expect_escape_of("punch");
   }
@@ -124,8 +124,8 @@ namespace
 
   TEST(TangledMesh, IsFoundAndForgotten)
   {
-    auto scene                   = two_blocks<2>(3, 4, 3.);
-    scene.control_points         = {3, 1};
+    auto scene                    = two_blocks<2>(3, 4, 3.);
+    scene.control_points          = {3, 1};
     const std::vector<double> bad = {0., -4., 0.}, good = {0.01, 0.02, 0.};
     Problem<2>                problem(scene);
     const auto                before = problem.solve(good);

@@ -21,8 +21,8 @@ namespace
   Columns
   owned_columns(const Problem<dim> &problem)
   {
-    const auto         &gluing = problem.solver.gluing();
-    const auto          rows   = problem.solver.contact().rows(
+    const auto &gluing = problem.solver.gluing();
+    const auto  rows   = problem.solver.contact().rows(
       problem.solver.surface().gather(problem.mesh.reference_positions()));
     std::vector<double>       values;
     std::vector<feti::BEntry> B;
@@ -143,20 +143,19 @@ namespace
         for (unsigned int a = 0; a < subdomain.nodes.size(); ++a)
           {
             const unsigned int node = subdomain.nodes[a];
-            const auto &x = problem.mesh.reference_positions()[node];
-            const auto &body =
+            const auto        &x    = problem.mesh.reference_positions()[node];
+            const auto        &body =
               problem.scene.bodies[problem.mesh.body_of_node(node)];
             for (unsigned int c = 0; c < dim; ++c)
               {
-                double value = std::sin(1. + c + 3. * x[0] + 5. * x[1]) +
-                               0.1 * x[dim - 1];
+                double value =
+                  std::sin(1. + c + 3. * x[0] + 5. * x[1]) + 0.1 * x[dim - 1];
                 for (const auto &support : body.supports)
                   for (const unsigned int fixed : support.second)
                     if (fixed == c)
-                      value *= x[support.first / 2] -
-                               body.corner[support.first / 2] -
-                               (support.first % 2) *
-                                 body.size[support.first / 2];
+                      value *=
+                        x[support.first / 2] - body.corner[support.first / 2] -
+                        (support.first % 2) * body.size[support.first / 2];
                 u.back()(dim * a + c) = value;
               }
           }
@@ -169,14 +168,14 @@ namespace
   expect_rows_of_B(const TestScene<dim> &scene)
   {
     Problem<dim> problem(scene);
-    const auto   state = problem.solve(); // fills B at the design
-    const auto   u     = continuous_field(problem);
-    const auto   Bu    = problem.solver.feti().multiply_B(u);
+    const auto   state  = problem.solve(); // fills B at the design
+    const auto   u      = continuous_field(problem);
+    const auto   Bu     = problem.solver.feti().multiply_B(u);
     const auto  &gluing = problem.solver.gluing();
     for (unsigned int i = 0; i < Bu.n_rows(); ++i)
       EXPECT_TRUE(gluing.layout().bounded()[i] || std::abs(Bu(i)) < 1e-13);
     // contact rows: the physical row over nr, on the displacement field
-    const auto                 &surface = problem.solver.surface();
+    const auto                  &surface = problem.solver.surface();
     typename Problem<dim>::Field field(problem.mesh.n_local_nodes());
     for (unsigned int s = 0; s < u.size(); ++s)
       for (unsigned int a = 0; a < u[s].n_rows(); ++a)
@@ -221,7 +220,7 @@ namespace
   TEST(Gluing, RowsBetweenHeldNodesVanish)
   {
     // slave and master held vertically at the left: no dual row, but a check
-    auto scene = two_blocks<2>(4, 4, 0.);
+    auto scene                                 = two_blocks<2>(4, 4, 0.);
     scene.bodies[0].supports[face_index(0, 0)] = {0, 1};
     scene.bodies[1].supports[face_index(0, 0)] = {0, 1};
     Problem<2> problem(scene);

@@ -20,11 +20,11 @@ namespace
   /// What must not depend on tearing, solver, preconditioner or package.
   struct Answer
   {
-    double                 energy, compliance, strain_energy;
-    dealii::Tensor<1, 3>   force;
-    std::vector<double>    pressure;
-    state::Certificate     certificate;
-    double                 largest_pressure;
+    double               energy, compliance, strain_energy;
+    dealii::Tensor<1, 3> force;
+    std::vector<double>  pressure;
+    state::Certificate   certificate;
+    double               largest_pressure;
   };
 
   Answer
@@ -41,7 +41,7 @@ namespace
                   state.max_pressure};
     // by slave position: the numbers of nodes depend on ranks
     const auto &surface = problem.solver.surface();
-    const auto  x = surface.gather(problem.mesh.reference_positions());
+    const auto  x       = surface.gather(problem.mesh.reference_positions());
     std::map<std::pair<double, double>, double> sorted;
     for (unsigned int i = 0; i < state.contact.size(); ++i)
       {
@@ -85,13 +85,13 @@ namespace
 
   TEST(StateInvariance, PreconditionersAndPackages)
   {
-    auto       scene     = hertz_scene(1e-9);
-    const auto reference = answer(scene);
-    const std::vector<feti::FetiParameters> choices = {
-      {"MUMPS", "Dirichlet", "stiffness"},
-      {"CHOLMOD", "Dirichlet", "multiplicity"},
-      {"CHOLMOD", "lumped", "stiffness"},
-      {"CHOLMOD", "none", "stiffness"}};
+    auto                                    scene     = hertz_scene(1e-9);
+    const auto                              reference = answer(scene);
+    const std::vector<feti::FetiParameters> choices   = {
+        {"MUMPS", "Dirichlet", "stiffness"},
+        {"CHOLMOD", "Dirichlet", "multiplicity"},
+        {"CHOLMOD", "lumped", "stiffness"},
+        {"CHOLMOD", "none", "stiffness"}};
     for (const auto &choice : choices)
       {
         SCOPED_TRACE(choice.factorization + " " + choice.preconditioner + " " +

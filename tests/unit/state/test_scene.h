@@ -27,12 +27,12 @@ namespace snug
     {
       using Load = typename state::BodyModel<dim>::Load;
 
-      dealii::Point<dim>        corner, size;
-      std::vector<unsigned int> cells;
-      double                    radius        = 0.; ///< 0: flat
-      double                    refined_below = 0.;
-      elasticity::Material      material{1000., 0.3};
-      dealii::Tensor<1, dim>    body_force;
+      dealii::Point<dim>           corner, size;
+      std::vector<unsigned int>    cells;
+      double                       radius        = 0.; ///< 0: flat
+      double                       refined_below = 0.;
+      elasticity::Material         material{1000., 0.3};
+      dealii::Tensor<1, dim>       body_force;
       std::map<unsigned int, Load> loads;
       /// boundary -> fixed components
       std::map<unsigned int, std::vector<unsigned int>> supports;
@@ -46,7 +46,7 @@ namespace snug
     struct TestScene
     {
       std::vector<TestBody<dim>> bodies;
-      unsigned int               degree = 1;
+      unsigned int               degree         = 1;
       std::vector<unsigned int>  control_points = {1, 1};
       std::vector<double>        design         = {0.};
       qp::SolverParameters       solver{"active set", 1e-10, 5000};
@@ -144,10 +144,12 @@ namespace snug
         : scene(scene)
         , context(MPI_COMM_WORLD, log)
         , mesh(MPI_COMM_WORLD, mesh_parameters(scene), scene.degree)
-        , tearing(mesh::tear(mesh, mesh::TearingParameters{scene.subdomains, "grid"}))
+        , tearing(
+            mesh::tear(mesh, mesh::TearingParameters{scene.subdomains, "grid"}))
         , model(make_model(scene))
         , solver(mesh, tearing, model, mesh.reference_positions(), context)
-      {}
+      {
+      }
 
       /// Node positions of heights @p design.
       Field
@@ -158,8 +160,8 @@ namespace snug
         for (unsigned int node = 0; node < x.size(); ++node)
           if (mesh.body_of_node(node) == body)
             {
-              const auto f =
-                mesh.geometry(body).box_fraction(mesh.logical_positions()[node]);
+              const auto f = mesh.geometry(body).box_fraction(
+                mesh.logical_positions()[node]);
               x[node][dim - 1] +=
                 f[dim - 1] * bezier_height(scene.control_points,
                                            design,
@@ -224,8 +226,8 @@ namespace snug
             for (const auto &support : body.supports)
               model.supports.push_back({b, support.first, support.second});
           }
-        model.pairs  = {{{0, face_index(dim - 1, 0)},
-                         {1, face_index(dim - 1, 1)}}};
+        model.pairs = {
+          {{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
         model.feti   = scene.feti;
         model.solver = scene.solver;
         return model;

@@ -25,8 +25,9 @@ namespace
     for (const auto &cell : problem.mesh.cells())
       for (const unsigned int node : cell.nodes)
         {
-          const auto u = untorn.displacement(
-            cell.body, problem.mesh.reference_positions()[node]);
+          const auto u =
+            untorn.displacement(cell.body,
+                                problem.mesh.reference_positions()[node]);
           largest = std::max(largest, u.norm());
           error   = std::max(error, (u - state.displacement[node]).norm());
         }
@@ -40,7 +41,7 @@ namespace
                       const Untorn<dim>              &untorn)
   {
     const auto &surface = problem.solver.surface();
-    const auto  x = surface.gather(problem.mesh.reference_positions());
+    const auto  x       = surface.gather(problem.mesh.reference_positions());
     ASSERT_EQ(state.contact.size(), untorn.contacts.size());
     double largest[2] = {0., 0.}, error[2] = {0., 0.};
     for (unsigned int i = 0; i < state.contact.size(); ++i)
@@ -100,8 +101,7 @@ namespace
         for (const unsigned int node : subdomain.nodes)
           foreign += own.count(node) == 0;
       }
-    return {on_contact,
-            dealii::Utilities::MPI::sum(foreign, MPI_COMM_WORLD)};
+    return {on_contact, dealii::Utilities::MPI::sum(foreign, MPI_COMM_WORLD)};
   }
 
   TEST(Untorn, MatchingMeshes2D)
@@ -119,11 +119,11 @@ namespace
     set_design(scene, 3, 0.03);
     for (auto &body : scene.bodies)
       body.refined_below = 0.45;
-    scene.bodies[0].body_force[1]                = -3.;
-    scene.bodies[1].body_force[0]                = 2.;
-    scene.bodies[1].loads[face_index(0, 1)]      = {1.5, {}};
+    scene.bodies[0].body_force[1]                       = -3.;
+    scene.bodies[1].body_force[0]                       = 2.;
+    scene.bodies[1].loads[face_index(0, 1)]             = {1.5, {}};
     scene.bodies[1].loads[face_index(0, 0)].traction[0] = 0.3;
-    scene.bodies[1].material                     = {300., 0.2};
+    scene.bodies[1].material                            = {300., 0.2};
     expect_same(scene);
   }
 
@@ -145,9 +145,8 @@ namespace
     for (auto &body : scene.bodies)
       body.refined_below = 0.45;
     scene.bodies[1].supports[face_index(0, 0)] = {0};
-    scene.subdomains                           = 20;
+    scene.subdomains                           = 30;
     const auto hanging                         = count_hanging(scene);
-    for (unsigned int n : {3,4,5}) for (unsigned int s : {8,12,20,30,40,60}) { auto t = two_blocks<3>(n,n,3.); t.subdomains = s; for (auto &b : t.bodies) b.refined_below = 0.45; const auto h = count_hanging(t); std::cout << "dbg " << n << " " << s << " " << h.first << " " << h.second << std::endl; }
     EXPECT_GT(hanging.first, 0u);
     EXPECT_GT(hanging.second, 0u);
     expect_same(scene);
@@ -158,10 +157,10 @@ namespace
     auto scene = two_blocks<3>(3, 4, 2.);
     narrow_punch(scene);
     set_design(scene, 3, 0.02);
-    scene.bodies[1].refined_below               = 0.45;
-    scene.bodies[1].loads[face_index(0, 1)]     = {1.5, {}};
-    scene.bodies[0].body_force[2]               = -3.;
-    scene.subdomains                            = 12;
+    scene.bodies[1].refined_below           = 0.45;
+    scene.bodies[1].loads[face_index(0, 1)] = {1.5, {}};
+    scene.bodies[0].body_force[2]           = -3.;
+    scene.subdomains                        = 12;
     expect_same(scene);
   }
 

@@ -82,14 +82,14 @@ namespace snug
       std::vector<double>
       areas(unsigned int boundary) const;
 
-      const TestBody<dim>               &body;
-      dealii::Triangulation<dim>         triangulation;
-      dealii::FESystem<dim>              fe;
-      dealii::DoFHandler<dim>            handler;
-      dealii::AffineConstraints<double>  hanging, constraints;
-      dealii::SparsityPattern            pattern;
-      Vector                             reference, positions;
-      std::vector<dealii::Point<dim>>    flat; ///< box positions of nodes
+      const TestBody<dim>              &body;
+      dealii::Triangulation<dim>        triangulation;
+      dealii::FESystem<dim>             fe;
+      dealii::DoFHandler<dim>           handler;
+      dealii::AffineConstraints<double> hanging, constraints;
+      dealii::SparsityPattern           pattern;
+      Vector                            reference, positions;
+      std::vector<dealii::Point<dim>>   flat; ///< box positions of nodes
       std::vector<std::array<unsigned int, dim>> node_dofs;
       std::vector<unsigned int>                  node_of_dof;
 
@@ -107,8 +107,7 @@ namespace snug
     };
 
     template <int dim>
-    UntornBody<dim>::UntornBody(const TestScene<dim> &scene,
-                                unsigned int          index)
+    UntornBody<dim>::UntornBody(const TestScene<dim> &scene, unsigned int index)
       : body(scene.bodies[index])
       , fe(dealii::FE_Q<dim>(scene.degree), dim)
       , handler(triangulation)
@@ -144,8 +143,11 @@ namespace snug
     UntornBody<dim>::make_mesh()
     {
       const bool colorize = true;
-      dealii::GridGenerator::subdivided_hyper_rectangle(
-        triangulation, body.cells, body.corner, body.corner + body.size, colorize);
+      dealii::GridGenerator::subdivided_hyper_rectangle(triangulation,
+                                                        body.cells,
+                                                        body.corner,
+                                                        body.corner + body.size,
+                                                        colorize);
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->center()[0] < body.refined_below)
           cell->set_refine_flag();
@@ -240,12 +242,13 @@ namespace snug
     void
     UntornBody<dim>::assemble(dealii::SparseMatrix<double> &K, Vector &f) const
     {
-      const double E = body.material.youngs_modulus;
+      const double E  = body.material.youngs_modulus;
       const double nu = body.material.poissons_ratio;
-      const double mu = E / (2. * (1. + nu)), la = 2. * mu * nu / (1. - 2. * nu);
-      const dealii::MappingFEField<dim> mapping(handler, positions);
-      const dealii::QGauss<dim>         quadrature(fe.degree + 1);
-      dealii::FEValues<dim>             values(mapping,
+      const double mu = E / (2. * (1. + nu)),
+                   la = 2. * mu * nu / (1. - 2. * nu);
+      const dealii::MappingFEField<dim>            mapping(handler, positions);
+      const dealii::QGauss<dim>                    quadrature(fe.degree + 1);
+      dealii::FEValues<dim>                        values(mapping,
                                    fe,
                                    quadrature,
                                    dealii::update_gradients |
@@ -289,7 +292,7 @@ namespace snug
     UntornBody<dim>::add_loads(const dealii::MappingFEField<dim> &mapping,
                                Vector                            &f) const
     {
-      dealii::FEFaceValues<dim> values(mapping,
+      dealii::FEFaceValues<dim>                    values(mapping,
                                        fe,
                                        dealii::QGauss<dim - 1>(fe.degree + 1),
                                        dealii::update_values |
@@ -309,10 +312,10 @@ namespace snug
             load = 0.;
             for (const unsigned int q : values.quadrature_point_indices())
               for (unsigned int i = 0; i < load.size(); ++i)
-                load(i) += values[u].value(i, q) *
-                           (given.traction -
-                            given.pressure * values.normal_vector(q)) *
-                           values.JxW(q);
+                load(i) +=
+                  values[u].value(i, q) *
+                  (given.traction - given.pressure * values.normal_vector(q)) *
+                  values.JxW(q);
             cell->get_dof_indices(dofs);
             constraints.distribute_local_to_global(load, dofs, f);
           }
@@ -326,8 +329,7 @@ namespace snug
       std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_face());
       for (const auto &cell : handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f) &&
-              cell->face(f)->boundary_id() == boundary)
+          if (cell->at_boundary(f) && cell->face(f)->boundary_id() == boundary)
             {
               cell->face(f)->get_dof_indices(dofs);
               std::map<std::array<long, dim>, unsigned int> sorted;
@@ -359,8 +361,7 @@ namespace snug
       std::vector<dealii::types::global_dof_index> dofs(x_part.size());
       for (const auto &cell : handler.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f) &&
-              cell->face(f)->boundary_id() == boundary)
+          if (cell->at_boundary(f) && cell->face(f)->boundary_id() == boundary)
             {
               values.reinit(cell, f);
               x_part = 0.;

@@ -27,7 +27,7 @@ namespace snug
         double       gap;   ///< undeformed
         /// (dof of both bodies, coefficient), constraints resolved
         std::vector<std::pair<unsigned int, double>> row;
-        double force = 0., pressure = 0.;
+        double                                       force = 0., pressure = 0.;
       };
 
       explicit Untorn(const TestScene<dim> &scene);
@@ -50,8 +50,8 @@ namespace snug
       double energy = 0., compliance = 0.;
 
     private:
-      using Body = UntornBody<dim>;
-      using Face = typename Body::Face;
+      using Body        = UntornBody<dim>;
+      using Face        = typename Body::Face;
       using Coordinates = std::array<double, 2>;
 
       std::vector<std::unique_ptr<Body>> bodies;
@@ -67,7 +67,7 @@ namespace snug
       void
       solve_active_set(const std::vector<dealii::SparseMatrix<double>> &K,
                        const std::vector<Vector>                       &f,
-                       std::vector<bool> &active);
+                       std::vector<bool>                               &active);
 
       std::vector<double>
       shape(const Coordinates &xi, int derivative) const;
@@ -80,8 +80,7 @@ namespace snug
     };
 
     template <int dim>
-    Untorn<dim>::Untorn(const TestScene<dim> &scene)
-      : node_at(2)
+    Untorn<dim>::Untorn(const TestScene<dim> &scene) : node_at(2)
     {
       for (unsigned int b = 0; b < 2; ++b)
         {
@@ -100,13 +99,13 @@ namespace snug
     {
       const auto line = [&](double s, bool differentiate) {
         if (bodies[1]->fe.degree == 1)
-          return differentiate ? std::vector<double>{-1., 1.} :
-                                 std::vector<double>{1. - s, s};
-        return differentiate ?
-                 std::vector<double>{4. * s - 3., 4. - 8. * s, 4. * s - 1.} :
-                 std::vector<double>{(1. - s) * (1. - 2. * s),
-                                     4. * s * (1. - s),
-                                     s * (2. * s - 1.)};
+          return differentiate ? std::vector<double>{-1., 1.}
+                               : std::vector<double>{1. - s, s};
+        return differentiate
+                 ? std::vector<double>{4. * s - 3., 4. - 8. * s, 4. * s - 1.}
+                 : std::vector<double>{(1. - s) * (1. - 2. * s),
+                                       4. * s * (1. - s),
+                                       s * (2. * s - 1.)};
       };
       const auto a = line(xi[0], derivative == 0);
       if (dim == 2)
@@ -211,7 +210,7 @@ namespace snug
       const unsigned int offset = body == 0 ? 0 : bodies[0]->n_dofs();
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const unsigned int dof = bodies[body]->node_dofs[node][d];
+          const unsigned int dof         = bodies[body]->node_dofs[node][d];
           const auto        &constraints = bodies[body]->constraints;
           if (!constraints.is_constrained(dof))
             contact.row.emplace_back(offset + dof, c[d]);
@@ -230,19 +229,16 @@ namespace snug
       std::map<unsigned int, Tensor> normals;
       for (const Face &face : masters)
         for (unsigned int k = 0; k < face.nodes.size(); ++k)
-          normals[face.nodes[k]] +=
-            area_vector(face, bodies[1]->positions, k);
+          normals[face.nodes[k]] += area_vector(face, bodies[1]->positions, k);
       for (const Face &slave_face : bodies[0]->faces(face_index(dim - 1, 0)))
         for (const unsigned int slave : slave_face.nodes)
           {
-            if (contacts.count(slave) == 1 ||
-                bodies[0]->hanging.is_constrained(
-                  bodies[0]->node_dofs[slave][0]))
+            if (contacts.count(slave) == 1 || bodies[0]->hanging.is_constrained(
+                                                bodies[0]->node_dofs[slave][0]))
               continue;
-            const Tensor p =
-              bodies[0]->at_node(bodies[0]->reference, slave);
-            double              least = 1e300;
-            Face                face;
+            const Tensor p = bodies[0]->at_node(bodies[0]->reference, slave);
+            double       least = 1e300;
+            Face         face;
             std::vector<double> weights;
             for (const Face &master : masters)
               {
@@ -279,9 +275,9 @@ namespace snug
       const std::vector<Vector>                       &f,
       std::vector<bool>                               &active)
     {
-      const unsigned int n_0 = bodies[0]->n_dofs();
-      const unsigned int n   = n_0 + bodies[1]->n_dofs();
-      const unsigned int m   = contacts.size();
+      const unsigned int             n_0 = bodies[0]->n_dofs();
+      const unsigned int             n   = n_0 + bodies[1]->n_dofs();
+      const unsigned int             m   = contacts.size();
       dealii::DynamicSparsityPattern dynamic(n + m);
       for (unsigned int b = 0; b < 2; ++b)
         for (const auto &entry : K[b])
@@ -366,8 +362,7 @@ namespace snug
         }
       const auto areas = bodies[0]->areas(face_index(dim - 1, 0));
       for (auto &entry : contacts)
-        entry.second.pressure =
-          entry.second.force / areas[entry.second.slave];
+        entry.second.pressure = entry.second.force / areas[entry.second.slave];
       for (unsigned int b = 0; b < 2; ++b)
         {
           energy += K[b].matrix_norm_square(u[b]) / 2 - f[b] * u[b];

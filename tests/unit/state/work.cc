@@ -22,20 +22,20 @@ namespace
 
   TEST(Work, UnmovedBodiesAreLeftAlone)
   {
-    auto scene            = two_blocks<3>(4, 4, 3.);
+    auto scene                = two_blocks<3>(4, 4, 3.);
     scene.feti.preconditioner = "lumped"; // one factorization per subdomain
     set_design(scene, 3, 0.02);
     Problem<3>         problem(scene);
-    const unsigned int n = problem.tearing.n_global;
+    const unsigned int n     = problem.tearing.n_global;
     const auto         first = problem.solve();
-    auto               work = problem.context.total_work();
+    auto               work  = problem.context.total_work();
     EXPECT_EQ(work.assembled_subdomains, n);
     EXPECT_EQ(work.numeric_factorizations, n);
     EXPECT_EQ(work.symbolic_factorizations, n);
 
     scene.design[4] += 0.01;
     problem.solve(scene.design);
-    work = problem.context.total_work();
+    work                     = problem.context.total_work();
     const unsigned int moved = count_subdomains(problem, 1);
     EXPECT_GT(moved, 1u);
     EXPECT_LT(moved, n);
@@ -71,7 +71,7 @@ namespace
 
   TEST(Work, LinearReferenceCountsItsOwnMults)
   {
-    auto scene = two_blocks<3>(4, 4, 3.);
+    auto                scene = two_blocks<3>(4, 4, 3.);
     Problem<3>          problem(scene);
     const auto          state  = problem.solve();
     const unsigned long before = problem.context.work.f_mults;

@@ -1,0 +1,46 @@
+#ifndef snug_feti_factor_pool_h
+#define snug_feti_factor_pool_h
+
+#include <snug/feti/sparse_factor.h>
+
+#include <memory>
+#include <vector>
+
+namespace snug
+{
+  namespace feti
+  {
+    /**
+     * Matrices of one pattern with their symbolic factorizations by CHOLMOD.
+     * Faces come and go with the active set and several may live at a time;
+     * what one leaves behind serves the next.
+     */
+    class FactorPool
+    {
+    public:
+      struct Item
+      {
+        explicit Item(const CsrMatrix &pattern)
+          : matrix(pattern), factor(matrix, "CHOLMOD")
+        {
+        }
+
+        CsrMatrix    matrix; ///< fill in values, then factor.factorize()
+        SparseFactor factor;
+      };
+
+      /// An item with the values of @p matrix, whose pattern is that of all
+      /// others. It returns when the pointer and its copies are gone, which
+      /// may be after the end of the pool.
+      std::shared_ptr<Item>
+      take(const CsrMatrix &matrix) const;
+
+    private:
+      using Items = std::vector<std::unique_ptr<Item>>;
+
+      std::shared_ptr<Items> spare = std::make_shared<Items>();
+    };
+  } // namespace feti
+} // namespace snug
+
+#endif
