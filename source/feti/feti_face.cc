@@ -56,8 +56,11 @@ namespace snug
           return z;
         }
       feti.run.work.preconditioner_applications += r.n_columns();
+      // dependent contact rows show on the rank that owns them alone
       if (!gram)
-        gram = std::make_unique<RowGram::Factor>(feti.gram, free);
+        everywhere(feti.run.communicator(), [&]() {
+          gram = std::make_unique<RowGram::Factor>(feti.gram, free);
+        });
       gram->solve(z);
       feti.precondition(z);
       gram->solve(z);

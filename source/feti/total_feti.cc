@@ -134,7 +134,7 @@ namespace snug
                             gathered.end()),
         width,
         Z);
-      gram.update(gathered, width);
+      everywhere(run.communicator(), [&]() { gram.update(gathered, width); });
     }
 
     void
