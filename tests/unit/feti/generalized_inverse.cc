@@ -1,4 +1,6 @@
 #include <snug/base/errors.h>
+#include <snug/feti/generalized_inverse.h>
+#include <snug/feti/local_schur.h>
 
 #include <gtest/gtest.h>
 #include <unit/feti/truss_block.h>

@@ -140,7 +140,8 @@ namespace snug
         }
     }
 
-    /// The system of one block without rows of B; the punch (body 1) has weight.
+    /// The system of one block without rows of B; the punch (body 1) has
+    /// weight.
     inline feti::SubdomainSystem
     truss_system(const Block &block, const std::vector<double> &centre_of_body)
     {
