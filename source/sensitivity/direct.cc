@@ -32,6 +32,21 @@ namespace snug
             "energy gradient, or a tolerance of at most 1e-8 if the state "
             "was solved coarsely");
       }
+      /// ||G mu - e|| of every column within the tolerance of ||mu||; B and R
+      /// are orthonormal but for a few rows, so ||G|| is near 1.
+      bool
+      balanced(const qp::MultiVector &missing,
+               const qp::MultiVector &mu,
+               double                 tolerance,
+               const RunContext      &context)
+      {
+        const auto errors = qp::norms(missing, MPI_COMM_SELF);
+        const auto sizes  = qp::norms(mu, context.communicator());
+        for (unsigned int j = 0; j < errors.size(); ++j)
+          if (errors[j] > tolerance * sizes[j])
+            return false;
+        return true;
+      }
     } // namespace
 
     template <int dim>
@@ -63,13 +78,16 @@ namespace snug
         qp::norms(projected, context.communicator());
       for (double &tolerance : tolerances)
         tolerance *= limits.relative_tolerance;
-      const auto solved = qp::pcpg(feti,
+      const auto solved  = qp::pcpg(feti,
                                    *face,
                                    result.lambda,
                                    residual,
                                    tolerances,
                                    limits.max_iterations);
-      if (!solved.converged)
+      auto       missing = feti.rigid_part(data.primal);
+      missing.add(-1., feti.apply_G(result.lambda));
+      if (!solved.converged ||
+          !balanced(missing, result.lambda, limits.relative_tolerance, context))
         throw SolveError("the sensitivities were not solved to the relative "
                          "tolerance; allow a larger 'Solver/Relative "
                          "tolerance' or more 'Solver/Maximum F-mults'");

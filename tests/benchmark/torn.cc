@@ -22,19 +22,13 @@ namespace snug
         return table;
       }
 
-      /// The tolerance at which StateSolver begins: see its margin.
-      qp::SolverParameters
-      tightened(qp::SolverParameters parameters)
-      {
-        parameters.relative_tolerance *= 0.25;
-        return parameters;
-      }
+      /// The part of the wanted tolerance at which StateSolver begins.
+      const double margin = 0.25;
     } // namespace
 
     Torn::Torn(const state::StateSolver<3> &solver, RunContext &context)
       : solver(solver)
       , context(context)
-      , parameters(tightened(solver.model().solver))
       , all(solver.tearing().subdomains.size(), true)
       , none(all.size(), false)
       , feti(solver.feti().subdomains(),
@@ -54,16 +48,26 @@ namespace snug
     void
     Torn::solve()
     {
-      const Work before = context.work;
-      dual              = choose(qp::solver_table(), parameters.method)
-               .make(parameters)
-               ->solve(feti, qp::WarmStart());
-      const auto   u = feti.recover(feti.loads(), dual.lambda, dual.amplitudes);
-      const double error = state::certify(feti, dual.lambda, u).worst();
-      if (error > solver.model().solver.relative_tolerance)
-        throw SolveError("the certificate of the state is " +
-                         std::to_string(error));
-      work = context.work;
+      const Work           before = context.work;
+      const double         wanted = solver.model().solver.relative_tolerance;
+      qp::SolverParameters parameters = solver.model().solver;
+      qp::WarmStart        start;
+      double               error = wanted;
+      outer_iterations           = 0;
+      do
+        {
+          parameters.relative_tolerance *= margin;
+          const auto dual = choose(qp::solver_table(), parameters.method)
+                              .make(parameters)
+                              ->solve(feti, start);
+          const auto u =
+            feti.recover(feti.loads(), dual.lambda, dual.amplitudes);
+          error = state::certify(feti, dual.lambda, u).worst();
+          start = {dual.lambda, dual.active};
+          outer_iterations += dual.outer_iterations;
+      } while (error > wanted);
+      active = start.active;
+      work   = context.work;
       work.f_mults -= before.f_mults;
       work.preconditioner_applications -= before.preconditioner_applications;
       work.coarse_solves -= before.coarse_solves;
@@ -105,15 +109,15 @@ namespace snug
       const unsigned int n_mults    = work.f_mults,
                          n_preconds = work.preconditioner_applications,
                          n_coarse   = work.coarse_solves,
-                         n_outer    = dual.outer_iterations;
+                         n_outer    = outer_iterations;
 
       const auto x    = feti.d();
-      const auto face = feti.face(dual.active);
+      const auto face = feti.face(active);
       auto       y    = x;
       face->project(y); // makes the coarse problem
       face->precondition(x);
       const auto make_face = [&]() {
-        const auto fresh = feti.face(dual.active);
+        const auto fresh = feti.face(active);
         fresh->project(y);
         fresh->precondition(x);
       };

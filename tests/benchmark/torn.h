@@ -36,8 +36,7 @@ namespace snug
       void
       factorize();
 
-      /// The QP, u and the certificate.
-      /// @throws SolveError if the certificate misses the tolerance.
+      /// The QP, u and the certificate, until that meets the tolerance.
       void
       solve();
 
@@ -45,7 +44,7 @@ namespace snug
       unsigned long
       f_mults() const
       {
-        return dual.f_mults;
+        return work.f_mults;
       }
 
       /// What a state consists of, as measured one by one; @p whole is the
@@ -61,10 +60,10 @@ namespace snug
 
       const state::StateSolver<3> &solver;
       RunContext                  &context;
-      qp::SolverParameters         parameters;
       std::vector<bool>            all, none;
       feti::TotalFeti              feti;
-      qp::DualSolution             dual;
+      qp::RowSet                   active;
+      unsigned int                 outer_iterations = 0;
       Work                         work; ///< of the last solve
     };
   } // namespace benchmark

@@ -1,5 +1,7 @@
 #include "test_scene.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -27,10 +29,12 @@ namespace snug
 
   // The contact must cost no more than 2.5 linear solves cold, and 1.3 from
   // the state of a design that differs by 1 % of the width of its bounds
-  // (0.5). Counts depend on the shapes of subdomains, so the bounds are only
-  // asked for where ranks do not cut them.
+  // (0.5). Where the ranks' shares of a body are ragged, as on three ranks,
+  // so are subdomains, and both sides of the comparison take more.
   TEST(Economy, ContactCostsFewLinearSolves)
   {
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 2)
+      GTEST_SKIP() << "the ranks cut the bodies into ragged shares";
     const auto          scene = hertz("active set");
     test::Problem<3>    problem(scene);
     const auto          state  = problem.solve();
