@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace snug
@@ -15,15 +16,19 @@ namespace snug
   {
     namespace
     {
-      template <int dim>
-      using Boxes = std::vector<dealii::BoundingBox<dim>>;
+      /// At least 1.
+      unsigned int
+      rounded(double number)
+      {
+        return std::max(1l, std::lround(number));
+      }
 
       template <int dim>
       std::vector<unsigned int>
-      metis_parts(const CellGraph &graph,
-                  const Boxes<dim> &,
-                  unsigned int n_parts)
+      metis_parts(const CellSet<dim> &set, double cells_each)
       {
+        const CellGraph          &graph   = set.graph;
+        const unsigned int        n_parts = rounded(graph.size() / cells_each);
         std::vector<unsigned int> part(graph.size(), 0);
         if (n_parts <= 1)
           return part;
@@ -43,30 +48,10 @@ namespace snug
         return part;
       }
 
-      /// Size of the box around the listed boxes.
-      template <int dim>
-      std::array<double, dim>
-      extents(const Boxes<dim> &boxes)
-      {
-        std::array<double, dim> size;
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            double lower = boxes.front().lower_bound(c);
-            double upper = boxes.front().upper_bound(c);
-            for (const auto &box : boxes)
-              {
-                lower = std::min(lower, box.lower_bound(c));
-                upper = std::max(upper, box.upper_bound(c));
-              }
-            size[c] = upper - lower;
-          }
-        return size;
-      }
-
       /// Numbers of slabs per axis: pieces near cubes, their product near n.
       template <int dim>
       std::array<unsigned int, dim>
-      slab_counts(const std::array<double, dim> &size, unsigned int n)
+      slab_counts(const dealii::Tensor<1, dim> &size, double n)
       {
         std::array<unsigned int, dim> best, counts;
         best.fill(1);
@@ -104,93 +89,111 @@ namespace snug
         return best;
       }
 
+      /// Numbers of cells in equal bins of logical coordinate @p axis, of all
+      /// ranks, and the ends of the range. Collective.
+      struct Histogram
+      {
+        std::vector<unsigned long> counts;
+        double                     lower, upper;
+
+        double
+        end_of(unsigned int bin) const
+        {
+          return lower + (upper - lower) * (bin + 1) / counts.size();
+        }
+      };
+
+      template <int dim>
+      Histogram
+      histogram(const CellSet<dim> &set, unsigned int axis)
+      {
+        const unsigned int n_bins   = 4096;
+        const double       infinity = std::numeric_limits<double>::infinity();
+        double             ends[2]  = {-infinity, -infinity};
+        for (const auto &centre : set.centres)
+          {
+            ends[0] = std::max(ends[0], -centre[axis]);
+            ends[1] = std::max(ends[1], centre[axis]);
+          }
+        MPI_Allreduce(
+          MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, set.communicator);
+        Histogram    bins{std::vector<unsigned long>(n_bins, 0),
+                       -ends[0],
+                       ends[1]};
+        const double width = std::max(bins.upper - bins.lower, 1e-300);
+        for (const auto &centre : set.centres)
+          ++bins.counts[std::min<unsigned int>(
+            n_bins - 1, (centre[axis] - bins.lower) / width * n_bins)];
+        MPI_Allreduce(MPI_IN_PLACE,
+                      bins.counts.data(),
+                      n_bins,
+                      MPI_UNSIGNED_LONG,
+                      MPI_SUM,
+                      set.communicator);
+        return bins;
+      }
+
       /**
-       * Cut cells, sorted along @p axis, into @p n slabs of about equal
+       * Coordinates that cut a histogram into @p n slabs of about equal
        * numbers; a cut moves to the nearest gap between layers of cells if
        * one is within a quarter of a slab.
        */
-      template <int dim>
-      std::vector<std::vector<unsigned int>>
-      slabs(std::vector<unsigned int> cells,
-            const Boxes<dim>         &boxes,
-            unsigned int              axis,
-            unsigned int              n)
+      std::vector<double>
+      cuts(const Histogram &bins, unsigned int n)
       {
-        const auto at = [&](unsigned int cell, unsigned int c) {
-          return boxes[cell].center()[c];
-        };
-        double spread = 0.;
-        for (const unsigned int cell : cells)
-          spread = std::max(spread, boxes[cell].side_length(axis));
-        // layers differ by much more than a cell's warp
-        const double gap = 0.02 * spread;
-        std::sort(cells.begin(), cells.end(), [&](unsigned a, unsigned b) {
-          if (std::abs(at(a, axis) - at(b, axis)) > 1e-9 * spread)
-            return at(a, axis) < at(b, axis);
-          return a < b;
-        });
-        const auto is_gap = [&](std::size_t i) {
-          return i == 0 || i >= cells.size() ||
-                 at(cells[i], axis) - at(cells[i - 1], axis) > gap;
-        };
-        const double             each = double(cells.size()) / n;
-        std::vector<std::size_t> cuts(1, 0);
+        double all = 0.;
+        for (const unsigned long count : bins.counts)
+          all += count;
+        std::vector<double> result;
         for (unsigned int k = 1; k < n; ++k)
           {
-            std::size_t cut = std::lround(k * each);
-            for (std::size_t move = 0; move <= each / 4; ++move)
-              if (is_gap(cut + move) || (move <= cut && is_gap(cut - move)))
-                {
-                  cut = is_gap(cut + move) ? cut + move : cut - move;
-                  break;
-                }
-            cuts.push_back(std::min(std::max(cut, cuts.back()), cells.size()));
+            const double wanted = k * all / n, slab = all / n;
+            double       below = 0., best = all, best_rating = 1e300;
+            for (unsigned int bin = 0; bin < bins.counts.size(); ++bin)
+              {
+                below += bins.counts[bin];
+                const bool gap =
+                  bin + 1 < bins.counts.size() && bins.counts[bin + 1] == 0;
+                const double off    = std::abs(below - wanted) / slab;
+                const double rating = off + (gap && off <= 0.25 ? 0. : 1.);
+                if (rating < best_rating - 1e-9)
+                  {
+                    best_rating = rating;
+                    best        = bins.end_of(bin);
+                  }
+              }
+            result.push_back(best);
           }
-        cuts.push_back(cells.size());
-        std::vector<std::vector<unsigned int>> result;
-        for (unsigned int k = 0; k < n; ++k)
-          if (cuts[k] < cuts[k + 1])
-            result.emplace_back(cells.begin() + cuts[k],
-                                cells.begin() + cuts[k + 1]);
         return result;
       }
 
       template <int dim>
       std::vector<unsigned int>
-      grid_parts(const CellGraph &,
-                 const Boxes<dim> &boxes,
-                 unsigned int      n_parts)
+      grid_parts(const CellSet<dim> &set, double cells_each)
       {
-        const auto counts = slab_counts<dim>(extents<dim>(boxes), n_parts);
-        std::vector<std::vector<unsigned int>> parts(1);
-        parts[0].resize(boxes.size());
-        std::iota(parts[0].begin(), parts[0].end(), 0);
+        const auto counts =
+          slab_counts<dim>(set.size, rounded(set.n_global / cells_each));
+        std::vector<unsigned int> part(set.centres.size(), 0);
         for (unsigned int axis = 0; axis < dim; ++axis)
           {
-            std::vector<std::vector<unsigned int>> finer;
-            for (const auto &part : parts)
-              for (const auto &slab :
-                   slabs<dim>(part, boxes, axis, counts[axis]))
-                finer.push_back(slab);
-            parts = finer;
+            const auto at = cuts(histogram(set, axis), counts[axis]);
+            for (unsigned int cell = 0; cell < part.size(); ++cell)
+              part[cell] = part[cell] * counts[axis] +
+                           (std::upper_bound(at.begin(),
+                                             at.end(),
+                                             set.centres[cell][axis]) -
+                            at.begin());
           }
-        std::vector<unsigned int> part_of_cell(boxes.size());
-        for (unsigned int part = 0; part < parts.size(); ++part)
-          for (const unsigned int cell : parts[part])
-            part_of_cell[cell] = part;
-        return part_of_cell;
+        return part;
       }
     } // namespace
 
     template <int dim>
-    const ChoiceTable<
-      std::vector<unsigned int>(const CellGraph &,
-                                const std::vector<dealii::BoundingBox<dim>> &,
-                                unsigned int)> &
+    const ChoiceTable<std::vector<unsigned int>(const CellSet<dim> &, double)> &
     partition_table()
     {
-      static const ChoiceTable<std::vector<unsigned int>(
-        const CellGraph &, const Boxes<dim> &, unsigned int)>
+      static const ChoiceTable<std::vector<unsigned int>(const CellSet<dim> &,
+                                                         double)>
         table = {{"grid",
                   "a grid of slabs along the axes, cut between layers of "
                   "cells; near cubes, which need fewest iterations",
@@ -202,15 +205,11 @@ namespace snug
       return table;
     }
 
-    template const ChoiceTable<
-      std::vector<unsigned int>(const CellGraph &,
-                                const std::vector<dealii::BoundingBox<2>> &,
-                                unsigned int)> &
+    template const ChoiceTable<std::vector<unsigned int>(const CellSet<2> &,
+                                                         double)> &
     partition_table<2>();
-    template const ChoiceTable<
-      std::vector<unsigned int>(const CellGraph &,
-                                const std::vector<dealii::BoundingBox<3>> &,
-                                unsigned int)> &
+    template const ChoiceTable<std::vector<unsigned int>(const CellSet<3> &,
+                                                         double)> &
     partition_table<3>();
   } // namespace mesh
 } // namespace snug

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace snug
@@ -70,9 +71,8 @@ namespace snug
       merge_slivers(const CellGraph           &graph,
                     std::vector<unsigned int> &part,
                     unsigned int               n_parts,
-                    unsigned int               wanted)
+                    double                     cells_each)
       {
-        const double mean = double(graph.size()) / std::max(1u, wanted);
         for (unsigned int sliver = 0; sliver < n_parts; ++sliver)
           {
             std::map<unsigned int, unsigned int> shared;
@@ -85,7 +85,7 @@ namespace snug
                     if (part[j] != sliver)
                       ++shared[part[j]];
                 }
-            if (size >= 0.25 * mean || shared.empty())
+            if (size >= 0.25 * cells_each || shared.empty())
               continue;
             const auto best =
               std::max_element(shared.begin(),
@@ -119,20 +119,48 @@ namespace snug
         return nodes;
       }
 
+      /// Size of a body's box at the reference positions. Collective.
       template <int dim>
-      std::vector<dealii::BoundingBox<dim>>
-      cell_boxes(const BodyMesh<dim>             &mesh,
-                 const std::vector<unsigned int> &cells)
+      dealii::Tensor<1, dim>
+      body_size(const BodyMesh<dim> &mesh, unsigned int body)
       {
-        std::vector<dealii::BoundingBox<dim>> boxes;
+        std::vector<double> ends(2 * dim, -std::numeric_limits<double>::max());
+        for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+          if (mesh.body_of_node(node) == body)
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                const double x = mesh.reference_positions()[node][c];
+                ends[c]        = std::max(ends[c], x);
+                ends[dim + c]  = std::max(ends[dim + c], -x);
+              }
+        dealii::Utilities::MPI::max(ends, mesh.communicator(), ends);
+        dealii::Tensor<1, dim> size;
+        for (unsigned int c = 0; c < dim; ++c)
+          size[c] = ends[c] + ends[dim + c];
+        return size;
+      }
+
+      template <int dim>
+      CellSet<dim>
+      cell_set(const BodyMesh<dim>             &mesh,
+               const std::vector<unsigned int> &cells,
+               unsigned int                     body)
+      {
+        CellSet<dim> set;
+        set.communicator = mesh.communicator();
+        set.graph        = cell_graph(mesh, cells);
         for (const unsigned int cell : cells)
           {
-            std::vector<dealii::Point<dim>> corners;
-            for (const unsigned int node : mesh.cells()[cell].nodes)
-              corners.emplace_back(mesh.reference_positions()[node]);
-            boxes.emplace_back(corners);
+            const auto &nodes = mesh.cells()[cell].nodes;
+            set.centres.emplace_back((mesh.logical_positions()[nodes.front()] +
+                                      mesh.logical_positions()[nodes.back()]) /
+                                     2.);
           }
-        return boxes;
+        set.n_global =
+          dealii::Utilities::MPI::sum<unsigned long>(cells.size(),
+                                                     mesh.communicator());
+        set.size = body_size(mesh, body);
+        return set;
       }
 
       /// Cells of a subdomain that keep factorizations and coarse problem in
@@ -163,16 +191,10 @@ namespace snug
           for (unsigned int cell = 0; cell < mesh.cells().size(); ++cell)
             if (mesh.cells()[cell].body == body)
               cells.push_back(cell);
-          if (cells.empty())
-            continue;
-          const CellGraph           graph   = cell_graph(mesh, cells);
-          const auto                boxes   = cell_boxes(mesh, cells);
-          const unsigned int        n       = std::max(1u,
-                                          static_cast<unsigned int>(std::lround(
-                                            cells.size() / cells_each)));
-          std::vector<unsigned int> part    = partition(graph, boxes, n);
-          unsigned int              n_parts = split_into_pieces(graph, part);
-          n_parts = merge_slivers(graph, part, n_parts, n);
+          const CellSet<dim>        set  = cell_set(mesh, cells, body);
+          std::vector<unsigned int> part = partition(set, cells_each);
+          unsigned int n_parts           = split_into_pieces(set.graph, part);
+          n_parts = merge_slivers(set.graph, part, n_parts, cells_each);
           std::vector<Subdomain> pieces(n_parts);
           for (unsigned int i = 0; i < cells.size(); ++i)
             pieces[part[i]].cells.push_back(cells[i]);

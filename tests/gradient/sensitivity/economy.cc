@@ -5,13 +5,18 @@ namespace
   using namespace snug;
   using namespace snug::test;
 
+  /// The 3D Hertz problem of prm/ with H/h = 6: small contact, as a state
+  /// costs less where all of the face touches.
   TestScene<3>
   sixteen_heights(double tolerance)
   {
-    auto scene = two_blocks<3>(8, 8, 3.);
-    set_design(scene, 4, 0.04);
-    scene.subdomains                = 36;
-    scene.solver.relative_tolerance = tolerance;
+    auto scene = two_blocks<3>(12, 12, 4.);
+    set_design(scene, 4, 0.005);
+    for (auto &body : scene.bodies)
+      body.material = {210000., 0.3};
+    scene.bodies[0].loads[face_index(2, 1)].pressure = 100.;
+    scene.subdomains                                 = 16;
+    scene.solver.relative_tolerance                  = tolerance;
     return scene;
   }
 
