@@ -56,7 +56,8 @@ namespace snug
       bool                          lumped;
       unsigned int                  n_b = 0, n_i = 0;
       std::vector<unsigned int>     position_b, position_i;
-      Part                          bb, ib, ii;
+      Part                          bb; ///< its lower triangle
+      Part                          ib, ii;
       std::unique_ptr<SparseFactor> factor;
     };
   } // namespace feti
