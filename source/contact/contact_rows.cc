@@ -247,8 +247,11 @@ namespace snug
               for (unsigned int q = 0; q < quadrature.size(); ++q)
                 {
                   shape.evaluate(quadrature.point(q), values);
+                  dealii::Tensor<1, dim> x;
+                  for (unsigned int k = 0; k < nodes.size(); ++k)
+                    x += values.value[k] * positions[nodes[k]];
                   const double area =
-                    quadrature.weight(q) *
+                    quadrature.weight(q) * surface.idealization().weight(x) *
                     area_vector(tangents<dim>(values, nodes, positions)).norm();
                   for (unsigned int k = 0; k < nodes.size(); ++k)
                     share[nodes[k]] += values.value[k] * area;

@@ -24,6 +24,19 @@ namespace snug
         return t;
       }
 
+      /// sum_a N_a x_a.
+      template <int dim>
+      dealii::Tensor<1, dim>
+      interpolate(const LagrangePoint<dim - 1>              &shape,
+                  const std::vector<dealii::Tensor<1, dim>> &x)
+      {
+        AssertDimension(x.size(), shape.values.size());
+        dealii::Tensor<1, dim> sum;
+        for (unsigned int a = 0; a < x.size(); ++a)
+          sum += shape.values[a] * x[a];
+        return sum;
+      }
+
       /// m = (t_y, -t_x): outer normal times dA / d xi.
       dealii::Tensor<1, 2>
       area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
@@ -70,8 +83,10 @@ namespace snug
     } // namespace
 
     template <int dim>
-    FaceLoad<dim>::FaceLoad(const unsigned int degree)
-      : gauss(lagrange_gauss_points<dim - 1>(degree))
+    FaceLoad<dim>::FaceLoad(const unsigned int        degree,
+                            const mesh::Idealization &idealization)
+      : idealization(idealization)
+      , gauss(lagrange_gauss_points<dim - 1>(degree))
     {
       Assert(degree == 1 || degree == 2,
              dealii::ExcMessage("Faces have degree 1 or 2."));
@@ -87,10 +102,12 @@ namespace snug
       f.assign(X.size(), {});
       for (const auto &shape : gauss)
         {
-          const auto m    = area_vector(tangents<dim>(shape, X));
-          const auto load = m.norm() * traction - pressure * m;
+          const auto   m    = area_vector(tangents<dim>(shape, X));
+          const auto   load = m.norm() * traction - pressure * m;
+          const double weight =
+            shape.weight * idealization.weight(interpolate<dim>(shape, X));
           for (unsigned int a = 0; a < X.size(); ++a)
-            f[a] += shape.weight * shape.values[a] * load;
+            f[a] += weight * shape.values[a] * load;
         }
     }
 
@@ -102,6 +119,7 @@ namespace snug
                                     const dealii::Tensor<1, dim> &traction,
                                     Nodes                        &f) const
     {
+      const auto weight_gradient = idealization.weight_gradient<dim>();
       f.assign(X.size(), {});
       for (const auto &shape : gauss)
         {
@@ -109,10 +127,15 @@ namespace snug
           const auto m = area_vector(t);
           const auto m_derivative =
             area_vector_derivative(t, tangents<dim>(shape, V));
+          const auto load = m.norm() * traction - pressure * m;
           const auto load_derivative =
             (m * m_derivative) / m.norm() * traction - pressure * m_derivative;
+          const double weight = idealization.weight(interpolate<dim>(shape, X));
+          const double weight_derivative =
+            weight_gradient * interpolate<dim>(shape, V);
           for (unsigned int a = 0; a < X.size(); ++a)
-            f[a] += shape.weight * shape.values[a] * load_derivative;
+            f[a] += shape.weight * shape.values[a] *
+                    (weight * load_derivative + weight_derivative * load);
         }
     }
 
@@ -129,19 +152,24 @@ namespace snug
       AssertDimension(gradient.size(), X.size());
       for (const auto &shape : gauss)
         {
-          dealii::Tensor<1, dim> displacement;
-          for (unsigned int a = 0; a < X.size(); ++a)
-            displacement += shape.values[a] * u[a];
-
-          const auto t = tangents<dim>(shape, X);
-          const auto m = area_vector(t);
+          const auto displacement = interpolate<dim>(shape, u);
+          const auto t            = tangents<dim>(shape, X);
+          const auto m            = area_vector(t);
           const auto gradient_m =
             (displacement * traction) / m.norm() * m - pressure * displacement;
           const auto gradient_t = area_vector_transpose(t, gradient_m);
+          const auto gradient_x =
+            ((m.norm() * traction - pressure * m) * displacement) *
+            idealization.weight_gradient<dim>();
+          const double weight = idealization.weight(interpolate<dim>(shape, X));
           for (unsigned int a = 0; a < X.size(); ++a)
-            for (unsigned int i = 0; i < dim - 1; ++i)
+            {
               gradient[a] +=
-                factor * shape.weight * shape.gradients[a][i] * gradient_t[i];
+                factor * shape.weight * shape.values[a] * gradient_x;
+              for (unsigned int i = 0; i < dim - 1; ++i)
+                gradient[a] += factor * shape.weight * weight *
+                               shape.gradients[a][i] * gradient_t[i];
+            }
         }
     }
 
@@ -152,8 +180,9 @@ namespace snug
       std::vector<double> areas(X.size());
       for (const auto &shape : gauss)
         {
-          const double dA =
-            shape.weight * area_vector(tangents<dim>(shape, X)).norm();
+          const double dA = shape.weight *
+                            idealization.weight(interpolate<dim>(shape, X)) *
+                            area_vector(tangents<dim>(shape, X)).norm();
           for (unsigned int a = 0; a < X.size(); ++a)
             areas[a] += shape.values[a] * dA;
         }

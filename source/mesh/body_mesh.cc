@@ -23,9 +23,12 @@ namespace snug
     template <int dim>
     struct BodyMesh<dim>::Data
     {
-      Data(MPI_Comm communicator, unsigned int degree)
+      Data(MPI_Comm            communicator,
+           unsigned int        degree,
+           const Idealization &idealization)
         : comm(communicator)
         , degree(degree)
+        , idealization(idealization)
         , fe(degree)
         , triangulation(communicator)
         , nodes(triangulation)
@@ -34,6 +37,7 @@ namespace snug
 
       MPI_Comm                                          comm;
       unsigned int                                      degree;
+      Idealization                                      idealization;
       dealii::FE_Q<dim>                                 fe;
       std::vector<std::unique_ptr<BodyGeometry<dim>>>   geometries;
       dealii::parallel::distributed::Triangulation<dim> triangulation;
@@ -190,8 +194,9 @@ namespace snug
     template <int dim>
     BodyMesh<dim>::BodyMesh(MPI_Comm                               communicator,
                             const std::vector<BodyMeshParameters> &bodies,
-                            unsigned int                           degree)
-      : data(std::make_unique<Data>(communicator, degree))
+                            unsigned int                           degree,
+                            const Idealization                    &idealization)
+      : data(std::make_unique<Data>(communicator, degree, idealization))
     {
       for (const auto &body : bodies)
         data->geometries.push_back(
@@ -220,6 +225,13 @@ namespace snug
     BodyMesh<dim>::degree() const
     {
       return data->degree;
+    }
+
+    template <int dim>
+    const Idealization &
+    BodyMesh<dim>::idealization() const
+    {
+      return data->idealization;
     }
 
     template <int dim>

@@ -140,6 +140,13 @@ namespace snug
     }
 
     template <int dim>
+    const Idealization &
+    Surface<dim>::idealization() const
+    {
+      return mesh.idealization();
+    }
+
+    template <int dim>
     const std::vector<typename Surface<dim>::Face> &
     Surface<dim>::faces() const
     {

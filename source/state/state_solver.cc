@@ -86,7 +86,7 @@ namespace snug
         , model(model)
         , context(context)
         , element(mesh.degree())
-        , face_load(mesh.degree())
+        , face_load(mesh.degree(), mesh.idealization())
         , surface(mesh, contact_boundaries(model.pairs))
       {
       }

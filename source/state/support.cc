@@ -4,6 +4,24 @@ namespace snug
 {
   namespace state
   {
+    namespace
+    {
+      /// Fix the radial component at the nodes of @p face on the axis.
+      template <int dim>
+      void
+      fix_axis(const mesh::BodyMesh<dim>                &mesh,
+               const typename mesh::BodyMesh<dim>::Face &face,
+               std::map<unsigned int, FixedFlags<dim>>  &fixed)
+      {
+        const double round_off = 1e-10;
+        const auto  &x         = mesh.reference_positions();
+        const double size = (x[face.nodes.back()] - x[face.nodes[0]]).norm();
+        for (const unsigned int node : face.nodes)
+          if (x[node][0] <= round_off * size)
+            fixed[node][0] = true;
+      }
+    } // namespace
+
     template <int dim>
     std::map<unsigned int, FixedFlags<dim>>
     fixed_components(const mesh::BodyMesh<dim>  &mesh,
@@ -11,11 +29,15 @@ namespace snug
     {
       std::map<unsigned int, FixedFlags<dim>> fixed;
       for (const auto &face : mesh.boundary_faces())
-        for (const Support &support : supports)
-          if (support.body == face.body && support.boundary == face.boundary)
-            for (const unsigned int node : face.nodes)
-              for (const unsigned int c : support.components)
-                fixed[node][c] = true;
+        {
+          for (const Support &support : supports)
+            if (support.body == face.body && support.boundary == face.boundary)
+              for (const unsigned int node : face.nodes)
+                for (const unsigned int c : support.components)
+                  fixed[node][c] = true;
+          if (mesh.idealization().is_axisymmetric())
+            fix_axis(mesh, face, fixed);
+        }
       return fixed;
     }
 

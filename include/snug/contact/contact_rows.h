@@ -93,9 +93,9 @@ namespace snug
                       const Field               &displacement,
                       const std::vector<double> &forces) const;
 
-      /// Tributary slave area of each row [length^(dim-1)], the integral of
-      /// the slave node's shape function; shares of hanging slave nodes are
-      /// given to their masters.
+      /// Tributary slave area of each row [length^2], the integral of the
+      /// slave node's shape function; shares of hanging slave nodes are given
+      /// to their masters.
       std::vector<double>
       areas(const Field &positions) const;
 

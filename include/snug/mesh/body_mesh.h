@@ -2,6 +2,7 @@
 #define snug_mesh_body_mesh_h
 
 #include <snug/mesh/body_geometry.h>
+#include <snug/mesh/idealization.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -59,13 +60,17 @@ namespace snug
       /// Collective. @throws InputError for bad mesh entries.
       BodyMesh(MPI_Comm                               communicator,
                const std::vector<BodyMeshParameters> &bodies,
-               unsigned int                           degree);
+               unsigned int                           degree,
+               const Idealization &idealization = Idealization::natural(dim));
       ~BodyMesh();
 
       MPI_Comm
       communicator() const;
       unsigned int
       degree() const;
+      /// What the mesh stands for.
+      const Idealization &
+      idealization() const;
       unsigned int
       n_bodies() const;
       const BodyGeometry<dim> &

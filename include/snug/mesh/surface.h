@@ -29,6 +29,9 @@ namespace snug
         const BodyMesh<dim>                                      &mesh,
         const std::vector<std::pair<unsigned int, unsigned int>> &boundaries);
 
+      /// What the mesh stands for.
+      const Idealization &
+      idealization() const;
       const std::vector<Face> &
       faces() const;
       unsigned int

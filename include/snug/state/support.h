@@ -21,7 +21,8 @@ namespace snug
     template <int dim>
     using FixedFlags = std::array<bool, dim>;
 
-    /// Components the supports fix at local nodes, as far as this rank's own
+    /// Components fixed at local nodes by the supports and, in axisymmetric
+    /// models, by the axis (u_r = 0 where r = 0), as far as this rank's own
     /// boundary faces show.
     template <int dim>
     std::map<unsigned int, FixedFlags<dim>>

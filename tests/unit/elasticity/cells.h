@@ -18,6 +18,7 @@
 namespace elasticity_cells
 {
   using namespace snug::elasticity;
+  using snug::mesh::Idealization;
 
   template <int dim>
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
@@ -122,6 +123,33 @@ namespace elasticity_cells
       A[d][d] += 1. + 0.5 * d;
     const auto X = times<dim>(A, cube<dim>(degree));
     return sum<dim>(X, 0.1 / degree, random_field<dim>(X.size(), seed + 100));
+  }
+
+  /// All idealizations of dimension dim; plane ones 0.3 thick.
+  template <int dim>
+  std::vector<Idealization>
+  idealizations()
+  {
+    using Kind = Idealization::Kind;
+    if (dim == 3)
+      return {{Kind::solid}};
+    return {{Kind::plane_strain, 0.3},
+            {Kind::plane_stress, 0.3},
+            {Kind::axisymmetric}};
+  }
+
+  /// distorted(), at radii of about 1.5 to 3 where x is the radius.
+  template <int dim>
+  Nodes<dim>
+  distorted(const Idealization &idealization,
+            const unsigned int  degree,
+            const unsigned int  seed)
+  {
+    auto X = distorted<dim>(degree, seed);
+    if (idealization.is_axisymmetric())
+      for (auto &x : X)
+        x[0] += 1.75;
+    return X;
   }
 
   /// r = K u with the matrix of Element::stiffness.

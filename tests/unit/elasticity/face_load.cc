@@ -11,14 +11,20 @@ public:
   static constexpr int          dim    = Case::dim;
   static constexpr unsigned int degree = Case::degree;
 
-  const FaceLoad<dim> load{degree};
-  const Nodes<dim>    cell = distorted<dim>(degree, 31);
-  const Nodes<dim>    X =
-    extract<dim>(cell, face_nodes<dim>(degree, dim - 1, true));
+  const FaceLoad<dim>          load{degree};
+  const Nodes<dim>             cell     = distorted<dim>(degree, 31);
+  const Nodes<dim>             X        = face(Idealization::natural(dim));
   const Nodes<dim>             V        = random_field<dim>(X.size(), 32);
   const Nodes<dim>             u        = random_field<dim>(X.size(), 33);
   const dealii::Tensor<1, dim> traction = random_field<dim>(1, 34)[0];
   const double                 pressure = 1.7;
+
+  static Nodes<dim>
+  face(const Idealization &idealization)
+  {
+    return extract<dim>(distorted<dim>(idealization, degree, 31),
+                        face_nodes<dim>(degree, dim - 1, true));
+  }
 };
 TYPED_TEST_SUITE(FaceLoads, AllCases);
 
@@ -81,39 +87,84 @@ TYPED_TEST(FaceLoads, TractionActsOnTributaryAreas)
 TYPED_TEST(FaceLoads, DerivativeAgreesWithDifferences)
 {
   constexpr int dim = TestFixture::dim;
-  for (const double pressure : {0., this->pressure})
-    for (const double scale : {0., 1.})
-      {
-        const auto traction = scale * this->traction;
-        Nodes<dim> found;
-        this->load.force_derivative(
-          this->X, this->V, pressure, traction, found);
-        const auto expected = derivative<dim>(
-          [&](const Nodes<dim> &X) {
-            Nodes<dim> f;
-            this->load.force(X, pressure, traction, f);
-            return f;
-          },
-          this->X,
-          this->V);
-        EXPECT_LE(distance<dim>(found, expected), 1e-10);
-      }
+  for (const auto &idealization : idealizations<dim>())
+    for (const double pressure : {0., this->pressure})
+      for (const double scale : {0., 1.})
+        {
+          const FaceLoad<dim> load(TestFixture::degree, idealization);
+          const auto          X        = this->face(idealization);
+          const auto          traction = scale * this->traction;
+          Nodes<dim>          found;
+          load.force_derivative(X, this->V, pressure, traction, found);
+          const auto expected = derivative<dim>(
+            [&](const Nodes<dim> &X) {
+              Nodes<dim> f;
+              load.force(X, pressure, traction, f);
+              return f;
+            },
+            X,
+            this->V);
+          // forces per revolution are about 10, else 1
+          EXPECT_LE(distance<dim>(found, expected), 1e-9);
+        }
 }
 
 TYPED_TEST(FaceLoads, GradientIsTheTransposeOfTheDerivative)
 {
   constexpr int dim = TestFixture::dim;
-  Nodes<dim>    f;
-  this->load.force_derivative(
-    this->X, this->V, this->pressure, this->traction, f);
-  Nodes<dim> gradient(this->X.size());
-  gradient[0][0] = 1.;
-  this->load.add_force_gradient(
-    this->X, this->pressure, this->traction, this->u, -3., gradient);
-  gradient[0][0] -= 1.;
-  EXPECT_NEAR(dot<dim>(gradient, this->V),
-              -3. * dot<dim>(f, this->u),
-              1e-13 * norm<dim>(gradient) * norm<dim>(this->V));
+  for (const auto &idealization : idealizations<dim>())
+    {
+      const FaceLoad<dim> load(TestFixture::degree, idealization);
+      const auto          X = this->face(idealization);
+      Nodes<dim>          f;
+      load.force_derivative(X, this->V, this->pressure, this->traction, f);
+      Nodes<dim> gradient(X.size());
+      gradient[0][0] = 1.;
+      load.add_force_gradient(
+        X, this->pressure, this->traction, this->u, -3., gradient);
+      gradient[0][0] -= 1.;
+      EXPECT_NEAR(dot<dim>(gradient, this->V),
+                  -3. * dot<dim>(f, this->u),
+                  1e-13 * norm<dim>(gradient) * norm<dim>(this->V));
+    }
+}
+
+TEST(FaceLoadWeight, ThicknessIsAFactor)
+{
+  const auto  X    = cube<2>(2);
+  const auto  face = extract<2>(X, face_nodes<2>(2, 0, true));
+  FaceLoad<2> thin(2, {Idealization::Kind::plane_stress, 0.25});
+  Nodes<2>    f;
+  thin.force(face, 8., dealii::Tensor<1, 2>(), f);
+  double sum = 0.;
+  for (const auto &force : f)
+    sum += force[0];
+  EXPECT_NEAR(sum, -8. * 0.25, 1e-14);
+}
+
+TEST(FaceLoadWeight, ConesHaveTheirArea)
+{
+  // frustum with radii 2 and 5, height 4, slant 5: area pi (2 + 5) 5
+  for (const unsigned int degree : {1, 2})
+    {
+      const FaceLoad<2> load(degree, {Idealization::Kind::axisymmetric});
+      Nodes<2>          face(degree + 1), f;
+      for (unsigned int a = 0; a <= degree; ++a)
+        {
+          const double t = double(a) / degree;
+          face[a]        = dealii::Point<2>(2. + 3. * t, 4. * t);
+        }
+      double area = 0., axial_force = 0.;
+      for (const double share : load.areas(face))
+        area += share;
+      EXPECT_NEAR(area, dealii::numbers::PI * 35., 1e-12);
+
+      // axial force of a pressure: on the projected annulus
+      load.force(face, 2., dealii::Tensor<1, 2>(), f);
+      for (const auto &force : f)
+        axial_force += force[1];
+      EXPECT_NEAR(axial_force, 2. * dealii::numbers::PI * 21., 1e-12);
+    }
 }
 
 TYPED_TEST(FaceLoads, FollowsTranslationsAndRotations)
