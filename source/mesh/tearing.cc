@@ -164,13 +164,13 @@ namespace snug
       }
 
       /// Cells of a subdomain that keep factorizations and coarse problem in
-      /// balance: 5.5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
+      /// balance: 5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
       /// degree, by their nodes.
       template <int dim>
       double
       cells_per_subdomain(unsigned int degree)
       {
-        return std::pow((dim == 3 ? 5.5 : 12.) / degree, dim);
+        return std::pow((dim == 3 ? 5. : 12.) / degree, dim);
       }
     } // namespace
 

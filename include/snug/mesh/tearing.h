@@ -37,7 +37,7 @@ namespace snug
 
     /**
      * Tear this rank's cells of each body into face-connected subdomains. The
-     * number by size aims at 5 to 6 Q1 cells per subdomain edge in 3D, 12 in
+     * number by size aims at 5 Q1 cells per subdomain edge in 3D, 12 in
      * 2D. There is at least one per rank and body. Collective.
      */
     template <int dim>
