@@ -36,7 +36,7 @@ namespace snug
                 for (const unsigned int c : support.components)
                   fixed[node][c] = true;
           if (mesh.idealization().is_axisymmetric())
-            fix_axis(mesh, face, fixed);
+            fix_axis<dim>(mesh, face, fixed);
         }
       return fixed;
     }
