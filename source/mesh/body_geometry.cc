@@ -1,5 +1,5 @@
+#include <snug/mesh/axis_spacing.h>
 #include <snug/mesh/body_geometry.h>
-
 #include <snug/mesh/curved_face.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -53,11 +53,9 @@ namespace snug
 
       /**
        * A box with graded cells and curved faces. Logical coordinate xi of an
-       * axis with n cells and grading ratio r is the fraction
-       *   f(xi) = (q^(n xi) - 1) / (q^n - 1),  q = r^(1/(n-1)),
-       * so that the coarse cells [i/n, (i+1)/n] have sizes in geometric
-       * progression. Each curved face moves along its outward normal; the
-       * movement fades linearly with f to zero at the opposite face.
+       * axis is the fraction f(xi) of its length (AxisSpacing). Each curved
+       * face moves along its outward normal; the movement fades linearly with
+       * f to zero at the opposite face.
        */
       template <int dim>
       class BoxGeometry : public BodyGeometry<dim>
@@ -87,9 +85,11 @@ namespace snug
         std::vector<std::string>      names;
         std::array<double, dim>       corner, size;
         std::array<unsigned int, dim> cells;
-        std::array<double, dim>       grading;
+        std::array<AxisSpacing, dim>  spacing;
         std::vector<CurvedFace<dim>>  curved_faces;
 
+        void
+        set_spacing(const BodyMeshParameters &parameters);
         void
         add_curved_face(const std::string &face, const std::string &value);
         unsigned int
@@ -111,14 +111,8 @@ namespace snug
         , size(per_axis<dim, double>("Box size", parameters.size, 1., true))
         , cells(
             per_axis<dim, unsigned int>("Box cells", parameters.cells, 1, true))
-        , grading(
-            per_axis<dim, double>("Box grading", parameters.grading, 1., true))
       {
-        for (unsigned int d = 0; d < dim; ++d)
-          if (cells[d] == 1 && grading[d] != 1.)
-            throw bad_entry("Box grading",
-                            joined(parameters.grading),
-                            "must be 1 along an axis with a single cell");
+        set_spacing(parameters);
         for (const auto &face : parameters.curved_faces)
           add_curved_face(face.first, face.second);
         // Formulas without a finite value are found here, on all ranks alike,
@@ -126,6 +120,35 @@ namespace snug
         if (!curved_faces.empty())
           for (const auto &point : coarse_mesh().vertices)
             position(point);
+      }
+
+      template <int dim>
+      void
+      BoxGeometry<dim>::set_spacing(const BodyMeshParameters &parameters)
+      {
+        const auto grading =
+          per_axis<dim, double>("Box grading", parameters.grading, 1., true);
+        const auto fine = per_axis<dim, double>("Box fine length",
+                                                parameters.fine_length,
+                                                0.,
+                                                false);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            if (cells[d] == 1 && grading[d] != 1.)
+              throw bad_entry("Box grading",
+                              joined(parameters.grading),
+                              "must be 1 along an axis with a single cell");
+            if (fine[d] != 0. && !(fine[d] > 0. && fine[d] < size[d] &&
+                                   cells[d] > 1 && grading[d] == 1.))
+              throw bad_entry("Box fine length",
+                              joined(parameters.fine_length),
+                              "must be 0, or below the size of the box along "
+                              "an axis with several cells and no grading");
+            spacing[d] =
+              fine[d] != 0.
+                ? AxisSpacing::with_fine_part(cells[d], fine[d] / size[d])
+                : AxisSpacing::graded(cells[d], grading[d]);
+          }
       }
 
       template <int dim>
@@ -224,14 +247,9 @@ namespace snug
       dealii::Point<dim>
       BoxGeometry<dim>::box_fraction(const dealii::Point<dim> &logical) const
       {
-        dealii::Point<dim> fraction = logical;
+        dealii::Point<dim> fraction;
         for (unsigned int d = 0; d < dim; ++d)
-          if (grading[d] != 1.)
-            {
-              const double log_q = std::log(grading[d]) / (cells[d] - 1);
-              fraction[d]        = std::expm1(log_q * cells[d] * logical[d]) /
-                            std::expm1(log_q * cells[d]);
-            }
+          fraction[d] = spacing[d].fraction(logical[d]);
         return fraction;
       }
 

@@ -61,6 +61,9 @@ namespace snug
           require_length(mesh.size.size(), "Box size", mesh.size);
           require_length(mesh.cells.size(), "Box cells", mesh.cells);
           require_length(mesh.grading.size(), "Box grading", mesh.grading);
+          require_length(mesh.fine_length.size(),
+                         "Box fine length",
+                         mesh.fine_length);
           require(is_finite(mesh.corner),
                   "Box corner",
                   to_text(mesh.corner),

@@ -86,6 +86,11 @@ namespace snug
                     "Along x, y, z: size of the last cell over the size of the "
                     "first, sizes growing geometrically; empty: 1, equal "
                     "cells.");
+        entries.add("Box fine length",
+                    mesh.fine_length,
+                    "Along x, y, z: half of the cells are equal and fill this "
+                    "much from the lower end, sizes of the others grow from "
+                    "there [length]; 0 or empty: not.");
         entries.add(
           "Curved faces",
           {[&mesh]() { return to_text(mesh.curved_faces, ';'); },

@@ -82,6 +82,7 @@ namespace snug
             fill(body.mesh.corner, scene.dimension, 0.);
             fill(body.mesh.size, scene.dimension, 1.);
             fill(body.mesh.grading, scene.dimension, 1.);
+            fill(body.mesh.fine_length, scene.dimension, 0.);
             fill(body.loads.body_force, scene.dimension, 0.);
           }
         const unsigned int n = n_design_variables(scene.shape);

@@ -28,6 +28,9 @@ namespace snug
       /// per axis: size of the last cell over the size of the first, cells
       /// between in geometric progression; default 1
       std::vector<double> grading;
+      /// per axis: half of the cells are equal and fill this much from the
+      /// lower end, the rest grow from there [length]; 0: not; default 0
+      std::vector<double> fine_length;
       /// face name -> "sphere R" | "cylinder x R" | formula of x, y, z giving
       /// the outward displacement of the face [length]. The curved face
       /// touches the flat one at its centre; R > 0 is convex. In 2D a

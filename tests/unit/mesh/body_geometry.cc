@@ -126,6 +126,40 @@ TEST(BodyGeometry, GradedCellsAreInGeometricProgression)
   EXPECT_GT(geometry->box_fraction(Point<2>(0.1, 0.))[0], 0.);
 }
 
+TEST(BodyGeometry, CellsAreEqualInTheFinePartAndGrowFromThere)
+{
+  for (const double fine : {0.3, 1., 1.9}) // sizes grow, stay and shrink
+    {
+      mesh::BodyMeshParameters parameters;
+      parameters.size              = {2., 1.};
+      parameters.cells             = {6, 1};
+      parameters.fine_length       = {fine, 0.};
+      const auto          geometry = box<2>(parameters);
+      std::vector<double> at;
+      for (unsigned int i = 0; i <= 6; ++i)
+        at.push_back(geometry->position(Point<2>(i / 6., 0.))[0]);
+      for (unsigned int i = 1; i <= 3; ++i)
+        EXPECT_NEAR(at[i], i * fine / 3., 1e-14);
+      const double q = (at[4] - at[3]) / (at[3] - at[2]);
+      for (unsigned int i = 4; i < 6; ++i)
+        EXPECT_NEAR((at[i + 1] - at[i]) / (at[i] - at[i - 1]), q, 1e-11);
+      EXPECT_NEAR(at[6], 2., 1e-13);
+    }
+}
+
+TEST(BodyGeometry, FinePartMustLeaveARest)
+{
+  mesh::BodyMeshParameters parameters;
+  parameters.size        = {2., 1.};
+  parameters.cells       = {6, 1};
+  parameters.fine_length = {2., 0.};
+  EXPECT_NE(box_complaint<2>(parameters).find("Box fine length"),
+            std::string::npos);
+  parameters.fine_length = {0.5, 0.5}; // a single cell along y
+  EXPECT_NE(box_complaint<2>(parameters).find("Box fine length"),
+            std::string::npos);
+}
+
 TEST(BodyGeometry, SphericalFacesLieOnSpheres)
 {
   expect_on_sphere<3>(5.);
