@@ -81,7 +81,9 @@ namespace snug
         }
       for (const auto &pair : scene.contact.pairs)
         model.pairs.push_back({find_face(scene, mesh, pair.first),
-                               find_face(scene, mesh, pair.second)});
+                               find_face(scene, mesh, pair.second),
+                               scene.contact.method,
+                               pair.first + ": " + pair.second});
       return model;
     }
 

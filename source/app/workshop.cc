@@ -46,11 +46,10 @@ namespace snug
                                                       materials,
                                                       scene.output_directory);
       contact_output = std::make_unique<io::ContactOutput<dim>>(
-        typename io::ContactOutput<dim>::Sources{
-          *mesh,
-          solver->surface(),
-          solver->model().pairs,
-          solver->contact().projections()},
+        typename io::ContactOutput<dim>::Sources{*mesh,
+                                                 solver->surface(),
+                                                 solver->model().pairs,
+                                                 solver->contact().places()},
         scene.output_directory);
     }
 

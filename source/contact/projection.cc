@@ -242,8 +242,7 @@ namespace snug
                              positions[slave] - found.point.position,
                              positions) > edge_tolerance)
               continue;
-            result.push_back({sides.pair,
-                              slave,
+            result.push_back({slave,
                               weights(shape,
                                       found.point.xi,
                                       surface.faces()[found.face].nodes)});

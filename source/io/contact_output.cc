@@ -19,7 +19,7 @@ namespace snug
       , reference(sources.surface.gather(sources.mesh.reference_positions()))
       , candidate(sources.surface.n_nodes(), false)
     {
-      for (const auto &row : sources.projections)
+      for (const auto &row : sources.places)
         candidate[row.slave] = true;
     }
 
@@ -28,12 +28,12 @@ namespace snug
     ContactOutput<dim>::nodal_points(
       const std::vector<state::ContactPoint> &rows) const
     {
-      AssertDimension(rows.size(), sources.projections.size());
+      AssertDimension(rows.size(), sources.places.size());
       std::vector<state::ContactPoint> points(sources.surface.n_nodes());
       std::vector<bool>                seen(points.size(), false);
       for (unsigned int i = 0; i < rows.size(); ++i)
         {
-          const unsigned int node = sources.projections[i].slave;
+          const unsigned int node = sources.places[i].slave;
           if (!seen[node] || rows[i].force > points[node].force)
             points[node] = rows[i];
           seen[node] = true;
@@ -120,7 +120,7 @@ namespace snug
                          "force,pressure,gap,area,active,weak\n";
       for (unsigned int i = 0; i < state.contact.size(); ++i)
         {
-          const auto &row   = sources.projections[i];
+          const auto &row   = sources.places[i];
           const auto &point = state.contact[i];
           text += std::to_string(row.pair);
           for (unsigned int c = 0; c < dim; ++c)

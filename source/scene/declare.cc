@@ -1,3 +1,4 @@
+#include <snug/contact/contact.h>
 #include <snug/mesh/partition.h>
 #include <snug/optimization/minimize.h>
 #include <snug/response/response.h>
@@ -166,6 +167,11 @@ namespace snug
                     "Pairs of faces, slave: master, separated by commas. No "
                     "slave node penetrates the master face. 'punch.bottom: "
                     "foundation.top'.");
+        add_choice(entries,
+                   "Method",
+                   scene.contact.method,
+                   contact::contact_method_table<3>(),
+                   "How two faces meet.");
 
         auto &shape = scene.shape;
         entries.begin_section("Shape", "The design variables.");

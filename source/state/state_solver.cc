@@ -98,7 +98,7 @@ namespace snug
       elasticity::Element<dim>                     element;
       elasticity::FaceLoad<dim>                    face_load;
       mesh::Surface<dim>                           surface;
-      std::unique_ptr<contact::NodalContact<dim>>  contact;
+      std::unique_ptr<contact::Contact<dim>>       contact;
       std::unique_ptr<Gluing<dim>>                 gluing;
       std::vector<std::unique_ptr<Assembler<dim>>> assemblers;
       std::vector<feti::SubdomainSystem>           systems;
@@ -154,11 +154,11 @@ namespace snug
       const RunContext::Timer timer(context, "setup");
       measure_bodies(mesh, centres, lengths);
       const auto at_surface = surface.gather(positions);
-      contact = std::make_unique<contact::NodalContact<dim>>(surface,
-                                                             model.pairs,
-                                                             mesh.degree(),
-                                                             at_surface);
-      gluing  = std::make_unique<Gluing<dim>>(
+      contact               = std::make_unique<contact::Contact<dim>>(surface,
+                                                        model.pairs,
+                                                        mesh.degree(),
+                                                        at_surface);
+      gluing                = std::make_unique<Gluing<dim>>(
         mesh, tearing, surface, model.supports, contact->rows(at_surface));
       systems.resize(tearing.subdomains.size());
       const auto contact_rows = contact->rows(at_surface);
@@ -377,7 +377,7 @@ namespace snug
     SNUG_GETTER(const mesh::Tearing &, tearing, data->tearing)
     SNUG_GETTER(const Model<dim> &, model, data->model)
     SNUG_GETTER(const mesh::Surface<dim> &, surface, data->surface)
-    SNUG_GETTER(const contact::NodalContact<dim> &, contact, *data->contact)
+    SNUG_GETTER(const contact::Contact<dim> &, contact, *data->contact)
     SNUG_GETTER(const elasticity::Element<dim> &, element, data->element)
     SNUG_GETTER(const elasticity::FaceLoad<dim> &, face_load, data->face_load)
     SNUG_GETTER(const std::vector<std::unique_ptr<Assembler<dim>>> &,

@@ -25,18 +25,17 @@ namespace snug
         const auto               &surface = solver.surface();
         std::vector<unsigned int> target(mesh.n_local_nodes());
         std::iota(target.begin(), target.end(), 0);
-        for (const auto &projection : solver.contact().projections())
+        const auto rows =
+          solver.contact().rows(surface.gather(mesh.reference_positions()));
+        for (unsigned int i = 0; i < rows.size(); ++i)
           {
-            const auto nearest =
-              std::max_element(projection.masters.begin(),
-                               projection.masters.end(),
-                               [](const auto &a, const auto &b) {
-                                 return a.second < b.second;
-                               });
-            if (nearest->second < 0.99)
+            const unsigned int slave = solver.contact().places()[i].slave;
+            const auto        &c     = rows[i].coefficients;
+            if (c.size() != 2)
               throw InputError("slave and master nodes do not match");
-            target[mesh.local_node(surface.global_node(projection.slave))] =
-              mesh.local_node(surface.global_node(nearest->first));
+            const unsigned int master = c[c[0].first == slave].first;
+            target[mesh.local_node(surface.global_node(slave))] =
+              mesh.local_node(surface.global_node(master));
           }
         return target;
       }

@@ -19,7 +19,6 @@ namespace snug
      */
     struct Projection
     {
-      unsigned int pair;
       unsigned int slave; ///< surface node
       /// surface nodes, ascending, and weights, which sum to 1
       std::vector<std::pair<unsigned int, double>> masters;
@@ -28,7 +27,6 @@ namespace snug
     /// The two sides of a pair: indices of surface faces.
     struct PairFaces
     {
-      unsigned int              pair;
       std::vector<unsigned int> slave, master;
     };
 

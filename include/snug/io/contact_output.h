@@ -1,7 +1,7 @@
 #ifndef snug_io_contact_output_h
 #define snug_io_contact_output_h
 
-#include <snug/contact/contact_rows.h>
+#include <snug/contact/contact.h>
 #include <snug/mesh/surface.h>
 #include <snug/state/contact_state.h>
 
@@ -44,10 +44,10 @@ namespace snug
       /// What it draws on; all must outlive the ContactOutput.
       struct Sources
       {
-        const mesh::BodyMesh<dim>              &mesh;
-        const mesh::Surface<dim>               &surface;
-        const std::vector<contact::Pair>       &pairs;
-        const std::vector<contact::Projection> &projections;
+        const mesh::BodyMesh<dim>            &mesh;
+        const mesh::Surface<dim>             &surface;
+        const std::vector<contact::Pair>     &pairs;
+        const std::vector<contact::RowPlace> &places;
       };
 
       /// Files go to @p directory, which must exist. Collective.

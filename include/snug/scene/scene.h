@@ -1,7 +1,7 @@
 #ifndef snug_scene_scene_h
 #define snug_scene_scene_h
 
-#include <snug/contact/contact_rows.h>
+#include <snug/contact/pair.h>
 #include <snug/elasticity/material.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/mesh/body_geometry.h>

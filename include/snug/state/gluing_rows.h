@@ -1,7 +1,7 @@
 #ifndef snug_state_gluing_rows_h
 #define snug_state_gluing_rows_h
 
-#include <snug/contact/contact_rows.h>
+#include <snug/contact/row_group.h>
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>

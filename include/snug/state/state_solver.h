@@ -1,7 +1,7 @@
 #ifndef snug_state_state_solver_h
 #define snug_state_state_solver_h
 
-#include <snug/contact/contact_rows.h>
+#include <snug/contact/contact.h>
 #include <snug/feti/total_feti.h>
 #include <snug/state/assembler.h>
 #include <snug/state/contact_state.h>
@@ -73,7 +73,7 @@ namespace snug
       model() const;
       const mesh::Surface<dim> &
       surface() const;
-      const contact::NodalContact<dim> &
+      const contact::Contact<dim> &
       contact() const;
       const elasticity::Element<dim> &
       element() const;

@@ -1,7 +1,7 @@
 #ifndef snug_tests_unit_contact_two_boxes_h
 #define snug_tests_unit_contact_two_boxes_h
 
-#include <snug/contact/contact_rows.h>
+#include <snug/contact/contact.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,13 +59,25 @@ struct TwoBoxes
   static snug::contact::Pair
   pair()
   {
-    return {{0, 2 * dim - 2}, {1, 2 * dim - 1}};
+    return {{0, 2 * dim - 2}, {1, 2 * dim - 1}, "nodal", "a pair"};
   }
 
-  snug::contact::NodalContact<dim>
+  snug::contact::Contact<dim>
   contact() const
   {
     return {surface, {pair()}, mesh.degree(), positions};
+  }
+
+  std::vector<snug::contact::Projection>
+  projections() const
+  {
+    snug::contact::PairFaces sides;
+    for (unsigned int f = 0; f < surface.faces().size(); ++f)
+      (surface.faces()[f].body == 0 ? sides.slave : sides.master).push_back(f);
+    return snug::contact::project(surface,
+                                  sides,
+                                  snug::contact::FaceShape<dim>(mesh.degree()),
+                                  positions);
   }
 
   /// Bend both sides, without penetration at first sight; hanging nodes follow

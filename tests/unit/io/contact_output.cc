@@ -41,8 +41,7 @@ namespace snug
         for (unsigned int node = 0; node < surface.n_nodes(); ++node)
           if (is_slave[node] && surface.masters(node).empty())
             {
-              contact::Projection row{0, node, {}};
-              projections.push_back(row);
+              places.push_back({0, node});
               state::ContactPoint point;
               point.pressure = pressure_at(x[node][0]);
               point.force    = 0.1 * point.pressure;
@@ -58,7 +57,7 @@ namespace snug
       std::pair<unsigned int, unsigned int> slave, master;
       mesh::Surface<dim>                    surface;
       std::vector<contact::Pair>            pairs;
-      std::vector<contact::Projection>      projections;
+      std::vector<contact::RowPlace>        places;
       state::ContactState<dim>              state;
     };
 
@@ -69,8 +68,7 @@ namespace snug
       const test::ScratchDirectory scratch;
       const ContactScene<dim>      scene(degree);
       io::ContactOutput<dim>       output(
-        {scene.mesh, scene.surface, scene.pairs, scene.projections},
-        scratch.path);
+        {scene.mesh, scene.surface, scene.pairs, scene.places}, scratch.path);
       output.write(0., scene.state);
       if (!scratch.is_first())
         return;
@@ -122,8 +120,7 @@ namespace snug
       const test::ScratchDirectory scratch;
       const ContactScene<3>        scene(1);
       io::ContactOutput<3>         output(
-        {scene.mesh, scene.surface, scene.pairs, scene.projections},
-        scratch.path);
+        {scene.mesh, scene.surface, scene.pairs, scene.places}, scratch.path);
       output.write(0., scene.state);
       output.write(5., scene.state);
       const auto x = scene.surface.gather(scene.state.positions);
@@ -149,8 +146,7 @@ namespace snug
           const auto &point  = scene.state.contact[i];
           ASSERT_EQ(fields.size(), 10u);
           for (unsigned int c = 0; c < 3; ++c)
-            EXPECT_EQ(std::stod(fields[1 + c]),
-                      x[scene.projections[i].slave][c]);
+            EXPECT_EQ(std::stod(fields[1 + c]), x[scene.places[i].slave][c]);
           EXPECT_EQ(std::stod(fields[4]), point.force);
           EXPECT_EQ(std::stod(fields[5]), point.pressure);
           EXPECT_EQ(std::stod(fields[6]), point.gap);
@@ -165,15 +161,14 @@ namespace snug
 
     TEST(ContactOutput, WithoutPairsIsEmptyButValid)
     {
-      const test::ScratchDirectory           scratch;
-      const mesh::BodyMesh<2>                mesh(MPI_COMM_WORLD,
+      const test::ScratchDirectory         scratch;
+      const mesh::BodyMesh<2>              mesh(MPI_COMM_WORLD,
                                    test::two_boxes<2>(false),
                                    1);
-      const mesh::Surface<2>                 surface(mesh, {});
-      const std::vector<contact::Pair>       pairs;
-      const std::vector<contact::Projection> projections;
-      io::ContactOutput<2>   output({mesh, surface, pairs, projections},
-                                  scratch.path);
+      const mesh::Surface<2>               surface(mesh, {});
+      const std::vector<contact::Pair>     pairs;
+      const std::vector<contact::RowPlace> places;
+      io::ContactOutput<2> output({mesh, surface, pairs, places}, scratch.path);
       state::ContactState<2> state;
       state.positions    = mesh.reference_positions();
       state.displacement = mesh.reference_positions();

@@ -45,7 +45,7 @@ namespace
     std::map<std::pair<double, double>, double> sorted;
     for (unsigned int i = 0; i < state.contact.size(); ++i)
       {
-        const auto &slave = x[problem.solver.contact().projections()[i].slave];
+        const auto &slave = x[problem.solver.contact().places()[i].slave];
         sorted[{slave[0], slave[1]}] = state.contact[i].pressure;
       }
     for (const auto &entry : sorted)

@@ -351,7 +351,8 @@ namespace snug
     UntornBody<dim>::areas(unsigned int boundary) const
     {
       const dealii::MappingFEField<dim> mapping(handler, positions);
-      // int N_a |t1 x t2| is no polynomial: the same rule as NodalContact
+      // int N_a |t1 x t2| is no polynomial: the same rule as
+      // contact/tributary.cc
       dealii::FEFaceValues<dim> values(mapping,
                                        fe,
                                        dealii::QGauss<dim - 1>(fe.degree + 2),
