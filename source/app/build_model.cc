@@ -22,7 +22,7 @@ namespace snug
                  const mesh::BodyGeometry<dim> &geometry)
       {
         state::BodyModel<dim> model;
-        model.material   = body.material;
+        model.materials  = {body.material};
         model.body_force = to_tensor<dim>(body.loads.body_force);
         for (const auto &entry : body.loads.pressure)
           model.loads[mesh::boundary_index(geometry, entry.first)].pressure =

@@ -38,12 +38,9 @@ namespace snug
       }
       solver = std::make_unique<state::StateSolver<dim>>(
         *mesh, tearing, build_model(scene, *mesh), positions(start()), context);
-      std::vector<elasticity::Material> materials;
-      for (const auto &body : scene.bodies)
-        materials.push_back(body.material);
       fields         = std::make_unique<io::FieldOutput<dim>>(*mesh,
                                                       tearing,
-                                                      materials,
+                                                      solver->model().bodies,
                                                       scene.output_directory);
       contact_output = std::make_unique<io::ContactOutput<dim>>(
         typename io::ContactOutput<dim>::Sources{*mesh,

@@ -1,5 +1,5 @@
-#include <snug/elasticity/cell_point.h>
 #include <snug/elasticity/element.h>
+#include <snug/elasticity/pressure_space.h>
 #include <snug/elasticity/stress.h>
 
 #include <deal.II/base/exceptions.h>
@@ -13,13 +13,23 @@ namespace snug
   namespace elasticity
   {
     template <int dim>
-    Element<dim>::Element(const unsigned int degree)
+    Element<dim>::Element(const unsigned int        degree,
+                          const mesh::Idealization &idealization,
+                          const Formulation         formulation)
       : degree(degree)
+      , idealization(idealization)
+      , formulation(formulation)
       , gauss(lagrange_gauss_points<dim>(degree))
       , nodes(lagrange_nodes<dim>(degree))
     {
+      using Kind = mesh::Idealization::Kind;
       Assert(degree == 1 || degree == 2,
              dealii::ExcMessage("Elements have degree 1 or 2."));
+      Assert((idealization.kind == Kind::solid) == (dim == 3),
+             dealii::ExcMessage("Solids are 3D, sections 2D."));
+      Assert(formulation == Formulation::standard ||
+               idealization.kind != Kind::plane_stress,
+             dealii::ExcMessage("B-bar is not for plane stress."));
       const unsigned int n_padded = (n_nodes() + 3) / 4 * 4;
       for (const auto &shape : gauss)
         for (unsigned int d = 0; d < dim; ++d)
@@ -36,6 +46,61 @@ namespace snug
     }
 
     template <int dim>
+    std::vector<CellPoint<dim>>
+    Element<dim>::gauss_points(const Nodes &X) const
+    {
+      std::vector<CellPoint<dim>> points;
+      points.reserve(gauss.size() + 1);
+      for (const auto &shape : gauss)
+        points.emplace_back(shape, X, idealization);
+      return points;
+    }
+
+    template <int dim>
+    void
+    Element<dim>::take_dilatation(const std::vector<CellPoint<dim>> &points,
+                                  std::vector<double> &values) const
+    {
+      if (formulation == Formulation::standard)
+        return;
+      std::vector<dealii::Point<dim>> xi;
+      std::vector<double>             dV;
+      for (const auto &point : points)
+        {
+          xi.push_back(point.shape.point);
+          dV.push_back(point.dV);
+        }
+      PressureSpace<dim>(degree, xi, dV).project(values);
+    }
+
+    template <int dim>
+    std::vector<typename Element<dim>::PointState>
+    Element<dim>::point_states(const std::vector<CellPoint<dim>> &points,
+                               const Material                    &material,
+                               const Nodes                       &u) const
+    {
+      std::vector<PointState> states(points.size());
+      std::vector<double>     dilatation(points.size());
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          states[q].gradient = points[q].gradient(u);
+          dilatation[q]      = trace(states[q].gradient);
+        }
+      take_dilatation(points, dilatation);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          auto &state = states[q];
+          state.theta = dilatation[q] - trace(state.gradient);
+          state.stress =
+            cauchy_stress(material,
+                          strain(idealization, material, state.gradient) +
+                            state.theta / 3. *
+                              dealii::unit_symmetric_tensor<3>());
+        }
+      return states;
+    }
+
+    template <int dim>
     void
     Element<dim>::internal_force(const Nodes    &X,
                                  const Material &material,
@@ -43,14 +108,10 @@ namespace snug
                                  Nodes          &r) const
     {
       r.assign(n_nodes(), {});
-      for (const auto &shape : gauss)
-        {
-          const CellPoint<dim> point(shape, X);
-          const auto           force =
-            point.dV * cauchy_stress(material, point.gradient(u));
-          for (unsigned int a = 0; a < n_nodes(); ++a)
-            r[a] += force * point.gradients[a];
-        }
+      const auto points = gauss_points(X);
+      const auto states = point_states(points, material, u);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        points[q].add_flux(states[q].stress, r);
     }
 
     template <int dim>
@@ -60,12 +121,8 @@ namespace snug
                              Nodes                        &f) const
     {
       f.assign(n_nodes(), {});
-      for (const auto &shape : gauss)
-        {
-          const double dV = shape.weight * determinant(jacobian(shape, X));
-          for (unsigned int a = 0; a < n_nodes(); ++a)
-            f[a] += dV * shape.values[a] * b;
-        }
+      for (const auto &point : gauss_points(X))
+        point.add_source(b, f);
     }
 
     template <int dim>
@@ -74,23 +131,23 @@ namespace snug
     {
       double sum = 0.;
       for (const auto &shape : gauss)
-        sum += shape.weight * determinant(jacobian(shape, X));
+        sum += shape.weight * determinant(jacobian(shape, X)) *
+               idealization.weight(value(shape, X));
       return sum;
     }
 
     template <int dim>
-    dealii::SymmetricTensor<2, dim>
+    dealii::SymmetricTensor<2, 3>
     Element<dim>::stress(const Nodes              &X,
                          const Material           &material,
                          const Nodes              &u,
-                         const dealii::Point<dim> &point,
-                         double                   &out_of_plane) const
+                         const dealii::Point<dim> &point) const
     {
-      const auto           shape = lagrange_point<dim>(degree, point);
-      const CellPoint<dim> cell_point(shape, X);
-      const auto           gradient = cell_point.gradient(u);
-      out_of_plane = (dim == 2) ? material.lame_lambda() * trace(gradient) : 0.;
-      return cauchy_stress(material, gradient);
+      // one more point, without a weight, receives what the cell makes
+      const auto shape  = lagrange_point<dim>(degree, point);
+      auto       points = gauss_points(X);
+      points.emplace_back(shape, X, idealization);
+      return point_states(points, material, u).back().stress;
     }
 
     template <int dim>
@@ -106,6 +163,16 @@ namespace snug
             smallest         = std::min(smallest, det);
             mean += shape.weight * std::abs(det);
           }
+      if (idealization.is_axisymmetric())
+        {
+          const auto radii =
+            std::minmax_element(X.begin(), X.end(), [](auto &x, auto &y) {
+              return x[0] < y[0];
+            });
+          const double round_off = 1e-10;
+          if ((*radii.first)[0] < -round_off * (*radii.second)[0])
+            return 0.;
+        }
       return mean > 0. ? smallest / mean : 0.;
     }
 

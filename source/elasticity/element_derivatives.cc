@@ -1,4 +1,3 @@
-#include <snug/elasticity/cell_point.h>
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/stress.h>
 
@@ -8,6 +7,12 @@ namespace snug
 {
   namespace elasticity
   {
+    namespace
+    {
+      const dealii::SymmetricTensor<2, 3> identity =
+        dealii::unit_symmetric_tensor<3>();
+    }
+
     template <int dim>
     void
     Element<dim>::internal_force_derivative(const Nodes    &X,
@@ -17,18 +22,31 @@ namespace snug
                                             Nodes          &r) const
     {
       r.assign(n_nodes(), {});
-      for (const auto &shape : gauss)
+      const auto points = gauss_points(X);
+      const auto states = point_states(points, material, u);
+      // projection of the changing div u in the changing cell
+      std::vector<double> dilatation(points.size());
+      for (unsigned int q = 0; q < points.size(); ++q)
         {
-          const CellPoint<dim>         point(shape, X);
-          const auto                   grad_V = point.gradient(V);
-          const auto                   grad_u = point.gradient(u);
-          const dealii::Tensor<2, dim> stress = cauchy_stress(material, grad_u);
-          // derivative of (det J stress g_a) = det J (change g_a)
-          const dealii::Tensor<2, dim> change =
-            cauchy_stress<dim>(material, -1. * grad_u * grad_V) +
+          const auto grad_V = points[q].gradient(V);
+          dilatation[q]     = -trace(states[q].gradient * grad_V) -
+                          states[q].theta * trace(grad_V);
+        }
+      take_dilatation(points, dilatation);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const auto                &state  = states[q];
+          const auto                 grad_V = points[q].gradient(V);
+          const dealii::Tensor<2, 3> grad_u = -1. * state.gradient * grad_V;
+          const dealii::Tensor<2, 3> stress = state.stress;
+          const double               theta  = dilatation[q] - trace(grad_u);
+          // derivative of (dV stress g_a) = dV (change g_a)
+          const dealii::Tensor<2, 3> change =
+            cauchy_stress(material,
+                          strain(idealization, material, grad_u) +
+                            theta / 3. * identity) +
             trace(grad_V) * stress - stress * transpose(grad_V);
-          for (unsigned int a = 0; a < n_nodes(); ++a)
-            r[a] += point.dV * change * point.gradients[a];
+          points[q].add_flux(change, r);
         }
     }
 
@@ -41,23 +59,21 @@ namespace snug
                                       const double    factor,
                                       Nodes          &gradient) const
     {
-      AssertDimension(gradient.size(), n_nodes());
-      for (const auto &shape : gauss)
+      const auto points   = gauss_points(X);
+      const auto states_u = point_states(points, material, u);
+      const auto states_w = point_states(points, material, w);
+      for (unsigned int q = 0; q < points.size(); ++q)
         {
-          const CellPoint<dim>         point(shape, X);
-          const auto                   grad_u = point.gradient(u);
-          const auto                   grad_w = point.gradient(w);
-          const dealii::Tensor<2, dim> stress_u =
-            cauchy_stress(material, grad_u);
-          const dealii::Tensor<2, dim> stress_w =
-            cauchy_stress(material, grad_w);
-          const dealii::Tensor<2, dim> energy_momentum =
-            scalar_product(stress_u, grad_w) *
-              dealii::unit_symmetric_tensor<dim>() -
-            transpose(grad_w) * stress_u - transpose(grad_u) * stress_w;
-          for (unsigned int a = 0; a < n_nodes(); ++a)
-            gradient[a] +=
-              factor * point.dV * energy_momentum * point.gradients[a];
+          const auto                &of_u     = states_u[q];
+          const auto                &of_w     = states_w[q];
+          const dealii::Tensor<2, 3> stress_u = of_u.stress;
+          const dealii::Tensor<2, 3> stress_w = of_w.stress;
+          const double density = scalar_product(stress_u, of_w.gradient) -
+                                 of_u.theta * trace(stress_w) / 3.;
+          const dealii::Tensor<2, 3> energy_momentum =
+            density * identity - transpose(of_w.gradient) * stress_u -
+            transpose(of_u.gradient) * stress_w;
+          points[q].add_flux(factor * energy_momentum, gradient);
         }
     }
 
@@ -69,13 +85,8 @@ namespace snug
                                         Nodes                        &f) const
     {
       f.assign(n_nodes(), {});
-      for (const auto &shape : gauss)
-        {
-          const CellPoint<dim> point(shape, X);
-          const double         change = point.dV * trace(point.gradient(V));
-          for (unsigned int a = 0; a < n_nodes(); ++a)
-            f[a] += change * shape.values[a] * b;
-        }
+      for (const auto &point : gauss_points(X))
+        point.add_source(trace(point.gradient(V)) * b, f);
     }
 
     template <int dim>
@@ -86,14 +97,9 @@ namespace snug
                                           const double                  factor,
                                           Nodes &gradient) const
     {
-      AssertDimension(gradient.size(), n_nodes());
-      for (const auto &shape : gauss)
-        {
-          const CellPoint<dim> point(shape, X);
-          const double         work = factor * point.dV * (point.value(u) * b);
-          for (unsigned int a = 0; a < n_nodes(); ++a)
-            gradient[a] += work * point.gradients[a];
-        }
+      for (const auto &point : gauss_points(X))
+        point.add_flux(factor * (value(point.shape, u) * b) * identity,
+                       gradient);
     }
 
     template <int dim>
@@ -102,66 +108,36 @@ namespace snug
                                       const double factor,
                                       Nodes       &gradient) const
     {
-      AssertDimension(gradient.size(), n_nodes());
-      for (const auto &shape : gauss)
-        {
-          const CellPoint<dim> point(shape, X);
-          for (unsigned int a = 0; a < n_nodes(); ++a)
-            gradient[a] += factor * point.dV * point.gradients[a];
-        }
+      for (const auto &point : gauss_points(X))
+        point.add_flux(factor * identity, gradient);
     }
 
-    template void
-    Element<2>::internal_force_derivative(const Nodes &,
-                                          const Nodes &,
-                                          const Material &,
-                                          const Nodes &,
-                                          Nodes &) const;
-    template void
-    Element<2>::add_energy_gradient(const Nodes &,
-                                    const Material &,
-                                    const Nodes &,
-                                    const Nodes &,
-                                    double,
-                                    Nodes &) const;
-    template void
-    Element<2>::body_force_derivative(const Nodes &,
-                                      const Nodes &,
-                                      const dealii::Tensor<1, 2> &,
-                                      Nodes &) const;
-    template void
-    Element<2>::add_body_force_gradient(const Nodes &,
-                                        const dealii::Tensor<1, 2> &,
-                                        const Nodes &,
-                                        double,
-                                        Nodes &) const;
-    template void
-    Element<2>::add_volume_gradient(const Nodes &, double, Nodes &) const;
-    template void
-    Element<3>::internal_force_derivative(const Nodes &,
-                                          const Nodes &,
-                                          const Material &,
-                                          const Nodes &,
-                                          Nodes &) const;
-    template void
-    Element<3>::add_energy_gradient(const Nodes &,
-                                    const Material &,
-                                    const Nodes &,
-                                    const Nodes &,
-                                    double,
-                                    Nodes &) const;
-    template void
-    Element<3>::body_force_derivative(const Nodes &,
-                                      const Nodes &,
-                                      const dealii::Tensor<1, 3> &,
-                                      Nodes &) const;
-    template void
-    Element<3>::add_body_force_gradient(const Nodes &,
-                                        const dealii::Tensor<1, 3> &,
-                                        const Nodes &,
-                                        double,
-                                        Nodes &) const;
-    template void
-    Element<3>::add_volume_gradient(const Nodes &, double, Nodes &) const;
+#define SNUG_INSTANTIATE(dim)                                              \
+  template void Element<dim>::internal_force_derivative(const Nodes &,     \
+                                                        const Nodes &,     \
+                                                        const Material &,  \
+                                                        const Nodes &,     \
+                                                        Nodes &) const;    \
+  template void Element<dim>::add_energy_gradient(const Nodes &,           \
+                                                  const Material &,        \
+                                                  const Nodes &,           \
+                                                  const Nodes &,           \
+                                                  double,                  \
+                                                  Nodes &) const;          \
+  template void Element<dim>::body_force_derivative(                       \
+    const Nodes &, const Nodes &, const dealii::Tensor<1, dim> &, Nodes &) \
+    const;                                                                 \
+  template void Element<dim>::add_body_force_gradient(                     \
+    const Nodes &,                                                         \
+    const dealii::Tensor<1, dim> &,                                        \
+    const Nodes &,                                                         \
+    double,                                                                \
+    Nodes &) const;                                                        \
+  template void Element<dim>::add_volume_gradient(const Nodes &,           \
+                                                  double,                  \
+                                                  Nodes &) const;
+    SNUG_INSTANTIATE(2)
+    SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
   } // namespace elasticity
 } // namespace snug

@@ -52,6 +52,7 @@ namespace snug
     {
       const unsigned int n = dealii::Utilities::pow(degree + 1, dim);
       LagrangePoint<dim> result;
+      result.point = point;
       result.values.assign(n, 1.);
       result.gradients.resize(n);
       for (unsigned int a = 0; a < n; ++a)

@@ -6,37 +6,42 @@ namespace snug
 {
   namespace elasticity
   {
-    template <int dim>
-    dealii::SymmetricTensor<2, dim>
-    cauchy_stress(const Material               &material,
-                  const dealii::Tensor<2, dim> &displacement_gradient)
+    dealii::SymmetricTensor<2, 3>
+    strain(const mesh::Idealization   &idealization,
+           const Material             &material,
+           const dealii::Tensor<2, 3> &displacement_gradient)
     {
-      return material.lame_lambda() * trace(displacement_gradient) *
-               dealii::unit_symmetric_tensor<dim>() +
-             2. * material.lame_mu() * symmetrize(displacement_gradient);
+      dealii::SymmetricTensor<2, 3> result = symmetrize(displacement_gradient);
+      if (idealization.kind == mesh::Idealization::Kind::plane_stress)
+        result[2][2] = -material.poissons_ratio /
+                       (1. - material.poissons_ratio) *
+                       (result[0][0] + result[1][1]);
+      return result;
     }
 
-    template <int dim>
+    dealii::SymmetricTensor<2, 3>
+    cauchy_stress(const Material                      &material,
+                  const dealii::SymmetricTensor<2, 3> &strain)
+    {
+      return material.lame_lambda() * trace(strain) *
+               dealii::unit_symmetric_tensor<3>() +
+             2. * material.lame_mu() * strain;
+    }
+
     double
-    von_mises(const dealii::SymmetricTensor<2, dim> &stress,
-              const double                           out_of_plane)
+    von_mises(const dealii::SymmetricTensor<2, 3> &stress)
     {
-      dealii::SymmetricTensor<2, 3> full;
-      if (dim == 2)
-        full[2][2] = out_of_plane;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i; j < dim; ++j)
-          full[i][j] = stress[i][j];
-      return std::sqrt(1.5) * deviator(full).norm();
+      return std::sqrt(1.5) * deviator(stress).norm();
     }
 
-    template dealii::SymmetricTensor<2, 2>
-    cauchy_stress(const Material &, const dealii::Tensor<2, 2> &);
-    template dealii::SymmetricTensor<2, 3>
-    cauchy_stress(const Material &, const dealii::Tensor<2, 3> &);
-    template double
-    von_mises(const dealii::SymmetricTensor<2, 2> &, double);
-    template double
-    von_mises(const dealii::SymmetricTensor<2, 3> &, double);
+    double
+    lame_lambda(const mesh::Idealization &idealization,
+                const Material           &material)
+    {
+      const double nu = material.poissons_ratio;
+      return idealization.kind == mesh::Idealization::Kind::plane_stress
+               ? material.youngs_modulus * nu / (1. - nu * nu)
+               : material.lame_lambda();
+    }
   } // namespace elasticity
 } // namespace snug

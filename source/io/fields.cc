@@ -16,24 +16,19 @@ namespace snug
       /// The components of all quantities of FieldOutput at one node.
       template <int dim>
       std::vector<double>
-      field_values(const state::ContactState<dim> &state,
-                   const NodalStress<dim>         &stresses,
-                   const dealii::Tensor<1, dim>   &design_displacement,
-                   unsigned int                    node,
-                   const std::vector<double>      &cell_values)
+      field_values(const state::ContactState<dim>      &state,
+                   const dealii::SymmetricTensor<2, 3> &stress,
+                   const dealii::Tensor<1, dim>        &design_displacement,
+                   unsigned int                         node,
+                   const std::vector<double>           &cell_values)
       {
-        const auto         &stress       = stresses.stress[node];
-        const double        out_of_plane = stresses.out_of_plane[node];
         std::vector<double> values;
         for (unsigned int c = 0; c < dim; ++c)
           values.push_back(state.displacement[node][c]);
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
-            if (i < dim && j < dim)
-              values.push_back(stress[i][j]);
-            else
-              values.push_back(i == j ? out_of_plane : 0.);
-        values.push_back(elasticity::von_mises(stress, out_of_plane));
+            values.push_back(stress[i][j]);
+        values.push_back(elasticity::von_mises(stress));
         values.insert(values.end(), cell_values.begin(), cell_values.end());
         for (unsigned int c = 0; c < dim; ++c)
           values.push_back(design_displacement[c]);
@@ -43,13 +38,13 @@ namespace snug
 
     template <int dim>
     FieldOutput<dim>::FieldOutput(
-      const mesh::BodyMesh<dim>               &mesh,
-      const mesh::Tearing                     &tearing,
-      const std::vector<elasticity::Material> &materials,
-      const std::string                       &directory)
+      const mesh::BodyMesh<dim>                &mesh,
+      const mesh::Tearing                      &tearing,
+      const std::vector<state::BodyModel<dim>> &bodies,
+      const std::string                        &directory)
       : mesh(mesh)
       , subdomain_of_cell(mesh.cells().size())
-      , materials(materials)
+      , bodies(bodies)
       , directory(directory)
     {
       for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
@@ -61,8 +56,8 @@ namespace snug
     void
     FieldOutput<dim>::write(double time, const state::ContactState<dim> &state)
     {
-      const auto stresses =
-        nodal_stress(mesh, materials, state.positions, state.displacement);
+      const auto stress =
+        nodal_stress(mesh, bodies, state.positions, state.displacement);
       PatchList<dim, dim> patches({{"displacement", dim},
                                    {"stress", 9},
                                    {"von_mises", 1},
@@ -79,7 +74,7 @@ namespace snug
               points.push_back(state.positions[node]);
               values.push_back(field_values(
                 state,
-                stresses,
+                stress[node],
                 state.positions[node] - mesh.reference_positions()[node],
                 node,
                 {double(cell.body), double(subdomain_of_cell[k])}));

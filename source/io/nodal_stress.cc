@@ -70,44 +70,49 @@ namespace snug
         return sampling;
       }
 
-      /// Per local node: weighted sums of the components of stress and of the
-      /// out-of-plane stress, and the sum of weights, over this rank's cells.
+      constexpr unsigned int n_stress =
+        dealii::SymmetricTensor<2, 3>::n_independent_components;
+
+      /// Per local node: weighted sums of the components of stress and the sum
+      /// of weights, over this rank's cells.
       template <int dim>
       std::vector<double>
       stress_sums(const mesh::BodyMesh<dim>                 &mesh,
-                  const std::vector<elasticity::Material>   &materials,
+                  const std::vector<state::BodyModel<dim>>  &bodies,
                   const typename mesh::BodyMesh<dim>::Field &positions,
                   const typename mesh::BodyMesh<dim>::Field &displacement)
       {
-        constexpr unsigned int n_stress =
-          dealii::SymmetricTensor<2, dim>::n_independent_components;
-        const elasticity::Element<dim> element(mesh.degree());
+        std::vector<elasticity::Element<dim>> elements;
+        for (const auto &body : bodies)
+          elements.emplace_back(mesh.degree(),
+                                mesh.idealization(),
+                                body.formulation);
+        const elasticity::Element<dim> flat(mesh.degree());
         const auto          sampling = stress_sampling<dim>(mesh.degree());
-        std::vector<double> sums(std::size_t(n_stress + 2) *
+        std::vector<double> sums(std::size_t(n_stress + 1) *
                                  mesh.n_local_nodes());
         for (const auto &cell : mesh.cells())
           {
+            const auto &element = elements[cell.body];
             typename elasticity::Element<dim>::Nodes X, u;
             for (const unsigned int node : cell.nodes)
               {
                 X.push_back(positions[node]);
                 u.push_back(displacement[node]);
               }
-            const double weight = 1. / element.volume(X);
+            const double weight = 1. / flat.volume(X); // of the section
             for (unsigned int q = 0; q < sampling.points.size(); ++q)
               {
-                double     out_of_plane = 0.;
-                const auto stress       = element.stress(
-                  X, materials[cell.body], u, sampling.points[q], out_of_plane);
+                const auto stress = element.stress(
+                  X, bodies[cell.body].material(cell), u, sampling.points[q]);
                 for (unsigned int a = 0; a < X.size(); ++a)
                   {
                     const double factor = weight * sampling.weights[a][q];
                     double      *sum =
-                      &sums[std::size_t(n_stress + 2) * cell.nodes[a]];
+                      &sums[std::size_t(n_stress + 1) * cell.nodes[a]];
                     for (unsigned int c = 0; c < n_stress; ++c)
                       sum[c] += factor * stress.access_raw_entry(c);
-                    sum[n_stress] += factor * out_of_plane;
-                    sum[n_stress + 1] += factor;
+                    sum[n_stress] += factor;
                   }
               }
           }
@@ -116,54 +121,43 @@ namespace snug
     } // namespace
 
     template <int dim>
-    NodalStress<dim>
+    std::vector<dealii::SymmetricTensor<2, 3>>
     nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
-                 const std::vector<elasticity::Material>   &materials,
+                 const std::vector<state::BodyModel<dim>>  &bodies,
                  const typename mesh::BodyMesh<dim>::Field &positions,
                  const typename mesh::BodyMesh<dim>::Field &displacement)
     {
-      constexpr unsigned int n_stress =
-        dealii::SymmetricTensor<2, dim>::n_independent_components;
-      AssertDimension(materials.size(), mesh.n_bodies());
-      auto sums = stress_sums(mesh, materials, positions, displacement);
-      sum_at_shared_nodes(mesh, n_stress + 2, sums);
+      AssertDimension(bodies.size(), mesh.n_bodies());
+      auto sums = stress_sums(mesh, bodies, positions, displacement);
+      sum_at_shared_nodes(mesh, n_stress + 1, sums);
 
-      NodalStress<dim> result;
-      result.stress.resize(mesh.n_local_nodes());
-      result.out_of_plane.resize(mesh.n_local_nodes());
+      std::vector<dealii::SymmetricTensor<2, 3>> stress(mesh.n_local_nodes());
       for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
         {
-          const double *sum    = &sums[std::size_t(n_stress + 2) * node];
-          const double  weight = sum[n_stress + 1];
+          const double *sum    = &sums[std::size_t(n_stress + 1) * node];
+          const double  weight = sum[n_stress];
           Assert(weight > 0., dealii::ExcInternalError());
           for (unsigned int c = 0; c < n_stress; ++c)
-            result.stress[node].access_raw_entry(c) = sum[c] / weight;
-          result.out_of_plane[node] = sum[n_stress] / weight;
+            stress[node].access_raw_entry(c) = sum[c] / weight;
         }
       for (const auto &hanging : mesh.hanging())
         {
-          dealii::SymmetricTensor<2, dim> stress;
-          double                          out_of_plane = 0.;
+          dealii::SymmetricTensor<2, 3> sum;
           for (const auto &master : hanging.masters)
-            {
-              stress += master.second * result.stress[master.first];
-              out_of_plane += master.second * result.out_of_plane[master.first];
-            }
-          result.stress[hanging.node]       = stress;
-          result.out_of_plane[hanging.node] = out_of_plane;
+            sum += master.second * stress[master.first];
+          stress[hanging.node] = sum;
         }
-      return result;
+      return stress;
     }
 
-    template NodalStress<2>
-    nodal_stress(const mesh::BodyMesh<2> &,
-                 const std::vector<elasticity::Material> &,
-                 const mesh::BodyMesh<2>::Field &,
-                 const mesh::BodyMesh<2>::Field &);
-    template NodalStress<3>
-    nodal_stress(const mesh::BodyMesh<3> &,
-                 const std::vector<elasticity::Material> &,
-                 const mesh::BodyMesh<3>::Field &,
-                 const mesh::BodyMesh<3>::Field &);
+#define SNUG_INSTANTIATE(dim)                                       \
+  template std::vector<dealii::SymmetricTensor<2, 3>> nodal_stress( \
+    const mesh::BodyMesh<dim> &,                                    \
+    const std::vector<state::BodyModel<dim>> &,                     \
+    const mesh::BodyMesh<dim>::Field &,                             \
+    const mesh::BodyMesh<dim>::Field &);
+    SNUG_INSTANTIATE(2)
+    SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
   } // namespace io
 } // namespace snug

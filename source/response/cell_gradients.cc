@@ -7,13 +7,58 @@ namespace snug
     namespace
     {
       template <int dim>
+      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+      template <int dim>
       void
-      add_to_nodes(const std::vector<unsigned int>           &nodes,
-                   const std::vector<dealii::Tensor<1, dim>> &values,
-                   typename mesh::BodyMesh<dim>::Field       &gradient)
+      add_to_nodes(const std::vector<unsigned int>     &nodes,
+                   const Nodes<dim>                    &values,
+                   typename mesh::BodyMesh<dim>::Field &gradient)
       {
         for (unsigned int a = 0; a < nodes.size(); ++a)
           gradient[nodes[a]] += values[a];
+      }
+
+      /// Add what add(s, i, values) adds to the values at the nodes of every
+      /// cell i of every subdomain s of this rank.
+      template <int dim, typename Add>
+      void
+      add_cells(const state::StateSolver<dim>       &solver,
+                const Add                           &add,
+                typename mesh::BodyMesh<dim>::Field &gradient)
+      {
+        for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
+          {
+            const auto &cells = solver.assemblers()[s]->cells();
+            for (unsigned int i = 0; i < cells.size(); ++i)
+              {
+                const auto &nodes = solver.mesh().cells()[cells[i]].nodes;
+                Nodes<dim>  values(nodes.size());
+                add(s, i, values);
+                add_to_nodes<dim>(nodes, values, gradient);
+              }
+          }
+      }
+
+      /// The same for loaded faces.
+      template <int dim, typename Add>
+      void
+      add_loaded_faces(const state::StateSolver<dim>       &solver,
+                       const Add                           &add,
+                       typename mesh::BodyMesh<dim>::Field &gradient)
+      {
+        for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
+          {
+            const auto &faces = solver.assemblers()[s]->loaded_faces();
+            for (unsigned int i = 0; i < faces.size(); ++i)
+              {
+                const auto &nodes =
+                  solver.mesh().boundary_faces()[faces[i]].nodes;
+                Nodes<dim> values(nodes.size());
+                add(s, i, values);
+                add_to_nodes<dim>(nodes, values, gradient);
+              }
+          }
       }
     } // namespace
 
@@ -24,26 +69,18 @@ namespace snug
                            double                               factor,
                            typename mesh::BodyMesh<dim>::Field &gradient)
     {
-      for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
-        {
-          const auto &assembler = *solver.assemblers()[s];
-          for (unsigned int i = 0; i < assembler.cells().size(); ++i)
-            {
-              const auto u = assembler.cell_values(i, state.u[s].column(0));
-              std::vector<dealii::Tensor<1, dim>> values(u.size());
-              solver.element().add_energy_gradient(
-                assembler.cell_field(i, state.positions),
-                assembler.body_model().material,
-                u,
-                u,
-                factor,
-                values);
-              add_to_nodes<dim>(
-                solver.mesh().cells()[assembler.cells()[i]].nodes,
-                values,
-                gradient);
-            }
-        }
+      const auto add = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
+        const auto &assembler = *solver.assemblers()[s];
+        const auto  u         = assembler.cell_values(i, state.u[s].column(0));
+        assembler.element().add_energy_gradient(
+          assembler.cell_field(i, state.positions),
+          assembler.material(i),
+          u,
+          u,
+          factor,
+          values);
+      };
+      add_cells(solver, add, gradient);
     }
 
     template <int dim>
@@ -53,45 +90,45 @@ namespace snug
                       double                               factor,
                       typename mesh::BodyMesh<dim>::Field &gradient)
     {
-      for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
-        {
+      const auto add = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
+        const auto &assembler = *solver.assemblers()[s];
+        const auto &b         = assembler.body_model().body_force;
+        if (b.norm() > 0.)
+          assembler.element().add_body_force_gradient(
+            assembler.cell_field(i, state.positions),
+            b,
+            assembler.cell_values(i, state.u[s].column(0)),
+            factor,
+            values);
+      };
+      add_cells(solver, add, gradient);
+
+      const auto add_face =
+        [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
           const auto &assembler = *solver.assemblers()[s];
-          const auto &b         = assembler.body_model().body_force;
-          if (b.norm() > 0.)
-            for (unsigned int i = 0; i < assembler.cells().size(); ++i)
-              {
-                const auto u = assembler.cell_values(i, state.u[s].column(0));
-                std::vector<dealii::Tensor<1, dim>> values(u.size());
-                solver.element().add_body_force_gradient(
-                  assembler.cell_field(i, state.positions),
-                  b,
-                  u,
-                  factor,
-                  values);
-                add_to_nodes<dim>(
-                  solver.mesh().cells()[assembler.cells()[i]].nodes,
-                  values,
-                  gradient);
-              }
-          for (unsigned int i = 0; i < assembler.loaded_faces().size(); ++i)
-            {
-              const auto u = assembler.face_values(i, state.u[s].column(0));
-              std::vector<dealii::Tensor<1, dim>> values(u.size());
-              const auto &load = assembler.face_model(i);
-              solver.face_load().add_force_gradient(
-                assembler.face_field(i, state.positions),
-                load.pressure,
-                load.traction,
-                u,
-                factor,
-                values);
-              add_to_nodes<dim>(solver.mesh()
-                                  .boundary_faces()[assembler.loaded_faces()[i]]
-                                  .nodes,
-                                values,
-                                gradient);
-            }
-        }
+          solver.face_load().add_force_gradient(
+            assembler.face_field(i, state.positions),
+            assembler.face_model(i).pressure,
+            assembler.face_model(i).traction,
+            assembler.face_values(i, state.u[s].column(0)),
+            factor,
+            values);
+        };
+      add_loaded_faces(solver, add_face, gradient);
+    }
+
+    template <int dim>
+    void
+    add_volume_gradient(const state::StateSolver<dim>       &solver,
+                        const state::ContactState<dim>      &state,
+                        typename mesh::BodyMesh<dim>::Field &gradient)
+    {
+      const auto add = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
+        const auto &assembler = *solver.assemblers()[s];
+        assembler.element().add_volume_gradient(
+          assembler.cell_field(i, state.positions), 1., values);
+      };
+      add_cells(solver, add, gradient);
     }
 
     template <int dim>
@@ -120,6 +157,9 @@ namespace snug
                                   const state::ContactState<dim> &,      \
                                   double,                                \
                                   mesh::BodyMesh<dim>::Field &);         \
+  template void add_volume_gradient(const state::StateSolver<dim> &,     \
+                                    const state::ContactState<dim> &,    \
+                                    mesh::BodyMesh<dim>::Field &);       \
   template void add_contact_gradient(const state::StateSolver<dim> &,    \
                                      const state::ContactState<dim> &,   \
                                      mesh::BodyMesh<dim>::Field &);

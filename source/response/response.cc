@@ -41,138 +41,80 @@ namespace snug
           typename mesh::BodyMesh<dim>::Field(solver.mesh().n_local_nodes());
       }
 
-      /// K u per subdomain.
-      template <int dim>
-      feti::PrimalVectors
-      stiffness_times_u(const state::StateSolver<dim>  &solver,
-                        const state::ContactState<dim> &state)
-      {
-        feti::PrimalVectors Ku;
-        for (unsigned int s = 0; s < state.u.size(); ++s)
-          {
-            Ku.emplace_back(state.u[s].n_rows());
-            solver.feti().subdomains()[s].K.multiply_add(1.,
-                                                         state.u[s],
-                                                         Ku.back());
-          }
-        return Ku;
-      }
-
       /**
-       * J = 1/2 u'Ku - f'u. Its total derivative needs no solve, because u
-       * minimises J on the contact constraints:
+       * J = s 1/2 u'Ku + l f'u. For the potential energy, s = 1 and l = -1,
+       * the total derivative needs no solve, because u minimises J on the
+       * contact constraints:
        * J' = 1/2 u'K'u - f''u + lambda'(B'u - g').
        */
       template <int dim>
-      class PotentialEnergy : public Response<dim>
+      class Work : public Response<dim>
       {
       public:
         using Field = typename Response<dim>::Field;
+        using State = state::ContactState<dim>;
+
+        /// @p value: where a state holds J.
+        Work(double State::*value, double stiffness, double load)
+          : member(value), stiffness(stiffness), load(load)
+        {
+        }
 
         double
         value(const state::StateSolver<dim> &,
-              const state::ContactState<dim> &state) const override
+              const State &state) const override
         {
-          return state.energy;
+          return state.*member;
         }
 
         Field
-        position_gradient(const state::StateSolver<dim>  &solver,
-                          const state::ContactState<dim> &state) const override
+        position_gradient(const state::StateSolver<dim> &solver,
+                          const State                   &state) const override
         {
           Field gradient = zero_field(solver);
-          add_stiffness_gradient(solver, state, 0.5, gradient);
-          add_load_gradient(solver, state, -1., gradient);
+          if (stiffness != 0.)
+            add_stiffness_gradient(solver, state, stiffness / 2., gradient);
+          if (load != 0.)
+            add_load_gradient(solver, state, load, gradient);
           return gradient;
         }
 
         feti::PrimalVectors
-        state_gradient(const state::StateSolver<dim>  &solver,
-                       const state::ContactState<dim> &state) const override
+        state_gradient(const state::StateSolver<dim> &solver,
+                       const State                   &state) const override
         {
-          auto       gradient = stiffness_times_u(solver, state);
-          const auto f        = solver.feti().loads();
-          for (unsigned int s = 0; s < f.size(); ++s)
-            gradient[s].add(-1., f[s]);
+          feti::PrimalVectors gradient;
+          const auto          f = solver.feti().loads();
+          for (unsigned int s = 0; s < state.u.size(); ++s)
+            {
+              gradient.emplace_back(state.u[s].n_rows());
+              gradient.back().add(load, f[s]);
+              if (stiffness != 0.)
+                solver.feti().subdomains()[s].K.multiply_add(stiffness,
+                                                             state.u[s],
+                                                             gradient.back());
+            }
           return gradient;
         }
 
         bool
         has_total_gradient() const override
         {
-          return true;
+          return stiffness == 1. && load == -1.;
         }
 
         Field
-        total_gradient(const state::StateSolver<dim>  &solver,
-                       const state::ContactState<dim> &state) const override
+        total_gradient(const state::StateSolver<dim> &solver,
+                       const State                   &state) const override
         {
           Field gradient = position_gradient(solver, state);
           add_contact_gradient(solver, state, gradient);
           return gradient;
         }
-      };
 
-      /// C = f'u.
-      template <int dim>
-      class Compliance : public Response<dim>
-      {
-      public:
-        using Field = typename Response<dim>::Field;
-
-        double
-        value(const state::StateSolver<dim> &,
-              const state::ContactState<dim> &state) const override
-        {
-          return state.compliance;
-        }
-
-        Field
-        position_gradient(const state::StateSolver<dim>  &solver,
-                          const state::ContactState<dim> &state) const override
-        {
-          Field gradient = zero_field(solver);
-          add_load_gradient(solver, state, 1., gradient);
-          return gradient;
-        }
-
-        feti::PrimalVectors
-        state_gradient(const state::StateSolver<dim> &solver,
-                       const state::ContactState<dim> &) const override
-        {
-          return solver.feti().loads();
-        }
-      };
-
-      /// E = 1/2 u'Ku.
-      template <int dim>
-      class StrainEnergy : public Response<dim>
-      {
-      public:
-        using Field = typename Response<dim>::Field;
-
-        double
-        value(const state::StateSolver<dim> &,
-              const state::ContactState<dim> &state) const override
-        {
-          return state.strain_energy;
-        }
-
-        Field
-        position_gradient(const state::StateSolver<dim>  &solver,
-                          const state::ContactState<dim> &state) const override
-        {
-          Field gradient = zero_field(solver);
-          add_stiffness_gradient(solver, state, 0.5, gradient);
-          return gradient;
-        }
-
-        feti::PrimalVectors
-        state_gradient(const state::StateSolver<dim>  &solver,
-                       const state::ContactState<dim> &state) const override
-        {
-          return stiffness_times_u(solver, state);
-        }
+      private:
+        double State::*member;
+        double         stiffness, load; ///< s and l
       };
 
       /// Volume of all bodies; does not depend on u.
@@ -203,15 +145,7 @@ namespace snug
                           const state::ContactState<dim> &state) const override
         {
           Field gradient = zero_field(solver);
-          for (const auto &cell : solver.mesh().cells())
-            {
-              std::vector<dealii::Tensor<1, dim>> X, values(cell.nodes.size());
-              for (const unsigned int node : cell.nodes)
-                X.push_back(state.positions[node]);
-              solver.element().add_volume_gradient(X, 1., values);
-              for (unsigned int a = 0; a < cell.nodes.size(); ++a)
-                gradient[cell.nodes[a]] += values[a];
-            }
+          add_volume_gradient(solver, state, gradient);
           return gradient;
         }
 
@@ -244,19 +178,24 @@ namespace snug
     const ChoiceTable<std::unique_ptr<Response<dim>>()> &
     response_table()
     {
+      using State = state::ContactState<dim>;
       static const ChoiceTable<std::unique_ptr<Response<dim>>()> table = {
         {"potential energy",
          "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
          "spreads the contact pressure evenly",
-         []() { return std::make_unique<PotentialEnergy<dim>>(); }},
+         []() { return std::make_unique<Work<dim>>(&State::energy, 1., -1.); }},
         {"compliance",
          "f'u, the work of the loads [force length]; with a body held by "
          "contact alone it rewards lifting that body",
-         []() { return std::make_unique<Compliance<dim>>(); }},
+         []() {
+           return std::make_unique<Work<dim>>(&State::compliance, 0., 1.);
+         }},
         {"strain energy",
          "1/2 u'Ku [force length]",
-         []() { return std::make_unique<StrainEnergy<dim>>(); }},
-        {"volume", "volume of all bodies [length^dim]", []() {
+         []() {
+           return std::make_unique<Work<dim>>(&State::strain_energy, 1., 0.);
+         }},
+        {"volume", "volume of all bodies [length^3]", []() {
            return std::make_unique<Volume<dim>>();
          }}};
       return table;

@@ -63,15 +63,15 @@ namespace snug
                                           double      *ft) const
       {
         const auto &assembler = *solver.assemblers()[s];
-        const auto &element   = solver.element();
-        const auto &material  = assembler.body_model().material;
+        const auto &element   = assembler.element();
         const auto &b         = assembler.body_model().body_force;
         for (unsigned int i = 0; i < assembler.cells().size(); ++i)
           {
             const Nodes V = assembler.cell_field(i, velocity);
             if (largest(V) == 0.)
               continue;
-            const Nodes X = assembler.cell_field(i, state.positions);
+            const auto &material = assembler.material(i);
+            const Nodes X        = assembler.cell_field(i, state.positions);
             const Nodes u = assembler.cell_values(i, state.u[s].column(0));
             const Nodes r = derivative(
               [&](const Nodes &x, Nodes &f) {

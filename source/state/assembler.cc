@@ -18,7 +18,7 @@ namespace snug
       : mesh(mesh)
       , subdomain(subdomain)
       , model(model)
-      , element(element)
+      , the_element(element)
       , face_load(face_load)
     {
       for (const unsigned int cell : subdomain.cells)
@@ -99,9 +99,9 @@ namespace snug
       for (unsigned int i = 0; i < cell_reach.size(); ++i)
         {
           const NodeReach<dim> &cell = cell_reach[i];
-          element.stiffness(cell_field(i, positions),
-                            model.material,
-                            cell_matrix);
+          the_element.stiffness(cell_field(i, positions),
+                                material(i),
+                                cell_matrix);
           const unsigned int m = cell.slots().size();
           cell.condense(cell_matrix);
           for (unsigned int a = 0; a < m; ++a)
@@ -128,7 +128,9 @@ namespace snug
       if (model.body_force.norm() > 0.)
         for (unsigned int i = 0; i < cell_reach.size(); ++i)
           {
-            element.body_force(cell_field(i, positions), model.body_force, r);
+            the_element.body_force(cell_field(i, positions),
+                                   model.body_force,
+                                   r);
             add_cell_vector(i, 1., r, f.data());
           }
       for (unsigned int i = 0; i < faces.size(); ++i)
@@ -160,18 +162,20 @@ namespace snug
       double radius = 0.;
       for (const auto &point : x)
         radius = std::max(radius, (point - mean).norm());
-      R = rigid_motions<dim>(x, mean, radius);
+      R = rigid_motions<dim>(mesh.idealization(), x, mean, radius);
       orthonormalise(R);
-      const auto whole = rigid_motions<dim>(x, centre, length);
-      Z                = qp::inner_products(R, whole, MPI_COMM_SELF);
+      const auto whole =
+        rigid_motions<dim>(mesh.idealization(), x, centre, length);
+      Z = qp::inner_products(R, whole, MPI_COMM_SELF);
     }
 
     template <int dim>
     std::vector<unsigned int>
     Assembler<dim>::fixing_dofs(const Field &positions) const
     {
-      const unsigned int     n_fixing = dim == 2 ? 4 : 6;
-      const unsigned int     n        = subdomain.nodes.size();
+      const unsigned int n_fixing = dim == 2 ? 4 : 6;
+      const unsigned int first = mesh.idealization().is_axisymmetric() ? 1 : 0;
+      const unsigned int n     = subdomain.nodes.size();
       dealii::Tensor<1, dim> mean;
       for (const unsigned int node : subdomain.nodes)
         mean += positions[node] / double(n);
@@ -184,7 +188,7 @@ namespace snug
           const unsigned int farthest =
             std::max_element(distance.begin(), distance.end()) -
             distance.begin();
-          for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int c = first; c < dim; ++c)
             dofs.push_back(dim * farthest + c);
           for (unsigned int a = 0; a < n; ++a)
             {
@@ -278,6 +282,20 @@ namespace snug
     Assembler<dim>::body_model() const
     {
       return model;
+    }
+
+    template <int dim>
+    const elasticity::Material &
+    Assembler<dim>::material(unsigned int i) const
+    {
+      return model.material(mesh.cells()[subdomain.cells[i]]);
+    }
+
+    template <int dim>
+    const elasticity::Element<dim> &
+    Assembler<dim>::element() const
+    {
+      return the_element;
     }
 
     template class Assembler<2>;

@@ -8,11 +8,19 @@ namespace snug
   {
     template <int dim>
     qp::MultiVector
-    rigid_motions(const std::vector<dealii::Tensor<1, dim>> &positions,
+    rigid_motions(const mesh::Idealization                  &idealization,
+                  const std::vector<dealii::Tensor<1, dim>> &positions,
                   const dealii::Tensor<1, dim>              &centre,
                   double                                     length)
     {
-      qp::MultiVector modes(dim * positions.size(), dim == 2 ? 3 : 6);
+      qp::MultiVector modes(dim * positions.size(),
+                            idealization.n_rigid_motions());
+      if (idealization.is_axisymmetric())
+        {
+          for (unsigned int a = 0; a < positions.size(); ++a)
+            modes(dim * a + 1, 0) = 1.;
+          return modes;
+        }
       for (unsigned int a = 0; a < positions.size(); ++a)
         {
           const dealii::Tensor<1, dim> x = (positions[a] - centre) / length;
@@ -56,11 +64,13 @@ namespace snug
     }
 
     template qp::MultiVector
-    rigid_motions(const std::vector<dealii::Tensor<1, 2>> &,
+    rigid_motions(const mesh::Idealization &,
+                  const std::vector<dealii::Tensor<1, 2>> &,
                   const dealii::Tensor<1, 2> &,
                   double);
     template qp::MultiVector
-    rigid_motions(const std::vector<dealii::Tensor<1, 3>> &,
+    rigid_motions(const mesh::Idealization &,
+                  const std::vector<dealii::Tensor<1, 3>> &,
                   const dealii::Tensor<1, 3> &,
                   double);
   } // namespace state

@@ -85,17 +85,20 @@ namespace snug
         , tearing(tearing)
         , model(model)
         , context(context)
-        , element(mesh.degree())
         , face_load(mesh.degree(), mesh.idealization())
         , surface(mesh, contact_boundaries(model.pairs))
       {
+        for (const auto &body : model.bodies)
+          elements.emplace_back(mesh.degree(),
+                                mesh.idealization(),
+                                body.formulation);
       }
 
       const mesh::BodyMesh<dim>                   &mesh;
       const mesh::Tearing                         &tearing;
       Model<dim>                                   model;
       RunContext                                  &context;
-      elasticity::Element<dim>                     element;
+      std::vector<elasticity::Element<dim>>        elements; ///< per body
       elasticity::FaceLoad<dim>                    face_load;
       mesh::Surface<dim>                           surface;
       std::unique_ptr<contact::Contact<dim>>       contact;
@@ -132,7 +135,7 @@ namespace snug
     StateSolver<dim>::Data::subdomain_table() const
     {
       feti::SubdomainTable table;
-      table.n_modes    = dim == 2 ? 3 : 6;
+      table.n_modes    = mesh.idealization().n_rigid_motions();
       table.first      = tearing.first_id;
       table.body_names = model.body_names;
       table.body.assign(tearing.n_global, 0);
@@ -165,8 +168,12 @@ namespace snug
       for (unsigned int s = 0; s < systems.size(); ++s)
         {
           const auto &subdomain = tearing.subdomains[s];
-          assemblers.push_back(std::make_unique<Assembler<dim>>(
-            mesh, subdomain, model.bodies[subdomain.body], element, face_load));
+          assemblers.push_back(
+            std::make_unique<Assembler<dim>>(mesh,
+                                             subdomain,
+                                             model.bodies[subdomain.body],
+                                             elements[subdomain.body],
+                                             face_load));
           systems[s].body        = subdomain.body;
           systems[s].K           = assemblers[s]->sparsity();
           systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
@@ -201,7 +208,7 @@ namespace snug
           for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
             {
               const auto   X       = assemblers[s]->cell_field(i, positions);
-              const double quality = element.quality(X);
+              const double quality = assemblers[s]->element().quality(X);
               if (quality >= least_quality)
                 continue;
               std::ostringstream text;
@@ -362,7 +369,7 @@ namespace snug
       for (unsigned int s = 0; s < data->systems.size(); ++s)
         if (data->systems[s].body == body)
           for (unsigned int i = 0; i < data->assemblers[s]->cells().size(); ++i)
-            volume += data->element.volume(
+            volume += data->assemblers[s]->element().volume(
               data->assemblers[s]->cell_field(i, positions));
       return dealii::Utilities::MPI::sum(volume, data->context.communicator());
     }
@@ -378,7 +385,6 @@ namespace snug
     SNUG_GETTER(const Model<dim> &, model, data->model)
     SNUG_GETTER(const mesh::Surface<dim> &, surface, data->surface)
     SNUG_GETTER(const contact::Contact<dim> &, contact, *data->contact)
-    SNUG_GETTER(const elasticity::Element<dim> &, element, data->element)
     SNUG_GETTER(const elasticity::FaceLoad<dim> &, face_load, data->face_load)
     SNUG_GETTER(const std::vector<std::unique_ptr<Assembler<dim>>> &,
                 assemblers,

@@ -2,6 +2,7 @@
 #define snug_elasticity_cell_point_h
 
 #include <snug/elasticity/lagrange.h>
+#include <snug/mesh/idealization.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -18,26 +19,46 @@ namespace snug
     jacobian(const LagrangePoint<dim>                  &shape,
              const std::vector<dealii::Tensor<1, dim>> &X);
 
-    /// A point of a cell with nodes X: g_a = J^-T dN_a/d xi.
+    /// sum_a N_a u_a.
+    template <int dim>
+    dealii::Tensor<1, dim>
+    value(const LagrangePoint<dim>                  &shape,
+          const std::vector<dealii::Tensor<1, dim>> &u);
+
+    /**
+     * A point of a cell with nodes X: g_a = J^-T dN_a/d xi.
+     *
+     * Gradients are those of fields in space, sections or not, so that the
+     * formulas of a solid hold for all idealizations: in an axisymmetric one,
+     * the entry (2,2) of the gradient of u is u_r / r. Other entries out of
+     * the plane are zero.
+     */
     template <int dim>
     struct CellPoint
     {
       using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
       /// The shape must outlive this object; J must be regular.
-      CellPoint(const LagrangePoint<dim> &shape, const Nodes &X);
+      CellPoint(const LagrangePoint<dim> &shape,
+                const Nodes              &X,
+                const mesh::Idealization &idealization);
 
-      /// sum_a u_a (x) g_a.
-      dealii::Tensor<2, dim>
+      /// sum_a u_a (x) g_a, and sum_a N_a/r u_a,r.
+      dealii::Tensor<2, 3>
       gradient(const Nodes &u) const;
 
-      /// sum_a N_a u_a.
-      dealii::Tensor<1, dim>
-      value(const Nodes &u) const;
+      /// f_a += dV flux : d gradient() / d u_a = dV (flux g_a + flux_22 N_a/r).
+      void
+      add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const;
+
+      /// f_a += dV N_a source.
+      void
+      add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const;
 
       const LagrangePoint<dim> &shape;
-      double                    dV; ///< weight times det J [length^dim]
-      std::array<dealii::Tensor<1, dim>, 27> gradients; ///< g_a [1/length]
+      double dV; ///< weight times det J times that of the section [length^3]
+      std::array<dealii::Tensor<1, dim>, 27> gradients;      ///< g_a [1/length]
+      double                                 inverse_radius; ///< or 0
     };
   } // namespace elasticity
 } // namespace snug

@@ -20,6 +20,7 @@ namespace snug
     {
       std::vector<double>                 values;    ///< N_a
       std::vector<dealii::Tensor<1, dim>> gradients; ///< dN_a / d xi
+      dealii::Point<dim>                  point;
       double weight = 0.; ///< of a quadrature on the reference cube
     };
 

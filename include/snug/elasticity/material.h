@@ -29,6 +29,13 @@ namespace snug
       {
         return youngs_modulus / (2. * (1. + poissons_ratio));
       }
+
+      /// kappa = lambda + 2/3 mu.
+      double
+      bulk_modulus() const
+      {
+        return youngs_modulus / (3. * (1. - 2. * poissons_ratio));
+      }
     };
 
     /// Dead loads of a body, in the geometry of the design.

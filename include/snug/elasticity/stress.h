@@ -2,6 +2,7 @@
 #define snug_elasticity_stress_h
 
 #include <snug/elasticity/material.h>
+#include <snug/mesh/idealization.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -10,20 +11,28 @@ namespace snug
 {
   namespace elasticity
   {
-    /// Cauchy stress lambda tr(e) I + 2 mu e [force / length^2], e the
-    /// symmetric part of the displacement gradient. 2D: the in-plane part in
-    /// plane strain.
-    template <int dim>
-    dealii::SymmetricTensor<2, dim>
-    cauchy_stress(const Material               &material,
-                  const dealii::Tensor<2, dim> &displacement_gradient);
+    /// Strain of a displacement gradient in space (see CellPoint): its
+    /// symmetric part and, in plane stress, the strain across the sheet,
+    /// -nu/(1-nu) (e_xx + e_yy), that leaves sigma_zz = 0.
+    dealii::SymmetricTensor<2, 3>
+    strain(const mesh::Idealization   &idealization,
+           const Material             &material,
+           const dealii::Tensor<2, 3> &displacement_gradient);
+
+    /// Cauchy stress lambda tr(e) I + 2 mu e [force / length^2].
+    dealii::SymmetricTensor<2, 3>
+    cauchy_stress(const Material                      &material,
+                  const dealii::SymmetricTensor<2, 3> &strain);
 
     /// von Mises stress sqrt(3/2 s:s), s = sigma - tr(sigma)/3 I, in the units
-    /// of @p stress. 2D: @p out_of_plane is sigma_zz. 3D ignores it.
-    template <int dim>
+    /// of @p stress.
     double
-    von_mises(const dealii::SymmetricTensor<2, dim> &stress,
-              double                                 out_of_plane);
+    von_mises(const dealii::SymmetricTensor<2, 3> &stress);
+
+    /// lambda of the stiffness in the plane: E nu / (1 - nu^2) in plane stress.
+    double
+    lame_lambda(const mesh::Idealization &idealization,
+                const Material           &material);
   } // namespace elasticity
 } // namespace snug
 

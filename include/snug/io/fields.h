@@ -1,8 +1,8 @@
 #ifndef snug_io_fields_h
 #define snug_io_fields_h
 
-#include <snug/elasticity/material.h>
 #include <snug/mesh/tearing.h>
+#include <snug/state/assembler.h>
 #include <snug/state/contact_state.h>
 
 #include <string>
@@ -31,7 +31,8 @@ namespace snug
      * | design_displacement | 3          | length           |
      *
      * Stress is smoothed as nodal_stress() says; von Mises is that of the
-     * smoothed stress. In 2D it holds the out-of-plane stress of plane strain.
+     * smoothed stress. In 2D the component zz is the stress across the section,
+     * the hoop stress if axisymmetric.
      */
     template <int dim>
     class FieldOutput
@@ -39,13 +40,13 @@ namespace snug
     public:
       /**
        * @p mesh and @p tearing must outlive this object.
-       * @param[in] materials One per body.
+       * @param[in] bodies Materials and formulations.
        * @param[in] directory Where the files go; it must exist.
        */
-      FieldOutput(const mesh::BodyMesh<dim>               &mesh,
-                  const mesh::Tearing                     &tearing,
-                  const std::vector<elasticity::Material> &materials,
-                  const std::string                       &directory);
+      FieldOutput(const mesh::BodyMesh<dim>                &mesh,
+                  const mesh::Tearing                      &tearing,
+                  const std::vector<state::BodyModel<dim>> &bodies,
+                  const std::string                        &directory);
 
       /// Add @p state to the series as that of @p time (the number of the
       /// design iteration, say). Collective.
@@ -56,7 +57,7 @@ namespace snug
     private:
       const mesh::BodyMesh<dim>                  &mesh;
       std::vector<unsigned int>                   subdomain_of_cell;
-      std::vector<elasticity::Material>           materials;
+      std::vector<state::BodyModel<dim>>          bodies;
       std::string                                 directory;
       std::vector<std::pair<double, std::string>> series;
     };

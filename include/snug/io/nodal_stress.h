@@ -1,8 +1,7 @@
 #ifndef snug_io_nodal_stress_h
 #define snug_io_nodal_stress_h
 
-#include <snug/elasticity/material.h>
-#include <snug/mesh/body_mesh.h>
+#include <snug/state/assembler.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -12,16 +11,10 @@ namespace snug
 {
   namespace io
   {
-    /// Cauchy stress at the local nodes [force / length^2].
-    template <int dim>
-    struct NodalStress
-    {
-      std::vector<dealii::SymmetricTensor<2, dim>> stress;
-      std::vector<double> out_of_plane; ///< sigma_zz of plane strain; 0 in 3D
-    };
-
     /**
-     * A stress field that is continuous in each body, for pictures. In a cell
+     * Cauchy stress at the local nodes [force / length^2], components zz of
+     * sections (axisymmetric: hoop stress) included: a field that is
+     * continuous in each body, for pictures. In a cell
      * of degree p the stress is taken at the p^dim Gauss points, where it is
      * most accurate (Barlow, Int. J. Numer. Meth. Engng 10 (1976)), and
      * extrapolated to the nodes by the polynomial of degree p-1 through them:
@@ -32,14 +25,14 @@ namespace snug
      *
      * Valid at the nodes of owned cells. Collective.
      *
-     * @param[in] materials One per body.
+     * @param[in] bodies Materials and formulations.
      * @param[in] positions, displacement On the local nodes, valid at nodes of
      *   owned cells [length].
      */
     template <int dim>
-    NodalStress<dim>
+    std::vector<dealii::SymmetricTensor<2, 3>>
     nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
-                 const std::vector<elasticity::Material>   &materials,
+                 const std::vector<state::BodyModel<dim>>  &bodies,
                  const typename mesh::BodyMesh<dim>::Field &positions,
                  const typename mesh::BodyMesh<dim>::Field &displacement);
   } // namespace io

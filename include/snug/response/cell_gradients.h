@@ -23,6 +23,13 @@ namespace snug
                       double                               factor,
                       typename mesh::BodyMesh<dim>::Field &gradient);
 
+    /// gradient += d/dX of the volume of all bodies, this rank's share.
+    template <int dim>
+    void
+    add_volume_gradient(const state::StateSolver<dim>       &solver,
+                        const state::ContactState<dim>      &state,
+                        typename mesh::BodyMesh<dim>::Field &gradient);
+
     /// gradient += d/dX of lambda_I'(B_I u - g_I) at fixed u and lambda. The
     /// share of this rank: its own nodes. Collective.
     template <int dim>

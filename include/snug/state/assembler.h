@@ -13,7 +13,7 @@ namespace snug
 {
   namespace state
   {
-    /// Material and loads of one body, boundaries by index.
+    /// Materials and loads of one body, boundaries by index.
     template <int dim>
     struct BodyModel
     {
@@ -22,9 +22,16 @@ namespace snug
         double                 pressure = 0.; ///< [force / length^2]
         dealii::Tensor<1, dim> traction;      ///< [force / length^2]
       };
-      elasticity::Material         material;
-      dealii::Tensor<1, dim>       body_force; ///< [force / length^3]
-      std::map<unsigned int, Load> loads;      ///< per boundary index
+      std::vector<elasticity::Material> materials; ///< per region
+      elasticity::Formulation formulation = elasticity::Formulation::standard;
+      dealii::Tensor<1, dim>  body_force; ///< [force / length^3]
+      std::map<unsigned int, Load> loads; ///< per boundary index
+
+      const elasticity::Material &
+      material(const typename mesh::BodyMesh<dim>::Cell &) const
+      {
+        return materials.front();
+      }
     };
 
     /**
@@ -61,9 +68,9 @@ namespace snug
       load(const Field &positions) const;
 
       /**
-       * Rigid body modes at the unknowns, orthonormal: dim translations and
-       * rotations about the centre; and Z with R Z = the body's modes,
-       * translations and rotations about @p centre over @p length.
+       * Rigid body modes at the unknowns, orthonormal: rigid_motions() about
+       * the centre of the subdomain; and Z with R Z = the body's modes, those
+       * about @p centre over @p length.
        */
       void
       rigid_modes(const Field                  &positions,
@@ -72,7 +79,8 @@ namespace snug
                   qp::MultiVector              &R,
                   qp::MultiVector              &Z) const;
 
-      /// Unknowns of far-apart nodes (farthest point sampling).
+      /// Unknowns of far-apart nodes (farthest point sampling) that rigid
+      /// motions move.
       std::vector<unsigned int>
       fixing_dofs(const Field &positions) const;
 
@@ -109,6 +117,11 @@ namespace snug
       face_model(unsigned int i) const;
       const BodyModel<dim> &
       body_model() const;
+      /// Material of cell i of cells().
+      const elasticity::Material &
+      material(unsigned int i) const;
+      const elasticity::Element<dim> &
+      element() const;
 
     private:
       void
@@ -117,7 +130,7 @@ namespace snug
       const mesh::BodyMesh<dim>       &mesh;
       const mesh::Subdomain           &subdomain;
       const BodyModel<dim>            &model;
-      const elasticity::Element<dim>  &element;
+      const elasticity::Element<dim>  &the_element;
       const elasticity::FaceLoad<dim> &face_load;
       std::vector<unsigned int>        faces; ///< indices of boundary_faces()
       std::vector<NodeReach<dim>>      cell_reach, face_reach;

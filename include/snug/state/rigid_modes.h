@@ -1,6 +1,7 @@
 #ifndef snug_state_rigid_modes_h
 #define snug_state_rigid_modes_h
 
+#include <snug/mesh/idealization.h>
 #include <snug/qp/multi_vector.h>
 
 #include <deal.II/base/tensor.h>
@@ -12,10 +13,12 @@ namespace snug
   namespace state
   {
     /// Translations and rotations about @p centre over @p length at
-    /// @p positions, one mode per column: dim + 1 (2D) or dim + 3 of them.
+    /// @p positions, one mode per column: 6 of a solid, 3 in plane sections,
+    /// and the translation along the axis in axisymmetric ones.
     template <int dim>
     qp::MultiVector
-    rigid_motions(const std::vector<dealii::Tensor<1, dim>> &positions,
+    rigid_motions(const mesh::Idealization                  &idealization,
+                  const std::vector<dealii::Tensor<1, dim>> &positions,
                   const dealii::Tensor<1, dim>              &centre,
                   double                                     length);
 

@@ -61,7 +61,7 @@ namespace snug
       unsigned long
       linear_f_mults(const ContactState<dim> &state) const;
 
-      /// Volume of one body at @p positions [length^dim]. Collective.
+      /// Volume of one body at @p positions [length^3]. Collective.
       double
       volume(unsigned int body, const Field &positions) const;
 
@@ -75,8 +75,6 @@ namespace snug
       surface() const;
       const contact::Contact<dim> &
       contact() const;
-      const elasticity::Element<dim> &
-      element() const;
       const elasticity::FaceLoad<dim> &
       face_load() const;
       /// Assemblers of this rank's subdomains.

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace elasticity_cells
@@ -152,6 +153,51 @@ namespace elasticity_cells
     return X;
   }
 
+  /// An element of some idealization and formulation, with a cell for it.
+  template <int dim>
+  struct TestElement
+  {
+    Idealization idealization;
+    Formulation  formulation;
+    Element<dim> element;
+    Nodes<dim>   X;
+
+    std::string
+    name() const
+    {
+      const char *kinds[] = {"solid",
+                             "plane strain",
+                             "plane stress",
+                             "axisymmetric"};
+      return std::string(kinds[static_cast<int>(idealization.kind)]) +
+             (formulation == Formulation::B_bar ? ", B-bar" : "");
+    }
+
+    /// Directions in which the whole body may be moved.
+    bool
+    may_translate(const unsigned int direction) const
+    {
+      return !idealization.is_axisymmetric() || direction == 1;
+    }
+  };
+
+  /// All of them for a degree, cells from @p seed.
+  template <int dim>
+  std::vector<TestElement<dim>>
+  all_elements(const unsigned int degree, const unsigned int seed)
+  {
+    std::vector<TestElement<dim>> elements;
+    for (const auto &idealization : idealizations<dim>())
+      for (const auto formulation : {Formulation::standard, Formulation::B_bar})
+        if (formulation == Formulation::standard ||
+            idealization.kind != Idealization::Kind::plane_stress)
+          elements.push_back({idealization,
+                              formulation,
+                              Element<dim>(degree, idealization, formulation),
+                              distorted<dim>(idealization, degree, seed)});
+    return elements;
+  }
+
   /// r = K u with the matrix of Element::stiffness.
   template <int dim>
   Nodes<dim>
@@ -259,9 +305,12 @@ namespace elasticity_cells
   /// sum over the faces of int N_a n dA, n pointing out of the cell.
   template <int dim>
   Nodes<dim>
-  boundary_normals(const unsigned int degree, const Nodes<dim> &X)
+  boundary_normals(
+    const unsigned int  degree,
+    const Nodes<dim>   &X,
+    const Idealization &idealization = Idealization::natural(dim))
   {
-    const FaceLoad<dim> load(degree);
+    const FaceLoad<dim> load(degree, idealization);
     Nodes<dim>          result(X.size()), f;
     for (const auto &face : all_faces<dim>(degree))
       {

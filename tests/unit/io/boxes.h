@@ -4,6 +4,7 @@
 #include <snug/elasticity/material.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/mesh/tearing.h>
+#include <snug/state/assembler.h>
 
 namespace snug
 {
@@ -37,6 +38,16 @@ namespace snug
     two_materials()
     {
       return {{210., 0.3}, {70., 0.2}};
+    }
+
+    template <int dim>
+    std::vector<state::BodyModel<dim>>
+    two_bodies()
+    {
+      std::vector<state::BodyModel<dim>> bodies(2);
+      for (unsigned int b = 0; b < 2; ++b)
+        bodies[b].materials = {two_materials()[b]};
+      return bodies;
     }
 
     /// All cells of a rank as its only subdomain (none without cells).

@@ -55,7 +55,7 @@ namespace snug
       const auto                   materials = test::two_materials();
       io::FieldOutput<dim>         output(mesh,
                                   test::one_subdomain_per_rank(mesh),
-                                  materials,
+                                  test::two_bodies<dim>(),
                                   scratch.path);
       output.write(0., linear_state(mesh));
 
@@ -120,7 +120,7 @@ namespace snug
                                    1);
       io::FieldOutput<2>           output(mesh,
                                 test::one_subdomain_per_rank(mesh),
-                                test::two_materials(),
+                                test::two_bodies<2>(),
                                 scratch.path);
       output.write(0., linear_state(mesh));
       output.write(17., linear_state(mesh));
@@ -150,10 +150,12 @@ namespace snug
       const test::ScratchDirectory          scratch;
       std::vector<mesh::BodyMeshParameters> bodies(1);
       bodies[0].cells = {1, 1};
-      const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, bodies, 1);
-      io::FieldOutput<2>      output(mesh,
+      const mesh::BodyMesh<2>          mesh(MPI_COMM_WORLD, bodies, 1);
+      std::vector<state::BodyModel<2>> models(1);
+      models[0].materials = {{1., 0.3}};
+      io::FieldOutput<2> output(mesh,
                                 test::one_subdomain_per_rank(mesh),
-                                {{1., 0.3}},
+                                models,
                                 scratch.path);
       output.write(0., linear_state(mesh));
       const auto vtu = test::read_vtu(
@@ -168,7 +170,7 @@ namespace snug
                                    1);
       io::FieldOutput<2>      output(mesh,
                                 test::one_subdomain_per_rank(mesh),
-                                test::two_materials(),
+                                test::two_bodies<2>(),
                                 "/nowhere/at/all");
       EXPECT_THROW(output.write(0., linear_state(mesh)), std::runtime_error);
     }

@@ -23,19 +23,6 @@ namespace snug
     }
 
     template <int dim>
-    dealii::Tensor<2, 3>
-    full_stress(const io::NodalStress<dim> &stress, unsigned int node)
-    {
-      dealii::Tensor<2, 3> sigma;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          sigma[i][j] = stress.stress[node][i][j];
-      if (dim == 2)
-        sigma[2][2] = stress.out_of_plane[node];
-      return sigma;
-    }
-
-    template <int dim>
     void
     expect_constant_stress(unsigned int degree)
     {
@@ -45,7 +32,7 @@ namespace snug
       const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, bodies, degree);
       const auto                materials = test::two_materials();
       const auto                stress    = io::nodal_stress<dim>(mesh,
-                                                materials,
+                                                test::two_bodies<dim>(),
                                                 mesh.reference_positions(),
                                                 test::linear_field<dim>(
                                                   mesh.reference_positions()));
@@ -54,7 +41,8 @@ namespace snug
           const auto expected = test::hooke(materials[mesh.body_of_node(node)],
                                             test::displacement_gradient<dim>());
           // round-off of a few hundred operations on numbers of order 10
-          EXPECT_LT((full_stress(stress, node) - expected).norm(), 1e-11)
+          EXPECT_LT((dealii::Tensor<2, 3>(stress[node]) - expected).norm(),
+                    1e-11)
             << "degree " << degree << ", node " << node;
         }
     }
@@ -66,6 +54,43 @@ namespace snug
           expect_constant_stress<2>(degree);
           expect_constant_stress<3>(degree);
         }
+    }
+
+    TEST(NodalStress, HasTheHoopStressOfBodiesOfRevolution)
+    {
+      // u = (a r, c z): radial and hoop strain a, axial strain c
+      const double a = 0.02, c = -0.03;
+      const auto   models = test::two_bodies<2>();
+      for (const auto formulation :
+           {elasticity::Formulation::standard, elasticity::Formulation::B_bar})
+        for (const unsigned int degree : {1, 2})
+          {
+            const mesh::BodyMesh<2> mesh(
+              MPI_COMM_WORLD,
+              test::two_boxes<2>(true),
+              degree,
+              {mesh::Idealization::Kind::axisymmetric});
+            auto bodies = models;
+            for (auto &body : bodies)
+              body.formulation = formulation;
+            auto u = mesh.reference_positions();
+            for (auto &value : u)
+              value = dealii::Point<2>(a * value[0], c * value[1]);
+            const auto stress =
+              io::nodal_stress<2>(mesh, bodies, mesh.reference_positions(), u);
+            for (const unsigned int node : nodes_of_owned_cells(mesh))
+              {
+                dealii::Tensor<2, 3> gradient;
+                gradient[0][0] = gradient[2][2] = a;
+                gradient[1][1]                  = c;
+                const auto expected =
+                  test::hooke(models[mesh.body_of_node(node)].materials[0],
+                              gradient);
+                EXPECT_LT(
+                  (dealii::Tensor<2, 3>(stress[node]) - expected).norm(),
+                  1e-11);
+              }
+          }
     }
 
     /// u_k = x_k^2 + x_0 x_1 / 2 and its gradient: linear stress.
@@ -108,9 +133,11 @@ namespace snug
       const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, bodies, degree);
       const auto                materials = test::two_materials();
       const auto               &x         = mesh.reference_positions();
-      const auto                stress =
-        io::nodal_stress<dim>(mesh, materials, x, quadratic_field<dim>(x));
-      unsigned int checked = 0;
+      const auto                stress    = io::nodal_stress<dim>(mesh,
+                                                test::two_bodies<dim>(),
+                                                x,
+                                                quadratic_field<dim>(x));
+      unsigned int              checked   = 0;
       for (const unsigned int node : nodes_of_owned_cells(mesh))
         {
           bool inside = true;
@@ -126,7 +153,8 @@ namespace snug
           ++checked;
           const auto expected = test::hooke(materials[mesh.body_of_node(node)],
                                             quadratic_gradient(x[node]));
-          EXPECT_LT((full_stress(stress, node) - expected).norm(), 1e-9)
+          EXPECT_LT((dealii::Tensor<2, 3>(stress[node]) - expected).norm(),
+                    1e-9)
             << x[node];
         }
       unsigned int total = 0;
@@ -173,11 +201,11 @@ namespace snug
 
     TEST(NodalStress, DoesNotDependOnTheRanks)
     {
-      const auto              bodies    = test::two_boxes<3>(true);
-      const auto              materials = test::two_materials();
+      const auto              bodies = test::two_boxes<3>(true);
+      const auto              models = test::two_bodies<3>();
       const mesh::BodyMesh<3> whole(MPI_COMM_SELF, bodies, 1);
       const auto              serial = io::nodal_stress<3>(whole,
-                                              materials,
+                                              models,
                                               whole.reference_positions(),
                                               wavy_field(whole));
       std::map<std::vector<long>, unsigned int> node_at;
@@ -186,14 +214,13 @@ namespace snug
 
       const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, bodies, 1);
       const auto              parallel = io::nodal_stress<3>(mesh,
-                                                materials,
+                                                models,
                                                 mesh.reference_positions(),
                                                 wavy_field(mesh));
       for (const unsigned int node : nodes_of_owned_cells(mesh))
         {
           const auto difference =
-            full_stress(parallel, node) -
-            full_stress(serial, node_at.at(place_of_node(mesh, node)));
+            parallel[node] - serial[node_at.at(place_of_node(mesh, node))];
           EXPECT_LT(difference.norm(), 1e-10); // sums in another order
         }
     }

@@ -27,12 +27,13 @@ namespace snug
     {
       using Load = typename state::BodyModel<dim>::Load;
 
-      dealii::Point<dim>           corner, size;
-      std::vector<unsigned int>    cells;
-      double                       radius        = 0.; ///< 0: flat
-      double                       refined_below = 0.;
-      elasticity::Material         material{1000., 0.3};
-      dealii::Tensor<1, dim>       body_force;
+      dealii::Point<dim>        corner, size;
+      std::vector<unsigned int> cells;
+      double                    radius        = 0.; ///< 0: flat
+      double                    refined_below = 0.;
+      elasticity::Material      material{1000., 0.3};
+      elasticity::Formulation   formulation = elasticity::Formulation::standard;
+      dealii::Tensor<1, dim>    body_force;
       std::map<unsigned int, Load> loads;
       /// boundary -> fixed components
       std::map<unsigned int, std::vector<unsigned int>> supports;
@@ -222,7 +223,7 @@ namespace snug
           {
             const auto &body = scene.bodies[b];
             model.bodies.push_back(
-              {body.material, body.body_force, body.loads});
+              {{body.material}, body.formulation, body.body_force, body.loads});
             for (const auto &support : body.supports)
               model.supports.push_back({b, support.first, support.second});
           }
