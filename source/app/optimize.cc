@@ -24,7 +24,7 @@ namespace snug
     Optimize<dim>::choose_constraints()
     {
       state::ContactState<dim> geometry;
-      geometry.positions = workshop.positions(workshop.start());
+      geometry.positions = workshop.positions(workshop.basis->start());
       for (const auto &entry : workshop.scene.optimization.constraints)
         {
           Constraint constraint;
@@ -34,7 +34,7 @@ namespace snug
           const bool initial = entry.second == "initial";
           if (initial && constraint.response->needs_solution() && !first)
             first = std::make_unique<state::ContactState<dim>>(
-              workshop.solve(workshop.start(), qp::WarmStart()));
+              workshop.solve(workshop.basis->start(), qp::WarmStart()));
           constraint.target =
             !initial ? std::stod(entry.second)
                      : constraint.response->value(*workshop.solver,
@@ -171,9 +171,9 @@ namespace snug
         settings, [this](const Design &x) { return evaluate(x); });
 
       optimization::DesignProblem problem;
-      problem.lower    = workshop.lower_bounds();
-      problem.upper    = workshop.upper_bounds();
-      problem.start    = workshop.start();
+      problem.lower    = workshop.basis->lower_bounds();
+      problem.upper    = workshop.basis->upper_bounds();
+      problem.start    = workshop.basis->start();
       problem.evaluate = [this](const Design &x) {
         return journal->evaluate(x);
       };
@@ -202,7 +202,7 @@ namespace snug
       // after a replay the first design has not been solved in this run
       if (!first)
         first = std::make_unique<state::ContactState<dim>>(
-          workshop.solve(workshop.start(), qp::WarmStart()));
+          workshop.solve(workshop.basis->start(), qp::WarmStart()));
       if (!last || last_design != result.x)
         last = std::make_unique<state::ContactState<dim>>(
           workshop.solve(result.x, warm_start));

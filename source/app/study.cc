@@ -41,7 +41,7 @@ namespace snug
       solve_start(Workshop<dim> &workshop)
       {
         workshop.context.progress("solving the contact problem ...");
-        auto state = workshop.solve(workshop.start(), qp::WarmStart());
+        auto state = workshop.solve(workshop.basis->start(), qp::WarmStart());
         if (workshop.scene.report_linear_reference)
           state.linear_f_mults = workshop.solver->linear_f_mults(state);
         print_state(workshop.context.out(), state);
@@ -115,7 +115,7 @@ namespace snug
       run_sensitivity(Workshop<dim> &workshop)
       {
         const auto state  = solve_start(workshop);
-        const auto design = workshop.start();
+        const auto design = workshop.basis->start();
         workshop.draw(0., state);
         io::Summary summary;
         summary.task  = "sensitivity";

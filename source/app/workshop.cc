@@ -10,6 +10,29 @@ namespace snug
 {
   namespace app
   {
+    namespace
+    {
+      /// The shapes of a scene; errors begin with its file, as all of the
+      /// input do. Collective.
+      template <int dim>
+      std::unique_ptr<shape::Shapes<dim>>
+      make_shapes(const scene::Scene        &scene,
+                  const mesh::BodyMesh<dim> &mesh,
+                  const shape::BodyNames    &names)
+      {
+        try
+          {
+            return std::make_unique<shape::Shapes<dim>>(mesh,
+                                                        names,
+                                                        scene.shapes);
+          }
+        catch (const InputError &error)
+          {
+            throw InputError(scene.file + ": " + error.what());
+          }
+      }
+    } // namespace
+
     template <int dim>
     Workshop<dim>::Workshop(RunContext &context, const scene::Scene &scene)
       : context(context), scene(scene)
@@ -30,14 +53,17 @@ namespace snug
         shape::BodyNames names;
         for (const auto &body : scene.bodies)
           names.names.push_back(body.name);
-        basis = choose(shape::shape_basis_table<dim>(), scene.shape.basis)
-                  .make(*mesh, names, scene.shape);
+        basis = make_shapes(scene, *mesh, names);
         objective =
           choose(response::response_table<dim>(), scene.optimization.objective)
             .make();
       }
-      solver = std::make_unique<state::StateSolver<dim>>(
-        *mesh, tearing, build_model(scene, *mesh), positions(start()), context);
+      solver =
+        std::make_unique<state::StateSolver<dim>>(*mesh,
+                                                  tearing,
+                                                  build_model(scene, *mesh),
+                                                  positions(basis->start()),
+                                                  context);
       fields         = std::make_unique<io::FieldOutput<dim>>(*mesh,
                                                       tearing,
                                                       solver->model().bodies,
@@ -74,7 +100,7 @@ namespace snug
     {
       std::vector<double> widths;
       for (unsigned int i = 0; i < design.size(); ++i)
-        widths.push_back(upper_bounds()[i] - lower_bounds()[i]);
+        widths.push_back(basis->upper_bounds()[i] - basis->lower_bounds()[i]);
       return sensitivity::gradient<dim>(
         {*solver, *basis, response, state, design, widths, parameters},
         parameters.method);
@@ -134,15 +160,14 @@ namespace snug
       if (basis->n_variables() == 0)
         return;
       const RunContext::Timer  timer(context, "output");
-      const mesh::Surface<dim> face(
-        *mesh, {find_face(scene, *mesh, scene.shape.face)});
-      const auto at_face = face.gather(positions(design));
-      const auto points  = basis->control_points(design);
+      const mesh::Surface<dim> faces(*mesh, basis->faces());
+      const auto               at_faces = faces.gather(positions(design));
+      const auto               points   = basis->control_points(design);
       everywhere(context.communicator(), [&]() {
         if (context.rank() != 0)
           return;
-        io::write_surface(path("surface"), face, at_face);
-        io::write_control_points(path("control-points.csv"), points, design);
+        io::write_surface(path("surface"), faces, at_faces);
+        io::write_control_points(path("control-points.csv"), points);
       });
     }
 
@@ -151,33 +176,6 @@ namespace snug
     Workshop<dim>::path(const std::string &name) const
     {
       return scene.output_directory + "/" + name;
-    }
-
-    template <int dim>
-    std::vector<double>
-    Workshop<dim>::lower_bounds() const
-    {
-      const auto &bounds = scene.shape.bounds;
-      return std::vector<double>(basis->n_variables(),
-                                 bounds.empty() ? 0. : bounds[0]);
-    }
-
-    template <int dim>
-    std::vector<double>
-    Workshop<dim>::upper_bounds() const
-    {
-      const auto &bounds = scene.shape.bounds;
-      return std::vector<double>(basis->n_variables(),
-                                 bounds.empty() ? 0. : bounds[1]);
-    }
-
-    template <int dim>
-    std::vector<double>
-    Workshop<dim>::start() const
-    {
-      const auto &initial = scene.shape.initial;
-      return initial.empty() ? std::vector<double>(basis->n_variables(), 0.)
-                             : initial;
     }
 
     template class Workshop<2>;

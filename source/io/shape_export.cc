@@ -140,19 +140,19 @@ namespace snug
 
     template <int dim>
     void
-    write_control_points(const std::string                     &path,
-                         const std::vector<dealii::Point<dim>> &points,
-                         const std::vector<double>             &design)
+    write_control_points(const std::string                         &path,
+                         const std::vector<shape::MovedPoint<dim>> &points)
     {
-      AssertDimension(points.size(), design.size());
       std::string text =
-        std::string("index,x,y,") + (dim == 3 ? "z," : "") + "value\n";
-      for (unsigned int i = 0; i < points.size(); ++i)
+        dim == 3 ? "shape,index,x,y,z,dx,dy,dz\n" : "shape,index,x,y,dx,dy\n";
+      for (const auto &point : points)
         {
-          text += std::to_string(i);
+          text += point.shape + ',' + std::to_string(point.index);
           for (unsigned int c = 0; c < dim; ++c)
-            text += ',' + exact(points[i][c]);
-          text += ',' + exact(design[i]) + '\n';
+            text += ',' + exact(point.position[c]);
+          for (unsigned int c = 0; c < dim; ++c)
+            text += ',' + exact(point.move[c]);
+          text += '\n';
         }
       write_text_file(path, text);
     }
@@ -167,11 +167,9 @@ namespace snug
                   const mesh::Surface<3>::Field &);
     template void
     write_control_points(const std::string &,
-                         const std::vector<dealii::Point<2>> &,
-                         const std::vector<double> &);
+                         const std::vector<shape::MovedPoint<2>> &);
     template void
     write_control_points(const std::string &,
-                         const std::vector<dealii::Point<3>> &,
-                         const std::vector<double> &);
+                         const std::vector<shape::MovedPoint<3>> &);
   } // namespace io
 } // namespace snug

@@ -126,7 +126,7 @@ namespace snug
       check_names(scene, origins);
       check_bodies(scene, origins);
       check_contact(scene, origins);
-      check_shape(scene, origins);
+      check_shapes(scene, origins);
       check_methods(scene, origins);
     }
 

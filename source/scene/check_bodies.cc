@@ -261,26 +261,40 @@ namespace snug
                  return std::isalnum(c) || c == '_' || c == '-' || c == ' ';
                });
       }
+
+      void
+      check_list_of_names(const std::string              &entry,
+                          const std::vector<std::string> &names,
+                          const Origins                  &origins)
+      {
+        for (const auto &name : names)
+          {
+            if (!is_good_name(name))
+              throw origins.error(entry,
+                                  listed(names),
+                                  "names must be made of letters, digits, "
+                                  "'_', '-' and blanks");
+            if (std::count(names.begin(), names.end(), name) > 1)
+              throw origins.error(entry,
+                                  listed(names),
+                                  "'" + name + "' must not occur twice");
+          }
+      }
     } // namespace
 
     void
     check_names(const Scene &scene, const Origins &origins)
     {
-      std::vector<std::string> names;
+      std::vector<std::string> bodies, shapes;
       for (const auto &body : scene.bodies)
-        names.push_back(body.name);
-      const auto require = [&](const bool good, const std::string &allowed) {
-        if (!good)
-          throw origins.error("Bodies", listed(names), allowed);
-      };
-      require(!names.empty(), "must name at least one body");
-      for (const auto &name : names)
-        {
-          require(is_good_name(name),
-                  "names must be made of letters, digits, '_', '-' and blanks");
-          require(std::count(names.begin(), names.end(), name) == 1,
-                  "'" + name + "' must not occur twice");
-        }
+        bodies.push_back(body.name);
+      for (const auto &shape : scene.shapes)
+        if (!shape.name.empty() || scene.shapes.size() > 1)
+          shapes.push_back(shape.name);
+      if (bodies.empty())
+        throw origins.error("Bodies", "", "must name at least one body");
+      check_list_of_names("Bodies", bodies, origins);
+      check_list_of_names("Shapes", shapes, origins);
     }
 
     void

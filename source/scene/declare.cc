@@ -12,22 +12,6 @@ namespace snug
   {
     namespace
     {
-      /// A choice from a factory table. Of tables for 2D and 3D, which have
-      /// the same names, the one for 3D is passed.
-      template <typename Make>
-      void
-      add_choice(Entries                 &entries,
-                 const std::string       &name,
-                 std::string             &value,
-                 const ChoiceTable<Make> &table,
-                 const std::string       &meaning)
-      {
-        entries.add(name,
-                    value,
-                    choice(names(table)),
-                    meaning + " " + meanings(table) + ".");
-      }
-
       void
       declare_general(Entries &entries, Scene &scene)
       {
@@ -52,6 +36,18 @@ namespace snug
                     pairs("names separated by commas"),
                     "Names of the bodies, separated by commas; each has its "
                     "own subsection Body NAME.");
+        entries.add("Shapes",
+                    {[&scene]() {
+                       std::vector<std::string> names;
+                       for (const auto &shape : scene.shapes)
+                         names.push_back(shape.name);
+                       return listed(names);
+                     },
+                     [](const std::string &) {}},
+                    pairs("names separated by commas"),
+                    "Names of the shapes, separated by commas; each has its "
+                    "own subsection Shape NAME. Empty: one shape without a "
+                    "name, in subsection Shape.");
         entries.add("Output directory",
                     scene.output_directory,
                     "Where results go; made if it is not there. Relative to "
@@ -158,7 +154,7 @@ namespace snug
       }
 
       void
-      declare_contact_and_shape(Entries &entries, Scene &scene)
+      declare_contact(Entries &entries, Scene &scene)
       {
         entries.begin_section("Contact", "Which faces may touch.");
         entries.add("Pairs",
@@ -172,32 +168,6 @@ namespace snug
                    scene.contact.method,
                    contact::contact_method_table<3>(),
                    "How two faces meet.");
-
-        auto &shape = scene.shape;
-        entries.begin_section("Shape", "The design variables.");
-        add_choice(entries,
-                   "Basis",
-                   shape.basis,
-                   shape::shape_basis_table<3>(),
-                   "How design variables move the nodes.");
-        entries.add("Face",
-                    shape.face,
-                    anything("body.boundary"),
-                    "The face that is shaped, 'body.boundary'.");
-        entries.add("Control points",
-                    shape.control_points,
-                    "Number of control points along each edge of the face; "
-                    "one design variable each, the first edge fastest.");
-        entries.add("Direction",
-                    shape.direction,
-                    "Direction in which control points move.");
-        entries.add("Bounds",
-                    shape.bounds,
-                    "Smallest and largest move of a control point [length].");
-        entries.add("Initial",
-                    shape.initial,
-                    "Moves of the control points at the start [length]: one "
-                    "for each, one for all, or empty: 0.");
       }
 
       void
@@ -333,7 +303,8 @@ namespace snug
       declare_general(entries, scene);
       for (auto &body : scene.bodies)
         declare_body(entries, body);
-      declare_contact_and_shape(entries, scene);
+      declare_contact(entries, scene);
+      declare_shapes(entries, scene);
       declare_solver(entries, scene);
       declare_gradient(entries, scene);
       declare_optimization(entries, scene);

@@ -49,19 +49,31 @@ namespace snug
         return statements;
       }
 
-      /// First pass: the bodies, without what they are made of.
-      void
-      make_bodies(const std::vector<Statement> &statements, Scene &scene)
+      /// The last value of the entry @p path, a list of names.
+      std::vector<std::string>
+      names_in(const std::vector<Statement> &statements,
+               const std::string            &path)
       {
         std::string names;
         for (const auto &statement : statements)
-          if (statement.path() == "Bodies")
+          if (statement.path() == path)
             names = statement.value;
-        for (const auto &name : dealii::Utilities::split_string_list(names))
+        return dealii::Utilities::split_string_list(names);
+      }
+
+      /// First pass: bodies and shapes, without what they are made of.
+      void
+      make_named(const std::vector<Statement> &statements, Scene &scene)
+      {
+        for (const auto &name : names_in(statements, "Bodies"))
           {
             scene.bodies.emplace_back();
             scene.bodies.back().name = name;
           }
+        const auto shapes = names_in(statements, "Shapes");
+        scene.shapes.resize(std::max<std::size_t>(1, shapes.size()));
+        for (unsigned int i = 0; i < shapes.size(); ++i)
+          scene.shapes[i].name = shapes[i];
       }
 
       void
@@ -85,10 +97,6 @@ namespace snug
             fill(body.mesh.fine_length, scene.dimension, 0.);
             fill(body.loads.body_force, scene.dimension, 0.);
           }
-        const unsigned int n = n_design_variables(scene.shape);
-        fill(scene.shape.initial, n, 0.);
-        if (scene.shape.initial.size() == 1)
-          scene.shape.initial.resize(n, scene.shape.initial.front());
       }
 
       std::string
@@ -128,7 +136,8 @@ namespace snug
       const auto    statements = statements_of(source);
       const Origins origins(source.file, statements);
       Scene         scene;
-      make_bodies(statements, scene);
+      scene.file = source.file;
+      make_named(statements, scene);
       check_names(scene, origins);
       Entries entries;
       declare(entries, scene);

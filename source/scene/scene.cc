@@ -1,7 +1,5 @@
 #include <snug/scene/scene.h>
 
-#include <numeric>
-
 namespace snug
 {
   namespace scene
@@ -41,19 +39,6 @@ namespace snug
     {
       return dimension == 2 ? boundary_names_in<2>(body.mesh)
                             : boundary_names_in<3>(body.mesh);
-    }
-
-    unsigned int
-    n_design_variables(const shape::ShapeParameters &shape)
-    {
-      if (shape.basis == "none")
-        return 0;
-      return std::accumulate(shape.control_points.begin(),
-                             shape.control_points.end(),
-                             1U,
-                             [](unsigned int a, unsigned int b) {
-                               return a * b;
-                             });
     }
   } // namespace scene
 } // namespace snug

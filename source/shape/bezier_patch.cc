@@ -1,11 +1,11 @@
 #include <snug/base/errors.h>
 #include <snug/shape/bezier_patch.h>
+#include <snug/shape/entries.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace snug
 {
@@ -13,24 +13,6 @@ namespace snug
   {
     namespace
     {
-      template <typename Number>
-      std::string
-      list(const std::vector<Number> &values)
-      {
-        std::ostringstream text;
-        for (std::size_t i = 0; i < values.size(); ++i)
-          text << (i == 0 ? "" : ", ") << values[i];
-        return text.str();
-      }
-
-      bool
-      all_finite(const std::vector<double> &values)
-      {
-        return std::all_of(values.begin(), values.end(), [](double value) {
-          return std::isfinite(value);
-        });
-      }
-
       /// The n Bernstein polynomials of degree n-1 at @p s, by the recurrence
       /// B_j^m = s B_(j-1)^(m-1) + (1-s) B_j^(m-1).
       std::vector<double>
@@ -55,7 +37,6 @@ namespace snug
       read_face(bodies, parameters.face);
       read_control_points(parameters.control_points);
       read_direction(parameters.direction);
-      check_bounds(parameters);
       collect_weights();
     }
 
@@ -73,7 +54,7 @@ namespace snug
         throw bad_entry("Face",
                         face,
                         "must be body.face with one of the bodies " +
-                          list(bodies.names));
+                          listed(bodies.names));
       body              = found - bodies.names.begin();
       const auto &names = mesh.geometry(body).boundary_names();
       const auto  name =
@@ -81,7 +62,7 @@ namespace snug
       if (name == names.end())
         throw bad_entry("Face",
                         face,
-                        "the faces of " + body_name + " are " + list(names));
+                        "the faces of " + body_name + " are " + listed(names));
       boundary = name - names.begin();
     }
 
@@ -95,7 +76,7 @@ namespace snug
         good = good && number >= 2;
       if (!good)
         throw bad_entry("Control points",
-                        list(numbers),
+                        listed(numbers),
                         dim == 2 ? "must be 1 number >= 2"
                                  : "must be 2 numbers >= 2");
       n = numbers;
@@ -111,34 +92,10 @@ namespace snug
       const double length = direction.norm();
       if (!(length > 0.) || !std::isfinite(length))
         throw bad_entry("Direction",
-                        list(components),
+                        listed(components),
                         "must be " + std::to_string(dim) +
                           " numbers, not all zero");
       direction /= length;
-    }
-
-    template <int dim>
-    void
-    BezierPatch<dim>::check_bounds(const ShapeParameters &parameters) const
-    {
-      const auto &bounds = parameters.bounds;
-      if (bounds.size() != 2 || !all_finite(bounds) || bounds[0] >= bounds[1])
-        throw bad_entry("Bounds",
-                        list(bounds),
-                        "must be two numbers, the lower one first");
-      const auto &initial = parameters.initial;
-      if (!initial.empty() && initial.size() != n_variables())
-        throw bad_entry("Initial",
-                        list(initial),
-                        "must be " + std::to_string(n_variables()) +
-                          " numbers, one per control point");
-      const std::vector<double> start =
-        initial.empty() ? std::vector<double>(1, 0.) : initial;
-      for (const double value : start)
-        if (!(value >= bounds[0] && value <= bounds[1]))
-          throw bad_entry("Initial",
-                          list(start),
-                          "must be within the bounds " + list(bounds));
     }
 
     template <int dim>
@@ -233,21 +190,11 @@ namespace snug
     }
 
     template <int dim>
-    typename BezierPatch<dim>::Field
-    BezierPatch<dim>::column(unsigned int i) const
+    std::vector<Control<dim>>
+    BezierPatch<dim>::controls() const
     {
-      std::vector<double> alpha(n_variables(), 0.);
-      alpha[i] = 1.;
-      return apply(alpha);
-    }
-
-    template <int dim>
-    std::vector<dealii::Point<dim>>
-    BezierPatch<dim>::control_points(const std::vector<double> &alpha) const
-    {
-      AssertDimension(alpha.size(), n_variables());
-      std::vector<dealii::Point<dim>> points;
-      const unsigned int              normal = boundary / 2;
+      std::vector<Control<dim>> result;
+      const unsigned int        normal = boundary / 2;
       for (unsigned int i = 0; i < n_variables(); ++i)
         {
           dealii::Point<dim> fraction;
@@ -260,10 +207,17 @@ namespace snug
                 fraction[d] = at[tangent] / (n[tangent] - 1.);
                 ++tangent;
               }
-          points.push_back(mesh.geometry(body).box_position(fraction) +
-                           alpha[i] * direction);
+          result.push_back(
+            {i, mesh.geometry(body).box_position(fraction), direction});
         }
-      return points;
+      return result;
+    }
+
+    template <int dim>
+    std::vector<std::pair<unsigned int, unsigned int>>
+    BezierPatch<dim>::faces() const
+    {
+      return {{body, boundary}};
     }
 
     template class BezierPatch<2>;

@@ -36,14 +36,14 @@ namespace snug
           return {};
         }
 
-        Field
-        column(unsigned int) const override
+        std::vector<Control<dim>>
+        controls() const override
         {
-          return Field(mesh.n_local_nodes());
+          return {};
         }
 
-        std::vector<dealii::Point<dim>>
-        control_points(const std::vector<double> &) const override
+        std::vector<std::pair<unsigned int, unsigned int>>
+        faces() const override
         {
           return {};
         }
@@ -54,16 +54,19 @@ namespace snug
     } // namespace
 
     template <int dim>
-    const ChoiceTable<
-      std::unique_ptr<ShapeBasis<dim>>(const mesh::BodyMesh<dim> &,
-                                       const BodyNames &,
-                                       const ShapeParameters &)> &
+    typename ShapeBasis<dim>::Field
+    ShapeBasis<dim>::column(unsigned int i) const
+    {
+      std::vector<double> alpha(n_variables(), 0.);
+      alpha[i] = 1.;
+      return apply(alpha);
+    }
+
+    template <int dim>
+    const ChoiceTable<MakeShapeBasis<dim>> &
     shape_basis_table()
     {
-      using Make = std::unique_ptr<ShapeBasis<dim>>(const mesh::BodyMesh<dim> &,
-                                                    const BodyNames &,
-                                                    const ShapeParameters &);
-      static const ChoiceTable<Make> table = {
+      static const ChoiceTable<MakeShapeBasis<dim>> table = {
         {"none",
          "the shape is fixed",
          [](const auto &mesh, const auto &, const auto &) {
@@ -77,15 +80,11 @@ namespace snug
       return table;
     }
 
-    template const ChoiceTable<
-      std::unique_ptr<ShapeBasis<2>>(const mesh::BodyMesh<2> &,
-                                     const BodyNames &,
-                                     const ShapeParameters &)> &
+    template class ShapeBasis<2>;
+    template class ShapeBasis<3>;
+    template const ChoiceTable<MakeShapeBasis<2>> &
     shape_basis_table<2>();
-    template const ChoiceTable<
-      std::unique_ptr<ShapeBasis<3>>(const mesh::BodyMesh<3> &,
-                                     const BodyNames &,
-                                     const ShapeParameters &)> &
+    template const ChoiceTable<MakeShapeBasis<3>> &
     shape_basis_table<3>();
   } // namespace shape
 } // namespace snug

@@ -6,7 +6,7 @@
 #include <snug/io/fields.h>
 #include <snug/io/summary.h>
 #include <snug/sensitivity/gradient.h>
-#include <snug/shape/shape_basis.h>
+#include <snug/shape/shapes.h>
 
 #include <memory>
 
@@ -63,18 +63,11 @@ namespace snug
       std::string
       path(const std::string &name) const;
 
-      std::vector<double>
-      lower_bounds() const;
-      std::vector<double>
-      upper_bounds() const;
-      std::vector<double>
-      start() const;
-
       RunContext                              &context;
       const scene::Scene                      &scene;
       std::unique_ptr<mesh::BodyMesh<dim>>     mesh;
       mesh::Tearing                            tearing;
-      std::unique_ptr<shape::ShapeBasis<dim>>  basis;
+      std::unique_ptr<shape::Shapes<dim>>      basis;
       std::unique_ptr<state::StateSolver<dim>> solver;
       std::unique_ptr<response::Response<dim>> objective;
 

@@ -2,8 +2,7 @@
 #define snug_io_shape_export_h
 
 #include <snug/mesh/surface.h>
-
-#include <deal.II/base/point.h>
+#include <snug/shape/shapes.h>
 
 #include <string>
 #include <vector>
@@ -36,15 +35,14 @@ namespace snug
                   const typename mesh::Surface<dim>::Field &positions);
 
     /**
-     * Write the control points as CSV with columns index, x, y, z (3D), value,
-     * where value is the design variable [length]. For one rank.
+     * Write the control points as CSV with columns shape, index, x, y, z (3D)
+     * and dx, dy, dz, how far they moved [length]. For one rank.
      * @throws std::runtime_error if it cannot be written.
      */
     template <int dim>
     void
-    write_control_points(const std::string                     &path,
-                         const std::vector<dealii::Point<dim>> &points,
-                         const std::vector<double>             &design);
+    write_control_points(const std::string                         &path,
+                         const std::vector<shape::MovedPoint<dim>> &points);
   } // namespace io
 } // namespace snug
 

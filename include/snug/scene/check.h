@@ -36,10 +36,19 @@ namespace snug
     void
     check_contact(const Scene &scene, const Origins &origins);
     void
-    check_shape(const Scene &scene, const Origins &origins);
+    check_shapes(const Scene &scene, const Origins &origins);
     void
     check_methods(const Scene &scene, const Origins &origins);
     /// @}
+
+    /// Throw unless @p face is "body.boundary" of the scene; it is (a part of)
+    /// the @p value of the entry @p path.
+    void
+    require_face(const Scene       &scene,
+                 const Origins     &origins,
+                 const std::string &path,
+                 const std::string &value,
+                 const std::string &face);
 
     /// Names of the responses an objective or a constraint may be.
     std::vector<std::string>

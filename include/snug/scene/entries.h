@@ -1,6 +1,7 @@
 #ifndef snug_scene_entries_h
 #define snug_scene_entries_h
 
+#include <snug/base/choice.h>
 #include <snug/scene/statements.h>
 #include <snug/scene/values.h>
 
@@ -101,10 +102,30 @@ namespace snug
       std::vector<Description> list;
     };
 
+    /// A choice from a factory table. Of tables for 2D and 3D, which have the
+    /// same names, the one for 3D is passed.
+    template <typename Make>
+    void
+    add_choice(Entries                 &entries,
+               const std::string       &name,
+               std::string             &value,
+               const ChoiceTable<Make> &table,
+               const std::string       &meaning)
+    {
+      entries.add(name,
+                  value,
+                  choice(names(table)),
+                  meaning + " " + meanings(table) + ".");
+    }
+
     /// Declare all entries of @p scene, with its values as defaults. The
-    /// bodies there are get their subsections.
+    /// bodies and shapes there are get their subsections.
     void
     declare(Entries &entries, Scene &scene);
+
+    /// The part of declare() about shapes.
+    void
+    declare_shapes(Entries &entries, Scene &scene);
   } // namespace scene
 } // namespace snug
 

@@ -9,7 +9,7 @@
 #include <snug/optimization/optimization_parameters.h>
 #include <snug/qp/solver.h>
 #include <snug/sensitivity/gradient_parameters.h>
-#include <snug/shape/shape_basis.h>
+#include <snug/shape/shape_parameters.h>
 
 #include <map>
 #include <string>
@@ -46,6 +46,7 @@ namespace snug
      */
     struct Scene
     {
+      std::string       file; ///< it was read from, for messages
       Task              task             = Task::state;
       unsigned int      dimension        = 3; ///< 2: plane strain
       std::string       output_directory = "output";
@@ -57,7 +58,7 @@ namespace snug
 
       mesh::TearingParameters              tearing;
       contact::ContactParameters           contact;
-      shape::ShapeParameters               shape;
+      std::vector<shape::ShapeParameters>  shapes{1}; ///< unnamed, or named
       feti::FetiParameters                 feti;
       qp::SolverParameters                 solver;
       sensitivity::GradientParameters      gradient;
@@ -76,10 +77,6 @@ namespace snug
     /// @throws InputError if the body has no mesh (entries without section).
     std::vector<std::string>
     boundary_names(const Body &body, unsigned int dimension);
-
-    /// Number of design variables the shape entries ask for.
-    unsigned int
-    n_design_variables(const shape::ShapeParameters &shape);
   } // namespace scene
 } // namespace snug
 

@@ -23,8 +23,8 @@ namespace snug
     public:
       using Field = typename ShapeBasis<dim>::Field;
 
-      /// @throws InputError naming the entry Face, Control points, Direction,
-      ///   Bounds or Initial. @p mesh must outlive this object.
+      /// @throws InputError naming the entry Face, Control points, Direction.
+      ///   @p mesh must outlive this object.
       BezierPatch(const mesh::BodyMesh<dim> &mesh,
                   const BodyNames           &bodies,
                   const ShapeParameters     &parameters);
@@ -35,10 +35,10 @@ namespace snug
       apply(const std::vector<double> &alpha) const override;
       std::vector<double>
       transpose(const Field &gradient) const override;
-      Field
-      column(unsigned int i) const override;
-      std::vector<dealii::Point<dim>>
-      control_points(const std::vector<double> &alpha) const override;
+      std::vector<Control<dim>>
+      controls() const override;
+      std::vector<std::pair<unsigned int, unsigned int>>
+      faces() const override;
 
     private:
       /// The weights b B_i of one node of the body.
@@ -60,8 +60,6 @@ namespace snug
       read_control_points(const std::vector<unsigned int> &numbers);
       void
       read_direction(const std::vector<double> &components);
-      void
-      check_bounds(const ShapeParameters &parameters) const;
       std::vector<double>
       weights_at(const dealii::Point<dim> &fraction) const;
       void

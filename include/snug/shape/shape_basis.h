@@ -3,24 +3,25 @@
 
 #include <snug/base/choice.h>
 #include <snug/mesh/body_mesh.h>
+#include <snug/shape/shape_parameters.h>
 
 #include <memory>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace snug
 {
   namespace shape
   {
-    /// Entries of `subsection Shape`.
-    struct ShapeParameters
+    /// What one design variable moves: its control point in the reference.
+    template <int dim>
+    struct Control
     {
-      std::string               basis = "none"; ///< none | Bezier patch
-      std::string               face;           ///< "body.boundary"
-      std::vector<unsigned int> control_points; ///< per tangent direction
-      std::vector<double>       direction;      ///< of the heights
-      std::vector<double>       bounds;         ///< lower, upper [length]
-      std::vector<double>       initial;        ///< [length], default 0
+      unsigned int           point;          ///< index of the control point
+      dealii::Point<dim>     position;       ///< [length]
+      dealii::Tensor<1, dim> direction;      ///< move of the point per variable
+      bool                   border = false; ///< on the rim of the shape
+      bool                   frozen = false; ///< must not move
     };
 
     /**
@@ -38,7 +39,7 @@ namespace snug
       virtual unsigned int
       n_variables() const = 0;
 
-      /// V alpha on the local nodes [length].
+      /// V alpha on the local nodes. Collective.
       virtual Field
       apply(const std::vector<double> &alpha) const = 0;
 
@@ -47,27 +48,29 @@ namespace snug
       virtual std::vector<double>
       transpose(const Field &gradient) const = 0;
 
-      /// Column i on the local nodes.
-      virtual Field
-      column(unsigned int i) const = 0;
+      /// Column i on the local nodes. Collective.
+      Field
+      column(unsigned int i) const;
 
-      /// Positions of the control points at alpha, for export.
-      virtual std::vector<dealii::Point<dim>>
-      control_points(const std::vector<double> &alpha) const = 0;
+      /// One per variable, or none if variables have no place.
+      virtual std::vector<Control<dim>>
+      controls() const = 0;
+
+      /// (body, boundary) of the faces that are shaped, ascending.
+      virtual std::vector<std::pair<unsigned int, unsigned int>>
+      faces() const = 0;
     };
 
-    /// Names of the bodies in the order of the mesh, for "body.boundary".
-    struct BodyNames
-    {
-      std::vector<std::string> names;
-    };
-
-    /// Rows "none" (no variables) and "Bezier patch".
+    /// A basis from its entries. @throws InputError naming the entry.
+    /// Collective. The mesh must outlive the basis.
     template <int dim>
-    const ChoiceTable<
+    using MakeShapeBasis =
       std::unique_ptr<ShapeBasis<dim>>(const mesh::BodyMesh<dim> &,
                                        const BodyNames &,
-                                       const ShapeParameters &)> &
+                                       const ShapeParameters &);
+
+    template <int dim>
+    const ChoiceTable<MakeShapeBasis<dim>> &
     shape_basis_table();
   } // namespace shape
 } // namespace snug

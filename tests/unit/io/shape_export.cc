@@ -149,19 +149,26 @@ namespace snug
       const test::ScratchDirectory scratch;
       if (!scratch.is_first())
         return;
-      const std::vector<dealii::Point<3>> points = {{0.1, 0.2, 1. / 3.},
-                                                    {-1., 0., 1e-30}};
-      io::write_control_points<3>(scratch.file("c.csv"), points, {0.7, -0.1});
+      std::vector<shape::MovedPoint<3>> points(2);
+      points[0]         = {"a", 0, {0.1, 0.2, 1. / 3.}, {}};
+      points[1]         = {"a", 1, {-1., 0., 1e-30}, {}};
+      points[0].move[2] = 0.7;
+      points[1].move[0] = -0.1;
+      io::write_control_points<3>(scratch.file("c.csv"), points);
       const auto table = test::read_csv(test::read_file(scratch.file("c.csv")));
       ASSERT_EQ(table.size(), 3u);
       EXPECT_EQ(table[0],
-                (std::vector<std::string>{"index", "x", "y", "z", "value"}));
+                (std::vector<std::string>{
+                  "shape", "index", "x", "y", "z", "dx", "dy", "dz"}));
       for (unsigned int i = 0; i < 2; ++i)
         {
-          EXPECT_EQ(table[i + 1][0], std::to_string(i));
+          EXPECT_EQ(table[i + 1][0], "a");
+          EXPECT_EQ(table[i + 1][1], std::to_string(i));
           for (unsigned int c = 0; c < 3; ++c)
-            EXPECT_EQ(std::stod(table[i + 1][1 + c]), points[i][c]);
-          EXPECT_EQ(std::stod(table[i + 1][4]), i == 0 ? 0.7 : -0.1);
+            {
+              EXPECT_EQ(std::stod(table[i + 1][2 + c]), points[i].position[c]);
+              EXPECT_EQ(std::stod(table[i + 1][5 + c]), points[i].move[c]);
+            }
         }
     }
   } // namespace

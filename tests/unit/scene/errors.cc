@@ -155,7 +155,6 @@ TEST(Errors, NumbersThatDoNotFitTheDimension)
   expect_error({"Shape/Control points", "3, 3, 3", "must have 2 numbers"});
   expect_error({"Shape/Direction", "0, 1", "must be 3 numbers"});
   expect_error({"Shape/Bounds", "1", "two numbers"});
-  expect_error({"Shape/Initial", "0, 0.1", "1 number or 6 numbers"});
 }
 
 TEST(Errors, BodiesAndBoundaries)
@@ -216,6 +215,9 @@ TEST(Errors, Designs)
   expect_error({"Shape/Initial", "0, 0, 0, 0, 0, -0.3", "within the bounds"});
   expect_error({"Shape/Basis", "none", "for the task optimize"});
   EXPECT_EQ(error_of({"Shape/Basis=none", "Task=state"}), "");
+  expect_error({"Shapes", "a, a", "must not occur twice"});
+  expect_error({"Shapes", "a/b", "letters"});
+  EXPECT_TRUE(has(error_of({"Shapes=a"}), "unknown subsection 'Shape'"));
 }
 
 TEST(Errors, MethodsAndResponses)
@@ -259,9 +261,9 @@ TEST(Check, FindsNumbersThatAreNoneInScenesFromPrograms)
       +[](scene::Scene &s, double x) {
       s.bodies[0].loads.traction["top"][1] = x;
     },
-      +[](scene::Scene &s, double x) { s.shape.bounds[1] = x; },
-      +[](scene::Scene &s, double x) { s.shape.initial[3] = x; },
-      +[](scene::Scene &s, double x) { s.shape.direction[2] = x; },
+      +[](scene::Scene &s, double x) { s.shapes[0].bounds[1] = x; },
+      +[](scene::Scene &s, double x) { s.shapes[0].initial.assign(6, x); },
+      +[](scene::Scene &s, double x) { s.shapes[0].direction[2] = x; },
       +[](scene::Scene &s, double x) { s.solver.relative_tolerance = x; },
       +[](scene::Scene &s, double x) { s.gradient.step = x; },
       +[](scene::Scene &s, double x) { s.optimization.design_tolerance = x; }};

@@ -19,9 +19,9 @@ TEST(ReadScene, FillsTheParametersOfEveryModule)
   EXPECT_EQ(scene.contact.pairs.size(), 1U);
   EXPECT_EQ(scene.contact.pairs.at(0).first, "punch.bottom");
   EXPECT_EQ(scene.contact.pairs.at(0).second, "foundation.top");
-  EXPECT_EQ(scene.shape.basis, "Bezier patch");
-  EXPECT_EQ(scene.shape.control_points, (Integers{3, 2}));
-  EXPECT_EQ(scene.shape.bounds, (Numbers{-0.25, 0.25}));
+  EXPECT_EQ(scene.shapes[0].basis, "Bezier patch");
+  EXPECT_EQ(scene.shapes[0].control_points, (Integers{3, 2}));
+  EXPECT_EQ(scene.shapes[0].bounds, (Numbers{-0.25, 0.25}));
   EXPECT_EQ(scene.optimization.constraints.at("volume"), "initial");
   EXPECT_EQ(scene.optimization.objective, "potential energy");
 }
@@ -57,8 +57,24 @@ TEST(ReadScene, FillsEmptyListsWithTheirDefaults)
   EXPECT_EQ(scene.bodies[0].mesh.grading, (Numbers{1, 1, 1}));
   EXPECT_EQ(scene.bodies[1].mesh.corner, (Numbers{0, 0, 0}));
   EXPECT_EQ(scene.bodies[0].loads.body_force, (Numbers{0, 0, 0}));
-  EXPECT_EQ(scene.shape.initial, Numbers(6, 0.));
-  EXPECT_EQ(read_with({"Shape/Initial=0.1"}).shape.initial, Numbers(6, 0.1));
+}
+
+TEST(ReadScene, NamedShapesHaveTheirOwnSubsections)
+{
+  const std::string text  = replaced(scene_text(),
+                                    "subsection Shape\n",
+                                    "set Shapes = a, left side\n"
+                                     "subsection Shape left side\n"
+                                     "set Basis = none\nend\n"
+                                     "subsection Shape a\n");
+  const auto        scene = read_with({"Shape left side/Bounds=0,1"}, text);
+  ASSERT_EQ(scene.shapes.size(), 2U);
+  EXPECT_EQ(scene.shapes[0].name, "a");
+  EXPECT_EQ(scene.shapes[0].control_points, (Integers{3, 2}));
+  EXPECT_EQ(scene.shapes[1].name, "left side");
+  EXPECT_EQ(scene.shapes[1].basis, "none");
+  EXPECT_EQ(scene.shapes[1].bounds, (Numbers{0, 1}));
+  EXPECT_EQ(printed(read_with({}, printed(scene))), printed(scene));
 }
 
 TEST(ReadScene, OverridesComeAfterTheFile)
@@ -120,7 +136,7 @@ TEST(PrintScene, ReadsBackToTheSameScene)
   EXPECT_EQ(again.bodies[0].mesh.refine_where, "0.3-x^2-y^2");
   EXPECT_EQ(again.bodies[1].loads.body_force, scene.bodies[1].loads.body_force);
   EXPECT_EQ(again.contact.pairs, scene.contact.pairs);
-  EXPECT_EQ(again.shape.initial, scene.shape.initial);
+  EXPECT_EQ(again.shapes[0].initial, scene.shapes[0].initial);
   EXPECT_EQ(again.solver.relative_tolerance, 1e-9);
   EXPECT_TRUE(again.report_linear_reference);
   EXPECT_EQ(again.tearing.subdomains, 7U);

@@ -1,4 +1,4 @@
-#include <snug/shape/shape_basis.h>
+#include <snug/shape/shapes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,7 +12,7 @@ using namespace snug;
 
 namespace
 {
-  const shape::BodyNames names{{"punch", "foundation"}};
+  const shape::BodyNames body_names{{"punch", "foundation"}};
 
   /// A plain box and a graded one with a curved bottom and hanging nodes.
   template <int dim>
@@ -53,7 +53,7 @@ namespace
         const shape::ShapeParameters &parameters)
   {
     return choose(shape::shape_basis_table<dim>(), parameters.basis)
-      .make(mesh, names, parameters);
+      .make(mesh, body_names, parameters);
   }
 
   std::vector<double>
@@ -229,18 +229,22 @@ TEST(BezierPatch, ControlPointsStandOnTheFlatFace)
   const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 1);
   auto                    parameters = top_patch<3>();
   parameters.face                    = "foundation.bottom";
-  const auto          patch          = basis(mesh, parameters);
-  std::vector<double> alpha(12, 0.);
+  const shape::Shapes<3> shapes(mesh, body_names, {parameters});
+  std::vector<double>    alpha(12, 0.);
   alpha[7]          = 0.25;
-  const auto points = patch->control_points(alpha);
+  const auto points = shapes.control_points(alpha);
   ASSERT_EQ(points.size(), 12u);
-  EXPECT_NEAR(points[0].distance(dealii::Point<3>(-1., -1., -1.)), 0., 1e-15);
-  EXPECT_NEAR(points[2].distance(dealii::Point<3>(1., -1., -1.)), 0., 1e-15);
+  const auto expect_at = [&](unsigned int i, const dealii::Point<3> &place) {
+    EXPECT_EQ(points[i].index, i);
+    EXPECT_NEAR(points[i].position.distance(place), 0., 1e-15);
+  };
+  expect_at(0, {-1., -1., -1.});
+  expect_at(2, {1., -1., -1.});
   // height 7 = 1 + 3 * 2: s = 1/2, t = 2/3
-  EXPECT_NEAR(points[7].distance(dealii::Point<3>(0., 1. / 3, -0.75)),
-              0.,
-              1e-15);
-  EXPECT_NEAR(points[11].distance(dealii::Point<3>(1., 1., -1.)), 0., 1e-15);
+  expect_at(7, {0., 1. / 3, -0.75});
+  expect_at(11, {1., 1., -1.});
+  EXPECT_NEAR(points[7].move[2], 0.25, 1e-15);
+  EXPECT_EQ(points[6].move.norm(), 0.);
 }
 
 TEST(BezierPatch, RejectsBadEntriesByName)
@@ -262,11 +266,6 @@ TEST(BezierPatch, RejectsBadEntriesByName)
   expect_entry("Direction", [](P &p) { p.direction = {0., 0., 0.}; });
   expect_entry("Direction", [](P &p) { p.direction = {0., 1.}; });
   expect_entry("Direction", [](P &p) { p.direction = {0., 1., NAN}; });
-  expect_entry("Bounds", [](P &p) { p.bounds = {0.5, 0.5}; });
-  expect_entry("Bounds", [](P &p) { p.bounds = {0.5}; });
-  expect_entry("Initial", [](P &p) { p.initial.assign(11, 0.); });
-  expect_entry("Initial", [](P &p) { p.initial.assign(12, 2.); });
-  expect_entry("Initial", [](P &p) { p.bounds = {0.1, 0.2}; });
 }
 
 TEST(NoBasis, HasNoVariables)
