@@ -1,4 +1,5 @@
 #include <snug/qp/active_set.h>
+#include <snug/qp/cycle_detector.h>
 #include <snug/qp/kkt.h>
 #include <snug/qp/pcpg.h>
 #include <snug/qp/row_set.h>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <ostream>
 #include <sstream>
 
@@ -18,53 +18,12 @@ namespace snug
   {
     namespace
     {
-      /// Forcing term: the inner residual is this part of the KKT residual.
-      const double forcing = 0.1;
-
       /// Part of the load a set may leave unbalanced.
       const double balance_tolerance = 1e-8;
 
-      /// Steps on one set that may fail to halve the KKT residual.
+      /// Steps in a row that may fail to halve the KKT residual of one set, or
+      /// to solve on it.
       const unsigned int allowed_stalls = 3;
-
-      /// Counts the visits of sets and says how careful to be.
-      class CycleDetector
-      {
-      public:
-        enum Care
-        {
-          none,
-          exact,  ///< solve the inner problems more exactly
-          single, ///< and change one row per step
-          give_up
-        };
-
-        explicit CycleDetector(const CycleGuard &guard) : guard(guard)
-        {
-        }
-
-        Care
-        enter(std::uint64_t set)
-        {
-          const unsigned int n = ++visits[set];
-          if (care == single &&
-              (++single_steps > guard.single_steps || n >= guard.visits))
-            care = give_up;
-          else if (care < single && n >= guard.visits)
-            {
-              care = n == guard.visits ? exact : single;
-              if (care == single)
-                visits.clear();
-            }
-          return care;
-        }
-
-      private:
-        CycleGuard                            guard;
-        std::map<std::uint64_t, unsigned int> visits;
-        Care                                  care         = none;
-        unsigned int                          single_steps = 0;
-      };
 
       /// One solve: the iterate, the set and what belongs to it.
       class ActiveSetRun
@@ -72,12 +31,14 @@ namespace snug
       public:
         ActiveSetRun(const DualProblem      &problem,
                      const SolverParameters &parameters,
-                     const CycleGuard       &guard)
+                     const ActiveSetOptions &options)
           : problem(problem)
           , context(problem.context())
           , parameters(parameters)
-          , cycles(guard)
+          , options(options)
+          , cycles(options)
           , f_mults_before(context.work.f_mults)
+          , inner_tolerance(options.forcing)
         {
         }
 
@@ -116,11 +77,14 @@ namespace snug
         bool
         change_set(const RowSet &next);
         void
+        count_stall();
+        void
         keep_set();
 
         const DualProblem     &problem;
         RunContext            &context;
         const SolverParameters parameters;
+        const ActiveSetOptions options;
         CycleDetector          cycles;
         CycleDetector::Care    care = CycleDetector::none;
         const unsigned long    f_mults_before;
@@ -130,12 +94,13 @@ namespace snug
         std::unique_ptr<Face> face;
         std::unique_ptr<Pcpg> krylov; // of the face
         KktResidual           kkt;
-        double                scale           = 0.;
-        double                inner_tolerance = forcing;
-        double                last_kkt        = 0.; // on the same set
-        unsigned int          recurrences     = 0;  // since d - F lambda
-        unsigned int          outer           = 0;
-        unsigned int          stalls          = 0;
+        double                scale = 0.;
+        double                inner_tolerance;
+        double                last_kkt    = 0.; // on the same set
+        unsigned int          recurrences = 0;  // since d - F lambda
+        unsigned int          outer       = 0;
+        bool                  solved      = true; // on the set
+        unsigned int          stalls      = 0;
       };
 
       void
@@ -227,7 +192,8 @@ namespace snug
                         {std::max(inner_tolerance, least) * scale},
                         parameters.max_iterations - f_mults());
         recurrences += inner.iterations;
-        kkt = kkt_residual(problem, *face, lambda, residual, scale);
+        solved = inner.converged;
+        kkt    = kkt_residual(problem, *face, lambda, residual, scale);
         ++outer;
         std::ostringstream line;
         line << "active set, step " << outer << ": KKT residual "
@@ -274,19 +240,25 @@ namespace snug
         return next;
       }
 
+      void
+      ActiveSetRun::count_stall()
+      {
+        if (++stalls > allowed_stalls)
+          throw not_converged("active set",
+                              kkt.relative,
+                              parameters.relative_tolerance,
+                              f_mults());
+      }
+
       /// The set stays: go on with the same directions, more exactly.
       void
       ActiveSetRun::keep_set()
       {
         inner_tolerance =
-          std::min(0.1 * inner_tolerance, forcing * kkt.relative);
+          std::min(0.1 * inner_tolerance, options.forcing * kkt.relative);
         if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt)
           {
-            if (++stalls > allowed_stalls)
-              throw not_converged("active set",
-                                  kkt.relative,
-                                  parameters.relative_tolerance,
-                                  f_mults());
+            count_stall();
             krylov.reset();
             balance_load();
             refresh_residual();
@@ -307,8 +279,13 @@ namespace snug
               lambda(i) = 0.;
               changed   = true;
             }
-        inner_tolerance = std::min(inner_tolerance, forcing * kkt.relative);
-        mask            = next;
+        inner_tolerance =
+          std::min(inner_tolerance, options.forcing * kkt.relative);
+        RowSet leaving = mask;
+        for (unsigned int i = 0; i < next.size(); ++i)
+          leaving[i] = mask[i] && !next[i];
+        DirectionBasis known = krylov->directions_off(leaving);
+        mask                 = next;
         krylov.reset();
         if (any(changed, comm))
           {
@@ -317,10 +294,13 @@ namespace snug
           }
         else
           face = problem.face(mask);
-        krylov   = std::make_unique<Pcpg>(problem, *face);
+        krylov   = std::make_unique<Pcpg>(problem, *face, std::move(known));
         last_kkt = 0.;
-        stalls   = 0;
-        care     = cycles.enter(fingerprint(mask, comm));
+        if (solved)
+          stalls = 0;
+        else
+          count_stall();
+        care = cycles.enter(fingerprint(mask, comm));
         if (care != CycleDetector::none)
           inner_tolerance *= 0.01;
         return care != CycleDetector::give_up;
@@ -360,15 +340,15 @@ namespace snug
     } // namespace
 
     ActiveSet::ActiveSet(const SolverParameters &parameters,
-                         const CycleGuard       &guard)
-      : parameters(parameters), guard(guard)
+                         const ActiveSetOptions &options)
+      : parameters(parameters), options(options)
     {
     }
 
     DualSolution
     ActiveSet::solve(const DualProblem &problem, const WarmStart &start) const
     {
-      ActiveSetRun run(problem, parameters, guard);
+      ActiveSetRun run(problem, parameters, options);
       if (run.run(start))
         return run.solution();
       problem.context().out()

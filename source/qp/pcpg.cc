@@ -45,6 +45,23 @@ namespace snug
         return product;
       }
 
+      /// A <- A (I - 2 v v' / v'v)
+      void
+      reflect(const std::vector<double> &v, MultiVector &A)
+      {
+        double square = 0.;
+        for (const double entry : v)
+          square += entry * entry;
+        for (unsigned int i = 0; i < A.n_rows(); ++i)
+          {
+            double product = 0.;
+            for (unsigned int j = 0; j < v.size(); ++j)
+              product += A(i, j) * v[j];
+            for (unsigned int j = 0; j < v.size(); ++j)
+              A(i, j) -= 2. * product / square * v[j];
+          }
+      }
+
       /// Remembers the smallest worst column and when it was reached.
       class StagnationTest
       {
@@ -108,33 +125,96 @@ namespace snug
       return C;
     }
 
-    Pcpg::Pcpg(const DualProblem &problem, const Face &face)
+    MultiVector
+    null_space(MultiVector A)
+    {
+      const unsigned int m = A.n_rows(), n = A.n_columns();
+      MultiVector        Q(n, n); // product of the reflections
+      double             largest = 0.;
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          Q(j, j) = 1.;
+          for (unsigned int i = 0; i < m; ++i)
+            largest = std::max(largest, std::abs(A(i, j)));
+        }
+      unsigned int rank = 0;
+      for (unsigned int row = 0; row < m && rank < n; ++row)
+        {
+          std::vector<double> v(n, 0.); // of the reflection
+          double              square = 0.;
+          for (unsigned int j = rank; j < n; ++j)
+            {
+              v[j] = A(row, j);
+              square += v[j] * v[j];
+            }
+          if (std::sqrt(square) <= noise * largest)
+            continue;
+          v[rank] += std::copysign(std::sqrt(square), v[rank]);
+          reflect(v, A);
+          reflect(v, Q);
+          ++rank;
+        }
+      return Q.columns_from(rank, n - rank);
+    }
+
+    Pcpg::Pcpg(const DualProblem &problem,
+               const Face        &face,
+               DirectionBasis     known)
       : problem(problem)
       , face(face)
       , comm(problem.context().communicator())
-      , P(problem.n_owned(), 0)
-      , FP(problem.n_owned(), 0)
+      , basis(std::move(known))
     {
+      if (basis.P.n_columns() == 0)
+        basis = {MultiVector(problem.n_owned(), 0),
+                 MultiVector(problem.n_owned(), 0)};
+    }
+
+    DirectionBasis
+    Pcpg::directions_off(const RowSet &rows) const
+    {
+      const unsigned int        n = basis.P.n_columns();
+      std::vector<unsigned int> mine;
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        if (rows[i])
+          mine.push_back(i);
+      unsigned int count = mine.size(), first = 0, total = 0;
+      MPI_Exscan(&count, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
+      MPI_Allreduce(&count, &total, 1, MPI_UNSIGNED, MPI_SUM, comm);
+      if (total >= n)
+        return DirectionBasis();
+      MultiVector on_rows(total, n);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < count; ++i)
+          on_rows(first + i, j) = basis.P(mine[i], j);
+      MPI_Allreduce(
+        MPI_IN_PLACE, on_rows.column(0), total * n, MPI_DOUBLE, MPI_SUM, comm);
+      const MultiVector N   = null_space(on_rows);
+      DirectionBasis    off = {times(basis.P, N), times(basis.FP, N)};
+      for (unsigned int j = 0; j < off.P.n_columns(); ++j)
+        for (const unsigned int i : mine)
+          off.P(i, j) = 0.;
+      return off;
     }
 
     void
     Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
     {
-      if (P.n_columns() == 0)
+      if (basis.P.n_columns() == 0)
         return;
-      const MultiVector a = inner_products(P, residual, comm);
-      lambda.add_product(1., P, a);
-      residual.add_product(-1., FP, a);
+      const MultiVector a = inner_products(basis.P, residual, comm);
+      lambda.add_product(1., basis.P, a);
+      residual.add_product(-1., basis.FP, a);
     }
 
     std::vector<double>
     Pcpg::orthogonalise(MultiVector &x) const
     {
       std::vector<double> removed(x.n_columns(), 0.);
-      if (P.n_columns() == 0)
+      if (basis.P.n_columns() == 0)
         return removed;
-      const MultiVector parts = inner_products(FP, x, comm);
-      x.add_product(-1., P, parts);
+      const MultiVector parts = inner_products(basis.FP, x, comm);
+      x.add_product(-1., basis.P, parts);
       for (unsigned int j = 0; j < parts.n_columns(); ++j)
         for (unsigned int i = 0; i < parts.n_rows(); ++i)
           removed[j] += parts(i, j) * parts(i, j);
@@ -200,8 +280,8 @@ namespace snug
       const MultiVector new_P = times(Z, C), new_FP = times(FZ, C);
       lambda.add_product(1., new_P, a);
       residual.add_product(-1., new_FP, a);
-      P.append(new_P);
-      FP.append(new_FP);
+      basis.P.append(new_P);
+      basis.FP.append(new_FP);
       return true;
     }
 

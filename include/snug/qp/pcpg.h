@@ -16,6 +16,12 @@ namespace snug
       bool converged = false;
     };
 
+    /// Directions P with P' F P = I, and F P (n_owned x n each).
+    struct DirectionBasis
+    {
+      MultiVector P{0, 0}, FP{0, 0};
+    };
+
     /**
      * Block preconditioned conjugate projected gradients with full
      * reorthogonalisation for the linear problems on a face,
@@ -27,7 +33,9 @@ namespace snug
      * block of equal columns costs what one of them does.
      *
      * The directions are kept: solving again on the same face, with tighter
-     * tolerances or corrected residuals, continues the iteration.
+     * tolerances or corrected residuals, continues the iteration. Those that
+     * vanish on rows that leave the face are directions on the new face too,
+     * and cost nothing there.
      *
      * Source: O'Leary, The block conjugate gradient algorithm, Linear Algebra
      * Appl. 29 (1980); Farhat, Roux, An unconventional domain decomposition
@@ -36,8 +44,11 @@ namespace snug
     class Pcpg
     {
     public:
-      /// Both must outlive this object.
-      Pcpg(const DualProblem &problem, const Face &face);
+      /// Problem and face must outlive this object; @p known directions must
+      /// lie in the face.
+      Pcpg(const DualProblem &problem,
+           const Face        &face,
+           DirectionBasis     known = DirectionBasis());
 
       /**
        * @param[in,out] lambda feasible start, then solution (n_owned x k).
@@ -52,6 +63,14 @@ namespace snug
             MultiVector               &residual,
             const std::vector<double> &tolerances,
             unsigned int               max_iterations);
+
+      /**
+       * An F-orthonormal basis of the directions' span that vanishes on
+       * @p rows; without F-mults. Empty if there are as many rows as
+       * directions. Collective.
+       */
+      DirectionBasis
+      directions_off(const RowSet &rows) const;
 
     private:
       /// Minimize over directions already there.
@@ -78,7 +97,7 @@ namespace snug
       const DualProblem &problem;
       const Face        &face;
       MPI_Comm           comm;
-      MultiVector        P, FP; ///< P' F P = I
+      DirectionBasis     basis;
       double             largest_rayleigh_quotient = 0.;
     };
 
@@ -90,6 +109,11 @@ namespace snug
          MultiVector               &residual,
          const std::vector<double> &tolerances,
          unsigned int               max_iterations);
+
+    /// Orthonormal basis of the null space of @p A (m x n) by Householder
+    /// reflections; n x (n - rank).
+    MultiVector
+    null_space(MultiVector A);
 
     /**
      * Rank-revealing Cholesky factorization of the symmetric positive

@@ -329,8 +329,11 @@ TEST(ActiveSet, ImpossibleToleranceEnds)
 
 TEST(ActiveSet, LeavesACycleBySingleSteps)
 {
+  ActiveSetOptions options;
+  options.forcing = 1e-3; // exact solves cycle
   const DenseProblem problem(cycling_data());
-  const auto         solution = solve_cold(problem, 1e-10);
+  const auto         solution =
+    ActiveSet(with_tolerance(1e-10), options).solve(problem, WarmStart());
   expect_certified(problem, solution, 1e-10);
   EXPECT_EQ(solution.method, "active set");
   EXPECT_GT(solution.outer_iterations, 9u); // three rounds of three sets
@@ -338,11 +341,12 @@ TEST(ActiveSet, LeavesACycleBySingleSteps)
 
 TEST(ActiveSet, FallsBackToSmalse)
 {
-  CycleGuard guard;
-  guard.single_steps = 0;
+  ActiveSetOptions options;
+  options.forcing      = 1e-3;
+  options.single_steps = 0;
   const DenseProblem problem(cycling_data());
   const auto         solution =
-    ActiveSet(with_tolerance(1e-10), guard).solve(problem, WarmStart());
+    ActiveSet(with_tolerance(1e-10), options).solve(problem, WarmStart());
   expect_certified(problem, solution, 1e-10);
   EXPECT_EQ(solution.method, "SMALSE-M");
   EXPECT_EQ(problem.log.str().find("SMALSE-M") != std::string::npos,

@@ -213,6 +213,66 @@ TEST(Pcpg, ContinuesWithTheSameDirections)
   EXPECT_LT(dense::distance(lambda, again), 1e-11);
 }
 
+TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
+{
+  const DenseProblem problem(linear_data(40, 3, 18));
+  std::mt19937       generator(19);
+  const auto         b = dense::random(40, 1, generator);
+  RowSet             leaving(40, 0), staying(40, 1);
+  for (const unsigned int row : {1, 17, 34})
+    {
+      leaving[row] = 1;
+      staying[row] = 0;
+    }
+  const auto  whole = problem.face(problem.slice(RowSet(40, 1)));
+  const auto  part  = problem.face(problem.slice(staying));
+  MultiVector lambda(problem.n_owned(), 1), residual = problem.slice(b);
+  Pcpg        on_all_rows(problem, *whole);
+  const auto  first = on_all_rows.solve(lambda, residual, {1e-3}, 100);
+  const auto  known = on_all_rows.directions_off(problem.slice(leaving));
+  // a direction is lost per row
+  EXPECT_EQ(known.P.n_columns(), first.iterations - 3);
+  const auto P = problem.gather(known.P), FP = problem.gather(known.FP);
+  EXPECT_LT(dense::distance(FP, dense::product(problem.data.F, P)), 1e-12);
+  dense::Matrix identity(P.n_columns(), P.n_columns());
+  for (unsigned int j = 0; j < P.n_columns(); ++j)
+    {
+      identity(j, j) = 1.;
+      for (unsigned int i = 0; i < 40; ++i)
+        if (leaving[i])
+          EXPECT_EQ(P(i, j), 0.);
+    }
+  EXPECT_LT(dense::distance(dense::product(dense::transpose(P), FP), identity),
+            1e-12);
+
+  MultiVector again(problem.n_owned(), 1);
+  residual = problem.slice(b);
+  const auto next =
+    Pcpg(problem, *part, known).solve(again, residual, {1e-11}, 100);
+  const auto alone = solve_with_pcpg(problem, staying, b, 1e-12);
+  EXPECT_LT(dense::distance(problem.gather(again),
+                            solve_directly(problem.data, staying, b)),
+            1e-10);
+  EXPECT_LE(next.iterations + known.P.n_columns(), alone.f_mults + 3);
+}
+
+TEST(NullSpace, OfDependentRows)
+{
+  std::mt19937 generator(20);
+  const auto   A = dense::product(dense::random(6, 3, generator),
+                                dense::random(3, 8, generator));
+  const auto   N = null_space(A);
+  ASSERT_EQ(N.n_columns(), 5u);
+  EXPECT_LT(dense::largest(dense::product(A, N)), 1e-14);
+  dense::Matrix identity(5, 5);
+  for (unsigned int i = 0; i < 5; ++i)
+    identity(i, i) = 1.;
+  EXPECT_LT(dense::distance(dense::product(dense::transpose(N), N), identity),
+            1e-14);
+  EXPECT_EQ(null_space(dense::random(3, 3, generator)).n_columns(), 0u);
+  EXPECT_EQ(null_space(dense::Matrix(0, 4)).n_columns(), 4u);
+}
+
 TEST(Pcpg, SemidefiniteOperator)
 {
   // dependent rows: F = B B' of rank 20 < 30, right-hand sides in its range
