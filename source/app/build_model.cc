@@ -22,7 +22,9 @@ namespace snug
                  const mesh::BodyGeometry<dim> &geometry)
       {
         state::BodyModel<dim> model;
-        model.materials  = {body.material};
+        model.materials = {body.material};
+        model.formulation =
+          choose(elasticity::formulation_table(), body.formulation).make();
         model.body_force = to_tensor<dim>(body.loads.body_force);
         for (const auto &entry : body.loads.pressure)
           model.loads[mesh::boundary_index(geometry, entry.first)].pressure =

@@ -48,7 +48,8 @@ namespace snug
         });
         mesh    = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
                                                      mesh_parameters(scene),
-                                                     scene.degree);
+                                                     scene.degree,
+                                                     idealization(scene));
         tearing = mesh::tear(*mesh, scene.tearing);
         shape::BodyNames names;
         for (const auto &body : scene.bodies)

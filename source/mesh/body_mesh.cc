@@ -70,6 +70,8 @@ namespace snug
       collect_hanging();
       void
       collect_cells();
+      void
+      snap_to_axis();
     };
 
     template <int dim>
@@ -192,6 +194,20 @@ namespace snug
     }
 
     template <int dim>
+    void
+    BodyMesh<dim>::Data::snap_to_axis()
+    {
+      const double round_off = 1e-10;
+      double       largest   = 0.;
+      for (const auto &x : reference)
+        largest = std::max(largest, std::abs(x[0]));
+      largest = dealii::Utilities::MPI::max(largest, comm);
+      for (auto &x : reference)
+        if (std::abs(x[0]) <= round_off * largest)
+          x[0] = 0.;
+    }
+
+    template <int dim>
     BodyMesh<dim>::BodyMesh(MPI_Comm                               communicator,
                             const std::vector<BodyMeshParameters> &bodies,
                             unsigned int                           degree,
@@ -207,6 +223,8 @@ namespace snug
       data->collect_nodes();
       data->collect_hanging();
       data->collect_cells();
+      if (idealization.is_axisymmetric())
+        data->snap_to_axis();
       interpolate_hanging(data->reference);
     }
 

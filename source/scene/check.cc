@@ -110,6 +110,31 @@ namespace snug
       }
     } // namespace
 
+    namespace
+    {
+      void
+      check_model(const Scene &scene, const Origins &origins)
+      {
+        const bool plane =
+          scene.model == "plane strain" || scene.model == "plane stress";
+        if ((scene.model == "solid") != (scene.dimension == 3))
+          throw origins.error("Model",
+                              scene.model,
+                              scene.dimension == 3
+                                ? "must be solid for Dimension = 3"
+                                : "must be one of plane strain, plane stress, "
+                                  "axisymmetric for Dimension = 2");
+        if (!(scene.thickness > 0. && std::isfinite(scene.thickness)))
+          throw origins.error("Thickness",
+                              to_text(scene.thickness),
+                              "must be positive");
+        if (!plane && scene.thickness != 1.)
+          throw origins.error("Thickness",
+                              to_text(scene.thickness),
+                              "must be left out for Model = " + scene.model);
+      }
+    } // namespace
+
     void
     check(const Scene &scene, const Origins &origins)
     {
@@ -123,6 +148,7 @@ namespace snug
                             "must be one of 1, 2");
       if (scene.output_directory.empty())
         throw origins.error("Output directory", "", "must not be empty");
+      check_model(scene, origins);
       check_names(scene, origins);
       check_bodies(scene, origins);
       check_contact(scene, origins);

@@ -34,7 +34,10 @@ namespace snug
       {
       public:
         BodyCheck(const Scene &scene, const Body &body, const Origins &origins)
-          : dimension(scene.dimension), body(body), origins(origins)
+          : dimension(scene.dimension)
+          , model(scene.model)
+          , body(body)
+          , origins(origins)
         {
         }
 
@@ -51,6 +54,11 @@ namespace snug
                   "Poisson's ratio",
                   to_text(nu),
                   "must be above -1 and below 0.5");
+          require(model != "plane stress" || body.formulation == "standard",
+                  "Formulation",
+                  body.formulation,
+                  "must be standard for Model = plane stress, which does not "
+                  "lock");
         }
 
         void
@@ -68,6 +76,11 @@ namespace snug
                   "Box corner",
                   to_text(mesh.corner),
                   "must be finite");
+          require(model != "axisymmetric" || mesh.corner[0] >= 0.,
+                  "Box corner",
+                  to_text(mesh.corner),
+                  "must not have a negative x, the radius of axisymmetric "
+                  "models");
           require(is_positive(mesh.size),
                   "Box size",
                   to_text(mesh.size),
@@ -248,9 +261,10 @@ namespace snug
                             message.substr(quote));
         }
 
-        unsigned int   dimension;
-        const Body    &body;
-        const Origins &origins;
+        unsigned int       dimension;
+        const std::string &model;
+        const Body        &body;
+        const Origins     &origins;
       };
 
       bool

@@ -1,4 +1,5 @@
 #include <snug/contact/contact.h>
+#include <snug/elasticity/formulation.h>
 #include <snug/mesh/partition.h>
 #include <snug/optimization/minimize.h>
 #include <snug/response/response.h>
@@ -24,7 +25,18 @@ namespace snug
         entries.add("Dimension",
                     scene.dimension,
                     choice("2|3"),
-                    "2: plane strain, forces per unit of thickness. 3: solid.");
+                    "Dimension of the meshes.");
+        entries.add("Model",
+                    scene.model,
+                    choice("auto|" + names(mesh::idealization_table())),
+                    "What the meshes stand for. auto: solid in 3D, plane "
+                    "strain in 2D; " +
+                      meanings(mesh::idealization_table()) + ".");
+        entries.add("Thickness",
+                    scene.thickness,
+                    "Thickness of plane strain and plane stress models "
+                    "[length]; forces, energies and volumes are those of this "
+                    "thickness.");
         entries.add("Bodies",
                     {[&scene]() {
                        std::vector<std::string> names;
@@ -133,6 +145,11 @@ namespace snug
         entries.add("Poisson's ratio",
                     body.material.poissons_ratio,
                     "Poisson's ratio, above -1 and below 0.5.");
+        add_choice(entries,
+                   "Formulation",
+                   body.formulation,
+                   elasticity::formulation_table(),
+                   "How elements take the change of volume.");
         entries.add("Supports",
                     body.supports,
                     pairs("a list 'boundary: components, ...' of different "

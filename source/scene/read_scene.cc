@@ -89,6 +89,8 @@ namespace snug
       void
       complete(Scene &scene)
       {
+        if (scene.model == "auto")
+          scene.model = scene.dimension == 2 ? "plane strain" : "solid";
         for (auto &body : scene.bodies)
           {
             fill(body.mesh.corner, scene.dimension, 0.);

@@ -16,6 +16,13 @@ namespace snug
       }
     } // namespace
 
+    mesh::Idealization
+    idealization(const Scene &scene)
+    {
+      return {choose(mesh::idealization_table(), scene.model).make(),
+              scene.thickness};
+    }
+
     std::pair<std::string, std::string>
     split_face(const std::string &face)
     {

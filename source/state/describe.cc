@@ -91,9 +91,10 @@ namespace snug
         const auto active = gluing.gather_contact(flags.data());
         const auto areas =
           solver.contact().areas(solver.surface().gather(state.positions));
-        double largest = 0., largest_gap = 0.;
+        double largest = 0., largest_gap = 0., largest_area = 0.;
         for (unsigned int i = 0; i < lambda.size(); ++i)
           {
+            largest_area = std::max(largest_area, areas[i]);
             largest     = std::max(largest, lambda[i]);
             largest_gap = std::max(largest_gap, F_ii[i] * lambda[i]);
           }
@@ -107,7 +108,9 @@ namespace snug
             if (scale == 0.)
               continue;
             point.force    = lambda[i] / scale;
-            point.pressure = areas[i] > 0. ? point.force / areas[i] : 0.;
+            // an area may be round-off, as on the axis with degree 2
+            if (areas[i] > 1e-10 * largest_area)
+              point.pressure = point.force / areas[i];
             point.active   = active[i] != 0.;
             point.strong   = lambda[i] > strong_part * largest;
             point.weak =

@@ -74,6 +74,53 @@ namespace snug
       }
     } // namespace
 
+    namespace
+    {
+      /// @throws InputError, on all ranks, for bodies at negative radius.
+      template <int dim>
+      void
+      check_radii(const mesh::BodyMesh<dim>      &mesh,
+                  const std::vector<std::string> &body_names)
+      {
+        std::vector<double> smallest(mesh.n_bodies(), 0.);
+        for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+          {
+            double &of = smallest[mesh.body_of_node(node)];
+            of         = std::min(of, mesh.reference_positions()[node][0]);
+          }
+        dealii::Utilities::MPI::min(smallest, mesh.communicator(), smallest);
+        for (unsigned int body = 0; body < smallest.size(); ++body)
+          if (smallest[body] < 0.)
+            {
+              std::ostringstream text;
+              text << "entry 'Model' = 'axisymmetric': body "
+                   << body_names[body] << " reaches x = " << smallest[body]
+                   << ", but x is the radius and must not be negative";
+              throw InputError(text.str());
+            }
+      }
+
+      /// @throws TangledMesh if nodes leave the axis, where they are held.
+      template <int dim>
+      void
+      check_axis(const mesh::BodyMesh<dim>                 &mesh,
+                 const typename mesh::BodyMesh<dim>::Field &positions,
+                 double                                     length)
+      {
+        const double round_off = 1e-10;
+        for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+          if (mesh.reference_positions()[node][0] == 0. &&
+              std::abs(positions[node][0]) > round_off * length)
+            {
+              std::ostringstream text;
+              text << "the design moves the node at ("
+                   << mesh.reference_positions()[node]
+                   << ") off the axis of the axisymmetric model";
+              throw TangledMesh(text.str());
+            }
+      }
+    } // namespace
+
     template <int dim>
     struct StateSolver<dim>::Data
     {
@@ -156,6 +203,8 @@ namespace snug
     {
       const RunContext::Timer timer(context, "setup");
       measure_bodies(mesh, centres, lengths);
+      if (mesh.idealization().is_axisymmetric())
+        check_radii(mesh, model.body_names);
       const auto at_surface = surface.gather(positions);
       contact               = std::make_unique<contact::Contact<dim>>(surface,
                                                         model.pairs,
@@ -203,6 +252,10 @@ namespace snug
     StateSolver<dim>::Data::check_quality(const Field             &positions,
                                           const std::vector<bool> &moved) const
     {
+      if (mesh.idealization().is_axisymmetric())
+        check_axis(mesh,
+                   positions,
+                   *std::max_element(lengths.begin(), lengths.end()));
       for (unsigned int s = 0; s < systems.size(); ++s)
         if (moved[s])
           for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)

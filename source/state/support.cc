@@ -4,24 +4,6 @@ namespace snug
 {
   namespace state
   {
-    namespace
-    {
-      /// Fix the radial component at the nodes of @p face on the axis.
-      template <int dim>
-      void
-      fix_axis(const mesh::BodyMesh<dim>                &mesh,
-               const typename mesh::BodyMesh<dim>::Face &face,
-               std::map<unsigned int, FixedFlags<dim>>  &fixed)
-      {
-        const double round_off = 1e-10;
-        const auto  &x         = mesh.reference_positions();
-        const double size = (x[face.nodes.back()] - x[face.nodes[0]]).norm();
-        for (const unsigned int node : face.nodes)
-          if (x[node][0] <= round_off * size)
-            fixed[node][0] = true;
-      }
-    } // namespace
-
     template <int dim>
     std::map<unsigned int, FixedFlags<dim>>
     fixed_components(const mesh::BodyMesh<dim>  &mesh,
@@ -36,7 +18,9 @@ namespace snug
                 for (const unsigned int c : support.components)
                   fixed[node][c] = true;
           if (mesh.idealization().is_axisymmetric())
-            fix_axis<dim>(mesh, face, fixed);
+            for (const unsigned int node : face.nodes)
+              if (mesh.reference_positions()[node][0] == 0.)
+                fixed[node][0] = true;
         }
       return fixed;
     }

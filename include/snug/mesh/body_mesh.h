@@ -107,7 +107,8 @@ namespace snug
 
       const std::vector<dealii::Point<dim>> &
       logical_positions() const;
-      /// Reference positions, hanging nodes interpolated.
+      /// Reference positions, hanging nodes interpolated. Of axisymmetric
+      /// bodies, nodes on the axis have x = 0 without round-off.
       const Field &
       reference_positions() const;
       /// field at hanging nodes <- interpolation of their masters

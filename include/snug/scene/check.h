@@ -20,6 +20,8 @@ namespace snug
      * - bodies are there and have different names; boundaries that supports,
      *   loads, pairs and shapes name exist; meshes can be made;
      * - no face is paired with itself or twice;
+     * - the model fits the dimension, and thickness, formulation and bodies fit
+     *   the model;
      * - tasks that need design variables have some, with bounds that are not
      *   empty and hold the initial design;
      * - objective and constraints are responses.

@@ -5,6 +5,7 @@
 #include <snug/elasticity/material.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/mesh/body_geometry.h>
+#include <snug/mesh/idealization.h>
 #include <snug/mesh/tearing.h>
 #include <snug/optimization/optimization_parameters.h>
 #include <snug/qp/solver.h>
@@ -34,6 +35,7 @@ namespace snug
       std::string              name;
       mesh::BodyMeshParameters mesh;
       elasticity::Material     material;
+      std::string formulation = "standard"; ///< see formulation_table()
       /// boundary -> components held at zero, a subset of "xyz"
       std::map<std::string, std::string> supports;
       elasticity::LoadParameters         loads;
@@ -41,14 +43,15 @@ namespace snug
 
     /**
      * Everything a parameter file says. Units are the user's, but consistent:
-     * with mm, N and MPa pressures and moduli are MPa and energies N mm (in
-     * 2D per mm of thickness).
+     * with mm, N and MPa pressures and moduli are MPa and energies N mm.
      */
     struct Scene
     {
       std::string       file; ///< it was read from, for messages
-      Task              task             = Task::state;
-      unsigned int      dimension        = 3; ///< 2: plane strain
+      Task              task      = Task::state;
+      unsigned int      dimension = 3;      ///< of the meshes
+      std::string       model     = "auto"; ///< auto or of idealization_table()
+      double            thickness = 1.;     ///< of plane models [length]
       std::string       output_directory = "output";
       unsigned int      degree           = 1; ///< of the elements, 1 or 2
       std::vector<Body> bodies;
@@ -64,6 +67,10 @@ namespace snug
       sensitivity::GradientParameters      gradient;
       optimization::OptimizationParameters optimization;
     };
+
+    /// What the meshes of the scene stand for; the model must not be auto.
+    mesh::Idealization
+    idealization(const Scene &scene);
 
     /// "body.boundary" as {body, boundary}; without a dot, boundary is "".
     std::pair<std::string, std::string>

@@ -135,6 +135,62 @@ namespace
     check_derivatives(scene);
   }
 
+  /// Loads of all kinds, and two formulations, in a section.
+  TestScene<2>
+  curved_section(const mesh::Idealization &idealization)
+  {
+    auto scene          = curved_scene<2>(5, 4, 0.04);
+    scene.idealization  = idealization;
+    auto &foundation    = scene.bodies[1];
+    foundation.material = {800., 0.45};
+    if (idealization.kind != mesh::Idealization::Kind::plane_stress)
+      foundation.formulation = elasticity::Formulation::B_bar;
+    foundation.body_force[1]                       = -2.;
+    foundation.loads[face_index(0, 1)].pressure    = 1.5;
+    foundation.loads[face_index(0, 1)].traction[1] = 0.5;
+    return scene;
+  }
+
+  TEST(Gradient, PlaneStressOfAThinSheet)
+  {
+    GradientScene<2> scene(
+      curved_section({mesh::Idealization::Kind::plane_stress, 0.1}), 0.05);
+    check_derivatives(scene);
+  }
+
+  TEST(Gradient, BBarInPlaneStrain)
+  {
+    GradientScene<2> scene(
+      curved_section({mesh::Idealization::Kind::plane_strain, 3.}), 0.05);
+    check_derivatives(scene);
+  }
+
+  TEST(Gradient, BodiesOfRevolution)
+  {
+    for (const unsigned int degree : {1, 2})
+      {
+        auto given   = curved_section({mesh::Idealization::Kind::axisymmetric});
+        given.degree = degree;
+        if (degree == 2)
+          for (auto &body : given.bodies)
+            body.cells.assign(2, 3);
+        GradientScene<2> scene(given, 0.05);
+        check_derivatives(scene);
+      }
+  }
+
+  TEST(Gradient, BBar3D)
+  {
+    auto given = curved_scene<3>(3, 3, 0.04);
+    for (auto &body : given.bodies)
+      {
+        body.formulation = elasticity::Formulation::B_bar;
+        body.material    = {1000., 0.49};
+      }
+    GradientScene<3> scene(given, 0.05);
+    check_derivatives(scene);
+  }
+
   TEST(Gradient, NineHeights3D)
   {
     GradientScene<3> scene(curved_scene<3>(4, 3, 0.04), 0.05);

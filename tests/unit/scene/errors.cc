@@ -239,6 +239,43 @@ TEST(Errors, MethodsAndResponses)
                {"Optimization/Objective=compliance"});
 }
 
+TEST(Errors, ModelsFitTheDimension)
+{
+  expect_error({"Model", "plane strain", "must be solid for Dimension = 3"});
+  expect_error({"Model", "2D", "one of auto, solid, plane strain"});
+  expect_error({"Thickness", "0", "must be positive"});
+  expect_error({"Thickness", "nan", "must be a number"});
+  expect_error({"Thickness", "2", "left out for Model = solid"});
+  expect_error({"Body punch/Formulation", "b-bar", "standard, B-bar"});
+}
+
+TEST(Errors, SectionsFitTheirModel)
+{
+  const std::string text    = R"(
+set Dimension = 2
+set Bodies    = disc
+subsection Body disc
+  set Box cells   = 2, 2
+  set Box corner  = -1, 0
+  set Formulation = B-bar
+end
+)";
+  const auto        message = [&text](const std::string &model) {
+    return error_of({"Model=" + model}, text);
+  };
+  EXPECT_TRUE(has(message("solid"), "Dimension = 2")) << message("solid");
+  EXPECT_TRUE(has(message("plane stress"), "'Body disc/Formulation' = 'B-bar'"))
+    << message("plane stress");
+  EXPECT_TRUE(has(message("axisymmetric"), "'Body disc/Box corner' = '-1, 0'"))
+    << message("axisymmetric");
+  EXPECT_EQ(message("plane strain"), "");
+  EXPECT_TRUE(has(error_of({"Model=axisymmetric",
+                            "Body disc/Box corner=0, 0",
+                            "Thickness=0.5"},
+                           text),
+                  "left out for Model = axisymmetric"));
+}
+
 TEST(Errors, LongValuesAreCutAndStayOneLine)
 {
   const std::string message =

@@ -47,12 +47,15 @@ namespace snug
     struct TestScene
     {
       std::vector<TestBody<dim>> bodies;
-      unsigned int               degree         = 1;
-      std::vector<unsigned int>  control_points = {1, 1};
-      std::vector<double>        design         = {0.};
-      qp::SolverParameters       solver{"active set", 1e-10, 5000};
-      feti::FetiParameters       feti;
-      unsigned int               subdomains = 6;
+      mesh::Idealization idealization  = mesh::Idealization::natural(dim);
+      std::vector<contact::Pair> pairs = {
+        {{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
+      unsigned int              degree         = 1;
+      std::vector<unsigned int> control_points = {1, 1};
+      std::vector<double>       design         = {0.};
+      qp::SolverParameters      solver{"active set", 1e-10, 5000};
+      feti::FetiParameters      feti;
+      unsigned int              subdomains = 6;
       bool punch_slides = false; ///< nothing holds it horizontally
     };
 
@@ -144,7 +147,10 @@ namespace snug
       explicit Problem(const TestScene<dim> &scene)
         : scene(scene)
         , context(MPI_COMM_WORLD, log)
-        , mesh(MPI_COMM_WORLD, mesh_parameters(scene), scene.degree)
+        , mesh(MPI_COMM_WORLD,
+               mesh_parameters(scene),
+               scene.degree,
+               scene.idealization)
         , tearing(
             mesh::tear(mesh, mesh::TearingParameters{scene.subdomains, "grid"}))
         , model(make_model(scene))
@@ -227,8 +233,7 @@ namespace snug
             for (const auto &support : body.supports)
               model.supports.push_back({b, support.first, support.second});
           }
-        model.pairs = {
-          {{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
+        model.pairs  = scene.pairs;
         model.feti   = scene.feti;
         model.solver = scene.solver;
         return model;
