@@ -1,6 +1,9 @@
 #include <snug/base/errors.h>
 #include <snug/contact/contact.h>
 #include <snug/contact/nodal_rows.h>
+#include <snug/contact/obstacle_rows.h>
+
+#include <map>
 
 namespace snug
 {
@@ -8,35 +11,43 @@ namespace snug
   {
     namespace
     {
+      /// A side is finer if its faces are smaller by more than this part:
+      /// equal meshes must not be decided by round-off.
+      const double finer_by = 0.01;
+
+      /// Part of the slave faces' size over which gap formulas are
+      /// differentiated by differences.
+      const double gap_step = 1. / 25.;
+
       template <int dim>
-      PairFaces
-      find_sides(const mesh::Surface<dim> &surface, const Pair &pair)
+      std::vector<unsigned int>
+      faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
       {
-        PairFaces sides;
+        std::vector<unsigned int> faces;
         for (unsigned int f = 0; f < surface.faces().size(); ++f)
-          {
-            const auto &face = surface.faces()[f];
-            const auto  side = std::make_pair(face.body, face.boundary);
-            if (side == pair.slave)
-              sides.slave.push_back(f);
-            if (side == pair.master)
-              sides.master.push_back(f);
-          }
-        return sides;
+          if (Pair::Side(surface.faces()[f].body,
+                         surface.faces()[f].boundary) == side)
+            faces.push_back(f);
+        return faces;
       }
 
-      /// The rows of all groups, one after the other.
-      template <typename Groups, typename Values>
-      auto
-      joined(const Groups &groups, const Values &values)
+      /// Exchange the sides of a pair whose master is finer, if it wants that.
+      template <int dim>
+      void
+      choose_slave(const mesh::Surface<dim>                 &surface,
+                   const typename mesh::Surface<dim>::Field &positions,
+                   Pair                                     &pair)
       {
-        decltype(values(*groups.front())) result;
-        for (const auto &group : groups)
+        const auto size = [&](const Pair::Side &side) {
+          return mean_face_size(surface, faces_of(surface, side), positions);
+        };
+        if (pair.parameters.slave == "finer" && !pair.obstacle &&
+            size(pair.master) < (1. - finer_by) * size(pair.slave))
           {
-            const auto of_group = values(*group);
-            result.insert(result.end(), of_group.begin(), of_group.end());
+            std::swap(pair.slave, pair.master);
+            std::swap(pair.slave_name, pair.master_name);
           }
-        return result;
+        pair.parameters.slave = "first";
       }
     } // namespace
 
@@ -60,23 +71,57 @@ namespace snug
                           const std::vector<Pair>  &pairs,
                           unsigned int              degree,
                           const Field              &positions)
-      : surface(surface)
+      : surface(surface), shape(degree), chosen(pairs)
     {
-      const FaceShape<dim> shape(degree);
+      // nodes with a row, by what their rows are against
+      std::map<std::pair<std::string, Pair::Side>, std::vector<bool>> taken;
       for (unsigned int p = 0; p < pairs.size(); ++p)
         {
-          const PairGeometry<dim> geometry{surface,
-                                           shape,
-                                           find_sides(surface, pairs[p]),
-                                           positions};
-          groups.push_back(choose(contact_method_table<dim>(), pairs[p].method)
-                             .make(geometry));
-          for (const unsigned int slave : groups.back()->slaves())
-            row_places.push_back({p, slave});
-          if (groups.back()->slaves().empty())
-            throw InputError("contact pair '" + pairs[p].name +
-                             "': no slave node lies opposite to the master");
+          Pair &pair = chosen[p];
+          choose_slave(surface, positions, pair);
+          auto &taken_here =
+            taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
+          taken_here.resize(surface.n_nodes(), false);
+          PairFaces sides{faces_of(surface, pair.slave), {}};
+          if (!pair.obstacle)
+            sides.master = faces_of(surface, pair.master);
+          groups.push_back(
+            make_group({surface, shape, pair, sides, positions, taken_here}));
+          for (const unsigned int slave : groups.back().rows->slaves())
+            {
+              row_places.push_back({p, slave});
+              taken_here[slave] = true;
+            }
+          if (groups.back().rows->slaves().empty())
+            throw InputError(
+              "contact pair '" + pair.name() +
+              "': no slave node lies opposite to the master within the search "
+              "distance and angle");
         }
+    }
+
+    template <int dim>
+    typename Contact<dim>::Group
+    Contact<dim>::make_group(const PairGeometry<dim> &geometry) const
+    {
+      const PairParameters &parameters = geometry.pair.parameters;
+      Group                 group;
+      group.rows = geometry.pair.obstacle
+                     ? std::make_unique<ObstacleRows<dim>>(geometry)
+                     : choose(contact_method_table<dim>(), parameters.method)
+                         .make(geometry);
+      group.step = gap_step * geometry.slave_size();
+      if (parameters.gap != "0")
+        group.offset =
+          std::make_unique<mesh::Formula<dim>>("Gap", parameters.gap);
+      return group;
+    }
+
+    template <int dim>
+    const std::vector<Pair> &
+    Contact<dim>::pairs() const
+    {
+      return chosen;
     }
 
     template <int dim>
@@ -98,9 +143,17 @@ namespace snug
     Contact<dim>::rows(const Field &positions) const
     {
       AssertDimension(positions.size(), surface.n_nodes());
-      return joined(groups, [&](const RowGroup<dim> &group) {
-        return group.rows(positions);
-      });
+      std::vector<Row<dim>> result;
+      for (const Group &group : groups)
+        for (Row<dim> &row : group.rows->rows(positions))
+          {
+            const unsigned int slave = row_places[result.size()].slave;
+            if (group.offset)
+              row.gap +=
+                group.offset->value(dealii::Point<dim>(positions[slave]));
+            result.push_back(std::move(row));
+          }
+      return result;
     }
 
     template <int dim>
@@ -110,9 +163,19 @@ namespace snug
     {
       AssertDimension(positions.size(), surface.n_nodes());
       AssertDimension(velocity.size(), surface.n_nodes());
-      return joined(groups, [&](const RowGroup<dim> &group) {
-        return group.row_derivatives(positions, velocity);
-      });
+      std::vector<Row<dim>> result;
+      for (const Group &group : groups)
+        for (Row<dim> &row : group.rows->row_derivatives(positions, velocity))
+          {
+            const unsigned int slave = row_places[result.size()].slave;
+            if (group.offset)
+              row.gap +=
+                group.offset->gradient(dealii::Point<dim>(positions[slave]),
+                                       group.step) *
+                velocity[slave];
+            result.push_back(std::move(row));
+          }
+      return result;
     }
 
     template <int dim>
@@ -126,14 +189,21 @@ namespace snug
       AssertDimension(forces.size(), n_rows());
       Field gradient(surface.n_nodes());
       auto  first = forces.begin();
-      for (const auto &group : groups)
+      for (const Group &group : groups)
         {
-          const auto last = first + group->slaves().size();
-          group->add_energy_gradient(positions,
-                                     displacement,
-                                     std::vector<double>(first, last),
-                                     gradient);
-          first = last;
+          const auto               &slaves = group.rows->slaves();
+          const std::vector<double> of_group(first, first + slaves.size());
+          first += slaves.size();
+          group.rows->add_energy_gradient(positions,
+                                          displacement,
+                                          of_group,
+                                          gradient);
+          if (group.offset)
+            for (unsigned int i = 0; i < slaves.size(); ++i)
+              gradient[slaves[i]] -=
+                of_group[i] *
+                group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]),
+                                       group.step);
         }
       return gradient;
     }
@@ -143,9 +213,13 @@ namespace snug
     Contact<dim>::areas(const Field &positions) const
     {
       AssertDimension(positions.size(), surface.n_nodes());
-      return joined(groups, [&](const RowGroup<dim> &group) {
-        return group.areas(positions);
-      });
+      std::vector<double> result;
+      for (const Group &group : groups)
+        {
+          const auto of_group = group.rows->areas(positions);
+          result.insert(result.end(), of_group.begin(), of_group.end());
+        }
+      return result;
     }
 
     template const ChoiceTable<

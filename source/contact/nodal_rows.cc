@@ -64,13 +64,23 @@ namespace snug
 
     template <int dim>
     NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
-      : surface(pair.surface)
-      , shape(pair.shape)
-      , sides(pair.sides)
-      , found(project(surface, sides, shape, pair.positions))
+      : surface(pair.surface), shape(pair.shape), sides(pair.sides)
     {
-      for (const Projection &projection : found)
-        slave_nodes.push_back(projection.slave);
+      const Opposition<dim> opposition(pair);
+      const auto            normals = master_normals(pair.positions);
+      for (const Projection &projection :
+           project(surface, sides, shape, pair.positions))
+        {
+          const unsigned int slave = projection.slave;
+          const double       distance =
+            (at_master<dim>(projection, pair.positions) - pair.positions[slave])
+              .norm();
+          const auto n = row_normal<dim>(projection, normals.normals()).n;
+          if (pair.taken[slave] || !opposition.holds(slave, distance, n))
+            continue;
+          found.push_back(projection);
+          slave_nodes.push_back(slave);
+        }
       resolve_hanging();
     }
 

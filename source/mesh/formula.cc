@@ -50,6 +50,29 @@ namespace snug
         message = message.substr(found + mark.size());
         return message.substr(0, message.find_last_not_of(" .\n") + 1);
       }
+      /// f'(0) of sixth order.
+      template <typename Function>
+      double
+      difference(const Function &f, const double h)
+      {
+        const double weights[] = {45., -9., 1.};
+        double       sum       = 0.;
+        for (unsigned int k = 1; k <= 3; ++k)
+          sum += weights[k - 1] * (f(k * h) - f(-(k * h)));
+        return sum / (60. * h);
+      }
+
+      /// f''(0) of sixth order.
+      template <typename Function>
+      double
+      second_difference(const Function &f, const double h)
+      {
+        const double weights[] = {270., -27., 2.};
+        double       sum       = -490. * f(0.);
+        for (unsigned int k = 1; k <= 3; ++k)
+          sum += weights[k - 1] * (f(k * h) + f(-(k * h)));
+        return sum / (180. * h * h);
+      }
     } // namespace
 
     template <int dim>
@@ -92,6 +115,54 @@ namespace snug
           throw bad_entry(entry, text, where.str());
         }
       return value;
+    }
+
+    template <int dim>
+    dealii::Tensor<1, dim>
+    Formula<dim>::gradient(const dealii::Point<dim> &point,
+                           const double              step) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int i = 0; i < dim; ++i)
+        result[i] = difference(
+          [&](const double t) {
+            dealii::Point<dim> p = point;
+            p[i] += t;
+            return value(p);
+          },
+          step);
+      return result;
+    }
+
+    template <int dim>
+    dealii::Tensor<2, dim>
+    Formula<dim>::hessian(const dealii::Point<dim> &point,
+                          const double              step) const
+    {
+      dealii::Tensor<2, dim> result;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          const auto along = [&](const double t) {
+            dealii::Point<dim> p = point;
+            p[i] += t;
+            return value(p);
+          };
+          result[i][i] = second_difference(along, step);
+          for (unsigned int j = 0; j < i; ++j)
+            result[i][j] = result[j][i] = difference(
+              [&](const double s) {
+                return difference(
+                  [&](const double t) {
+                    dealii::Point<dim> p = point;
+                    p[i] += s;
+                    p[j] += t;
+                    return value(p);
+                  },
+                  step);
+              },
+              step);
+        }
+      return result;
     }
 
     template class Formula<2>;

@@ -1,29 +1,14 @@
 #ifndef snug_contact_contact_h
 #define snug_contact_contact_h
 
-#include <snug/base/choice.h>
-#include <snug/contact/face_shape.h>
-#include <snug/contact/pair.h>
-#include <snug/contact/projection.h>
+#include <snug/contact/pair_geometry.h>
 #include <snug/contact/row_group.h>
-
-#include <memory>
+#include <snug/mesh/formula.h>
 
 namespace snug
 {
   namespace contact
   {
-    /// What the rows of a pair are made from. The references to surface and
-    /// positions hold until the rows are made, the surface beyond.
-    template <int dim>
-    struct PairGeometry
-    {
-      const mesh::Surface<dim>                 &surface;
-      FaceShape<dim>                            shape;
-      PairFaces                                 sides;
-      const typename mesh::Surface<dim>::Field &positions;
-    };
-
     /// The methods a pair of faces can meet by.
     template <int dim>
     const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)>
@@ -39,8 +24,9 @@ namespace snug
 
     /**
      * All contact rows of a scene: one group per pair, in the order of the
-     * pairs. Pairing is done by the constructor and frozen; see RowGroup for
-     * the meaning of the functions.
+     * pairs, with the pair's gap formula at the slave nodes added to the gaps
+     * of the group. Pairing is done by the constructor and frozen; see
+     * RowGroup for the meaning of the functions.
      */
     template <int dim>
     class Contact
@@ -55,6 +41,15 @@ namespace snug
               unsigned int              degree,
               const Field              &positions);
 
+      /// Groups refer to the shape.
+      Contact(const Contact &) = delete;
+      Contact &
+      operator=(const Contact &) = delete;
+
+      /// The pairs with their slaves chosen: by their own parameters, they
+      /// would be chosen again.
+      const std::vector<Pair> &
+      pairs() const;
       unsigned int
       n_rows() const;
       const std::vector<RowPlace> &
@@ -73,9 +68,22 @@ namespace snug
       areas(const Field &positions) const;
 
     private:
-      const mesh::Surface<dim>                   &surface;
-      std::vector<std::unique_ptr<RowGroup<dim>>> groups; ///< one per pair
-      std::vector<RowPlace>                       row_places;
+      /// The rows of a pair and what is added to their gaps, if anything.
+      struct Group
+      {
+        std::unique_ptr<RowGroup<dim>>      rows;
+        std::unique_ptr<mesh::Formula<dim>> offset;
+        double                              step; ///< of its differences
+      };
+
+      const mesh::Surface<dim> &surface;
+      const FaceShape<dim>      shape;
+      std::vector<Pair>         chosen;
+      std::vector<Group>        groups; ///< one per pair
+      std::vector<RowPlace>     row_places;
+
+      Group
+      make_group(const PairGeometry<dim> &geometry) const;
     };
   } // namespace contact
 } // namespace snug

@@ -1,8 +1,9 @@
 #ifndef snug_contact_nodal_rows_h
 #define snug_contact_nodal_rows_h
 
-#include <snug/contact/contact.h>
 #include <snug/contact/nodal_normals.h>
+#include <snug/contact/projection.h>
+#include <snug/contact/row_group.h>
 
 namespace snug
 {
@@ -15,7 +16,8 @@ namespace snug
      * hanging master nodes are replaced by their masters. Faces and weights
      * stay, normals and gaps follow the positions. Slave nodes that hang, or
      * whose closest point lies beyond the edge of the master side
-     * (edge_tolerance), carry no row.
+     * (edge_tolerance), is out of reach or does not face them (Opposition),
+     * carry no row.
      */
     template <int dim>
     class NodalRows : public RowGroup<dim>
@@ -42,7 +44,7 @@ namespace snug
 
     private:
       const mesh::Surface<dim> &surface;
-      FaceShape<dim>            shape;
+      const FaceShape<dim>     &shape;
       PairFaces                 sides;
       std::vector<Projection>   found;
       std::vector<unsigned int> slave_nodes;

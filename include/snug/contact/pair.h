@@ -1,6 +1,9 @@
 #ifndef snug_contact_pair_h
 #define snug_contact_pair_h
 
+#include <snug/contact/obstacle.h>
+
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,20 +12,50 @@ namespace snug
 {
   namespace contact
   {
+    /// How two sides meet: entries of `subsection Contact`, for all pairs, and
+    /// of `subsection Pair SLAVE: MASTER`.
+    struct PairParameters
+    {
+      std::string method = "nodal"; ///< name in contact_method_table()
+      std::string slave  = "first"; ///< or "finer"
+      /// slave nodes farther from the master carry no row [length]; 0: any
+      double search_distance = 0.;
+      /// between the slave's normal and the row's [degrees]
+      double      largest_angle = 90.;
+      std::string gap           = "0";   ///< added to gaps, of x, y, z [length]
+      bool        interference  = false; ///< initial overlap is wanted
+    };
+
     /// Entries of `subsection Contact`.
     struct ContactParameters
     {
-      /// "body.boundary: body.boundary", slave: master
-      std::vector<std::pair<std::string, std::string>> pairs;
-      std::string method = "nodal"; ///< name in contact_method_table()
+      struct Entry
+      {
+        std::string    slave;  ///< body.boundary
+        std::string    master; ///< body.boundary or obstacle
+        PairParameters parameters;
+      };
+
+      PairParameters     defaults;
+      std::vector<Entry> pairs;
     };
 
-    /// One contact pair as (body, boundary) of slave and master.
+    /// One contact pair: a slave side and a master side or obstacle.
     struct Pair
     {
-      std::pair<unsigned int, unsigned int> slave, master;
-      std::string                           method = "nodal";
-      std::string                           name   = {}; ///< for messages
+      using Side = std::pair<unsigned int, unsigned int>; ///< body, boundary
+
+      Side                              slave, master;
+      std::string                       slave_name = {}, master_name = {};
+      PairParameters                    parameters = {};
+      std::optional<ObstacleParameters> obstacle   = {};
+
+      /// "slave: master"
+      std::string
+      name() const
+      {
+        return slave_name + ": " + master_name;
+      }
     };
   } // namespace contact
 } // namespace snug

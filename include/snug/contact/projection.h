@@ -1,7 +1,7 @@
 #ifndef snug_contact_projection_h
 #define snug_contact_projection_h
 
-#include <snug/contact/face_shape.h>
+#include <snug/contact/pair_geometry.h>
 
 #include <utility>
 #include <vector>
@@ -22,12 +22,6 @@ namespace snug
       unsigned int slave; ///< surface node
       /// surface nodes, ascending, and weights, which sum to 1
       std::vector<std::pair<unsigned int, double>> masters;
-    };
-
-    /// The two sides of a pair: indices of surface faces.
-    struct PairFaces
-    {
-      std::vector<unsigned int> slave, master;
     };
 
     /**

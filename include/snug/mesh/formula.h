@@ -36,6 +36,15 @@ namespace snug
       double
       value(const dealii::Point<dim> &point) const;
 
+      /// First and second derivatives by central differences of sixth order
+      /// over distances up to 3 @p step. Errors of first derivatives are about
+      /// step^6/140 of the seventh ones and eps/step of the value, of second
+      /// ones step^6/560 of the eighth and 4 eps/step^2.
+      dealii::Tensor<1, dim>
+      gradient(const dealii::Point<dim> &point, double step) const;
+      dealii::Tensor<2, dim>
+      hessian(const dealii::Point<dim> &point, double step) const;
+
     private:
       std::string                                  entry, text;
       std::unique_ptr<dealii::FunctionParser<dim>> parser;

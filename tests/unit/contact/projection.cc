@@ -183,7 +183,7 @@ TEST(Projection, PairWithoutRowsIsNamed)
     }
   catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find("contact pair 'a pair'"),
+      EXPECT_NE(std::string(error.what()).find("contact pair 'slave: master'"),
                 std::string::npos);
     }
 }

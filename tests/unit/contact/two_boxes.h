@@ -2,6 +2,7 @@
 #define snug_tests_unit_contact_two_boxes_h
 
 #include <snug/contact/contact.h>
+#include <snug/contact/projection.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +60,7 @@ struct TwoBoxes
   static snug::contact::Pair
   pair()
   {
-    return {{0, 2 * dim - 2}, {1, 2 * dim - 1}, "nodal", "a pair"};
+    return {{0, 2 * dim - 2}, {1, 2 * dim - 1}, "slave", "master"};
   }
 
   snug::contact::Contact<dim>

@@ -1,0 +1,69 @@
+#ifndef snug_contact_pair_geometry_h
+#define snug_contact_pair_geometry_h
+
+#include <snug/contact/face_shape.h>
+#include <snug/contact/pair.h>
+
+namespace snug
+{
+  namespace contact
+  {
+    /// The two sides of a pair: indices of surface faces.
+    struct PairFaces
+    {
+      std::vector<unsigned int> slave, master;
+    };
+
+    /**
+     * What the rows of a pair are made from. Only the surface and the shape
+     * may be referred to beyond the making of the rows.
+     */
+    template <int dim>
+    struct PairGeometry
+    {
+      using Field = typename mesh::Surface<dim>::Field;
+
+      const mesh::Surface<dim> &surface;
+      const FaceShape<dim>     &shape;
+      const Pair               &pair;
+      PairFaces                 sides;
+      const Field              &positions;
+      /// surface nodes with a row against this master by an earlier pair: a
+      /// second one would be the same
+      std::vector<bool> taken;
+
+      /// Mean edge length of the slave faces.
+      double
+      slave_size() const;
+    };
+
+    /// Mean edge length of @p faces: diagonal over sqrt(dim-1) [length].
+    template <int dim>
+    double
+    mean_face_size(const mesh::Surface<dim>                 &surface,
+                   const std::vector<unsigned int>          &faces,
+                   const typename mesh::Surface<dim>::Field &positions);
+
+    /// Whether slave nodes and what they were found to be opposite to are
+    /// close enough and face each other.
+    template <int dim>
+    class Opposition
+    {
+    public:
+      explicit Opposition(const PairGeometry<dim> &pair);
+
+      /// For the unit @p normal into the master; only the size of @p distance
+      /// counts. Limits are met up to round-off.
+      bool
+      holds(unsigned int                  slave,
+            double                        distance,
+            const dealii::Tensor<1, dim> &normal) const;
+
+    private:
+      typename mesh::Surface<dim>::Field normals; ///< of the slave side
+      double                             largest_distance, least_cosine;
+    };
+  } // namespace contact
+} // namespace snug
+
+#endif

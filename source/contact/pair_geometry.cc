@@ -1,0 +1,77 @@
+#include <snug/contact/nodal_normals.h>
+#include <snug/contact/pair_geometry.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+#include <limits>
+
+namespace snug
+{
+  namespace contact
+  {
+    namespace
+    {
+      const double round_off = 1e-9;
+    }
+
+    template <int dim>
+    double
+    mean_face_size(const mesh::Surface<dim>                 &surface,
+                   const std::vector<unsigned int>          &faces,
+                   const typename mesh::Surface<dim>::Field &positions)
+    {
+      double sum = 0.;
+      for (const unsigned int f : faces)
+        {
+          const auto &nodes = surface.faces()[f].nodes;
+          sum += (positions[nodes.back()] - positions[nodes.front()]).norm();
+        }
+      return sum / (faces.size() * std::sqrt(dim - 1.));
+    }
+
+    template <int dim>
+    double
+    PairGeometry<dim>::slave_size() const
+    {
+      return mean_face_size(surface, sides.slave, positions);
+    }
+
+    template <int dim>
+    Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
+      : normals(NodalNormals<dim>(pair.surface,
+                                  pair.sides.slave,
+                                  pair.shape,
+                                  pair.positions)
+                  .normals())
+    {
+      const PairParameters &parameters = pair.pair.parameters;
+      largest_distance                 = parameters.search_distance == 0.
+                                           ? std::numeric_limits<double>::infinity()
+                                           : parameters.search_distance * (1. + round_off);
+      least_cosine =
+        std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) -
+        round_off;
+    }
+
+    template <int dim>
+    bool
+    Opposition<dim>::holds(unsigned int                  slave,
+                           double                        distance,
+                           const dealii::Tensor<1, dim> &normal) const
+    {
+      return std::abs(distance) <= largest_distance &&
+             normals[slave] * normal >= least_cosine;
+    }
+
+#define SNUG_INSTANTIATE(dim)                                        \
+  template double mean_face_size(const mesh::Surface<dim> &,         \
+                                 const std::vector<unsigned int> &,  \
+                                 const mesh::Surface<dim>::Field &); \
+  template struct PairGeometry<dim>;                                 \
+  template class Opposition<dim>;
+    SNUG_INSTANTIATE(2)
+    SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+  } // namespace contact
+} // namespace snug
