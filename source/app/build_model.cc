@@ -34,6 +34,25 @@ namespace snug
             to_tensor<dim>(entry.second);
         return model;
       }
+
+      template <int dim>
+      contact::Pair
+      find_pair(const scene::Scene                      &scene,
+                const mesh::BodyMesh<dim>               &mesh,
+                const contact::ContactParameters::Entry &entry)
+      {
+        contact::Pair pair;
+        pair.slave       = find_face(scene, mesh, entry.slave);
+        pair.slave_name  = entry.slave;
+        pair.master_name = entry.master;
+        pair.parameters  = entry.parameters;
+        for (const auto &obstacle : scene.obstacles)
+          if (obstacle.name == entry.master)
+            pair.obstacle = obstacle;
+        if (!pair.obstacle)
+          pair.master = find_face(scene, mesh, entry.master);
+        return pair;
+      }
     } // namespace
 
     std::vector<mesh::BodyMeshParameters>
@@ -81,11 +100,8 @@ namespace snug
               model.supports.push_back(entry);
             }
         }
-      for (const auto &pair : scene.contact.pairs)
-        model.pairs.push_back({find_face(scene, mesh, pair.first),
-                               find_face(scene, mesh, pair.second),
-                               scene.contact.method,
-                               pair.first + ": " + pair.second});
+      for (const auto &entry : scene.contact.pairs)
+        model.pairs.push_back(find_pair(scene, mesh, entry));
       return model;
     }
 

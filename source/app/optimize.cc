@@ -48,6 +48,8 @@ namespace snug
     Optimize<dim>::evaluate(const Design &design)
     {
       check_interrupts(workshop.context.communicator());
+      if (paired_anew)
+        warm_start = qp::WarmStart();
       workshop.context.progress("solving the contact problem ...");
       last = std::make_unique<state::ContactState<dim>>(
         workshop.solve(design, warm_start));
@@ -99,6 +101,8 @@ namespace snug
     void
     Optimize<dim>::load_warm_start(const std::string &path)
     {
+      if (paired_anew)
+        return;
       std::ifstream file(path, std::ios::binary);
       std::uint64_t n = 0;
       file.read(reinterpret_cast<char *>(&n), sizeof n);
@@ -141,7 +145,7 @@ namespace snug
     Optimize<dim>::report(const optimization::Iteration &iteration)
     {
       io::HistoryLine line;
-      line.iteration            = iteration.number;
+      line.iteration            = iterations_done + iteration.number;
       line.objective            = iteration.evaluation.objective;
       line.constraint_violation = iteration.constraint_violation;
       line.projected_gradient   = iteration.projected_gradient;
@@ -157,8 +161,8 @@ namespace snug
     }
 
     template <int dim>
-    int
-    Optimize<dim>::run()
+    void
+    Optimize<dim>::open_journal()
     {
       auto settings            = journal_settings();
       settings.save_warm_start = [this](unsigned int, const std::string &path) {
@@ -169,13 +173,23 @@ namespace snug
       };
       journal = std::make_unique<optimization::Journal>(
         settings, [this](const Design &x) { return evaluate(x); });
+    }
 
+    /// One run of the optimizer; counts and the first objective go on from
+    /// those of @p before.
+    template <int dim>
+    optimization::OptimizationResult
+    Optimize<dim>::search(const Design                           &start,
+                          const optimization::OptimizationResult &before)
+    {
       optimization::DesignProblem problem;
       problem.lower    = workshop.basis->lower_bounds();
       problem.upper    = workshop.basis->upper_bounds();
-      problem.start    = workshop.basis->start();
+      problem.start    = start;
       problem.evaluate = [this](const Design &x) {
-        return journal->evaluate(x);
+        auto evaluation = journal->evaluate(x);
+        paired_anew     = false;
+        return evaluation;
       };
       for (const Constraint &constraint : constraints)
         problem.constraint_scales.push_back(
@@ -184,10 +198,72 @@ namespace snug
       hooks.on_iteration = [this](const optimization::Iteration &iteration) {
         report(iteration);
       };
-      hooks.log = settings.log;
+      hooks.log = [this](const std::string &line) {
+        workshop.context.out() << line << std::endl;
+      };
+      auto parameters = workshop.scene.optimization;
+      parameters.maximum_evaluations -= before.evaluations;
+      auto result = optimization::minimize(problem, parameters, hooks);
+      result.iterations += before.iterations;
+      result.evaluations += before.evaluations;
+      if (before.evaluations > 0)
+        result.objective_initial = before.objective_initial;
+      return result;
+    }
+
+    /// Draw the first design with its own pairing, once. After a replay it has
+    /// not been solved in this run.
+    template <int dim>
+    void
+    Optimize<dim>::draw_first()
+    {
+      if (first_drawn)
+        return;
+      if (!first)
+        first = std::make_unique<state::ContactState<dim>>(
+          workshop.solve(workshop.basis->start(), qp::WarmStart()));
+      workshop.draw(0., *first);
+      first_drawn = true;
+    }
+
+    /// Pair contact at @p design. @return false if slave nodes are where they
+    /// were paired.
+    template <int dim>
+    bool
+    Optimize<dim>::pair_anew(const Design &design)
+    {
+      const double unmoved = 1e-3;
+      const double drift   = workshop.drift(design);
+      if (drift < unmoved)
+        return false;
+      draw_first();
+      workshop.context.out()
+        << "contact is paired anew: the design moved slave nodes off the "
+           "points they were paired with by up to "
+        << drift << " of a face" << std::endl;
+      workshop.solver->pair(workshop.positions(design));
+      last.reset();
+      paired_anew = true;
+      return true;
+    }
+
+    template <int dim>
+    int
+    Optimize<dim>::run()
+    {
+      open_journal();
       workshop.context.out() << io::log_header() << std::endl;
-      const auto result =
-        optimization::minimize(problem, workshop.scene.optimization, hooks);
+      auto result = search(workshop.basis->start(), {});
+      for (unsigned int round = 0;
+           round < workshop.scene.contact.update_pairing && result.success &&
+           result.evaluations <
+             workshop.scene.optimization.maximum_evaluations &&
+           pair_anew(result.x);
+           ++round)
+        {
+          iterations_done = result.iterations;
+          result          = search(result.x, result);
+        }
       finish(result);
       return result.success || result.stop_reason == "interrupted" ||
                  result.stop_reason == "maximum evaluations"
@@ -199,14 +275,10 @@ namespace snug
     void
     Optimize<dim>::finish(const optimization::OptimizationResult &result)
     {
-      // after a replay the first design has not been solved in this run
-      if (!first)
-        first = std::make_unique<state::ContactState<dim>>(
-          workshop.solve(workshop.basis->start(), qp::WarmStart()));
+      draw_first();
       if (!last || last_design != result.x)
         last = std::make_unique<state::ContactState<dim>>(
           workshop.solve(result.x, warm_start));
-      workshop.draw(0., *first);
       workshop.draw(result.iterations, *last);
       workshop.export_shape(result.x);
 
@@ -216,6 +288,7 @@ namespace snug
         last->linear_f_mults = workshop.solver->linear_f_mults(*last);
       summary.initial_state = io::summarize(*first);
       summary.state         = io::summarize(*last);
+      workshop.warn(*last);
       io::Summary::Gradient gradient;
       gradient.method  = last_gradient.method;
       gradient.f_mults = last_gradient.f_mults;

@@ -30,8 +30,15 @@ namespace snug
             << state.contact_force << "), area " << state.contact_area
             << ", peak pressure " << state.max_pressure << ", "
             << state.active_contacts << " active and " << state.weak_contacts
-            << " weakly active of " << state.contact.size() << " contact rows\n"
-            << state.dual.method << ": " << state.dual.outer_iterations
+            << " weakly active of " << state.contact.size()
+            << " contact rows\n";
+        if (state.pairs.size() > 1)
+          for (const auto &pair : state.pairs)
+            out << "  on " << pair.name << ": force (" << pair.force
+                << "), area " << pair.contact_area << ", peak pressure "
+                << pair.max_pressure << ", " << pair.active_contacts
+                << " active of " << pair.rows << " rows\n";
+        out << state.dual.method << ": " << state.dual.outer_iterations
             << " outer iterations, " << state.f_mults << " F-mults\n";
         print_certificate(out, state.certificate);
       }
@@ -45,6 +52,7 @@ namespace snug
         if (workshop.scene.report_linear_reference)
           state.linear_f_mults = workshop.solver->linear_f_mults(state);
         print_state(workshop.context.out(), state);
+        workshop.warn(state);
         return state;
       }
 

@@ -2,7 +2,9 @@
 #include <snug/io/shape_export.h>
 #include <snug/io/text_file.h>
 #include <snug/scene/read_scene.h>
+#include <snug/state/assumptions.h>
 
+#include <algorithm>
 #include <ostream>
 #include <sstream>
 
@@ -72,7 +74,7 @@ namespace snug
       contact_output = std::make_unique<io::ContactOutput<dim>>(
         typename io::ContactOutput<dim>::Sources{*mesh,
                                                  solver->surface(),
-                                                 solver->model().pairs,
+                                                 solver->contact().pairs(),
                                                  solver->contact().places()},
         scene.output_directory);
     }
@@ -118,7 +120,7 @@ namespace snug
 
     template <int dim>
     void
-    Workshop<dim>::print_header() const
+    Workshop<dim>::print_header()
     {
       const auto info = io::program_info(context);
       auto      &out  = context.out();
@@ -133,6 +135,46 @@ namespace snug
           << solver->gluing().n_rows() << " dual rows, " << basis->n_variables()
           << " design variables, " << context.n_ranks() << " ranks"
           << std::endl;
+      const auto               &pairs = solver->contact().pairs();
+      std::vector<unsigned int> rows(pairs.size(), 0);
+      for (const auto &place : solver->contact().places())
+        ++rows[place.pair];
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        out << "contact " << pairs[p].name() << ", "
+            << (pairs[p].obstacle ? "obstacle" : pairs[p].parameters.method)
+            << ", " << rows[p] << " rows" << std::endl;
+      warn(state::overlap_warnings(pairs, solver->contact().overlaps()));
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::warn(const state::ContactState<dim> &state)
+    {
+      warn(state::warnings(state.assumptions));
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::warn(const std::vector<std::string> &lines)
+    {
+      for (const std::string &line : lines)
+        if (std::find(warnings.begin(), warnings.end(), line) == warnings.end())
+          {
+            warnings.push_back(line);
+            context.out() << "warning: " << line << std::endl;
+          }
+    }
+
+    template <int dim>
+    double
+    Workshop<dim>::drift(const std::vector<double> &design) const
+    {
+      const auto x       = solver->surface().gather(positions(design));
+      double     largest = 0.;
+      for (const double drift :
+           solver->contact().drifts(x, solver->contact().rows(x)))
+        largest = std::max(largest, drift);
+      return largest;
     }
 
     template <int dim>
@@ -148,6 +190,9 @@ namespace snug
       summary.times                 = io::collect_times(context);
       if (!io::blas_warning(summary.program).empty())
         summary.warnings.push_back(io::blas_warning(summary.program));
+      summary.warnings.insert(summary.warnings.end(),
+                              warnings.begin(),
+                              warnings.end());
       everywhere(context.communicator(), [&]() {
         if (context.rank() == 0)
           summary.write(path("summary.json"));

@@ -3,6 +3,7 @@
 #include <snug/contact/nodal_rows.h>
 #include <snug/contact/obstacle_rows.h>
 
+#include <algorithm>
 #include <map>
 
 namespace snug
@@ -49,6 +50,28 @@ namespace snug
           }
         pair.parameters.slave = "first";
       }
+
+      /// Value of a field at the slave of a row less that at its master, if
+      /// it has nodes, by the factors of the normal in the coefficients.
+      template <int dim>
+      dealii::Tensor<1, dim>
+      slave_minus_master(const Row<dim>                           &row,
+                         const typename mesh::Surface<dim>::Field &field)
+      {
+        dealii::Tensor<1, dim> sum;
+        for (const auto &c : row.coefficients)
+          sum += (c.second * row.normal) * field[c.first];
+        return sum;
+      }
+
+      /// Length of @p v at right angles to @p normal.
+      template <int dim>
+      double
+      along(const dealii::Tensor<1, dim> &v,
+            const dealii::Tensor<1, dim> &normal)
+      {
+        return (v - (v * normal) * normal).norm();
+      }
     } // namespace
 
     template <int dim>
@@ -73,13 +96,23 @@ namespace snug
                           const Field              &positions)
       : surface(surface), shape(degree), chosen(pairs)
     {
+      for (Pair &pair : chosen)
+        choose_slave(surface, positions, pair);
+      this->pair(positions);
+    }
+
+    template <int dim>
+    void
+    Contact<dim>::pair(const Field &positions)
+    {
+      groups.clear();
+      row_places.clear();
       // nodes with a row, by what their rows are against
       std::map<std::pair<std::string, Pair::Side>, std::vector<bool>> taken;
-      for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (unsigned int p = 0; p < chosen.size(); ++p)
         {
-          Pair &pair = chosen[p];
-          choose_slave(surface, positions, pair);
-          auto &taken_here =
+          const Pair &pair = chosen[p];
+          auto       &taken_here =
             taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
           taken_here.resize(surface.n_nodes(), false);
           PairFaces sides{faces_of(surface, pair.slave), {}};
@@ -97,6 +130,23 @@ namespace snug
               "contact pair '" + pair.name() +
               "': no slave node lies opposite to the master within the search "
               "distance and angle");
+        }
+      measure_pairing(positions);
+    }
+
+    template <int dim>
+    void
+    Contact<dim>::measure_pairing(const Field &positions)
+    {
+      const auto paired = rows(positions);
+      const auto sizes  = node_face_sizes(surface, positions);
+      paired_offsets.clear();
+      deepest.assign(groups.size(), 0.);
+      for (unsigned int i = 0; i < paired.size(); ++i)
+        {
+          paired_offsets.push_back(slave_minus_master(paired[i], positions));
+          double &depth = deepest[row_places[i].pair];
+          depth = std::max(depth, -paired[i].gap / sizes[row_places[i].slave]);
         }
     }
 
@@ -220,6 +270,48 @@ namespace snug
           result.insert(result.end(), of_group.begin(), of_group.end());
         }
       return result;
+    }
+
+    template <int dim>
+    std::vector<double>
+    Contact<dim>::slips(const Field                 &positions,
+                        const std::vector<Row<dim>> &rows,
+                        const Field                 &displacement) const
+    {
+      const auto          sizes = node_face_sizes(surface, positions);
+      std::vector<double> result;
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        result.push_back(
+          along(slave_minus_master(rows[i], displacement), rows[i].normal) /
+          sizes[row_places[i].slave]);
+      return result;
+    }
+
+    template <int dim>
+    std::vector<double>
+    Contact<dim>::drifts(const Field                 &positions,
+                         const std::vector<Row<dim>> &rows) const
+    {
+      const auto          sizes = node_face_sizes(surface, positions);
+      std::vector<double> result;
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        {
+          const auto offset         = slave_minus_master(rows[i], positions);
+          const auto &[pair, slave] = row_places[i];
+          result.push_back(
+            chosen[pair].obstacle
+              ? 0.
+              : along(offset - paired_offsets[i], rows[i].normal) /
+                  sizes[slave]);
+        }
+      return result;
+    }
+
+    template <int dim>
+    const std::vector<double> &
+    Contact<dim>::overlaps() const
+    {
+      return deepest;
     }
 
     template const ChoiceTable<

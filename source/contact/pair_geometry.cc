@@ -3,6 +3,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +14,17 @@ namespace snug
     namespace
     {
       const double round_off = 1e-9;
-    }
+
+      /// Diagonal over sqrt(dim-1), the edge length of a square.
+      template <int dim>
+      double
+      face_size(const std::vector<unsigned int>          &nodes,
+                const typename mesh::Surface<dim>::Field &positions)
+      {
+        return (positions[nodes.back()] - positions[nodes.front()]).norm() /
+               std::sqrt(dim - 1.);
+      }
+    } // namespace
 
     template <int dim>
     double
@@ -23,11 +34,21 @@ namespace snug
     {
       double sum = 0.;
       for (const unsigned int f : faces)
-        {
-          const auto &nodes = surface.faces()[f].nodes;
-          sum += (positions[nodes.back()] - positions[nodes.front()]).norm();
-        }
-      return sum / (faces.size() * std::sqrt(dim - 1.));
+        sum += face_size<dim>(surface.faces()[f].nodes, positions);
+      return sum / faces.size();
+    }
+
+    template <int dim>
+    std::vector<double>
+    node_face_sizes(const mesh::Surface<dim>                 &surface,
+                    const typename mesh::Surface<dim>::Field &positions)
+    {
+      std::vector<double> sizes(surface.n_nodes(), 0.);
+      for (const auto &face : surface.faces())
+        for (const unsigned int node : face.nodes)
+          sizes[node] =
+            std::max(sizes[node], face_size<dim>(face.nodes, positions));
+      return sizes;
     }
 
     template <int dim>
@@ -64,11 +85,13 @@ namespace snug
              normals[slave] * normal >= least_cosine;
     }
 
-#define SNUG_INSTANTIATE(dim)                                        \
-  template double mean_face_size(const mesh::Surface<dim> &,         \
-                                 const std::vector<unsigned int> &,  \
-                                 const mesh::Surface<dim>::Field &); \
-  template struct PairGeometry<dim>;                                 \
+#define SNUG_INSTANTIATE(dim)                                                     \
+  template double              mean_face_size(const mesh::Surface<dim> &,         \
+                                              const std::vector<unsigned int> &,  \
+                                              const mesh::Surface<dim>::Field &); \
+  template std::vector<double> node_face_sizes(                                   \
+    const mesh::Surface<dim> &, const mesh::Surface<dim>::Field &);               \
+  template struct PairGeometry<dim>;                                              \
   template class Opposition<dim>;
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

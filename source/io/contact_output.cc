@@ -17,10 +17,7 @@ namespace snug
       : sources(sources)
       , directory(directory)
       , reference(sources.surface.gather(sources.mesh.reference_positions()))
-      , candidate(sources.surface.n_nodes(), false)
     {
-      for (const auto &row : sources.places)
-        candidate[row.slave] = true;
     }
 
     template <int dim>
@@ -63,7 +60,10 @@ namespace snug
                                    const Field                    &positions,
                                    const Field &displacement) const
     {
-      const auto              points = nodal_points(state.contact);
+      const auto        points = nodal_points(state.contact);
+      std::vector<bool> candidate(sources.surface.n_nodes(), false);
+      for (const auto &row : sources.places)
+        candidate[row.slave] = true;
       PatchList<dim - 1, dim> patches({{"pressure", 1},
                                        {"gap", 1},
                                        {"force", 1},

@@ -38,6 +38,19 @@ namespace snug
       result.linear_f_mults   = state.linear_f_mults;
       result.method           = state.dual.method;
       result.certificate      = state.certificate;
+      result.assumptions      = state.assumptions;
+      for (const auto &of_pair : state.pairs)
+        {
+          Summary::Pair pair;
+          pair.name            = of_pair.name;
+          pair.rows            = of_pair.rows;
+          pair.active_contacts = of_pair.active_contacts;
+          for (unsigned int c = 0; c < dim; ++c)
+            pair.force.push_back(of_pair.force[c]);
+          pair.contact_area = of_pair.contact_area;
+          pair.max_pressure = of_pair.max_pressure;
+          result.pairs.push_back(pair);
+        }
       return result;
     }
 

@@ -36,8 +36,22 @@ namespace snug
       }
 
       Json
+      summary_part(const Summary::Pair &pair)
+      {
+        return {{"name", pair.name},
+                {"rows", pair.rows},
+                {"active_contacts", pair.active_contacts},
+                {"force", pair.force},
+                {"contact_area", pair.contact_area},
+                {"max_pressure", pair.max_pressure}};
+      }
+
+      Json
       summary_part(const Summary::State &state)
       {
+        Json pairs = Json::array();
+        for (const auto &pair : state.pairs)
+          pairs.push_back(summary_part(pair));
         const auto &certificate = state.certificate;
         const Json  linear      = state.linear_f_mults == 0
                                     ? Json(nullptr)
@@ -54,12 +68,18 @@ namespace snug
                 {"f_mults", state.f_mults},
                 {"linear_f_mults", linear},
                 {"method", state.method},
+                {"pairs", pairs},
                 {"certificate",
                  {{"equilibrium", certificate.equilibrium},
                   {"continuity", certificate.continuity},
                   {"penetration", certificate.penetration},
                   {"negative_pressure", certificate.negative_pressure},
-                  {"complementarity", certificate.complementarity}}}};
+                  {"complementarity", certificate.complementarity}}},
+                {"assumptions",
+                 {{"rotation", state.assumptions.rotation},
+                  {"strain", state.assumptions.strain},
+                  {"slip", state.assumptions.slip},
+                  {"drift", state.assumptions.drift}}}};
       }
 
       Json

@@ -299,15 +299,18 @@ namespace snug
     void
     check_names(const Scene &scene, const Origins &origins)
     {
-      std::vector<std::string> bodies, shapes;
+      std::vector<std::string> bodies, obstacles, shapes;
       for (const auto &body : scene.bodies)
         bodies.push_back(body.name);
+      for (const auto &obstacle : scene.obstacles)
+        obstacles.push_back(obstacle.name);
       for (const auto &shape : scene.shapes)
         if (!shape.name.empty() || scene.shapes.size() > 1)
           shapes.push_back(shape.name);
       if (bodies.empty())
         throw origins.error("Bodies", "", "must name at least one body");
       check_list_of_names("Bodies", bodies, origins);
+      check_list_of_names("Obstacles", obstacles, origins);
       check_list_of_names("Shapes", shapes, origins);
     }
 

@@ -1,12 +1,160 @@
+#include <snug/mesh/formula.h>
 #include <snug/scene/check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace snug
 {
   namespace scene
   {
+    namespace
+    {
+      /// The entries of one subsection.
+      class Section
+      {
+      public:
+        Section(const Scene       &scene,
+                const Origins     &origins,
+                const std::string &name)
+          : scene(scene), origins(origins), name(name)
+        {
+        }
+
+        template <typename T>
+        void
+        require(bool               good,
+                const std::string &entry,
+                const T           &value,
+                const std::string &allowed) const
+        {
+          if (!good)
+            throw origins.error(name + "/" + entry, to_text(value), allowed);
+        }
+
+        void
+        require_vector(const std::string         &entry,
+                       const std::vector<double> &values) const
+        {
+          bool finite = true;
+          for (const double value : values)
+            finite = finite && std::isfinite(value);
+          require(values.size() == scene.dimension && finite,
+                  entry,
+                  values,
+                  "must have " + to_text(scene.dimension) +
+                    " finite numbers separated by commas, one per dimension");
+        }
+
+        void
+        require_direction(const std::string         &entry,
+                          const std::vector<double> &values) const
+        {
+          require_vector(entry, values);
+          require(std::any_of(values.begin(),
+                              values.end(),
+                              [](double value) { return value != 0.; }),
+                  entry,
+                  values,
+                  "must not be all zero");
+        }
+
+        /// @p text must be a formula.
+        void
+        require_formula(const std::string &entry, const std::string &text) const
+        {
+          try
+            {
+              if (scene.dimension == 2)
+                mesh::Formula<2>(entry, text);
+              else
+                mesh::Formula<3>(entry, text);
+            }
+          catch (const InputError &error)
+            {
+              const std::string message = error.what();
+              throw origins.error(name + "/" + entry,
+                                  text,
+                                  message.substr(message.find("must be")));
+            }
+        }
+
+      private:
+        const Scene      &scene;
+        const Origins    &origins;
+        const std::string name;
+      };
+
+      void
+      check_obstacle(const Scene                       &scene,
+                     const Origins                     &origins,
+                     const contact::ObstacleParameters &obstacle)
+      {
+        const std::string name = "Obstacle " + obstacle.name;
+        const Section     section(scene, origins, name);
+        section.require_vector("Point", obstacle.point);
+        section.require_direction("Normal", obstacle.normal);
+        section.require_direction("Axis", obstacle.axis);
+        section.require(std::isfinite(obstacle.radius) && obstacle.radius > 0.,
+                        "Radius",
+                        obstacle.radius,
+                        "must be above 0");
+        section.require_vector("Displacement", obstacle.displacement);
+        if (obstacle.shape == "formula")
+          section.require_formula("Formula", obstacle.formula);
+      }
+
+      void
+      check_pair_entries(const Section                 &section,
+                         const contact::PairParameters &parameters)
+      {
+        section.require(std::isfinite(parameters.search_distance) &&
+                          parameters.search_distance >= 0.,
+                        "Search distance",
+                        parameters.search_distance,
+                        "must be 0 or above");
+        section.require(parameters.largest_angle > 0. &&
+                          parameters.largest_angle <= 180.,
+                        "Largest angle",
+                        parameters.largest_angle,
+                        "must be above 0 and at most 180");
+        section.require_formula("Gap", parameters.gap);
+      }
+
+      bool
+      is_obstacle(const Scene &scene, const std::string &name)
+      {
+        return std::any_of(scene.obstacles.begin(),
+                           scene.obstacles.end(),
+                           [&](const auto &obstacle) {
+                             return obstacle.name == name;
+                           });
+      }
+
+      void
+      check_sides(const Scene                             &scene,
+                  const Origins                           &origins,
+                  const std::string                       &value,
+                  const contact::ContactParameters::Entry &pair)
+      {
+        const std::string path = "Contact/Pairs";
+        if (is_obstacle(scene, pair.slave))
+          throw origins.error(path,
+                              value,
+                              "'" + pair.slave +
+                                "' is an obstacle and must come second: "
+                                "'body.boundary: " +
+                                pair.slave + "'");
+        require_face(scene, origins, path, value, pair.slave);
+        if (!is_obstacle(scene, pair.master))
+          require_face(scene, origins, path, value, pair.master);
+        if (pair.slave == pair.master)
+          throw origins.error(
+            path, value, "'" + pair.slave + "' must not be paired with itself");
+      }
+    } // namespace
+
     void
     require_face(const Scene       &scene,
                  const Origins     &origins,
@@ -17,8 +165,13 @@ namespace snug
       const auto [name, boundary] = split_face(face);
       const unsigned int index    = body_index(scene, name);
       if (boundary.empty())
-        throw origins.error(
-          path, value, "'" + quotable(face) + "' must read 'body.boundary'");
+        throw origins.error(path,
+                            value,
+                            "'" + quotable(face) +
+                              "' must read 'body.boundary'" +
+                              (scene.obstacles.empty()
+                                 ? ""
+                                 : " or be an obstacle in 'Obstacles'"));
       std::vector<std::string> known;
       if (index == scene.bodies.size())
         {
@@ -42,26 +195,29 @@ namespace snug
     void
     check_contact(const Scene &scene, const Origins &origins)
     {
-      const std::string path  = "Contact/Pairs";
-      const auto       &pairs = scene.contact.pairs;
-      const std::string value = to_text(pairs);
-      for (auto pair = pairs.begin(); pair != pairs.end(); ++pair)
+      for (const auto &obstacle : scene.obstacles)
+        check_obstacle(scene, origins, obstacle);
+      check_pair_entries(Section(scene, origins, "Contact"),
+                         scene.contact.defaults);
+      TextPairs names;
+      for (const auto &pair : scene.contact.pairs)
+        names.emplace_back(pair.slave, pair.master);
+      const std::string value = to_text(names);
+      for (unsigned int p = 0; p < names.size(); ++p)
         {
-          require_face(scene, origins, path, value, pair->first);
-          require_face(scene, origins, path, value, pair->second);
-          if (pair->first == pair->second)
-            throw origins.error(path,
+          const auto &pair = scene.contact.pairs[p];
+          check_sides(scene, origins, value, pair);
+          const auto before = names.begin() + p;
+          if (std::count(names.begin(), before, names[p]) > 0 ||
+              std::count(names.begin(),
+                         before,
+                         std::make_pair(pair.master, pair.slave)) > 0)
+            throw origins.error("Contact/Pairs",
                                 value,
-                                "'" + pair->first +
-                                  "' must not be paired with itself");
-          const std::pair<std::string, std::string> swapped(pair->second,
-                                                            pair->first);
-          if (std::count(pairs.begin(), pair, *pair) > 0 ||
-              std::count(pairs.begin(), pair, swapped) > 0)
-            throw origins.error(path,
-                                value,
-                                "'" + pair->first + "' and '" + pair->second +
+                                "'" + pair.slave + "' and '" + pair.master +
                                   "' must not be paired twice");
+          const std::string name = "Pair " + pair.slave + ": " + pair.master;
+          check_pair_entries(Section(scene, origins, name), pair.parameters);
         }
     }
   } // namespace scene

@@ -1,4 +1,3 @@
-#include <snug/contact/contact.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/mesh/partition.h>
 #include <snug/optimization/minimize.h>
@@ -48,6 +47,17 @@ namespace snug
                     pairs("names separated by commas"),
                     "Names of the bodies, separated by commas; each has its "
                     "own subsection Body NAME.");
+        entries.add("Obstacles",
+                    {[&scene]() {
+                       std::vector<std::string> names;
+                       for (const auto &obstacle : scene.obstacles)
+                         names.push_back(obstacle.name);
+                       return listed(names);
+                     },
+                     [](const std::string &) {}},
+                    pairs("names separated by commas"),
+                    "Names of rigid obstacles, separated by commas; each has "
+                    "its own subsection Obstacle NAME.");
         entries.add("Shapes",
                     {[&scene]() {
                        std::vector<std::string> names;
@@ -168,23 +178,6 @@ namespace snug
         entries.add("Body force",
                     body.loads.body_force,
                     "Force per volume x, y, z [force/length^3]; empty: none.");
-      }
-
-      void
-      declare_contact(Entries &entries, Scene &scene)
-      {
-        entries.begin_section("Contact", "Which faces may touch.");
-        entries.add("Pairs",
-                    scene.contact.pairs,
-                    pairs("a list 'body.boundary: body.boundary, ...'"),
-                    "Pairs of faces, slave: master, separated by commas. No "
-                    "slave node penetrates the master face. 'punch.bottom: "
-                    "foundation.top'.");
-        add_choice(entries,
-                   "Method",
-                   scene.contact.method,
-                   contact::contact_method_table<3>(),
-                   "How two faces meet.");
       }
 
       void

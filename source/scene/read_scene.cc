@@ -61,7 +61,8 @@ namespace snug
         return dealii::Utilities::split_string_list(names);
       }
 
-      /// First pass: bodies and shapes, without what they are made of.
+      /// First pass: bodies, obstacles and shapes, without what they are made
+      /// of.
       void
       make_named(const std::vector<Statement> &statements, Scene &scene)
       {
@@ -70,10 +71,42 @@ namespace snug
             scene.bodies.emplace_back();
             scene.bodies.back().name = name;
           }
+        for (const auto &name : names_in(statements, "Obstacles"))
+          {
+            scene.obstacles.emplace_back();
+            scene.obstacles.back().name = name;
+          }
         const auto shapes = names_in(statements, "Shapes");
         scene.shapes.resize(std::max<std::size_t>(1, shapes.size()));
         for (unsigned int i = 0; i < shapes.size(); ++i)
           scene.shapes[i].name = shapes[i];
+      }
+
+      bool
+      belongs_to_pair(const Statement &statement)
+      {
+        return statement.section.rfind("Pair ", 0) == 0;
+      }
+
+      /// Pairs take over what subsection Contact says, but for entries of
+      /// their own, wherever these stand.
+      void
+      assign(const std::vector<Statement> &statements, Scene &scene)
+      {
+        {
+          Entries entries;
+          declare(entries, scene);
+          for (const auto &statement : statements)
+            if (!belongs_to_pair(statement))
+              entries.set(statement);
+        }
+        for (auto &pair : scene.contact.pairs)
+          pair.parameters = scene.contact.defaults;
+        Entries entries;
+        declare(entries, scene);
+        for (const auto &statement : statements)
+          if (belongs_to_pair(statement))
+            entries.set(statement);
       }
 
       void
@@ -99,6 +132,16 @@ namespace snug
             fill(body.mesh.fine_length, scene.dimension, 0.);
             fill(body.loads.body_force, scene.dimension, 0.);
           }
+        std::vector<double> last(scene.dimension, 0.);
+        last.back() = 1.;
+        for (auto &obstacle : scene.obstacles)
+          {
+            fill(obstacle.point, scene.dimension, 0.);
+            fill(obstacle.displacement, scene.dimension, 0.);
+            for (auto *direction : {&obstacle.normal, &obstacle.axis})
+              if (direction->empty())
+                *direction = last;
+          }
       }
 
       std::string
@@ -108,6 +151,14 @@ namespace snug
              bar      = text.find('|', bar + 2))
           text.insert(bar, "\\");
         return text;
+      }
+
+      /// Its default would be that of the scene the reference is printed from.
+      bool
+      is_name_list(const Entries::Description &entry)
+      {
+        return entry.name == "Bodies" || entry.name == "Obstacles" ||
+               entry.name == "Pairs";
       }
     } // namespace
 
@@ -141,10 +192,7 @@ namespace snug
       scene.file = source.file;
       make_named(statements, scene);
       check_names(scene, origins);
-      Entries entries;
-      declare(entries, scene);
-      for (const auto &statement : statements)
-        entries.set(statement);
+      assign(statements, scene);
       complete(scene);
       check(scene, origins);
       return scene;
@@ -165,6 +213,9 @@ namespace snug
       Scene scene;
       scene.bodies.emplace_back();
       scene.bodies.front().name = "NAME";
+      scene.obstacles.emplace_back();
+      scene.obstacles.front().name = "NAME";
+      scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});
       Entries entries;
       declare(entries, scene);
       out << "# Parameters\n\n"
@@ -183,7 +234,7 @@ namespace snug
           for (const auto &entry : entries.descriptions())
             if (entry.section == section.name)
               out << "| `" << entry.name << "` | "
-                  << (entry.initial.empty() || entry.name == "Bodies"
+                  << (entry.initial.empty() || is_name_list(entry)
                         ? ""
                         : "`" + entry.initial + "`")
                   << " | " << table_cell(entry.form.allowed) << " | "

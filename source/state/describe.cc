@@ -1,3 +1,4 @@
+#include <snug/state/assumptions.h>
 #include <snug/state/describe.h>
 
 #include <algorithm>
@@ -120,17 +121,33 @@ namespace snug
 
       template <int dim>
       void
-      sum_up_contact(const std::vector<contact::Row<dim>> &contact_rows,
+      sum_up_contact(const contact::Contact<dim>          &contact,
+                     const std::vector<contact::Row<dim>> &contact_rows,
                      ContactState<dim>                    &state)
       {
+        for (const auto &pair : contact.pairs())
+          {
+            state.pairs.emplace_back();
+            state.pairs.back().name = pair.name();
+          }
         for (unsigned int i = 0; i < state.contact.size(); ++i)
           {
             const ContactPoint &point = state.contact[i];
-            state.contact_force -= point.force * contact_rows[i].normal;
-            state.active_contacts += point.strong;
+            PairState<dim>     &pair  = state.pairs[contact.places()[i].pair];
+            ++pair.rows;
+            pair.force -= point.force * contact_rows[i].normal;
+            pair.contact_area += point.strong ? point.area : 0.;
+            pair.max_pressure = std::max(pair.max_pressure, point.pressure);
+            pair.active_contacts += point.strong;
             state.weak_contacts += point.weak;
-            state.contact_area += point.strong ? point.area : 0.;
-            state.max_pressure = std::max(state.max_pressure, point.pressure);
+          }
+        for (const auto &pair : state.pairs)
+          {
+            state.contact_force += pair.force;
+            state.contact_area += pair.contact_area;
+            state.max_pressure =
+              std::max(state.max_pressure, pair.max_pressure);
+            state.active_contacts += pair.active_contacts;
           }
       }
     } // namespace
@@ -144,7 +161,8 @@ namespace snug
       describe_displacement(solver, state);
       describe_energies(solver, state);
       describe_contact(solver, contact_rows, state);
-      sum_up_contact(contact_rows, state);
+      sum_up_contact(solver.contact(), contact_rows, state);
+      state.assumptions = assess(solver, contact_rows, state);
     }
 
 #define SNUG_INSTANTIATE(dim)                                    \

@@ -30,7 +30,8 @@ namespace snug
         for (const auto &pair : pairs)
           {
             boundaries.push_back(pair.slave);
-            boundaries.push_back(pair.master);
+            if (!pair.obstacle)
+              boundaries.push_back(pair.master);
           }
         std::sort(boundaries.begin(), boundaries.end());
         boundaries.erase(std::unique(boundaries.begin(), boundaries.end()),
@@ -160,6 +161,8 @@ namespace snug
 
       void
       set_up(const Field &positions);
+      void
+      glue(const typename mesh::Surface<dim>::Field &x);
       feti::SubdomainTable
       subdomain_table() const;
       std::vector<bool>
@@ -210,10 +213,7 @@ namespace snug
                                                         model.pairs,
                                                         mesh.degree(),
                                                         at_surface);
-      gluing                = std::make_unique<Gluing<dim>>(
-        mesh, tearing, surface, model.supports, contact->rows(at_surface));
       systems.resize(tearing.subdomains.size());
-      const auto contact_rows = contact->rows(at_surface);
       for (unsigned int s = 0; s < systems.size(); ++s)
         {
           const auto &subdomain = tearing.subdomains[s];
@@ -226,10 +226,24 @@ namespace snug
           systems[s].body        = subdomain.body;
           systems[s].K           = assemblers[s]->sparsity();
           systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
-          gluing->fill_B(s, contact_rows, false, systems[s].B);
         }
+      glue(at_surface);
+    }
+
+    /// Everything that depends on which nodes are paired.
+    template <int dim>
+    void
+    StateSolver<dim>::Data::glue(const typename mesh::Surface<dim>::Field &x)
+    {
+      const auto contact_rows = contact->rows(x);
+      feti.reset();
+      gluing = std::make_unique<Gluing<dim>>(
+        mesh, tearing, surface, model.supports, contact_rows);
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        gluing->fill_B(s, contact_rows, false, systems[s].B);
       feti = std::make_unique<feti::TotalFeti>(
         systems, gluing->layout(), subdomain_table(), model.feti, context);
+      last_positions.clear();
     }
 
     template <int dim>
@@ -363,6 +377,16 @@ namespace snug
 
     template <int dim>
     StateSolver<dim>::~StateSolver() = default;
+
+    template <int dim>
+    void
+    StateSolver<dim>::pair(const Field &positions)
+    {
+      const RunContext::Timer timer(data->context, "setup");
+      const auto              x = data->surface.gather(positions);
+      data->contact->pair(x);
+      data->glue(x);
+    }
 
     template <int dim>
     ContactState<dim>

@@ -13,6 +13,7 @@ namespace snug
     /**
      * The optimization of a scene: evaluates designs, keeps the journal, the
      * history and the warm start, and draws the first and the last design.
+     * After a run it may pair contact anew and begin another.
      */
     template <int dim>
     class Optimize
@@ -40,6 +41,15 @@ namespace snug
       void
       report(const optimization::Iteration &iteration);
       void
+      open_journal();
+      optimization::OptimizationResult
+      search(const Design                           &start,
+             const optimization::OptimizationResult &before);
+      void
+      draw_first();
+      bool
+      pair_anew(const Design &design);
+      void
       finish(const optimization::OptimizationResult &result);
 
       struct Constraint
@@ -59,6 +69,9 @@ namespace snug
       std::unique_ptr<state::ContactState<dim>> last, first;
       Design                                    last_design;
       sensitivity::Gradient                     last_gradient;
+      bool                                      first_drawn = false;
+      bool         paired_anew     = false; ///< and not yet evaluated
+      unsigned int iterations_done = 0;     ///< of earlier searches
     };
   } // namespace app
 } // namespace snug

@@ -48,7 +48,17 @@ namespace snug
 
       /// Print what was read. Collective.
       void
-      print_header() const;
+      print_header();
+
+      /// Warn where the model is doubtful at a state: print a line, and keep
+      /// it for the summary, once.
+      void
+      warn(const state::ContactState<dim> &state);
+
+      /// How far a design moved slave nodes off the points they are paired
+      /// with, in faces. Collective.
+      double
+      drift(const std::vector<double> &design) const;
 
       /// Fill in program, mesh, work and times and write summary.json.
       /// Collective.
@@ -72,6 +82,10 @@ namespace snug
       std::unique_ptr<response::Response<dim>> objective;
 
     private:
+      void
+      warn(const std::vector<std::string> &lines);
+
+      std::vector<std::string>                warnings;
       std::unique_ptr<io::FieldOutput<dim>>   fields;
       std::unique_ptr<io::ContactOutput<dim>> contact_output;
     };

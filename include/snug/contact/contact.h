@@ -25,8 +25,8 @@ namespace snug
     /**
      * All contact rows of a scene: one group per pair, in the order of the
      * pairs, with the pair's gap formula at the slave nodes added to the gaps
-     * of the group. Pairing is done by the constructor and frozen; see
-     * RowGroup for the meaning of the functions.
+     * of the group. Pairing is done by the constructor and pair() and frozen
+     * in between; see RowGroup for the meaning of the functions.
      */
     template <int dim>
     class Contact
@@ -41,13 +41,17 @@ namespace snug
               unsigned int              degree,
               const Field              &positions);
 
+      /// Pair anew at @p positions, with the slaves chosen before.
+      /// @throws InputError as the constructor does.
+      void
+      pair(const Field &positions);
+
       /// Groups refer to the shape.
       Contact(const Contact &) = delete;
       Contact &
       operator=(const Contact &) = delete;
 
-      /// The pairs with their slaves chosen: by their own parameters, they
-      /// would be chosen again.
+      /// The pairs with their slaves chosen, which come first.
       const std::vector<Pair> &
       pairs() const;
       unsigned int
@@ -67,6 +71,24 @@ namespace snug
       std::vector<double>
       areas(const Field &positions) const;
 
+      /// @name What the rows do not see, as parts of the slave node's largest
+      /// face
+      /// @{
+      /// Displacement of the slave nodes along the master, at right angles to
+      /// the normals, for @p rows at @p positions.
+      std::vector<double>
+      slips(const Field                 &positions,
+            const std::vector<Row<dim>> &rows,
+            const Field                 &displacement) const;
+      /// How far slave nodes have moved along the master off the points they
+      /// were paired with; 0 for obstacles, whose points follow.
+      std::vector<double>
+      drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
+      /// The deepest overlap of each pair where it was paired.
+      const std::vector<double> &
+      overlaps() const;
+      /// @}
+
     private:
       /// The rows of a pair and what is added to their gaps, if anything.
       struct Group
@@ -81,7 +103,11 @@ namespace snug
       std::vector<Pair>         chosen;
       std::vector<Group>        groups; ///< one per pair
       std::vector<RowPlace>     row_places;
+      Field                     paired_offsets; ///< of each row, when paired
+      std::vector<double>       deepest;        ///< of each pair, when paired
 
+      void
+      measure_pairing(const Field &positions);
       Group
       make_group(const PairGeometry<dim> &geometry) const;
     };

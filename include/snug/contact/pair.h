@@ -17,7 +17,7 @@ namespace snug
     struct PairParameters
     {
       std::string method = "nodal"; ///< name in contact_method_table()
-      std::string slave  = "first"; ///< or "finer"
+      std::string slave  = "finer"; ///< or "first"
       /// slave nodes farther from the master carry no row [length]; 0: any
       double search_distance = 0.;
       /// between the slave's normal and the row's [degrees]
@@ -38,6 +38,8 @@ namespace snug
 
       PairParameters     defaults;
       std::vector<Entry> pairs;
+      /// how often an optimization goes on with contact paired anew
+      unsigned int update_pairing = 0;
     };
 
     /// One contact pair: a slave side and a master side or obstacle.

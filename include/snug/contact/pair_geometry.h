@@ -44,6 +44,12 @@ namespace snug
                    const std::vector<unsigned int>          &faces,
                    const typename mesh::Surface<dim>::Field &positions);
 
+    /// Edge length, as above, of the largest face at each surface node.
+    template <int dim>
+    std::vector<double>
+    node_face_sizes(const mesh::Surface<dim>                 &surface,
+                    const typename mesh::Surface<dim>::Field &positions);
+
     /// Whether slave nodes and what they were found to be opposite to are
     /// close enough and face each other.
     template <int dim>

@@ -74,7 +74,6 @@ namespace snug
       Sources                                     sources;
       std::string                                 directory;
       Field                                       reference;
-      std::vector<bool>                           candidate; ///< surface nodes
       std::vector<std::pair<double, std::string>> series;
     };
   } // namespace io

@@ -41,6 +41,15 @@ namespace snug
         unsigned long dual_rows = 0, contact_rows = 0, kernel_dimension = 0;
       };
 
+      /// Members as in state::PairState.
+      struct Pair
+      {
+        std::string         name;
+        unsigned int        rows = 0, active_contacts = 0;
+        std::vector<double> force;
+        double              contact_area = none, max_pressure = none;
+      };
+
       /// Members as in state::ContactState; linear_f_mults 0 becomes null.
       struct State
       {
@@ -52,7 +61,9 @@ namespace snug
         unsigned int        outer_iterations = 0;
         unsigned long       f_mults = 0, linear_f_mults = 0;
         std::string         method; ///< the solver that finished
+        std::vector<Pair>   pairs;
         state::Certificate  certificate;
+        state::Assumptions  assumptions;
       };
 
       /// One way to compute the gradient, with what it cost.

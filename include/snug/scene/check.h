@@ -19,9 +19,10 @@ namespace snug
      *   dimensions, moduli, sizes, cells and tolerances lie in their ranges;
      * - bodies are there and have different names; boundaries that supports,
      *   loads, pairs and shapes name exist; meshes can be made;
-     * - no face is paired with itself or twice;
      * - the model fits the dimension, and thickness, formulation and bodies fit
      *   the model;
+     * - no face is paired with itself or twice; obstacles can be made, and
+     *   formulas be read;
      * - tasks that need design variables have some, with bounds that are not
      *   empty and hold the initial design;
      * - objective and constraints are responses.

@@ -119,11 +119,13 @@ namespace snug
     }
 
     /// Declare all entries of @p scene, with its values as defaults. The
-    /// bodies and shapes there are get their subsections.
+    /// bodies, obstacles, pairs and shapes there are get their subsections.
     void
     declare(Entries &entries, Scene &scene);
 
-    /// The part of declare() about shapes.
+    /// Parts of declare(): obstacles, contact and its pairs; shapes.
+    void
+    declare_contact(Entries &entries, Scene &scene);
     void
     declare_shapes(Entries &entries, Scene &scene);
   } // namespace scene

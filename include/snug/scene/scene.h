@@ -55,7 +55,8 @@ namespace snug
       std::string       output_directory = "output";
       unsigned int      degree           = 1; ///< of the elements, 1 or 2
       std::vector<Body> bodies;
-      unsigned int      subdomains = 0; ///< of all ranks; 0: by size
+      std::vector<contact::ObstacleParameters> obstacles;
+      unsigned int subdomains = 0; ///< of all ranks; 0: by size
       /// also solve the linear problem on the final active set from zero
       bool report_linear_reference = false;
 

@@ -42,6 +42,26 @@ namespace snug
       bool   weak     = false; ///< neither force nor gap
     };
 
+    /// How far a state goes where the model is linear; see assumptions.h.
+    struct Assumptions
+    {
+      double rotation = 0.; ///< largest of a cell [rad]
+      double strain   = 0.; ///< largest of a cell
+      double slip     = 0.; ///< largest of an active contact, in faces
+      double drift    = 0.; ///< largest of a design off its pairing, in faces
+    };
+
+    /// The contact rows of one pair, summed up.
+    template <int dim>
+    struct PairState
+    {
+      std::string            name;              ///< "slave: master"
+      dealii::Tensor<1, dim> force;             ///< on the slave side [force]
+      double                 contact_area = 0.; ///< of active rows [length^2]
+      double                 max_pressure = 0.;
+      unsigned int           rows = 0, active_contacts = 0;
+    };
+
     /**
      * The solution of the contact problem at one geometry. Fields are on the
      * local nodes (valid at nodes of owned cells), contact points on all
@@ -52,11 +72,12 @@ namespace snug
     {
       using Field = typename mesh::BodyMesh<dim>::Field;
 
-      Field                     positions;    ///< [length]
-      Field                     displacement; ///< [length]
-      feti::PrimalVectors       u;            ///< per subdomain
-      qp::DualSolution          dual;
-      std::vector<ContactPoint> contact;
+      Field                       positions;    ///< [length]
+      Field                       displacement; ///< [length]
+      feti::PrimalVectors         u;            ///< per subdomain
+      qp::DualSolution            dual;
+      std::vector<ContactPoint>   contact;
+      std::vector<PairState<dim>> pairs;
 
       double                 energy        = 0.; ///< 1/2 u'Ku - f'u
       double                 compliance    = 0.; ///< f'u
@@ -69,6 +90,7 @@ namespace snug
       unsigned long          f_mults         = 0; ///< of the contact solve
       unsigned long          linear_f_mults  = 0; ///< 0: not asked for
       Certificate            certificate;
+      Assumptions            assumptions;
     };
   } // namespace state
 } // namespace snug

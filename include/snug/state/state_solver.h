@@ -48,6 +48,11 @@ namespace snug
                   RunContext                &context);
       ~StateSolver();
 
+      /// Pair contact anew at @p positions; contact rows and warm starts of
+      /// before are no longer valid. Collective. @throws InputError.
+      void
+      pair(const Field &positions);
+
       /**
        * The state at @p positions. Solves on until the certificate meets the
        * tolerance. Collective.

@@ -60,7 +60,12 @@ struct TwoBoxes
   static snug::contact::Pair
   pair()
   {
-    return {{0, 2 * dim - 2}, {1, 2 * dim - 1}, "slave", "master"};
+    snug::contact::Pair pair{{0, 2 * dim - 2},
+                             {1, 2 * dim - 1},
+                             "slave",
+                             "master"};
+    pair.parameters.slave = "first";
+    return pair;
   }
 
   snug::contact::Contact<dim>

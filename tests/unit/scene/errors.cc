@@ -185,6 +185,37 @@ TEST(Errors, BodiesAndBoundaries)
   expect_error({"Shape/Face", "block.top", "there is no body 'block'"});
 }
 
+TEST(Errors, ObstaclesAndPairs)
+{
+  const std::vector<std::string> floor = {"Obstacles=floor"};
+  expect_error({"Obstacles", "floor, floor", "must not occur twice"});
+  expect_error({"Contact/Pairs", "floor: punch.bottom", "must come second"},
+               floor);
+  expect_error({"Contact/Pairs",
+                "punch.bottom: flor",
+                "or be an obstacle in 'Obstacles'"},
+               floor);
+  expect_error({"Obstacle floor/Shape", "plain", "did you mean 'plane'?"},
+               floor);
+  expect_error({"Obstacle floor/Point", "1, 2", "3 finite numbers"}, floor);
+  expect_error({"Obstacle floor/Normal", "0, 0, 0", "not be all zero"}, floor);
+  expect_error({"Obstacle floor/Axis", "0, nan, 0", "finite"}, floor);
+  expect_error({"Obstacle floor/Radius", "0", "must be above 0"}, floor);
+  expect_error({"Obstacle floor/Displacement", "1", "one per dimension"},
+               floor);
+  expect_error({"Obstacle floor/Formula", "x +", "must be a formula"},
+               {"Obstacles=floor", "Obstacle floor/Shape=formula"});
+  expect_error({"Contact/Search distance", "-1", "must be 0 or above"});
+  expect_error({"Contact/Largest angle", "0", "at most 180"});
+  expect_error({"Contact/Gap", "2 * t", "must be a formula of x,y,z"});
+  expect_error(
+    {"Pair punch.bottom: foundation.top/Gap", "", "must be a formula"});
+  expect_error(
+    {"Pair punch.bottom: foundation.top/Slave", "last", "one of finer, first"});
+  EXPECT_TRUE(has(error_of({"Pair punch.bottom: foundation.side/Gap=1"}),
+                  "unknown subsection 'Pair punch.bottom: foundation.side'"));
+}
+
 TEST(Errors, PropertiesAndMeshes)
 {
   expect_error({"Body punch/Young's modulus", "-1", "must be positive"});

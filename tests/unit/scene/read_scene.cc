@@ -17,8 +17,8 @@ TEST(ReadScene, FillsTheParametersOfEveryModule)
   EXPECT_EQ(scene.task, scene::Task::optimize);
   EXPECT_EQ(scene.dimension, 3U);
   EXPECT_EQ(scene.contact.pairs.size(), 1U);
-  EXPECT_EQ(scene.contact.pairs.at(0).first, "punch.bottom");
-  EXPECT_EQ(scene.contact.pairs.at(0).second, "foundation.top");
+  EXPECT_EQ(scene.contact.pairs.at(0).slave, "punch.bottom");
+  EXPECT_EQ(scene.contact.pairs.at(0).master, "foundation.top");
   EXPECT_EQ(scene.shapes[0].basis, "Bezier patch");
   EXPECT_EQ(scene.shapes[0].control_points, (Integers{3, 2}));
   EXPECT_EQ(scene.shapes[0].bounds, (Numbers{-0.25, 0.25}));
@@ -135,12 +135,45 @@ TEST(PrintScene, ReadsBackToTheSameScene)
             scene.bodies[0].mesh.curved_faces);
   EXPECT_EQ(again.bodies[0].mesh.refine_where, "0.3-x^2-y^2");
   EXPECT_EQ(again.bodies[1].loads.body_force, scene.bodies[1].loads.body_force);
-  EXPECT_EQ(again.contact.pairs, scene.contact.pairs);
+  ASSERT_EQ(again.contact.pairs.size(), scene.contact.pairs.size());
+  EXPECT_EQ(again.contact.pairs[0].master, scene.contact.pairs[0].master);
   EXPECT_EQ(again.shapes[0].initial, scene.shapes[0].initial);
   EXPECT_EQ(again.solver.relative_tolerance, 1e-9);
   EXPECT_TRUE(again.report_linear_reference);
   EXPECT_EQ(again.tearing.subdomains, 7U);
   EXPECT_EQ(again.degree, 2U);
+}
+
+TEST(ReadScene, PairsTakeOverWhatContactSays)
+{
+  const std::string text  = R"(set Dimension = 2
+set Bodies    = punch
+set Obstacles = floor, ball
+subsection Pair punch.bottom: ball
+  set Gap = 0.1 * x
+end
+subsection Contact
+  set Pairs           = punch.bottom: floor, punch.bottom:ball
+  set Search distance = 2
+  set Gap             = 1
+end
+subsection Obstacle ball
+  set Shape  = sphere
+  set Point  = 1, 2
+end
+)";
+  const auto        scene = read_with({"Contact/Interference=true"}, text);
+  ASSERT_EQ(scene.contact.pairs.size(), 2U);
+  const auto &floor = scene.contact.pairs[0].parameters;
+  const auto &ball  = scene.contact.pairs[1].parameters;
+  EXPECT_EQ(floor.gap, "1");
+  EXPECT_EQ(ball.gap, "0.1 * x");
+  EXPECT_EQ(ball.search_distance, 2.);
+  EXPECT_TRUE(ball.interference);
+  EXPECT_EQ(scene.obstacles[0].shape, "plane");
+  EXPECT_EQ(scene.obstacles[0].normal, (std::vector<double>{0., 1.}));
+  EXPECT_EQ(scene.obstacles[1].point, (std::vector<double>{1., 2.}));
+  EXPECT_EQ(printed(read_with({}, printed(scene))), printed(scene));
 }
 
 TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
@@ -149,8 +182,12 @@ TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
   scene::print_reference(reference);
   std::istringstream lines(printed(read_with({"Bodies=punch"},
                                              "set Dimension = 2\n"
+                                             "set Obstacles = floor\n"
                                              "subsection Body punch\n"
                                              "set Box cells = 1, 1\n"
+                                             "end\n"
+                                             "subsection Contact\n"
+                                             "set Pairs = punch.bottom: floor\n"
                                              "end\n")));
   std::string        line;
   unsigned int       n_entries = 0;

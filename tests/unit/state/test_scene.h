@@ -47,15 +47,15 @@ namespace snug
     struct TestScene
     {
       std::vector<TestBody<dim>> bodies;
-      mesh::Idealization idealization  = mesh::Idealization::natural(dim);
-      std::vector<contact::Pair> pairs = {
-        {{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
-      unsigned int              degree         = 1;
-      std::vector<unsigned int> control_points = {1, 1};
-      std::vector<double>       design         = {0.};
-      qp::SolverParameters      solver{"active set", 1e-10, 5000};
-      feti::FetiParameters      feti;
-      unsigned int              subdomains = 6;
+      mesh::Idealization idealization = mesh::Idealization::natural(dim);
+      /// if empty, the punch's bottom on the foundation's top
+      std::vector<contact::Pair> pairs;
+      unsigned int               degree         = 1;
+      std::vector<unsigned int>  control_points = {1, 1};
+      std::vector<double>        design         = {0.};
+      qp::SolverParameters       solver{"active set", 1e-10, 5000};
+      feti::FetiParameters       feti;
+      unsigned int               subdomains = 6;
       bool punch_slides = false; ///< nothing holds it horizontally
     };
 
@@ -233,7 +233,13 @@ namespace snug
             for (const auto &support : body.supports)
               model.supports.push_back({b, support.first, support.second});
           }
-        model.pairs  = scene.pairs;
+        model.pairs = scene.pairs;
+        if (scene.pairs.empty())
+          {
+            model.pairs = {
+              {{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
+            model.pairs[0].parameters.slave = "first";
+          }
         model.feti   = scene.feti;
         model.solver = scene.solver;
         return model;
