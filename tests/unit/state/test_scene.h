@@ -144,15 +144,16 @@ namespace snug
     public:
       using Field = typename mesh::BodyMesh<dim>::Field;
 
-      explicit Problem(const TestScene<dim> &scene)
+      explicit Problem(const TestScene<dim> &scene,
+                       MPI_Comm              communicator = MPI_COMM_WORLD)
         : scene(scene)
-        , context(MPI_COMM_WORLD, log)
-        , mesh(MPI_COMM_WORLD,
+        , context(communicator, log)
+        , mesh(communicator,
                mesh_parameters(scene),
                scene.degree,
-               scene.idealization)
-        , tearing(
-            mesh::tear(mesh, mesh::TearingParameters{scene.subdomains, "grid"}))
+               scene.idealization,
+               {scene.subdomains, "grid"})
+        , tearing(mesh::tear(mesh))
         , model(make_model(scene))
         , solver(mesh, tearing, model, mesh.reference_positions(), context)
       {
