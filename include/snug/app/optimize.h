@@ -68,7 +68,7 @@ namespace snug
       /// the last state solved, and the first one
       std::unique_ptr<state::ContactState<dim>> last, first;
       Design                                    last_design;
-      sensitivity::Gradient                     last_gradient;
+      sensitivity::Gradients                    last_gradients;
       bool                                      first_drawn = false;
       bool         paired_anew     = false; ///< and not yet evaluated
       unsigned int iterations_done = 0;     ///< of earlier searches
