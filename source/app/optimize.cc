@@ -57,25 +57,25 @@ namespace snug
       if (!first)
         first = std::make_unique<state::ContactState<dim>>(*last);
 
-      const auto              &parameters = workshop.scene.gradient;
-      optimization::Evaluation evaluation;
+      optimization::Evaluation    evaluation;
+      sensitivity::Responses<dim> responses = {workshop.objective.get()};
       evaluation.objective = workshop.objective->value(*workshop.solver, *last);
-      last_gradient =
-        workshop.gradient(*workshop.objective, *last, design, parameters);
-      evaluation.gradient = last_gradient.values;
       for (const Constraint &constraint : constraints)
         {
           evaluation.constraints.push_back(
             constraint.response->value(*workshop.solver, *last) -
             constraint.target);
-          sensitivity::GradientParameters cheapest = parameters;
-          cheapest.method                          = "auto";
-          evaluation.jacobian.push_back(
-            workshop.gradient(*constraint.response, *last, design, cheapest)
-              .values);
+          responses.push_back(constraint.response.get());
         }
+      auto parameters = workshop.scene.gradient;
+      if (parameters.method == "energy") // not for every constraint
+        parameters.method = "auto";
+      last_gradients = workshop.gradients(responses, *last, design, parameters);
+      evaluation.gradient = last_gradients.of_response.front().values;
+      for (unsigned int i = 1; i < responses.size(); ++i)
+        evaluation.jacobian.push_back(last_gradients.of_response[i].values);
       evaluation.notes = {double(last->active_contacts),
-                          double(last->f_mults + last_gradient.f_mults),
+                          double(last->f_mults + last_gradients.f_mults),
                           workshop.context.seconds()};
       return evaluation;
     }
@@ -217,9 +217,10 @@ namespace snug
       summary.initial_state = io::summarize(*first);
       summary.state         = io::summarize(*last);
       io::Summary::Gradient gradient;
-      gradient.method  = last_gradient.method;
-      gradient.f_mults = last_gradient.f_mults;
-      gradient.seconds = last_gradient.seconds;
+      if (!last_gradients.of_response.empty())
+        gradient.method = last_gradients.of_response.front().method;
+      gradient.f_mults = last_gradients.f_mults;
+      gradient.seconds = last_gradients.seconds;
       gradient.values  = result.evaluation.gradient;
       summary.gradient = gradient;
       summary.optimization =

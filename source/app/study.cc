@@ -73,10 +73,15 @@ namespace snug
       methods_of(const response::Response<dim> &response)
       {
         std::vector<Method> methods;
-        if (response.has_total_gradient())
+        if (response.stationary() || !response.needs_solution())
           methods.push_back({"energy", "energy", "exact"});
-        methods.push_back({"direct", "direct", "exact"});
-        methods.push_back({"semi-analytic", "direct", "finite differences"});
+        if (response.needs_solution())
+          {
+            methods.push_back({"adjoint", "adjoint", "exact"});
+            methods.push_back({"direct", "direct", "exact"});
+            methods.push_back(
+              {"semi-analytic", "direct", "finite differences"});
+          }
         // last: they leave the solver at another design
         methods.push_back(
           {"finite differences", "finite differences", "exact"});
@@ -127,13 +132,15 @@ namespace snug
             auto parameters        = workshop.scene.gradient;
             parameters.method      = method.method;
             parameters.derivatives = method.derivatives;
-            const auto result =
-              workshop.gradient(*workshop.objective, state, design, parameters);
+            const auto result = workshop.gradients({workshop.objective.get()},
+                                                   state,
+                                                   design,
+                                                   parameters);
             gradient.methods.push_back({method.name,
                                         result.f_mults,
                                         result.numeric_factorizations,
                                         result.seconds,
-                                        result.values});
+                                        result.of_response[0].values});
           }
         const auto &wanted = workshop.scene.gradient.method;
         for (const auto &row : gradient.methods)

@@ -92,18 +92,17 @@ namespace snug
     }
 
     template <int dim>
-    sensitivity::Gradient
-    Workshop<dim>::gradient(const response::Response<dim>         &response,
-                            const state::ContactState<dim>        &state,
-                            const std::vector<double>             &design,
-                            const sensitivity::GradientParameters &parameters)
+    sensitivity::Gradients
+    Workshop<dim>::gradients(const sensitivity::Responses<dim>     &responses,
+                             const state::ContactState<dim>        &state,
+                             const std::vector<double>             &design,
+                             const sensitivity::GradientParameters &parameters)
     {
       std::vector<double> widths;
       for (unsigned int i = 0; i < design.size(); ++i)
         widths.push_back(basis->upper_bounds()[i] - basis->lower_bounds()[i]);
-      return sensitivity::gradient<dim>(
-        {*solver, *basis, response, state, design, widths, parameters},
-        parameters.method);
+      return sensitivity::gradients<dim>(
+        {*solver, *basis, state, design, widths, parameters}, responses);
     }
 
     template <int dim>

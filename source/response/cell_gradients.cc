@@ -66,6 +66,7 @@ namespace snug
     void
     add_stiffness_gradient(const state::StateSolver<dim>       &solver,
                            const state::ContactState<dim>      &state,
+                           const feti::PrimalVectors           &w,
                            double                               factor,
                            typename mesh::BodyMesh<dim>::Field &gradient)
     {
@@ -76,7 +77,7 @@ namespace snug
           assembler.cell_field(i, state.positions),
           assembler.material(i),
           u,
-          u,
+          assembler.cell_values(i, w[s].column(0)),
           factor,
           values);
       };
@@ -87,6 +88,7 @@ namespace snug
     void
     add_load_gradient(const state::StateSolver<dim>       &solver,
                       const state::ContactState<dim>      &state,
+                      const feti::PrimalVectors           &w,
                       double                               factor,
                       typename mesh::BodyMesh<dim>::Field &gradient)
     {
@@ -97,7 +99,7 @@ namespace snug
           assembler.element().add_body_force_gradient(
             assembler.cell_field(i, state.positions),
             b,
-            assembler.cell_values(i, state.u[s].column(0)),
+            assembler.cell_values(i, w[s].column(0)),
             factor,
             values);
       };
@@ -110,7 +112,7 @@ namespace snug
             assembler.face_field(i, state.positions),
             assembler.face_model(i).pressure,
             assembler.face_model(i).traction,
-            assembler.face_values(i, state.u[s].column(0)),
+            assembler.face_values(i, w[s].column(0)),
             factor,
             values);
         };
@@ -151,10 +153,12 @@ namespace snug
 #define SNUG_INSTANTIATE(dim)                                            \
   template void add_stiffness_gradient(const state::StateSolver<dim> &,  \
                                        const state::ContactState<dim> &, \
+                                       const feti::PrimalVectors &,      \
                                        double,                           \
                                        mesh::BodyMesh<dim>::Field &);    \
   template void add_load_gradient(const state::StateSolver<dim> &,       \
                                   const state::ContactState<dim> &,      \
+                                  const feti::PrimalVectors &,           \
                                   double,                                \
                                   mesh::BodyMesh<dim>::Field &);         \
   template void add_volume_gradient(const state::StateSolver<dim> &,     \

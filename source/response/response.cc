@@ -1,8 +1,6 @@
 #include <snug/response/cell_gradients.h>
 #include <snug/response/response.h>
 
-#include <deal.II/base/exceptions.h>
-
 namespace snug
 {
   namespace response
@@ -16,19 +14,9 @@ namespace snug
 
     template <int dim>
     bool
-    Response<dim>::has_total_gradient() const
+    Response<dim>::stationary() const
     {
       return false;
-    }
-
-    template <int dim>
-    typename Response<dim>::Field
-    Response<dim>::total_gradient(const state::StateSolver<dim> &,
-                                  const state::ContactState<dim> &) const
-    {
-      AssertThrow(false,
-                  dealii::ExcMessage("This response has no total gradient."));
-      return {};
     }
 
     namespace
@@ -43,15 +31,14 @@ namespace snug
 
       /**
        * J = s 1/2 u'Ku + l f'u. For the potential energy, s = 1 and l = -1,
-       * the total derivative needs no solve, because u minimises J on the
-       * contact constraints:
+       * the derivative needs no solve, because u minimises J on the contact
+       * constraints:
        * J' = 1/2 u'K'u - f''u + lambda'(B'u - g').
        */
       template <int dim>
       class Work : public Response<dim>
       {
       public:
-        using Field = typename Response<dim>::Field;
         using State = state::ContactState<dim>;
 
         /// @p value: where a state holds J.
@@ -67,49 +54,33 @@ namespace snug
           return state.*member;
         }
 
-        Field
-        position_gradient(const state::StateSolver<dim> &solver,
-                          const State                   &state) const override
-        {
-          Field gradient = zero_field(solver);
-          if (stiffness != 0.)
-            add_stiffness_gradient(solver, state, stiffness / 2., gradient);
-          if (load != 0.)
-            add_load_gradient(solver, state, load, gradient);
-          return gradient;
-        }
-
-        feti::PrimalVectors
-        state_gradient(const state::StateSolver<dim> &solver,
-                       const State                   &state) const override
-        {
-          feti::PrimalVectors gradient;
-          const auto          f = solver.feti().loads();
-          for (unsigned int s = 0; s < state.u.size(); ++s)
-            {
-              gradient.emplace_back(state.u[s].n_rows());
-              gradient.back().add(load, f[s]);
-              if (stiffness != 0.)
-                solver.feti().subdomains()[s].K.multiply_add(stiffness,
-                                                             state.u[s],
-                                                             gradient.back());
-            }
-          return gradient;
-        }
-
         bool
-        has_total_gradient() const override
+        stationary() const override
         {
           return stiffness == 1. && load == -1.;
         }
 
-        Field
-        total_gradient(const state::StateSolver<dim> &solver,
-                       const State                   &state) const override
+        Partials<dim>
+        partials(const state::StateSolver<dim> &solver,
+                 const State                   &state) const override
         {
-          Field gradient = position_gradient(solver, state);
-          add_contact_gradient(solver, state, gradient);
-          return gradient;
+          Partials<dim> result{{}, {}, zero_field(solver)};
+          const auto    f = solver.feti().loads();
+          for (unsigned int s = 0; s < state.u.size(); ++s)
+            {
+              result.u.emplace_back(state.u[s].n_rows());
+              result.u.back().add(load, f[s]);
+              if (stiffness != 0.)
+                solver.feti().subdomains()[s].K.multiply_add(stiffness,
+                                                             state.u[s],
+                                                             result.u.back());
+            }
+          if (stiffness != 0.)
+            add_stiffness_gradient(
+              solver, state, state.u, stiffness / 2., result.positions);
+          if (load != 0.)
+            add_load_gradient(solver, state, state.u, load, result.positions);
+          return result;
         }
 
       private:
@@ -122,8 +93,6 @@ namespace snug
       class Volume : public Response<dim>
       {
       public:
-        using Field = typename Response<dim>::Field;
-
         bool
         needs_solution() const override
         {
@@ -140,36 +109,13 @@ namespace snug
           return volume;
         }
 
-        Field
-        position_gradient(const state::StateSolver<dim>  &solver,
-                          const state::ContactState<dim> &state) const override
+        Partials<dim>
+        partials(const state::StateSolver<dim>  &solver,
+                 const state::ContactState<dim> &state) const override
         {
-          Field gradient = zero_field(solver);
-          add_volume_gradient(solver, state, gradient);
-          return gradient;
-        }
-
-        feti::PrimalVectors
-        state_gradient(const state::StateSolver<dim> &,
-                       const state::ContactState<dim> &state) const override
-        {
-          feti::PrimalVectors zero;
-          for (const auto &u : state.u)
-            zero.emplace_back(u.n_rows());
-          return zero;
-        }
-
-        bool
-        has_total_gradient() const override
-        {
-          return true;
-        }
-
-        Field
-        total_gradient(const state::StateSolver<dim>  &solver,
-                       const state::ContactState<dim> &state) const override
-        {
-          return position_gradient(solver, state);
+          Partials<dim> result{{}, {}, zero_field(solver)};
+          add_volume_gradient(solver, state, result.positions);
+          return result;
         }
       };
     } // namespace

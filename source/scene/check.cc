@@ -1,6 +1,7 @@
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
 #include <snug/scene/values.h>
+#include <snug/sensitivity/methods.h>
 
 #include <algorithm>
 #include <cmath>
@@ -91,13 +92,12 @@ namespace snug
         // The same in 2D and 3D.
         const std::string &objective = scene.optimization.objective;
         if (scene.gradient.method == "energy" &&
-            !choose(response::response_table<3>(), objective)
-               .make()
-               ->has_total_gradient())
+            sensitivity::needs_solve(
+              *choose(response::response_table<3>(), objective).make()))
           throw origins.error("Gradient/Method",
                               scene.gradient.method,
-                              "must be auto, direct or finite differences for "
-                              "the objective '" +
+                              "must be auto, adjoint, direct or finite "
+                              "differences for the objective '" +
                                 objective + "'");
         const std::pair<const char *, double> steps[] = {
           {"Gradient/Semi-analytic step", scene.gradient.semi_analytic_step},

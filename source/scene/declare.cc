@@ -244,6 +244,13 @@ namespace snug
                    gradient.method,
                    sensitivity::gradient_table<3>(),
                    "How the objective is differentiated.");
+        entries.add("Solves",
+                    gradient.solves,
+                    choice("block|recycled"),
+                    "How the linear problems of the adjoint and direct "
+                    "methods are solved: block: all at once; recycled: one "
+                    "after the other, each starting in the search directions "
+                    "of those before.");
         entries.add("Derivatives",
                     gradient.derivatives,
                     choice("exact|finite differences"),

@@ -174,7 +174,7 @@ namespace snug
     } // namespace
 
     template <int dim>
-    DataDerivatives
+    KktVectors
     data_derivatives(
       const state::StateSolver<dim>                          &solver,
       const state::ContactState<dim>                         &state,
@@ -185,7 +185,7 @@ namespace snug
       const auto        &layout = solver.gluing().layout();
       const auto         lambda = layout.to_local(state.dual.lambda);
       const auto         X      = solver.surface().gather(state.positions);
-      DataDerivatives    result;
+      KktVectors         result;
       for (const auto &u : state.u)
         result.primal.emplace_back(u.n_rows(), k);
       qp::MultiVector Bu(layout.n_local(), k);
@@ -216,7 +216,7 @@ namespace snug
     }
 
 #define SNUG_INSTANTIATE(dim)                        \
-  template DataDerivatives data_derivatives(         \
+  template KktVectors data_derivatives(              \
     const state::StateSolver<dim> &,                 \
     const state::ContactState<dim> &,                \
     const std::vector<mesh::BodyMesh<dim>::Field> &, \

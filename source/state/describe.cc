@@ -7,35 +7,35 @@ namespace snug
 {
   namespace state
   {
+    template <int dim>
+    typename mesh::BodyMesh<dim>::Field
+    nodal_values(const StateSolver<dim>    &solver,
+                 const feti::PrimalVectors &u,
+                 const unsigned int         column)
+    {
+      const auto                         &mesh = solver.mesh();
+      std::vector<bool>                   set(mesh.n_local_nodes(), false);
+      typename mesh::BodyMesh<dim>::Field values(mesh.n_local_nodes());
+      for (unsigned int s = 0; s < u.size(); ++s)
+        {
+          const auto &nodes = solver.tearing().subdomains[s].nodes;
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            if (!set[nodes[a]])
+              {
+                set[nodes[a]] = true;
+                for (unsigned int c = 0; c < dim; ++c)
+                  values[nodes[a]][c] = u[s](dim * a + c, column);
+              }
+        }
+      mesh.interpolate_hanging(values);
+      return values;
+    }
+
     namespace
     {
       /// A contact force above this part of the largest is strong; below, and
       /// with a gap below the same part of the largest F_ii lambda_i, weak.
       const double strong_part = 1e-6;
-
-      /// Displacements at the local nodes: of the first copy on this rank.
-      template <int dim>
-      void
-      describe_displacement(const StateSolver<dim> &solver,
-                            ContactState<dim>      &state)
-      {
-        const auto       &mesh = solver.mesh();
-        std::vector<bool> set(mesh.n_local_nodes(), false);
-        state.displacement.assign(mesh.n_local_nodes(),
-                                  dealii::Tensor<1, dim>());
-        for (unsigned int s = 0; s < state.u.size(); ++s)
-          {
-            const auto &nodes = solver.tearing().subdomains[s].nodes;
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              if (!set[nodes[a]])
-                {
-                  set[nodes[a]] = true;
-                  for (unsigned int c = 0; c < dim; ++c)
-                    state.displacement[nodes[a]][c] = state.u[s](dim * a + c);
-                }
-          }
-        mesh.interpolate_hanging(state.displacement);
-      }
 
       template <int dim>
       void
@@ -138,15 +138,17 @@ namespace snug
              const std::vector<contact::Row<dim>> &contact_rows,
              ContactState<dim>                    &state)
     {
-      describe_displacement(solver, state);
+      state.displacement = nodal_values(solver, state.u, 0);
       describe_energies(solver, state);
       describe_contact(solver, contact_rows, state);
       sum_up_contact(contact_rows, state);
     }
 
-#define SNUG_INSTANTIATE(dim)                                    \
-  template void describe(const StateSolver<dim> &,               \
-                         const std::vector<contact::Row<dim>> &, \
+#define SNUG_INSTANTIATE(dim)                                             \
+  template mesh::BodyMesh<dim>::Field nodal_values(                       \
+    const StateSolver<dim> &, const feti::PrimalVectors &, unsigned int); \
+  template void describe(const StateSolver<dim> &,                        \
+                         const std::vector<contact::Row<dim>> &,          \
                          ContactState<dim> &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

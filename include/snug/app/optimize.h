@@ -58,7 +58,7 @@ namespace snug
       /// the last state solved, and the first one
       std::unique_ptr<state::ContactState<dim>> last, first;
       Design                                    last_design;
-      sensitivity::Gradient                     last_gradient;
+      sensitivity::Gradients                    last_gradients;
     };
   } // namespace app
 } // namespace snug

@@ -35,12 +35,12 @@ namespace snug
       state::ContactState<dim>
       solve(const std::vector<double> &design, const qp::WarmStart &start);
 
-      /// Gradient of a response at a state. Collective.
-      sensitivity::Gradient
-      gradient(const response::Response<dim>         &response,
-               const state::ContactState<dim>        &state,
-               const std::vector<double>             &design,
-               const sensitivity::GradientParameters &parameters);
+      /// Gradients of responses at a state. Collective.
+      sensitivity::Gradients
+      gradients(const sensitivity::Responses<dim>     &responses,
+                const state::ContactState<dim>        &state,
+                const std::vector<double>             &design,
+                const sensitivity::GradientParameters &parameters);
 
       /// Add a state to the pictures. Collective.
       void

@@ -7,19 +7,22 @@ namespace snug
 {
   namespace response
   {
-    /// gradient += factor * d/dX (u'K u), this rank's share.
+    /// gradient += factor * d/dX (w'K u) at fixed u and w, the first column of
+    /// @p w; this rank's share.
     template <int dim>
     void
     add_stiffness_gradient(const state::StateSolver<dim>       &solver,
                            const state::ContactState<dim>      &state,
+                           const feti::PrimalVectors           &w,
                            double                               factor,
                            typename mesh::BodyMesh<dim>::Field &gradient);
 
-    /// gradient += factor * d/dX (f'u), this rank's share.
+    /// gradient += factor * d/dX (f'w), the same way.
     template <int dim>
     void
     add_load_gradient(const state::StateSolver<dim>       &solver,
                       const state::ContactState<dim>      &state,
+                      const feti::PrimalVectors           &w,
                       double                               factor,
                       typename mesh::BodyMesh<dim>::Field &gradient);
 

@@ -10,48 +10,57 @@ namespace snug
 {
   namespace response
   {
+    /// Partial derivatives of a response J(u, force, X). An empty member is
+    /// zero.
+    template <int dim>
+    struct Partials
+    {
+      using Field = typename mesh::BodyMesh<dim>::Field;
+
+      /// dJ/du at fixed forces and positions, per subdomain of this rank.
+      feti::PrimalVectors u;
+      /// dJ/d(force) at fixed u and positions, per contact row and equal on all
+      /// ranks; force = lambda_i / nr_i as in ContactPoint, never lambda_i.
+      std::vector<double> forces;
+      /// dJ/dX at fixed u and forces: this rank's share at the local nodes,
+      /// hanging ones included; the sum over ranks is the whole.
+      Field positions;
+    };
+
     /**
-     * A scalar function J(u, X) of the state and the node positions, with the
-     * partial derivatives every sensitivity method is built from:
-     * dJ/dalpha_j = dJ/dX . V_j + dJ/du . u'_j.
+     * A scalar function J(u, force, X) of the displacements, the contact
+     * forces and the node positions, with the partial derivatives every
+     * sensitivity method is built from:
+     * dJ/dalpha_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dforce . force'_j.
      */
     template <int dim>
     class Response
     {
     public:
-      using Field = typename mesh::BodyMesh<dim>::Field;
-
       virtual ~Response() = default;
 
-      /// Whether J depends on u at all, or on the geometry alone: then only
-      /// the positions of a state are read.
+      /// Whether J depends on the solution at all, or on the geometry alone:
+      /// then only the positions of a state are read.
       virtual bool
       needs_solution() const;
+
+      /**
+       * Whether u makes J stationary among the displacements that the rows of
+       * contact and supports allow, with multipliers lambda: dJ/du = -B'lambda
+       * and dJ/dforce = 0. Then dJ/dalpha needs no solve.
+       */
+      virtual bool
+      stationary() const;
 
       /// J. Collective.
       virtual double
       value(const state::StateSolver<dim>  &solver,
             const state::ContactState<dim> &state) const = 0;
 
-      /// dJ/dX at fixed u: this rank's share at the local nodes, hanging ones
-      /// included; the sum over ranks is the whole.
-      virtual Field
-      position_gradient(const state::StateSolver<dim>  &solver,
-                        const state::ContactState<dim> &state) const = 0;
-
-      /// dJ/du at fixed X, per subdomain.
-      virtual feti::PrimalVectors
-      state_gradient(const state::StateSolver<dim>  &solver,
-                     const state::ContactState<dim> &state) const = 0;
-
-      /// Whether total_gradient() knows dJ/dalpha without a solve.
-      virtual bool
-      has_total_gradient() const;
-
-      /// dJ/dX through the state as well, as position_gradient(). Collective.
-      virtual Field
-      total_gradient(const state::StateSolver<dim>  &solver,
-                     const state::ContactState<dim> &state) const;
+      /// Collective.
+      virtual Partials<dim>
+      partials(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state) const = 0;
     };
 
     /// Rows "potential energy", "compliance", "strain energy", "volume".

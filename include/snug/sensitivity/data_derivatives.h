@@ -2,6 +2,7 @@
 #define snug_sensitivity_data_derivatives_h
 
 #include <snug/sensitivity/gradient_parameters.h>
+#include <snug/sensitivity/kkt_vectors.h>
 #include <snug/state/state_solver.h>
 
 namespace snug
@@ -14,17 +15,10 @@ namespace snug
      * print f' where the derivative g' of the gap is meant):
      * primal ft_j = f'_j - K'_j u - B'_j^T lambda per subdomain,
      * dual ct_j = g'_j - B'_j u on the owned rows.
+     * Exact or by differences of K, f, B and g (semi-analytic). Collective.
      */
-    struct DataDerivatives
-    {
-      feti::PrimalVectors primal;
-      qp::MultiVector     dual;
-    };
-
-    /// The derivatives at @p state along @p velocities, exact or by central
-    /// differences of K, f, B and g (semi-analytic). Collective.
     template <int dim>
-    DataDerivatives
+    KktVectors
     data_derivatives(
       const state::StateSolver<dim>                          &solver,
       const state::ContactState<dim>                         &state,

@@ -10,8 +10,10 @@ namespace snug
     /// Entries of `subsection Gradient`.
     struct GradientParameters
     {
-      /// auto | energy | direct | finite differences
+      /// name in gradient_table()
       std::string method = "auto";
+      /// right-hand sides of a direct or adjoint solve: block | recycled
+      std::string solves = "block";
       /// of K', f', B', g': exact | finite differences (semi-analytic)
       std::string derivatives = "exact";
       /// central difference step of K', f', B', g', relative to cell size

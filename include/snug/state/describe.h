@@ -7,6 +7,14 @@ namespace snug
 {
   namespace state
   {
+    /// Values at the local nodes of one column of primal vectors: those of the
+    /// first copy on this rank, hanging nodes interpolated.
+    template <int dim>
+    typename mesh::BodyMesh<dim>::Field
+    nodal_values(const StateSolver<dim>    &solver,
+                 const feti::PrimalVectors &u,
+                 unsigned int               column);
+
     /// Fill in displacement, energies and contact points of a state from its
     /// u and dual solution. @p contact_rows are those of its geometry.
     /// Collective.

@@ -1,3 +1,5 @@
+#include <snug/state/describe.h>
+
 #include <gradient/sensitivity/differences.h>
 
 namespace
@@ -10,29 +12,26 @@ namespace
   /// error is of second order.
   const double direct_tolerance = 1e-7;
   const double energy_tolerance = 1e-8;
+  /// between the methods, which solve the same system or its transpose
+  const double method_tolerance = 1e-10;
   const double difference_step  = 2e-4;
 
-  /// Displacement derivative at the nodes of this rank's cells.
+  /// Displacement derivative along @p direction at the nodes of this rank's
+  /// cells.
   template <int dim>
   typename mesh::BodyMesh<dim>::Field
-  nodal(const Problem<dim>                  &problem,
-        const sensitivity::StateDerivatives &derivatives,
-        const std::vector<double>           &direction)
+  nodal(const Problem<dim>            &problem,
+        const sensitivity::KktVectors &derivatives,
+        const std::vector<double>     &direction)
   {
     typename mesh::BodyMesh<dim>::Field field(problem.mesh.n_local_nodes());
-    for (unsigned int s = 0; s < derivatives.u.size(); ++s)
+    for (unsigned int j = 0; j < direction.size(); ++j)
       {
-        const auto &nodes = problem.tearing.subdomains[s].nodes;
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          {
-            field[nodes[a]] = dealii::Tensor<1, dim>();
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int j = 0; j < direction.size(); ++j)
-                field[nodes[a]][c] +=
-                  direction[j] * derivatives.u[s](dim * a + c, j);
-          }
+        const auto column =
+          state::nodal_values(problem.solver, derivatives.primal, j);
+        for (unsigned int node = 0; node < field.size(); ++node)
+          field[node] += direction[j] * column[node];
       }
-    problem.mesh.interpolate_hanging(field);
     return field;
   }
 
@@ -54,46 +53,59 @@ namespace
            dealii::Utilities::MPI::max(largest, comm);
   }
 
+  /// Gradients of all responses by all exact methods that apply.
+  template <int dim>
+  std::map<std::pair<std::string, std::string>, std::vector<double>>
+  all_gradients(GradientScene<dim>             &scene,
+                const state::ContactState<dim> &state)
+  {
+    std::map<std::pair<std::string, std::string>, std::vector<double>> result;
+    sensitivity::GradientParameters parameters;
+    for (const auto &method : {"adjoint", "direct", "energy"})
+      {
+        std::vector<std::string> names;
+        for (const auto &[name, response] : scene.responses)
+          if (method != std::string("energy") ||
+              !sensitivity::needs_solve(*response))
+            names.push_back(name);
+        parameters.method = method;
+        const auto found  = scene.gradients(state, names, parameters);
+        for (unsigned int i = 0; i < names.size(); ++i)
+          result[{names[i], method}] = found.of_response[i].values;
+      }
+    return result;
+  }
+
   template <int dim>
   void
   check_derivatives(GradientScene<dim> &scene)
   {
-    const unsigned int k      = scene.basis->n_variables();
-    auto              &solver = scene.problem.solver;
-    const auto         state  = scene.solve(scene.problem.scene.design);
+    const auto state = scene.solve(scene.problem.scene.design);
     ASSERT_EQ(state.weak_contacts, 0u);
     ASSERT_GT(state.active_contacts, 1u);
     ASSERT_LT(state.active_contacts, state.contact.size());
-    std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
-    for (unsigned int j = 0; j < k; ++j)
-      velocities.push_back(scene.basis->column(j));
-    const auto derivatives = sensitivity::direct(
-      solver, state, velocities, sensitivity::GradientParameters());
-    sensitivity::GradientParameters  parameters;
-    std::vector<std::vector<double>> gradients;
-    for (const std::string method : {"direct", "energy"})
-      for (const auto response : {energy, compliance, strain_energy})
-        if (method == "direct" || response == energy)
-          {
-            parameters.method = method;
-            gradients.push_back(
-              scene.gradient(state, response, parameters).values);
-          }
-    for (const auto &direction : test_directions(k))
+    const sensitivity::GradientParameters parameters;
+    const auto                            derivatives =
+      sensitivity::state_derivatives(scene.at(state, parameters));
+    const auto gradients = all_gradients(scene, state);
+    for (const auto &[name, response] : scene.responses)
+      EXPECT_LT(relative_error(gradients.at({name, "adjoint"}),
+                               gradients.at({name, "direct"})),
+                method_tolerance)
+        << name;
+    for (const auto &direction : test_directions(scene.basis->n_variables()))
       {
         const auto exact = scene.differences(direction, difference_step);
         EXPECT_LT(field_error(scene.problem,
                               nodal(scene.problem, derivatives, direction),
                               exact.displacement),
                   direct_tolerance);
-        for (unsigned int i = 0; i < gradients.size(); ++i)
-          {
-            const auto   response = i == 3 ? energy : ResponseIndex(i);
-            const double error    = std::abs(dot(gradients[i], direction) -
-                                          exact.responses[response]) /
-                                 (norm(gradients[i]) * norm(direction));
-            EXPECT_LT(error, i == 3 ? energy_tolerance : direct_tolerance);
-          }
+        for (const auto &[key, gradient] : gradients)
+          EXPECT_LT(
+            std::abs(dot(gradient, direction) - exact.responses.at(key.first)) /
+              (norm(gradient) * norm(direction)),
+            key.second == "energy" ? energy_tolerance : direct_tolerance)
+            << key.first << " by " << key.second;
       }
   }
 

@@ -1,24 +1,24 @@
 #ifndef snug_tests_gradient_sensitivity_differences_h
 #define snug_tests_gradient_sensitivity_differences_h
 
-#include <snug/sensitivity/direct.h>
 #include <snug/sensitivity/gradient.h>
+#include <snug/sensitivity/methods.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <gradient/sensitivity/probe.h>
 #include <gtest/gtest.h>
-#include <unit/state/test_scene.h>
 
 namespace snug
 {
   namespace test
   {
-    /// What is differentiated: responses in the order of response_table() and
-    /// the displacement of the local nodes.
+    /// What is differentiated: responses by name and the displacement of the
+    /// local nodes.
     template <int dim>
     struct Values
     {
-      std::vector<double>                 responses;
+      std::map<std::string, double>       responses;
       typename mesh::BodyMesh<dim>::Field displacement;
       std::vector<bool>                   strong;
     };
@@ -37,7 +37,8 @@ namespace snug
         , widths(scene.design.size(), 2. * bound)
       {
         for (const auto &row : response::response_table<dim>())
-          responses.push_back(row.make());
+          responses[row.name] = row.make();
+        responses["probe"] = std::make_unique<Probe<dim>>();
       }
 
       state::ContactState<dim>
@@ -55,8 +56,8 @@ namespace snug
       {
         const auto  state = solve(design);
         Values<dim> result;
-        for (const auto &response : responses)
-          result.responses.push_back(response->value(problem.solver, state));
+        for (const auto &[name, response] : responses)
+          result.responses[name] = response->value(problem.solver, state);
         result.displacement = state.displacement;
         for (const auto &point : state.contact)
           result.strong.push_back(point.strong);
@@ -72,7 +73,7 @@ namespace snug
         Values<dim>  result   = middle;
         const double weight[] = {1. / 12., -8. / 12., 8. / 12., -1. / 12.};
         const int    place[]  = {-2, -1, 1, 2};
-        for (double &value : result.responses)
+        for (auto &[name, value] : result.responses)
           value = 0.;
         for (auto &value : result.displacement)
           value = dealii::Tensor<1, dim>();
@@ -83,8 +84,8 @@ namespace snug
               design[i] += place[k] * step * direction[i];
             const auto at = values(design);
             EXPECT_EQ(at.strong, middle.strong);
-            for (unsigned int r = 0; r < at.responses.size(); ++r)
-              result.responses[r] += weight[k] / step * at.responses[r];
+            for (const auto &[name, value] : at.responses)
+              result.responses[name] += weight[k] / step * value;
             for (unsigned int node = 0; node < at.displacement.size(); ++node)
               result.displacement[node] +=
                 weight[k] / step * at.displacement[node];
@@ -92,25 +93,33 @@ namespace snug
         return result;
       }
 
-      sensitivity::Gradient
-      gradient(const state::ContactState<dim>        &state,
-               unsigned int                           response,
-               const sensitivity::GradientParameters &parameters)
+      sensitivity::GradientProblem<dim>
+      at(const state::ContactState<dim>        &state,
+         const sensitivity::GradientParameters &parameters)
       {
-        return sensitivity::gradient<dim>({problem.solver,
-                                           *basis,
-                                           *responses[response],
-                                           state,
-                                           problem.scene.design,
-                                           widths,
-                                           parameters},
-                                          parameters.method);
+        return {problem.solver,
+                *basis,
+                state,
+                problem.scene.design,
+                widths,
+                parameters};
       }
 
-      Problem<dim>                                          problem;
-      std::unique_ptr<shape::ShapeBasis<dim>>               basis;
-      std::vector<double>                                   widths;
-      std::vector<std::unique_ptr<response::Response<dim>>> responses;
+      sensitivity::Gradients
+      gradients(const state::ContactState<dim>        &state,
+                const std::vector<std::string>        &names,
+                const sensitivity::GradientParameters &parameters)
+      {
+        sensitivity::Responses<dim> chosen;
+        for (const auto &name : names)
+          chosen.push_back(responses.at(name).get());
+        return sensitivity::gradients(at(state, parameters), chosen);
+      }
+
+      Problem<dim>                                                    problem;
+      std::unique_ptr<shape::ShapeBasis<dim>>                         basis;
+      std::vector<double>                                             widths;
+      std::map<std::string, std::unique_ptr<response::Response<dim>>> responses;
 
     private:
       static std::unique_ptr<shape::ShapeBasis<dim>>
@@ -166,14 +175,15 @@ namespace snug
       return std::sqrt(dot(a, a));
     }
 
-    /// Index in response_table().
-    enum ResponseIndex : unsigned int
+    /// |a - b| / |b|
+    inline double
+    relative_error(const std::vector<double> &a, const std::vector<double> &b)
     {
-      energy,
-      compliance,
-      strain_energy,
-      volume
-    };
+      std::vector<double> difference;
+      for (unsigned int i = 0; i < b.size(); ++i)
+        difference.push_back(a[i] - b[i]);
+      return norm(difference) / norm(b);
+    }
   } // namespace test
 } // namespace snug
 

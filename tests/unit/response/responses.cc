@@ -129,11 +129,12 @@ namespace
     for (const auto &row : response::response_table<dim>())
       {
         const auto response = row.make();
-        partial[row.name] =
-          dot<dim>(response->position_gradient(problem.solver, state), V);
-        if (response->has_total_gradient())
-          total[row.name] =
-            dot<dim>(response->total_gradient(problem.solver, state), V);
+        auto gradient     = response->partials(problem.solver, state).positions;
+        partial[row.name] = dot<dim>(gradient, V);
+        if (!response->stationary())
+          continue;
+        response::add_contact_gradient(problem.solver, state, gradient);
+        total[row.name] = dot<dim>(gradient, V);
       }
     // round-off and the fourth order error are near 1e-11
     const double same = 1e-8 * (std::abs(slope.strain_energy) +
@@ -146,8 +147,7 @@ namespace
     EXPECT_NEAR(total["potential energy"],
                 slope.strain_energy - slope.work + slope.contact,
                 same);
-    EXPECT_EQ(total.count("compliance") + total.count("strain energy"), 0u);
-    EXPECT_EQ(total["volume"], partial["volume"]);
+    EXPECT_EQ(total.size(), 1u);
   }
 
   TEST(Response, PositionGradients2D)
@@ -197,7 +197,7 @@ namespace
           continue;
         const auto weight   = weights.at(row.name);
         const auto response = row.make();
-        const auto gradient = response->state_gradient(problem.solver, state);
+        const auto gradient = response->partials(problem.solver, state).u;
         auto       plus = state.u, minus = state.u;
         double     slope = 0.;
         for (unsigned int s = 0; s < plus.size(); ++s)

@@ -118,7 +118,7 @@ TEST(Errors, Choices)
   expect_error({"Solver/Method", "active sett", "did you mean 'active set'?"});
   expect_error({"Solver/Factorization", "LAPACK", "CHOLMOD, MUMPS"});
   expect_error({"Solver/Preconditioner", "dirichlet", "'Dirichlet'?"});
-  expect_error({"Gradient/Method", "adjoint", "finite differences"});
+  expect_error({"Gradient/Method", "magic", "finite differences"});
   expect_error({"Shape/Basis", "Bezier", "Bezier patch"});
   expect_error({"Solver/Report linear reference", "maybe", "true or false"});
 }

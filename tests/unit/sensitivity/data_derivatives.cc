@@ -1,6 +1,4 @@
-#include <snug/base/errors.h>
-#include <snug/sensitivity/direct.h>
-#include <snug/sensitivity/gradient.h>
+#include <snug/sensitivity/data_derivatives.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,7 +26,7 @@ namespace
   /// f - K u - B' lambda of the systems and g - B u at other positions, u and
   /// lambda those of the state: what ft and ct are the derivatives of.
   template <int dim>
-  sensitivity::DataDerivatives
+  sensitivity::KktVectors
   residuals_at(const Problem<dim>                 &problem,
                const state::ContactState<dim>     &state,
                const typename Problem<dim>::Field &positions)
@@ -37,9 +35,9 @@ namespace
     const auto &layout = solver.gluing().layout();
     const auto rows = solver.contact().rows(solver.surface().gather(positions));
     const auto lambda = layout.to_local(state.dual.lambda);
-    qp::MultiVector              Bu(layout.n_local());
-    std::vector<feti::BEntry>    B;
-    sensitivity::DataDerivatives result;
+    qp::MultiVector           Bu(layout.n_local());
+    std::vector<feti::BEntry> B;
+    sensitivity::KktVectors   result;
     for (unsigned int s = 0; s < state.u.size(); ++s)
       {
         const auto &assembler = *solver.assemblers()[s];
@@ -64,7 +62,7 @@ namespace
   }
 
   double
-  largest(const sensitivity::DataDerivatives &x, bool dual)
+  largest(const sensitivity::KktVectors &x, bool dual)
   {
     double     value   = 0.;
     const auto include = [&](const qp::MultiVector &v) {
@@ -81,9 +79,9 @@ namespace
   }
 
   void
-  add(double                              factor,
-      const sensitivity::DataDerivatives &from,
-      sensitivity::DataDerivatives       &to)
+  add(double                         factor,
+      const sensitivity::KktVectors &from,
+      sensitivity::KktVectors       &to)
   {
     for (unsigned int s = 0; s < to.primal.size(); ++s)
       to.primal[s].add(factor, from.primal[s]);
@@ -101,8 +99,8 @@ namespace
     parameters.derivatives = kind;
     const auto all =
       sensitivity::data_derivatives(problem.solver, state, V, parameters);
-    const unsigned int           j = V.size() / 2;
-    sensitivity::DataDerivatives error;
+    const unsigned int      j = V.size() / 2;
+    sensitivity::KktVectors error;
     for (const auto &part : all.primal)
       error.primal.push_back(part.columns_from(j, 1));
     error.dual            = all.dual.columns_from(j, 1);
@@ -131,51 +129,5 @@ namespace
   {
     check_data_derivatives<2>("finite differences", 1e-6);
     check_data_derivatives<3>("finite differences", 1e-6);
-  }
-
-  TEST(Direct, RefusesWeakContacts)
-  {
-    Problem<2> problem(loaded_scene<2>());
-    auto       state    = problem.solve();
-    state.weak_contacts = 2;
-    try
-      {
-        sensitivity::direct(problem.solver,
-                            state,
-                            column_velocities(problem),
-                            sensitivity::GradientParameters());
-        FAIL() << "differentiated a kink";
-      }
-    catch (const SolveError &error)
-      {
-        EXPECT_EQ(std::string(error.what()).substr(0, 10), "2 contacts");
-      }
-  }
-
-  TEST(Direct, ColumnsDoNotDependOnTheirCompany)
-  {
-    Problem<3> problem(loaded_scene<3>());
-    const auto state = problem.solve();
-    const auto V     = column_velocities(problem);
-    const auto all   = sensitivity::direct(problem.solver,
-                                         state,
-                                         V,
-                                         sensitivity::GradientParameters());
-    for (const unsigned int j : {0, 5})
-      {
-        const auto one   = sensitivity::direct(problem.solver,
-                                             state,
-                                             {V[j]},
-                                             sensitivity::GradientParameters());
-        double     error = 0., size = 0.;
-        for (unsigned int s = 0; s < one.u.size(); ++s)
-          for (unsigned int i = 0; i < one.u[s].n_rows(); ++i)
-            {
-              error = std::max(error, std::abs(one.u[s](i) - all.u[s](i, j)));
-              size  = std::max(size, std::abs(one.u[s](i)));
-            }
-        EXPECT_LT(dealii::Utilities::MPI::max(error, MPI_COMM_WORLD),
-                  1e-8 * dealii::Utilities::MPI::max(size, MPI_COMM_WORLD));
-      }
   }
 } // namespace

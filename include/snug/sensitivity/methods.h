@@ -1,0 +1,64 @@
+#ifndef snug_sensitivity_methods_h
+#define snug_sensitivity_methods_h
+
+#include <snug/sensitivity/gradient_problem.h>
+#include <snug/sensitivity/kkt_vectors.h>
+
+namespace snug
+{
+  namespace sensitivity
+  {
+    /// Whether dJ/dalpha takes a linear solve: not if the state makes J
+    /// stationary or J depends on the geometry alone.
+    template <int dim>
+    bool
+    needs_solve(const response::Response<dim> &response);
+
+    /**
+     * u'_j (per subdomain) and lambda'_j (owned rows), a column per design
+     * variable, by the direct method on the strongly active set, all from the
+     * factorizations of the state. Collective. @throws SolveError.
+     */
+    template <int dim>
+    KktVectors
+    state_derivatives(const GradientProblem<dim> &problem);
+
+    // Each of these is one method for any responses. All are collective and
+    // throw SolveError.
+
+    /**
+     * J' = dJ/dX . V - lambda'(g' - B'u) for responses that need no solve:
+     * the adjoint state is w = 0, eta = -lambda or zero.
+     * @throws InputError for others.
+     */
+    template <int dim>
+    std::vector<Gradient>
+    energy_gradients(const GradientProblem<dim> &problem,
+                     const Responses<dim>       &responses);
+
+    /**
+     * J'_j = dJ/dX . V_j + w'ft_j + eta'ct_j with the adjoint states
+     * K w + B_s' eta = dJ/du, B_s w = dJ/dlambda_s of all responses by one
+     * block solve.
+     */
+    template <int dim>
+    std::vector<Gradient>
+    adjoint_gradients(const GradientProblem<dim> &problem,
+                      const Responses<dim>       &responses);
+
+    /// J'_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dlambda . lambda'_j.
+    template <int dim>
+    std::vector<Gradient>
+    direct_gradients(const GradientProblem<dim> &problem,
+                     const Responses<dim>       &responses);
+
+    /// Central differences of states solved from cold. The solver is left at
+    /// another geometry than the state's.
+    template <int dim>
+    std::vector<Gradient>
+    difference_gradients(const GradientProblem<dim> &problem,
+                         const Responses<dim>       &responses);
+  } // namespace sensitivity
+} // namespace snug
+
+#endif

@@ -1,0 +1,72 @@
+#include <snug/response/cell_gradients.h>
+#include <snug/sensitivity/residual_gradient.h>
+#include <snug/state/describe.h>
+
+namespace snug
+{
+  namespace sensitivity
+  {
+    namespace
+    {
+      template <int dim>
+      using Field = typename mesh::BodyMesh<dim>::Field;
+
+      /// gradient += d/dX (eta'(g - B u) - lambda'B w). Collective.
+      template <int dim>
+      void
+      add_rows(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state,
+               const KktVectors               &adjoint,
+               unsigned int                    j,
+               Field<dim>                     &gradient)
+      {
+        const auto &surface = solver.surface();
+        const auto &scales  = solver.gluing().contact_scales();
+        const auto  X       = surface.gather(state.positions);
+        const auto eta = solver.gluing().gather_contact(adjoint.dual.column(j));
+        std::vector<double> of_eta, of_lambda;
+        for (unsigned int i = 0; i < scales.size(); ++i)
+          {
+            of_eta.push_back(scales[i] == 0. ? 0. : -eta[i] / scales[i]);
+            of_lambda.push_back(state.contact[i].force);
+          }
+        // the contact energy force (c.u - gap) without its gap is linear in u
+        auto       sum  = surface.gather(state.displacement);
+        const auto of_u = solver.contact().energy_gradient(X, sum, of_eta);
+        sum = surface.gather(state::nodal_values(solver, adjoint.primal, j));
+        const auto of_w = solver.contact().energy_gradient(X, sum, of_lambda);
+        sum.assign(sum.size(), {});
+        auto total = solver.contact().energy_gradient(X, sum, of_lambda);
+        for (unsigned int a = 0; a < total.size(); ++a)
+          total[a] += of_u[a] - of_w[a];
+        surface.add_owned(total, gradient);
+      }
+    } // namespace
+
+    template <int dim>
+    void
+    add_residual_gradient(const state::StateSolver<dim>       &solver,
+                          const state::ContactState<dim>      &state,
+                          const KktVectors                    &adjoint,
+                          unsigned int                         j,
+                          typename mesh::BodyMesh<dim>::Field &gradient)
+    {
+      feti::PrimalVectors w;
+      for (const auto &part : adjoint.primal)
+        w.push_back(part.columns_from(j, 1));
+      response::add_stiffness_gradient(solver, state, w, -1., gradient);
+      response::add_load_gradient(solver, state, w, 1., gradient);
+      add_rows(solver, state, adjoint, j, gradient);
+    }
+
+#define SNUG_INSTANTIATE(dim)                                           \
+  template void add_residual_gradient(const state::StateSolver<dim> &,  \
+                                      const state::ContactState<dim> &, \
+                                      const KktVectors &,               \
+                                      unsigned int,                     \
+                                      mesh::BodyMesh<dim>::Field &);
+    SNUG_INSTANTIATE(2)
+    SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+  } // namespace sensitivity
+} // namespace snug
