@@ -48,12 +48,11 @@ namespace snug
           if (context.rank() == 0)
             io::write_text_file(path("parameters.prm"), text.str());
         });
-        mesh =
-          std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
-                                                mesh_parameters(scene),
-                                                scene.degree,
-                                                idealization(scene),
-                                                scene.tearing);
+        mesh    = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
+                                                     mesh_parameters(scene),
+                                                     scene.degree,
+                                                     idealization(scene),
+                                                     scene.tearing);
         tearing = mesh::tear(*mesh);
         shape::BodyNames names;
         for (const auto &body : scene.bodies)

@@ -386,18 +386,10 @@ namespace snug
     }
 
     template <int dim>
-    unsigned long
-    BodyMesh<dim>::n_global_cells() const
-    {
-      return data->n_cells;
-    }
+    unsigned long BodyMesh<dim>::n_global_cells() const { return data->n_cells; }
 
     template <int dim>
-    unsigned long
-    BodyMesh<dim>::n_global_free_nodes() const
-    {
-      return data->n_free_nodes;
-    }
+    unsigned long BodyMesh<dim>::n_global_free_nodes() const { return data->n_free_nodes; }
 
     template <int dim>
     const std::vector<std::pair<unsigned int, unsigned int>> &

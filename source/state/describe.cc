@@ -96,8 +96,8 @@ namespace snug
         for (unsigned int i = 0; i < lambda.size(); ++i)
           {
             largest_area = std::max(largest_area, areas[i]);
-            largest     = std::max(largest, lambda[i]);
-            largest_gap = std::max(largest_gap, F_ii[i] * lambda[i]);
+            largest      = std::max(largest, lambda[i]);
+            largest_gap  = std::max(largest_gap, F_ii[i] * lambda[i]);
           }
         state.contact.resize(lambda.size());
         for (unsigned int i = 0; i < lambda.size(); ++i)
@@ -108,12 +108,12 @@ namespace snug
             point.gap = scale == 0. ? contact_rows[i].gap : gaps[i] * scale;
             if (scale == 0.)
               continue;
-            point.force    = lambda[i] / scale;
+            point.force = lambda[i] / scale;
             // an area may be round-off, as on the axis with degree 2
             if (areas[i] > 1e-10 * largest_area)
               point.pressure = point.force / areas[i];
-            point.active   = active[i] != 0.;
-            point.strong   = lambda[i] > strong_part * largest;
+            point.active = active[i] != 0.;
+            point.strong = lambda[i] > strong_part * largest;
             point.weak =
               !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
           }

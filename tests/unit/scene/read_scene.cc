@@ -149,6 +149,9 @@ TEST(ReadScene, PairsTakeOverWhatContactSays)
   const std::string text  = R"(set Dimension = 2
 set Bodies    = punch
 set Obstacles = floor, ball
+subsection Body punch
+  set Box cells = 2, 2
+end
 subsection Pair punch.bottom: ball
   set Gap = 0.1 * x
 end
