@@ -46,10 +46,14 @@ namespace snug
           if (context.rank() == 0)
             io::write_text_file(path("parameters.prm"), text.str());
         });
-        mesh    = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
-                                                     mesh_parameters(scene),
-                                                     scene.degree);
-        tearing = mesh::tear(*mesh, scene.tearing);
+        mesh =
+          std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
+                                                mesh_parameters(scene),
+                                                scene.degree,
+                                                mesh::Idealization::natural(
+                                                  dim),
+                                                scene.tearing);
+        tearing = mesh::tear(*mesh);
         shape::BodyNames names;
         for (const auto &body : scene.bodies)
           names.names.push_back(body.name);

@@ -1,6 +1,7 @@
 #include <snug/mesh/body_mesh.h>
+#include <snug/mesh/cell_graph.h>
+#include <snug/mesh/distribute.h>
 #include <snug/mesh/face_nodes.h>
-#include <snug/mesh/triangulate.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -35,19 +36,20 @@ namespace snug
       {
       }
 
-      MPI_Comm                                          comm;
-      unsigned int                                      degree;
-      Idealization                                      idealization;
-      dealii::FE_Q<dim>                                 fe;
-      std::vector<std::unique_ptr<BodyGeometry<dim>>>   geometries;
-      dealii::parallel::distributed::Triangulation<dim> triangulation;
-      dealii::DoFHandler<dim>                           nodes;
+      MPI_Comm                                               comm;
+      unsigned int                                           degree;
+      Idealization                                           idealization;
+      dealii::FE_Q<dim>                                      fe;
+      std::vector<std::unique_ptr<BodyGeometry<dim>>>        geometries;
+      dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
+      dealii::DoFHandler<dim>                                nodes;
 
       dealii::IndexSet                relevant;
       std::vector<unsigned int>       first_node_of_rank; ///< n_ranks + 1
       std::vector<unsigned int>       node_body;
       std::vector<dealii::Point<dim>> logical;
       Field                           reference;
+      std::vector<unsigned int>       parts; ///< of cells
       std::vector<Cell>               cells;
       std::vector<Face>               faces;
       std::vector<Hanging>            hanging;
@@ -63,6 +65,9 @@ namespace snug
       }
 
       void
+      triangulate(const std::vector<BodyMeshParameters> &bodies,
+                  const TearingParameters               &tearing);
+      void
       number_nodes();
       void
       collect_nodes();
@@ -71,6 +76,21 @@ namespace snug
       void
       collect_cells();
     };
+
+    template <int dim>
+    void
+    BodyMesh<dim>::Data::triangulate(
+      const std::vector<BodyMeshParameters> &bodies,
+      const TearingParameters               &tearing)
+    {
+      for (const auto &body : bodies)
+        geometries.push_back(
+          choose(body_geometry_table<dim>(), body.source).make(body));
+      dealii::parallel::distributed::Triangulation<dim> refined(comm);
+      create_coarse_mesh(geometries, refined);
+      refine(bodies, geometries, refined);
+      parts = distribute(geometries, tearing, degree, refined, triangulation);
+    }
 
     template <int dim>
     void
@@ -156,13 +176,11 @@ namespace snug
         dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
       std::vector<dealii::types::global_dof_index> indices(
         fe.n_dofs_per_cell());
-      std::vector<unsigned int> index_of_active(triangulation.n_active_cells());
       for (const auto &cell : nodes.active_cell_iterators())
         if (cell->is_locally_owned())
           {
-            index_of_active[cell->active_cell_index()] = cells.size();
             cell->get_dof_indices(indices);
-            Cell entry{cell->material_id(), {}};
+            Cell entry{cell->material_id(), parts[cells.size()], {}};
             for (const unsigned int i : order)
               entry.nodes.push_back(local(indices[i]));
             cells.push_back(entry);
@@ -174,35 +192,18 @@ namespace snug
                    static_cast<unsigned int>(cells.size() - 1),
                    oriented_face_nodes<dim>(entry.nodes, degree, f)});
           }
-      for (const auto &cell : nodes.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const unsigned int f : cell->face_indices())
-            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
-                cell->neighbor(f)->is_locally_owned())
-              {
-                const unsigned int a =
-                  index_of_active[cell->active_cell_index()];
-                const unsigned int b =
-                  index_of_active[cell->neighbor(f)->active_cell_index()];
-                neighbours.emplace_back(std::min(a, b), std::max(a, b));
-              }
-      std::sort(neighbours.begin(), neighbours.end());
-      neighbours.erase(std::unique(neighbours.begin(), neighbours.end()),
-                       neighbours.end());
+      neighbours = owned_neighbours(triangulation);
     }
 
     template <int dim>
     BodyMesh<dim>::BodyMesh(MPI_Comm                               communicator,
                             const std::vector<BodyMeshParameters> &bodies,
                             unsigned int                           degree,
-                            const Idealization                    &idealization)
+                            const Idealization                    &idealization,
+                            const TearingParameters               &tearing)
       : data(std::make_unique<Data>(communicator, degree, idealization))
     {
-      for (const auto &body : bodies)
-        data->geometries.push_back(
-          choose(body_geometry_table<dim>(), body.source).make(body));
-      create_coarse_mesh(data->geometries, data->triangulation);
-      refine(bodies, data->geometries, data->triangulation);
+      data->triangulate(bodies, tearing);
       data->number_nodes();
       data->collect_nodes();
       data->collect_hanging();

@@ -190,7 +190,7 @@ namespace snug
                      }},
                     anything("auto or a whole number of at least 1"),
                     "Wanted number of subdomains of all bodies and ranks; "
-                    "auto: by size. There is at least one per rank and body.");
+                    "auto: by size. There are at least as many as ranks.");
 
         add_choice(entries,
                    "Method",

@@ -90,8 +90,12 @@ namespace
     Case(const std::string &file, const Size &size)
       : context(MPI_COMM_WORLD, log)
       , scene(make_scene(file, size))
-      , mesh(MPI_COMM_WORLD, app::mesh_parameters(scene), scene.degree)
-      , tearing(mesh::tear(mesh, scene.tearing))
+      , mesh(MPI_COMM_WORLD,
+             app::mesh_parameters(scene),
+             scene.degree,
+             mesh::Idealization::natural(3),
+             scene.tearing)
+      , tearing(mesh::tear(mesh))
       , solver(mesh,
                tearing,
                app::build_model(scene, mesh),

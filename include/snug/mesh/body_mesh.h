@@ -3,6 +3,7 @@
 
 #include <snug/mesh/body_geometry.h>
 #include <snug/mesh/idealization.h>
+#include <snug/mesh/partition.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -16,9 +17,9 @@ namespace snug
   namespace mesh
   {
     /**
-     * The mesh of all bodies on this rank: one p4est triangulation, its nodes
-     * (scalar degrees of freedom of FE_Q(degree); displacement component c of
-     * node a is unknown dim*a + c) and plain arrays the other modules work on.
+     * The mesh of all bodies on this rank: one triangulation, its nodes (scalar
+     * degrees of freedom of FE_Q(degree); displacement component c of node a is
+     * unknown dim*a + c) and plain arrays the other modules work on.
      *
      * Local node indices run over the locally relevant nodes. Cells are the
      * locally owned ones. Node k of a cell is tensor-product ordered, the
@@ -33,6 +34,7 @@ namespace snug
       struct Cell
       {
         unsigned int              body;
+        unsigned int              part;  ///< wholly on this rank
         std::vector<unsigned int> nodes; ///< local node indices
       };
 
@@ -61,7 +63,8 @@ namespace snug
       BodyMesh(MPI_Comm                               communicator,
                const std::vector<BodyMeshParameters> &bodies,
                unsigned int                           degree,
-               const Idealization &idealization = Idealization::natural(dim));
+               const Idealization &idealization = Idealization::natural(dim),
+               const TearingParameters &tearing = TearingParameters());
       ~BodyMesh();
 
       MPI_Comm

@@ -7,38 +7,72 @@
 
 #include <mpi.h>
 
+#include <array>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace snug
 {
   namespace mesh
   {
-    /// Lists of the neighbours of each cell through faces.
-    using CellGraph = std::vector<std::vector<unsigned int>>;
-
-    /// The cells of one body, as far as a rank holds them, and the body.
-    template <int dim>
-    struct CellSet
+    /// Entries of `subsection Decomposition`.
+    struct TearingParameters
     {
-      MPI_Comm                        communicator;
-      CellGraph                       graph;    ///< of this rank's cells
-      std::vector<dealii::Point<dim>> centres;  ///< logical, of the same cells
-      unsigned long                   n_global; ///< cells of the body
-      dealii::Tensor<1, dim>          size;     ///< of the body's box [length]
+      unsigned int subdomains = 0;      ///< of all bodies, a target; 0: by size
+      std::string  method     = "grid"; ///< a name of partition_table()
     };
 
     /**
-     * Ways to partition the cells of a body into parts of about a given
-     * number: the part of each cell of this rank. Collective. Rows "grid" and
-     * "METIS".
+     * The cells of one body that a rank holds before the parts are decided.
+     * Cells have numbers, unique over ranks, and keys {level and coarse cell,
+     * path of children}, which order them in the same way on any number of
+     * ranks.
+     */
+    template <int dim>
+    struct CellSet
+    {
+      using Key = std::array<std::uint64_t, 2>;
+
+      MPI_Comm                        communicator;
+      std::vector<dealii::Point<dim>> centres; ///< logical
+      std::vector<unsigned int>       numbers;
+      std::vector<Key>                keys;
+      /// Numbers of cells that share a face or part of one; each pair of the
+      /// body on one rank only.
+      std::vector<std::array<unsigned int, 2>> neighbours;
+      unsigned long                            n_global; ///< cells of the body
+      dealii::Tensor<1, dim> size; ///< of the body's box [length]
+    };
+
+    /// Parts of one body, the same on any number of ranks.
+    struct Partition
+    {
+      std::vector<unsigned int> part; ///< of each cell of this rank
+      unsigned int              n_parts = 1;
+    };
+
+    /**
+     * Ways to partition the cells of a body into parts of about a given number
+     * of cells. Collective. Rows "grid" and "METIS".
      *
      * Parts that are cubes of cells with flat sides need half the iterations
      * of the ragged ones a graph partitioner finds (54 subdomains of 6^3
      * cells, two cubes: 14 against 31 for a linear solve to 1e-6).
      */
     template <int dim>
-    const ChoiceTable<std::vector<unsigned int>(const CellSet<dim> &, double)> &
+    const ChoiceTable<Partition(const CellSet<dim> &, double)> &
     partition_table();
+
+    /// Row "grid": slabs along the logical axes, cut between layers of cells.
+    template <int dim>
+    Partition
+    grid_partition(const CellSet<dim> &set, double cells_each);
+
+    /// Row "METIS": the cell graph of the whole body, gathered on one rank.
+    template <int dim>
+    Partition
+    graph_partition(const CellSet<dim> &set, double cells_each);
   } // namespace mesh
 } // namespace snug
 

@@ -3,7 +3,6 @@
 
 #include <snug/mesh/body_mesh.h>
 
-#include <string>
 #include <vector>
 
 namespace snug
@@ -28,21 +27,13 @@ namespace snug
       std::vector<unsigned int> first_id_of_rank; ///< n_ranks + 1 entries
     };
 
-    /// Entries of `subsection Decomposition`.
-    struct TearingParameters
-    {
-      unsigned int subdomains = 0;      ///< of all ranks, a target; 0: by size
-      std::string  method     = "grid"; ///< a name of partition_table()
-    };
-
     /**
-     * Tear this rank's cells of each body into face-connected subdomains. The
-     * number by size aims at 5 Q1 cells per subdomain edge in 3D, 12 in
-     * 2D. There is at least one per rank and body. Collective.
+     * Tear the bodies into subdomains: the face-connected pieces of the parts
+     * of the mesh. Collective.
      */
     template <int dim>
     Tearing
-    tear(const BodyMesh<dim> &mesh, const TearingParameters &parameters);
+    tear(const BodyMesh<dim> &mesh);
   } // namespace mesh
 } // namespace snug
 

@@ -141,12 +141,16 @@ namespace snug
     public:
       using Field = typename mesh::BodyMesh<dim>::Field;
 
-      explicit Problem(const TestScene<dim> &scene)
+      explicit Problem(const TestScene<dim> &scene,
+                       MPI_Comm              communicator = MPI_COMM_WORLD)
         : scene(scene)
-        , context(MPI_COMM_WORLD, log)
-        , mesh(MPI_COMM_WORLD, mesh_parameters(scene), scene.degree)
-        , tearing(
-            mesh::tear(mesh, mesh::TearingParameters{scene.subdomains, "grid"}))
+        , context(communicator, log)
+        , mesh(communicator,
+               mesh_parameters(scene),
+               scene.degree,
+               mesh::Idealization::natural(dim),
+               {scene.subdomains, "grid"})
+        , tearing(mesh::tear(mesh))
         , model(make_model(scene))
         , solver(mesh, tearing, model, mesh.reference_positions(), context)
       {
