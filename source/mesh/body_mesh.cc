@@ -233,20 +233,6 @@ namespace snug
     BodyMesh<dim>::~BodyMesh() = default;
 
     template <int dim>
-    MPI_Comm
-    BodyMesh<dim>::communicator() const
-    {
-      return data->comm;
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::degree() const
-    {
-      return data->degree;
-    }
-
-    template <int dim>
     const Idealization &
     BodyMesh<dim>::idealization() const
     {
@@ -386,17 +372,23 @@ namespace snug
     }
 
     template <int dim>
-    unsigned long BodyMesh<dim>::n_global_cells() const { return data->n_cells; }
-
-    template <int dim>
-    unsigned long BodyMesh<dim>::n_global_free_nodes() const { return data->n_free_nodes; }
-
-    template <int dim>
     const std::vector<std::pair<unsigned int, unsigned int>> &
     BodyMesh<dim>::cell_neighbours() const
     {
       return data->neighbours;
     }
+
+#define SNUG_GETTER(type, name, value) \
+  template <int dim>                   \
+  type BodyMesh<dim>::name() const     \
+  {                                    \
+    return value;                      \
+  }
+    SNUG_GETTER(MPI_Comm, communicator, data->comm)
+    SNUG_GETTER(unsigned int, degree, data->degree)
+    SNUG_GETTER(unsigned long, n_global_cells, data->n_cells)
+    SNUG_GETTER(unsigned long, n_global_free_nodes, data->n_free_nodes)
+#undef SNUG_GETTER
 
     template class BodyMesh<2>;
     template class BodyMesh<3>;
