@@ -1,5 +1,7 @@
 #include <snug/feti/local_schur.h>
 
+#include <algorithm>
+
 namespace snug
 {
   namespace feti
@@ -42,6 +44,11 @@ namespace snug
       std::vector<bool>  on_boundary(n, false);
       for (const BEntry &entry : system.B)
         on_boundary[entry.dof] = true;
+      // a few contact rows need not hold the subdomain: K_ii would be singular
+      if (std::count(on_boundary.begin(), on_boundary.end(), true) <
+          static_cast<std::ptrdiff_t>(system.fixing_dofs.size()))
+        for (const unsigned int dof : system.fixing_dofs)
+          on_boundary[dof] = true;
       position_b.assign(n, n);
       position_i.assign(n, n);
       for (unsigned int i = 0; i < n; ++i)

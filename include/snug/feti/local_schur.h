@@ -14,7 +14,8 @@ namespace snug
   {
     /**
      * The primal operator of one subdomain inside the preconditioner, on its
-     * unknowns b with an entry in B:
+     * unknowns b with an entry in B, and on the fixing unknowns where those are
+     * too few to hold it:
      * S = K_bb - K_bi K_ii^{-1} K_ib ("Dirichlet") or K_bb ("lumped").
      */
     class LocalSchur

@@ -203,6 +203,46 @@ namespace
     check_derivatives(scene);
   }
 
+  /// The punch in the middle, over a gap by formula; an obstacle comes down on
+  /// what is left of the shaped face.
+  template <int dim>
+  TestScene<dim>
+  obstacle_scene(const std::string &shape)
+  {
+    auto scene = curved_scene<dim>(dim == 2 ? 8 : 5, dim == 2 ? 4 : 3, 0.04);
+    narrow_punch(scene);
+    contact::Pair punch{{0, face_index(dim - 1, 0)},
+                        {1, face_index(dim - 1, 1)}};
+    punch.parameters.slave = "first";
+    punch.parameters.gap   = "0.01 + 0.1 * x^2 * sin(y)";
+    contact::Pair                pressed{{1, face_index(dim - 1, 1)}, {}};
+    contact::ObstacleParameters &obstacle = pressed.obstacle.emplace();
+    obstacle.shape                        = shape;
+    obstacle.point.assign(dim, 0.95);
+    obstacle.point[dim - 1] = 1.55;
+    obstacle.normal.assign(dim, 1.);
+    obstacle.axis.assign(dim, 0.05);
+    obstacle.axis[1] = 1.;
+    obstacle.displacement.assign(dim, 0.02);
+    obstacle.displacement[dim - 1] = -0.1;
+    obstacle.radius                = 0.5;
+    obstacle.formula               = "x^2 + 2 * y^2 + 0.1 * sin(3 * x) - 0.5";
+    scene.pairs                    = {punch, pressed};
+    return scene;
+  }
+
+  TEST(Gradient, ObstaclesAndGapFormulas)
+  {
+    for (const std::string shape : {"sphere", "formula"})
+      {
+        SCOPED_TRACE(shape);
+        GradientScene<2> scene(obstacle_scene<2>(shape), 0.05);
+        check_derivatives(scene);
+      }
+    GradientScene<3> scene(obstacle_scene<3>("cylinder"), 0.05);
+    check_derivatives(scene);
+  }
+
   TEST(Gradient, NineHeights3D)
   {
     GradientScene<3> scene(curved_scene<3>(4, 3, 0.04), 0.05);

@@ -199,7 +199,7 @@ TEST(Errors, ObstaclesAndPairs)
                floor);
   expect_error({"Obstacle floor/Point", "1, 2", "3 finite numbers"}, floor);
   expect_error({"Obstacle floor/Normal", "0, 0, 0", "not be all zero"}, floor);
-  expect_error({"Obstacle floor/Axis", "0, nan, 0", "numbers"}, floor);
+  expect_error({"Obstacle floor/Axis", "0, 1", "3 finite"}, floor);
   expect_error({"Obstacle floor/Radius", "0", "must be above 0"}, floor);
   expect_error({"Obstacle floor/Displacement", "1", "one per dimension"},
                floor);

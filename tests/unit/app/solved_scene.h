@@ -1,0 +1,115 @@
+#ifndef tests_unit_app_solved_scene_h
+#define tests_unit_app_solved_scene_h
+
+#include <snug/app/build_model.h>
+#include <snug/mesh/tearing.h>
+#include <snug/scene/read_scene.h>
+
+#include <functional>
+#include <sstream>
+
+namespace snug
+{
+  namespace test
+  {
+    /// A rigid motion or scaling of a whole scene: x -> factor Q x + shift.
+    template <int dim>
+    struct Motion
+    {
+      dealii::Tensor<2, dim> Q = dealii::unit_symmetric_tensor<dim>();
+      dealii::Tensor<1, dim> shift;
+      double                 factor = 1.;
+
+      dealii::Tensor<1, dim>
+      turned(const dealii::Tensor<1, dim> &v) const
+      {
+        return Q * v;
+      }
+
+      dealii::Tensor<1, dim>
+      moved(const dealii::Tensor<1, dim> &x) const
+      {
+        return factor * (Q * x) + shift;
+      }
+    };
+
+    /// The state of a parameter file without the program around it, with all
+    /// its bodies and obstacles moved.
+    template <int dim>
+    class SolvedScene
+    {
+    public:
+      SolvedScene(const std::string              &text,
+                  const std::vector<std::string> &sets   = {},
+                  const Motion<dim>              &motion = {})
+        : scene(scene::read_scene({"scene.prm", text, sets, ""}))
+        , context(MPI_COMM_WORLD, log)
+        , mesh(MPI_COMM_WORLD, app::mesh_parameters(scene), scene.degree)
+        , tearing(mesh::tear(mesh, scene.tearing))
+        , model(moved_model(motion))
+        , positions(moved_positions(motion))
+        , solver(mesh, tearing, model, positions, context)
+        , state(solver.solve(positions, qp::WarmStart()))
+      {
+      }
+
+      /// Force on the slave side of pair @p p.
+      dealii::Tensor<1, dim>
+      force(unsigned int p) const
+      {
+        return state.pairs[p].force;
+      }
+
+      const scene::Scene                  scene;
+      std::ostringstream                  log;
+      RunContext                          context;
+      mesh::BodyMesh<dim>                 mesh;
+      mesh::Tearing                       tearing;
+      state::Model<dim>                   model;
+      typename mesh::BodyMesh<dim>::Field positions;
+      state::StateSolver<dim>             solver;
+      state::ContactState<dim>            state;
+
+    private:
+      static std::vector<double>
+      to_list(const dealii::Tensor<1, dim> &v)
+      {
+        return std::vector<double>(v.begin_raw(), v.end_raw());
+      }
+
+      state::Model<dim>
+      moved_model(const Motion<dim> &motion) const
+      {
+        auto       model = app::build_model(scene, mesh);
+        const auto read  = [](const std::vector<double> &list) {
+          return dealii::Tensor<1, dim>(contact::to_point<dim>(list));
+        };
+        for (auto &body : model.bodies)
+          body.body_force = motion.turned(body.body_force) / motion.factor;
+        for (auto &pair : model.pairs)
+          if (pair.obstacle)
+            {
+              auto &obstacle = *pair.obstacle;
+              obstacle.point = to_list(motion.moved(read(obstacle.point)));
+              obstacle.radius *= motion.factor;
+              for (auto *direction : {&obstacle.normal, &obstacle.axis})
+                *direction = to_list(motion.turned(read(*direction)));
+              obstacle.displacement = to_list(
+                motion.factor * motion.turned(read(obstacle.displacement)));
+            }
+        return model;
+      }
+
+      typename mesh::BodyMesh<dim>::Field
+      moved_positions(const Motion<dim> &motion) const
+      {
+        auto x = mesh.reference_positions();
+        for (auto &position : x)
+          position = motion.moved(position);
+        return x;
+      }
+    };
+  } // namespace test
+} // namespace snug
+
+#endif
