@@ -1,4 +1,5 @@
 #include <snug/app/build_model.h>
+#include <snug/mesh/formula.h>
 
 namespace snug
 {
@@ -53,6 +54,47 @@ namespace snug
           pair.master = find_face(scene, mesh, entry.master);
         return pair;
       }
+
+      /// A formula of the reference position as a function.
+      template <int dim>
+      std::function<double(const dealii::Point<dim> &)>
+      function_of(const std::string &entry, const std::string &text)
+      {
+        const auto formula = std::make_shared<mesh::Formula<dim>>(entry, text);
+        return
+          [formula](const dealii::Point<dim> &x) { return formula->value(x); };
+      }
+
+      /// What holds one body; its index is left open.
+      template <int dim>
+      std::vector<state::Support<dim>>
+      supports(const scene::Body &body, const mesh::BodyGeometry<dim> &geometry)
+      {
+        std::vector<state::Support<dim>> result;
+        const std::string                section = "Body " + body.name + "/";
+        const auto                       add     = [&](const std::string &entry,
+                             const std::string &boundary,
+                             unsigned int       component) {
+          result.push_back({0,
+                            mesh::boundary_index(geometry, boundary),
+                            component,
+                            {},
+                            "'" + section + entry + "' of '" + boundary + "'"});
+        };
+        for (const auto &item : body.supports)
+          for (const unsigned int c : scene::component_list(item.second, dim))
+            add("Supports", item.first, c);
+        for (const auto &item : body.displacements)
+          {
+            const auto parts = scene::split_displacement(item.second);
+            add("Displacement",
+                item.first,
+                *scene::component_number(parts.first, dim));
+            result.back().values.push_back(
+              function_of<dim>(section + "Displacement", parts.second));
+          }
+        return result;
+      }
     } // namespace
 
     std::vector<mesh::BodyMeshParameters>
@@ -89,15 +131,10 @@ namespace snug
           const auto &body = scene.bodies[b];
           model.body_names.push_back(body.name);
           model.bodies.push_back(body_model(body, mesh.geometry(b)));
-          for (const auto &support : body.supports)
+          for (auto support : supports(body, mesh.geometry(b)))
             {
-              state::Support entry;
-              entry.body = b;
-              entry.boundary =
-                mesh::boundary_index(mesh.geometry(b), support.first);
-              for (const char component : support.second)
-                entry.components.push_back(component - 'x');
-              model.supports.push_back(entry);
+              support.body = b;
+              model.supports.push_back(support);
             }
         }
       for (const auto &entry : scene.contact.pairs)

@@ -135,9 +135,9 @@ namespace snug
 
     template <int dim>
     void
-    add_contact_gradient(const state::StateSolver<dim>       &solver,
-                         const state::ContactState<dim>      &state,
-                         typename mesh::BodyMesh<dim>::Field &gradient)
+    add_constraint_gradient(const state::StateSolver<dim>       &solver,
+                            const state::ContactState<dim>      &state,
+                            typename mesh::BodyMesh<dim>::Field &gradient)
     {
       const auto         &surface = solver.surface();
       std::vector<double> forces;
@@ -148,25 +148,32 @@ namespace snug
                                          surface.gather(state.displacement),
                                          forces);
       surface.add_owned(at_surface, gradient);
+      if (solver.held().follow_positions())
+        solver.held().add_energy_gradient(
+          state.positions,
+          state.displacement,
+          solver.gluing().reactions(state.dual.lambda.column(0),
+                                    solver.rows(state.positions)),
+          gradient);
     }
 
-#define SNUG_INSTANTIATE(dim)                                            \
-  template void add_stiffness_gradient(const state::StateSolver<dim> &,  \
-                                       const state::ContactState<dim> &, \
-                                       const feti::PrimalVectors &,      \
-                                       double,                           \
-                                       mesh::BodyMesh<dim>::Field &);    \
-  template void add_load_gradient(const state::StateSolver<dim> &,       \
-                                  const state::ContactState<dim> &,      \
-                                  const feti::PrimalVectors &,           \
-                                  double,                                \
-                                  mesh::BodyMesh<dim>::Field &);         \
-  template void add_volume_gradient(const state::StateSolver<dim> &,     \
-                                    const state::ContactState<dim> &,    \
-                                    mesh::BodyMesh<dim>::Field &);       \
-  template void add_contact_gradient(const state::StateSolver<dim> &,    \
-                                     const state::ContactState<dim> &,   \
-                                     mesh::BodyMesh<dim>::Field &);
+#define SNUG_INSTANTIATE(dim)                                             \
+  template void add_stiffness_gradient(const state::StateSolver<dim> &,   \
+                                       const state::ContactState<dim> &,  \
+                                       const feti::PrimalVectors &,       \
+                                       double,                            \
+                                       mesh::BodyMesh<dim>::Field &);     \
+  template void add_load_gradient(const state::StateSolver<dim> &,        \
+                                  const state::ContactState<dim> &,       \
+                                  const feti::PrimalVectors &,            \
+                                  double,                                 \
+                                  mesh::BodyMesh<dim>::Field &);          \
+  template void add_volume_gradient(const state::StateSolver<dim> &,      \
+                                    const state::ContactState<dim> &,     \
+                                    mesh::BodyMesh<dim>::Field &);        \
+  template void add_constraint_gradient(const state::StateSolver<dim> &,  \
+                                        const state::ContactState<dim> &, \
+                                        mesh::BodyMesh<dim>::Field &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
+#include <stdexcept>
 
 namespace snug
 {
@@ -130,6 +132,7 @@ namespace snug
         {
           const auto known = names();
           require_known(known, "Supports", body.supports);
+          require_known(known, "Displacement", body.displacements);
           require_known(known, "Pressure", body.loads.pressure);
           require_known(known, "Traction", body.loads.traction);
         }
@@ -137,21 +140,50 @@ namespace snug
         void
         check_supports() const
         {
-          const std::string axes = std::string("xyz").substr(0, dimension);
           for (const auto &item : body.supports)
+            try
+              {
+                require(!component_list(item.second, dimension).empty(),
+                        "Supports",
+                        to_text(body.supports),
+                        "'" + item.first + "' must hold some components");
+              }
+            catch (const std::invalid_argument &error)
+              {
+                throw origins.error(path("Supports"),
+                                    to_text(body.supports),
+                                    error.what() + component_names());
+              }
+        }
+
+        void
+        check_displacements() const
+        {
+          std::set<std::pair<std::string, unsigned int>> known;
+          for (const auto &item : body.supports)
+            for (const unsigned int c : component_list(item.second, dimension))
+              known.emplace(item.first, c);
+          for (const auto &item : body.displacements)
             {
-              const std::string &components = item.second;
-              bool               valid =
-                !components.empty() && components.size() <= dimension;
-              for (const char c : components)
-                valid =
-                  valid && axes.find(c) != std::string::npos &&
-                  std::count(components.begin(), components.end(), c) == 1;
-              require(valid,
-                      "Supports",
-                      to_text(body.supports),
-                      "'" + quotable(components) + "' must be some of '" +
-                        axes + "', each once");
+              const auto [name, formula] = split_displacement(item.second);
+              const auto number          = component_number(name, dimension);
+              const auto value           = to_text(body.displacements);
+              require(number.has_value(),
+                      "Displacement",
+                      value,
+                      "'" + quotable(name) + "' is no component" +
+                        component_names());
+              require(!formula.empty(),
+                      "Displacement",
+                      value,
+                      "'" + quotable(item.second) +
+                        "' must read 'component = formula'");
+              require(known.emplace(item.first, *number).second,
+                      "Displacement",
+                      value,
+                      "'" + name + "' of '" + item.first +
+                        "' is held twice or by 'Supports' as well");
+              check_formula("Displacement", value, formula);
             }
         }
 
@@ -226,18 +258,46 @@ namespace snug
                       did_you_mean(item.first, known));
         }
 
+        std::string
+        component_names() const
+        {
+          return std::string("; components are ") +
+                 (dimension == 2 ? "x, y" : "x, y, z") + " and normal";
+        }
+
+        /// @p formula, a part of the @p value of an entry, must be one.
+        void
+        check_formula(const std::string &entry,
+                      const std::string &value,
+                      const std::string &formula) const
+        {
+          try
+            {
+              if (dimension == 2)
+                mesh::Formula<2>(entry, formula);
+              else
+                mesh::Formula<3>(entry, formula);
+            }
+          catch (const InputError &error)
+            {
+              const std::string message = error.what();
+              throw origins.error(path(entry),
+                                  value,
+                                  "'" + quotable(formula) + "' " +
+                                    message.substr(message.find("must be")));
+            }
+        }
+
         /// Boundary names of the mesh; making it also checks its formulas.
         std::vector<std::string>
         names() const
         {
+          if (!body.mesh.refine_where.empty())
+            check_formula("Refine where",
+                          body.mesh.refine_where,
+                          body.mesh.refine_where);
           try
             {
-              const auto       &formula = body.mesh.refine_where;
-              const std::string entry   = "Refine where";
-              if (!formula.empty() && dimension == 2)
-                mesh::Formula<2>(entry, formula);
-              if (!formula.empty() && dimension == 3)
-                mesh::Formula<3>(entry, formula);
               return boundary_names(body, dimension);
             }
           catch (const InputError &error)
@@ -326,6 +386,7 @@ namespace snug
           check.check_refinement();
           check.check_boundaries();
           check.check_supports();
+          check.check_displacements();
           check.check_loads();
         }
     }

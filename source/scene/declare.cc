@@ -165,7 +165,21 @@ namespace snug
                     pairs("a list 'boundary: components, ...' of different "
                           "boundaries"),
                     "Boundaries with the displacement components held at "
-                    "zero: 'bottom: xyz, left: x'.");
+                    "zero: 'bottom: xyz, left: x'. 'normal' is the component "
+                    "along the outward normal of any face, flat, oblique or "
+                    "curved (symmetry planes, rollers): 'side: normal, end: "
+                    "normal z'.");
+        entries.add("Displacement",
+                    {[&body]() { return to_text(body.displacements); },
+                     [&body](const std::string &text) {
+                       from_text(text, body.displacements);
+                     }},
+                    pairs("a list 'boundary: component = formula, ...'"),
+                    "Prescribed displacement components of boundaries "
+                    "[length]: x, y, z or normal, by formulas of x, y, z in "
+                    "the reference geometry: 'top: z = -0.012, top: x = "
+                    "1e-3*y, bore: normal = 0.01'. The other components stay "
+                    "free.");
         entries.add("Pressure",
                     body.loads.pressure,
                     "Pressure on boundaries [force/length^2], positive "

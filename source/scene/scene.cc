@@ -1,5 +1,11 @@
 #include <snug/scene/scene.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
 namespace snug
 {
   namespace scene
@@ -30,6 +36,50 @@ namespace snug
       if (dot == std::string::npos)
         return {face, ""};
       return {face.substr(0, dot), face.substr(dot + 1)};
+    }
+
+    std::optional<unsigned int>
+    component_number(const std::string &name, const unsigned int dimension)
+    {
+      const std::string axes = std::string("xyz").substr(0, dimension);
+      if (name == "normal")
+        return dimension;
+      if (name.size() == 1 && axes.find(name) != std::string::npos)
+        return axes.find(name);
+      return {};
+    }
+
+    std::vector<unsigned int>
+    component_list(const std::string &words, const unsigned int dimension)
+    {
+      std::vector<unsigned int> components;
+      const auto                add = [&](const std::string &name) {
+        const auto number = component_number(name, dimension);
+        if (!number)
+          throw std::invalid_argument("'" + name + "' is no component");
+        if (std::find(components.begin(), components.end(), *number) !=
+            components.end())
+          throw std::invalid_argument("'" + name + "' occurs twice");
+        components.push_back(*number);
+      };
+      std::istringstream text(words);
+      for (std::string word; text >> word;)
+        if (word == "normal")
+          add(word);
+        else
+          for (const char name : word)
+            add(std::string(1, name));
+      return components;
+    }
+
+    std::pair<std::string, std::string>
+    split_displacement(const std::string &text)
+    {
+      const auto equals = text.find('=');
+      if (equals == std::string::npos)
+        return {dealii::Utilities::trim(text), ""};
+      return {dealii::Utilities::trim(text.substr(0, equals)),
+              dealii::Utilities::trim(text.substr(equals + 1))};
     }
 
     unsigned int

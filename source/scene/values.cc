@@ -21,10 +21,26 @@ namespace snug
         return std::make_shared<Pattern>(pattern);
       }
 
+      /// The trimmed parts of a text; separators within parentheses, as of
+      /// max(x, y), do not count.
       std::vector<std::string>
       split(const std::string &text, const char separator)
       {
-        return Utilities::split_string_list(text, separator);
+        std::vector<std::string> parts(1);
+        int                      depth = 0;
+        for (const char c : text)
+          {
+            depth += (c == '(') - (c == ')');
+            if (c == separator && depth <= 0)
+              parts.emplace_back();
+            else
+              parts.back() += c;
+          }
+        for (auto &part : parts)
+          part = Utilities::trim(part);
+        if (parts.back().empty())
+          parts.pop_back();
+        return parts;
       }
 
       template <typename T>

@@ -1,8 +1,9 @@
 #include <snug/elasticity/finite_difference.h>
 #include <snug/sensitivity/data_derivatives.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
-#include <cmath>
 
 namespace snug
 {
@@ -122,39 +123,70 @@ namespace snug
           }
       }
 
-      /// Derivatives of the contact rows along a velocity of the surface.
+      /// (forward - backward) / (2 step) of all numbers.
       template <int dim>
-      std::vector<contact::Row<dim>>
-      contact_derivatives(const state::StateSolver<dim>            &solver,
-                          const typename mesh::Surface<dim>::Field &X,
-                          const typename mesh::Surface<dim>::Field &V,
-                          const GradientParameters                 &parameters)
+      state::RowCoefficients<dim>
+      central_difference(const state::RowCoefficients<dim> &forward,
+                         const state::RowCoefficients<dim> &backward,
+                         double                             step)
+      {
+        auto       result   = forward;
+        const auto subtract = [step](auto &value, const auto &other) {
+          value = (value - other) / (2 * step);
+        };
+        for (unsigned int i = 0; i < result.contact.size(); ++i)
+          {
+            auto       &row   = result.contact[i];
+            const auto &other = backward.contact[i];
+            for (unsigned int k = 0; k < row.coefficients.size(); ++k)
+              subtract(row.coefficients[k].second,
+                       other.coefficients[k].second);
+            subtract(row.gap, other.gap);
+            subtract(row.normal, other.normal);
+          }
+        for (unsigned int h = 0; h < result.held.size(); ++h)
+          for (unsigned int k = 0; k < result.held[h].directions.size(); ++k)
+            {
+              subtract(result.held[h].directions[k],
+                       backward.held[h].directions[k]);
+              for (unsigned int c = 0; c < result.held[h].values[k].size(); ++c)
+                subtract(result.held[h].values[k][c],
+                         backward.held[h].values[k][c]);
+            }
+        return result;
+      }
+
+      /// Derivatives of what the rows of B are made of along a velocity.
+      template <int dim>
+      state::RowCoefficients<dim>
+      row_derivatives(const state::StateSolver<dim>             &solver,
+                      const typename mesh::BodyMesh<dim>::Field &X,
+                      const typename mesh::BodyMesh<dim>::Field &V,
+                      const GradientParameters                  &parameters)
       {
         if (parameters.derivatives == "exact")
-          return solver.contact().row_derivatives(X, V);
-        const auto   areas = solver.contact().areas(X);
-        const double area  = *std::max_element(areas.begin(), areas.end());
+          return solver.row_derivatives(X, V);
+        double size = 0., speed = 0.;
+        for (const auto &face : solver.mesh().boundary_faces())
+          for (const unsigned int node : face.nodes)
+            {
+              size  = std::max(size, (X[node] - X[face.nodes[0]]).norm());
+              speed = std::max(speed, V[node].norm());
+            }
+        const MPI_Comm comm = solver.context().communicator();
+        size                = dealii::Utilities::MPI::max(size, comm);
+        speed               = dealii::Utilities::MPI::max(speed, comm);
         const double step =
-          parameters.semi_analytic_step * std::pow(area, 1. / (dim - 1));
+          parameters.semi_analytic_step * size / (speed > 0. ? speed : 1.);
         auto forward = X, backward = X;
         for (unsigned int a = 0; a < X.size(); ++a)
           {
             forward[a] += step * V[a];
             backward[a] -= step * V[a];
           }
-        auto       rows  = solver.contact().rows(forward);
-        const auto other = solver.contact().rows(backward);
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          {
-            for (unsigned int k = 0; k < rows[i].coefficients.size(); ++k)
-              rows[i].coefficients[k].second =
-                (rows[i].coefficients[k].second -
-                 other[i].coefficients[k].second) /
-                (2 * step);
-            rows[i].gap    = (rows[i].gap - other[i].gap) / (2 * step);
-            rows[i].normal = (rows[i].normal - other[i].normal) / (2 * step);
-          }
-        return rows;
+        return central_difference(solver.rows(forward),
+                                  solver.rows(backward),
+                                  step);
       }
 
       /// ft -= B'^T lambda and B' u into the local rows, column j.
@@ -184,7 +216,7 @@ namespace snug
       const unsigned int k      = velocities.size();
       const auto        &layout = solver.gluing().layout();
       const auto         lambda = layout.to_local(state.dual.lambda);
-      const auto         X      = solver.surface().gather(state.positions);
+      const auto         rows   = solver.rows(state.positions);
       KktVectors         result;
       for (const auto &u : state.u)
         result.primal.emplace_back(u.n_rows(), k);
@@ -193,20 +225,26 @@ namespace snug
       std::vector<feti::BEntry> B_derivative;
       for (unsigned int j = 0; j < k; ++j)
         {
-          const auto rows = contact_derivatives<dim>(
-            solver, X, solver.surface().gather(velocities[j]), parameters);
-          const auto g = solver.gluing().right_hand_side(rows);
+          const auto derivative = row_derivatives<dim>(solver,
+                                                       state.positions,
+                                                       velocities[j],
+                                                       parameters);
+          const auto g =
+            solver.gluing().right_hand_side_derivative(rows, derivative, 0);
           std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
           for (unsigned int s = 0; s < state.u.size(); ++s)
             {
-              const SubdomainDerivative<dim> derivative{solver,
-                                                        state,
-                                                        parameters,
-                                                        s};
+              const SubdomainDerivative<dim> subdomain{solver,
+                                                       state,
+                                                       parameters,
+                                                       s};
               double                        *ft = result.primal[s].column(j);
-              derivative.add_cells(velocities[j], ft);
-              derivative.add_faces(velocities[j], ft);
-              solver.gluing().fill_B(s, rows, true, B_derivative);
+              subdomain.add_cells(velocities[j], ft);
+              subdomain.add_faces(velocities[j], ft);
+              solver.gluing().fill_B_derivative(s,
+                                                rows,
+                                                derivative,
+                                                B_derivative);
               add_row_derivatives(
                 B_derivative, lambda, state.u[s], ft, Bu.column(j));
             }

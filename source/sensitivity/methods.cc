@@ -109,9 +109,9 @@ namespace snug
             response->partials(problem.solver, problem.state).positions;
           const bool exact = problem.parameters.derivatives == "exact";
           if (response->stationary() && exact)
-            response::add_contact_gradient(problem.solver,
-                                           problem.state,
-                                           field);
+            response::add_constraint_gradient(problem.solver,
+                                              problem.state,
+                                              field);
           Gradient gradient{"energy", "", problem.basis.transpose(field)};
           if (response->stationary() && !exact)
             {

@@ -41,6 +41,33 @@ namespace snug
           total[a] += of_u[a] - of_w[a];
         surface.add_owned(total, gradient);
       }
+
+      /// The same for what supports hold: q . u = s there, and q . w = 0.
+      template <int dim>
+      void
+      add_held(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state,
+               const KktVectors               &adjoint,
+               unsigned int                    j,
+               Field<dim>                     &gradient)
+      {
+        if (!solver.held().follow_positions())
+          return;
+        const auto rows = solver.rows(state.positions);
+        Field<dim> sum(gradient.size());
+        solver.held().add_energy_gradient(
+          state.positions,
+          state.displacement,
+          solver.gluing().reactions(adjoint.dual.column(j), rows),
+          sum);
+        solver.held().add_energy_gradient(
+          state.positions,
+          state::nodal_values(solver, adjoint.primal, j),
+          solver.gluing().reactions(state.dual.lambda.column(0), rows),
+          sum);
+        for (unsigned int a = 0; a < sum.size(); ++a)
+          gradient[a] -= sum[a];
+      }
     } // namespace
 
     template <int dim>
@@ -57,6 +84,7 @@ namespace snug
       response::add_stiffness_gradient(solver, state, w, -1., gradient);
       response::add_load_gradient(solver, state, w, 1., gradient);
       add_rows(solver, state, adjoint, j, gradient);
+      add_held(solver, state, adjoint, j, gradient);
     }
 
 #define SNUG_INSTANTIATE(dim)                                           \

@@ -14,39 +14,6 @@ namespace snug
   {
     template <int dim>
     void
-    measure_bodies(const mesh::BodyMesh<dim>           &mesh,
-                   std::vector<dealii::Tensor<1, dim>> &centres,
-                   std::vector<double>                 &lengths)
-    {
-      const unsigned int  n = mesh.n_bodies();
-      std::vector<double> largest(2 * dim * n,
-                                  -std::numeric_limits<double>::max());
-      for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            const double x  = mesh.reference_positions()[node][c];
-            double      *of = &largest[2 * dim * mesh.body_of_node(node)];
-            of[c]           = std::max(of[c], x);
-            of[dim + c]     = std::max(of[dim + c], -x);
-          }
-      dealii::Utilities::MPI::max(largest, mesh.communicator(), largest);
-      centres.resize(n);
-      lengths.resize(n);
-      for (unsigned int body = 0; body < n; ++body)
-        {
-          double square = 0.;
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              const double upper = largest[2 * dim * body + c];
-              const double lower = -largest[2 * dim * body + dim + c];
-              centres[body][c]   = (upper + lower) / 2;
-              square += (upper - lower) * (upper - lower) / 4;
-            }
-          lengths[body] = std::sqrt(square);
-        }
-    }
-    template <int dim>
-    void
     check_radii(const mesh::BodyMesh<dim>      &mesh,
                 const std::vector<std::string> &body_names)
     {
@@ -72,12 +39,13 @@ namespace snug
     void
     check_axis(const mesh::BodyMesh<dim>                 &mesh,
                const typename mesh::BodyMesh<dim>::Field &positions,
-               double                                     length)
+               const std::vector<BodyBox<dim>>           &boxes)
     {
       const double round_off = 1e-10;
       for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
         if (mesh.reference_positions()[node][0] == 0. &&
-            std::abs(positions[node][0]) > round_off * length)
+            std::abs(positions[node][0]) >
+              round_off * boxes[mesh.body_of_node(node)].length)
           {
             std::ostringstream text;
             text << "the design moves the node at ("
@@ -87,15 +55,12 @@ namespace snug
           }
     }
 
-#define SNUG_INSTANTIATE(dim)                                         \
-  template void measure_bodies(const mesh::BodyMesh<dim> &,           \
-                               std::vector<dealii::Tensor<1, dim>> &, \
-                               std::vector<double> &);                \
-  template void check_radii(const mesh::BodyMesh<dim> &,              \
-                            const std::vector<std::string> &);        \
-  template void check_axis(const mesh::BodyMesh<dim> &,               \
-                           const mesh::BodyMesh<dim>::Field &,        \
-                           double);
+#define SNUG_INSTANTIATE(dim)                                  \
+  template void check_radii(const mesh::BodyMesh<dim> &,       \
+                            const std::vector<std::string> &); \
+  template void check_axis(const mesh::BodyMesh<dim> &,        \
+                           const mesh::BodyMesh<dim>::Field &, \
+                           const std::vector<BodyBox<dim>> &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

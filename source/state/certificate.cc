@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace snug
 {
@@ -9,6 +10,11 @@ namespace snug
   {
     namespace
     {
+      /// Errors below this part of the terms they are differences of are zero:
+      /// where prescribed displacements move a body, nothing else measures
+      /// them.
+      const double round_off = 16. * std::numeric_limits<double>::epsilon();
+
       /// a / b, 0 for 0 / 0; NaN stays NaN.
       double
       relative(double a, double b)
@@ -16,8 +22,20 @@ namespace snug
         return a == 0. ? 0. : a / b;
       }
 
+      /// sum_j |K_ij| |u_j|: what the rounding of (K u)_i is a part of.
+      double
+      absolute_product(const feti::CsrMatrix &K,
+                       const qp::MultiVector &u,
+                       unsigned int           i)
+      {
+        double sum = 0.;
+        for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
+          sum += std::abs(K.values[p] * u(K.columns[p]));
+        return sum;
+      }
+
       /// The worst over bodies of ||Ku - f + B'lambda|| / (||f|| +
-      /// ||B'lambda||).
+      /// ||B'lambda||), zero where it is round-off of K u.
       double
       equilibrium_error(const feti::TotalFeti     &feti,
                         const qp::MultiVector     &lambda,
@@ -25,11 +43,11 @@ namespace snug
       {
         const auto          forces   = feti.multiply_Bt(lambda);
         const unsigned int  n_bodies = feti.n_bodies();
-        std::vector<double> squares(3 * n_bodies, 0.);
+        std::vector<double> squares(4 * n_bodies, 0.);
         for (unsigned int s = 0; s < u.size(); ++s)
           {
             const auto     &system = feti.subdomains()[s];
-            double         *of     = &squares[3 * system.body];
+            double         *of     = &squares[4 * system.body];
             qp::MultiVector r      = forces[s];
             system.K.multiply_add(1., u[s], r);
             for (unsigned int i = 0; i < system.n_dofs(); ++i)
@@ -38,6 +56,8 @@ namespace snug
                 of[0] += error * error;
                 of[1] += system.f[i] * system.f[i];
                 of[2] += forces[s](i) * forces[s](i);
+                const double terms = absolute_product(system.K, u[s], i);
+                of[3] += terms * terms;
               }
           }
         MPI_Allreduce(MPI_IN_PLACE,
@@ -49,8 +69,10 @@ namespace snug
         double worst = 0.;
         for (unsigned int body = 0; body < n_bodies; ++body)
           {
-            const double *of = &squares[3 * body];
-            const double  error =
+            const double *of = &squares[4 * body];
+            if (std::sqrt(of[0]) <= round_off * std::sqrt(of[3]))
+              continue;
+            const double error =
               relative(std::sqrt(of[0]), std::sqrt(of[1]) + std::sqrt(of[2]));
             worst = error > worst || std::isnan(error) ? error : worst;
           }
@@ -81,6 +103,28 @@ namespace snug
         MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
         return product;
       }
+
+      /// w_i <- 0 where it is round-off of (B u)_i - g_i; rows of B have
+      /// lengths of about one.
+      void
+      set_round_off_to_zero(const feti::TotalFeti     &feti,
+                            const feti::PrimalVectors &u,
+                            qp::MultiVector           &w)
+      {
+        double largest = 0.;
+        for (const auto &part : u)
+          for (unsigned int i = 0; i < part.n_rows(); ++i)
+            largest = std::max(largest, std::abs(part(i)));
+        MPI_Allreduce(MPI_IN_PLACE,
+                      &largest,
+                      1,
+                      MPI_DOUBLE,
+                      MPI_MAX,
+                      feti.context().communicator());
+        for (unsigned int i = 0; i < w.n_rows(); ++i)
+          if (std::abs(w(i)) <= round_off * (largest + std::abs(feti.g()(i))))
+            w(i) = 0.;
+      }
     } // namespace
 
     double
@@ -104,6 +148,7 @@ namespace snug
     {
       auto w = feti.multiply_B(u);
       w.add(-1., feti.g());
+      set_round_off_to_zero(feti, u, w);
       // continuity, penetration, most negative and largest contact force,
       // largest F_ii |lambda_i|
       double largest[5] = {0., 0., 0., 0., 0.};

@@ -76,9 +76,9 @@ namespace snug
 
       template <int dim>
       void
-      describe_contact(const StateSolver<dim>               &solver,
-                       const std::vector<contact::Row<dim>> &contact_rows,
-                       ContactState<dim>                    &state)
+      describe_contact(const StateSolver<dim>     &solver,
+                       const RowCoefficients<dim> &rows,
+                       ContactState<dim>          &state)
       {
         const auto &feti  = solver.feti();
         auto        slack = feti.g();
@@ -105,7 +105,7 @@ namespace snug
             ContactPoint &point = state.contact[i];
             const double  scale = gluing.contact_scales()[i];
             point.area          = areas[i];
-            point.gap = scale == 0. ? contact_rows[i].gap : gaps[i] * scale;
+            point.gap = scale == 0. ? gluing.gap(i, rows, 0) : gaps[i] * scale;
             if (scale == 0.)
               continue;
             point.force = lambda[i] / scale;
@@ -121,9 +121,9 @@ namespace snug
 
       template <int dim>
       void
-      sum_up_contact(const contact::Contact<dim>          &contact,
-                     const std::vector<contact::Row<dim>> &contact_rows,
-                     ContactState<dim>                    &state)
+      sum_up_contact(const contact::Contact<dim> &contact,
+                     const RowCoefficients<dim>  &rows,
+                     ContactState<dim>           &state)
       {
         for (const auto &pair : contact.pairs())
           {
@@ -135,7 +135,7 @@ namespace snug
             const ContactPoint &point = state.contact[i];
             PairState<dim>     &pair  = state.pairs[contact.places()[i].pair];
             ++pair.rows;
-            pair.force -= point.force * contact_rows[i].normal;
+            pair.force -= point.force * rows.contact[i].normal;
             pair.contact_area += point.strong ? point.area : 0.;
             pair.max_pressure = std::max(pair.max_pressure, point.pressure);
             pair.active_contacts += point.strong;
@@ -154,22 +154,22 @@ namespace snug
 
     template <int dim>
     void
-    describe(const StateSolver<dim>               &solver,
-             const std::vector<contact::Row<dim>> &contact_rows,
-             ContactState<dim>                    &state)
+    describe(const StateSolver<dim>     &solver,
+             const RowCoefficients<dim> &rows,
+             ContactState<dim>          &state)
     {
       state.displacement = nodal_values(solver, state.u, 0);
       describe_energies(solver, state);
-      describe_contact(solver, contact_rows, state);
-      sum_up_contact(solver.contact(), contact_rows, state);
-      state.assumptions = assess(solver, contact_rows, state);
+      describe_contact(solver, rows, state);
+      sum_up_contact(solver.contact(), rows, state);
+      state.assumptions = assess(solver, rows.contact, state);
     }
 
 #define SNUG_INSTANTIATE(dim)                                             \
   template mesh::BodyMesh<dim>::Field nodal_values(                       \
     const StateSolver<dim> &, const feti::PrimalVectors &, unsigned int); \
   template void describe(const StateSolver<dim> &,                        \
-                         const std::vector<contact::Row<dim>> &,          \
+                         const RowCoefficients<dim> &,                    \
                          ContactState<dim> &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

@@ -15,102 +15,103 @@ namespace snug
     struct GluingRows<dim>::Message
     {
       unsigned int           subdomain, node, row;
-      unsigned int           contact, coefficient;
-      dealii::Tensor<1, dim> value;
+      Source                 source = Source::constant;
+      unsigned int           index = 0, item = 0;
+      dealii::Tensor<1, dim> factor;
 
-      static const unsigned int size = 5 + dim;
+      static const unsigned int size = 6 + dim;
 
       void
       append_to(std::vector<double> &buffer) const
       {
-        for (const unsigned int n :
-             {subdomain, node, row, contact, coefficient})
+        for (const unsigned int n : {subdomain,
+                                     node,
+                                     row,
+                                     static_cast<unsigned int>(source),
+                                     index,
+                                     item})
           buffer.push_back(n);
         for (unsigned int c = 0; c < dim; ++c)
-          buffer.push_back(value[c]);
+          buffer.push_back(factor[c]);
       }
 
       explicit Message(const double *buffer)
         : subdomain(buffer[0])
         , node(buffer[1])
         , row(buffer[2])
-        , contact(buffer[3])
-        , coefficient(buffer[4])
+        , source(static_cast<Source>(static_cast<unsigned int>(buffer[3])))
+        , index(buffer[4])
+        , item(buffer[5])
       {
         for (unsigned int c = 0; c < dim; ++c)
-          value[c] = buffer[5 + c];
+          factor[c] = buffer[6 + c];
       }
 
-      Message() = default;
+      Message(unsigned int subdomain, unsigned int node, unsigned int row)
+        : subdomain(subdomain), node(node), row(row)
+      {
+      }
     };
 
     template <int dim>
-    GluingRows<dim>::GluingRows(
-      const mesh::BodyMesh<dim>            &mesh,
-      const mesh::Tearing                  &tearing,
-      const mesh::Surface<dim>             &surface,
-      const std::vector<Support>           &supports,
-      const std::vector<contact::Row<dim>> &reference_rows)
-      : mesh(mesh), surface(surface)
+    GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>  &mesh,
+                                const mesh::Tearing        &tearing,
+                                const mesh::Surface<dim>   &surface,
+                                const HeldNodes<dim>       &held,
+                                const RowCoefficients<dim> &reference)
+      : mesh(mesh), surface(surface), held(held)
     {
-      collect_surface(tearing, supports);
-      scale_rows(reference_rows);
-      const auto           ranks = cluster_ranks(reference_rows);
-      const auto           nodes = collect_copies(tearing, supports, ranks);
+      collect_surface(tearing);
+      scale_rows(reference);
+      const auto           ranks = cluster_ranks(reference.contact);
+      const auto           nodes = collect_copies(tearing, ranks);
       std::vector<Message> messages;
-      const qp::RowSet     bounded =
-        number_rows(nodes, reference_rows, ranks, messages);
-      deliver(messages, tearing, bounded);
+      number_node_rows(nodes, reference, messages);
+      number_contact_rows(nodes, reference.contact, ranks, messages);
+      deliver(messages, tearing);
     }
 
     template <int dim>
     dealii::Tensor<1, dim>
-    GluingRows<dim>::projected(unsigned int                  surface_node,
-                               const dealii::Tensor<1, dim> &coefficient) const
+    GluingRows<dim>::projected(unsigned int                       surface_node,
+                               const dealii::Tensor<1, dim>      &coefficient,
+                               const std::vector<HeldFrame<dim>> &frames) const
     {
       dealii::Tensor<1, dim> result = coefficient;
-      for (const auto &direction : fixed_directions[surface_node])
-        result -= (result * direction) * direction;
+      if (held_of_surface[surface_node] < frames.size())
+        for (const auto &q : frames[held_of_surface[surface_node]].directions)
+          result -= (result * q) * q;
       return result;
     }
 
     template <int dim>
     void
-    GluingRows<dim>::scale_rows(
-      const std::vector<contact::Row<dim>> &reference_rows)
+    GluingRows<dim>::scale_rows(const RowCoefficients<dim> &reference)
     {
       // a row whose projection is round-off of a unit normal has vanished
       const double vanishing = 1e-12;
-      for (const auto &row : reference_rows)
+      for (const auto &row : reference.contact)
         {
           double square = 0.;
           for (const auto &c : row.coefficients)
             square +=
-              projected(c.first, c.second).norm_square() / copies[c.first];
+              projected(c.first, c.second, reference.held).norm_square() /
+              copies[c.first];
           scales.push_back(square < vanishing ? 0. : std::sqrt(square));
         }
     }
 
     template <int dim>
     void
-    GluingRows<dim>::collect_surface(const mesh::Tearing        &tearing,
-                                     const std::vector<Support> &supports)
+    GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
     {
-      const unsigned int                   n = surface.n_nodes();
       std::map<unsigned int, unsigned int> surface_of_global;
-      for (unsigned int i = 0; i < n; ++i)
-        surface_of_global[surface.global_node(i)] = i;
-      std::vector<unsigned int> flags(n * dim, 0);
-      for (const auto &entry : fixed_components(mesh, supports))
+      for (unsigned int i = 0; i < surface.n_nodes(); ++i)
         {
-          const auto found =
-            surface_of_global.find(mesh.global_node(entry.first));
-          if (found != surface_of_global.end())
-            for (unsigned int c = 0; c < dim; ++c)
-              if (entry.second[c])
-                flags[found->second * dim + c] = 1;
+          surface_of_global[surface.global_node(i)] = i;
+          held_of_surface.push_back(held.find(surface.global_node(i)));
         }
-      copies.assign(n, 0);
+      copies.assign(surface.n_nodes(), 0);
       for (const auto &subdomain : tearing.subdomains)
         for (const unsigned int node : subdomain.nodes)
           {
@@ -119,22 +120,11 @@ namespace snug
               ++copies[found->second];
           }
       MPI_Allreduce(MPI_IN_PLACE,
-                    flags.data(),
-                    flags.size(),
-                    MPI_UNSIGNED,
-                    MPI_MAX,
-                    mesh.communicator());
-      MPI_Allreduce(MPI_IN_PLACE,
                     copies.data(),
                     copies.size(),
                     MPI_UNSIGNED,
                     MPI_SUM,
                     mesh.communicator());
-      fixed_directions.resize(n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (flags[i * dim + c])
-            fixed_directions[i].push_back(axis<dim>(c));
     }
 
     template <int dim>
@@ -166,99 +156,89 @@ namespace snug
     }
 
     template <int dim>
-    std::map<unsigned int, typename GluingRows<dim>::NodeCopies>
+    typename GluingRows<dim>::Copies
     GluingRows<dim>::collect_copies(
       const mesh::Tearing             &tearing,
-      const std::vector<Support>      &supports,
       const std::vector<unsigned int> &rank_of_contact) const
     {
       std::map<unsigned int, unsigned int> special;
       for (unsigned int i = 0; i < surface.n_nodes(); ++i)
         special[surface.global_node(i)] = rank_of_contact[i];
-      // to the rank that owns the node's rows: (node, subdomain, -1) for a
-      // copy, (node, component, 1) for a support
+      // to the rank that owns the node's rows: (node, subdomain)
       std::map<unsigned int, std::vector<unsigned int>> out;
-      const auto send = [&](unsigned int local, unsigned int what, bool fixed) {
-        const unsigned int node  = mesh.global_node(local);
-        const auto         found = special.find(node);
-        auto              &buffer =
-          out[found == special.end() ? mesh.owner(local) : found->second];
-        buffer.insert(buffer.end(), {node, what, fixed ? 1u : 0u});
-      };
       for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
-        for (const unsigned int node : tearing.subdomains[s].nodes)
-          send(node, tearing.first_id + s, false);
-      for (const auto &entry : fixed_components(mesh, supports))
-        if (!mesh.is_hanging(entry.first))
-          for (unsigned int c = 0; c < dim; ++c)
-            if (entry.second[c])
-              send(entry.first, c, true);
-
-      std::map<unsigned int, NodeCopies>      nodes;
-      std::map<unsigned int, FixedFlags<dim>> fixed;
+        for (const unsigned int local : tearing.subdomains[s].nodes)
+          {
+            const unsigned int node  = mesh.global_node(local);
+            const auto         found = special.find(node);
+            auto              &buffer =
+              out[found == special.end() ? mesh.owner(local) : found->second];
+            buffer.insert(buffer.end(), {node, tearing.first_id + s});
+          }
+      Copies nodes;
       for (const auto &message :
            dealii::Utilities::MPI::some_to_some(mesh.communicator(), out))
-        for (std::size_t i = 0; i < message.second.size(); i += 3)
-          {
-            const unsigned int node = message.second[i];
-            const unsigned int what = message.second[i + 1];
-            if (message.second[i + 2] == 1)
-              fixed[node][what] = true;
-            else
-              nodes[node].subdomains.push_back(what);
-          }
+        for (std::size_t i = 0; i < message.second.size(); i += 2)
+          nodes[message.second[i]].push_back(message.second[i + 1]);
       for (auto &node : nodes)
-        std::sort(node.second.subdomains.begin(), node.second.subdomains.end());
-      for (const auto &entry : fixed)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (entry.second[c])
-            nodes.at(entry.first).fixed.push_back(axis<dim>(c));
+        std::sort(node.second.begin(), node.second.end());
       return nodes;
     }
 
     template <int dim>
-    qp::RowSet
-    GluingRows<dim>::number_rows(
-      const std::map<unsigned int, NodeCopies> &nodes,
-      const std::vector<contact::Row<dim>>     &reference_rows,
-      const std::vector<unsigned int>          &rank_of_contact,
-      std::vector<Message>                     &messages)
+    void
+    GluingRows<dim>::number_node_rows(const Copies               &nodes,
+                                      const RowCoefficients<dim> &reference,
+                                      std::vector<Message>       &messages)
     {
-      const unsigned int none = scales.size();
-      qp::RowSet         bounded;
-      const auto         add = [&](unsigned int                  subdomain,
-                           unsigned int                  node,
-                           const dealii::Tensor<1, dim> &value) {
-        Message message;
-        message.subdomain   = subdomain;
-        message.node        = node;
-        message.row         = bounded.size();
-        message.contact     = none;
-        message.coefficient = 0;
-        message.value       = value;
-        messages.push_back(message);
-      };
       for (const auto &entry : nodes)
         {
-          const auto        &subdomains = entry.second.subdomains;
+          const unsigned int node       = entry.first;
+          const auto        &subdomains = entry.second;
           const unsigned int m          = subdomains.size();
-          for (const auto &direction : entry.second.fixed)
-            for (const unsigned int subdomain : subdomains)
-              {
-                add(subdomain, entry.first, direction);
-                bounded.push_back(0);
-              }
-          for (const auto &direction : complement<dim>(entry.second.fixed))
+          for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int i = 1; i < m; ++i)
               {
                 const double norm = std::sqrt(i * (i + 1.));
-                for (unsigned int j = 0; j < i; ++j)
-                  add(subdomains[j], entry.first, direction / norm);
-                add(subdomains[i], entry.first, -(i / norm) * direction);
-                bounded.push_back(0);
+                for (unsigned int j = 0; j <= i; ++j)
+                  {
+                    messages.emplace_back(subdomains[j], node, owned.size());
+                    messages.back().factor[c] = (j < i ? 1. : -1. * i) / norm;
+                  }
+                owned.push_back({Source::constant, 0, 0, 0.});
               }
+          const unsigned int h = held.find(node);
+          if (h == held.n_nodes())
+            continue;
+          const auto &directions = reference.held[h].directions;
+          for (unsigned int k = 0; k < directions.size(); ++k)
+            {
+              for (const unsigned int subdomain : subdomains)
+                {
+                  messages.emplace_back(subdomain, node, owned.size());
+                  Message &message = messages.back();
+                  message.source =
+                    held.follows_positions(h) ? Source::held : Source::constant;
+                  message.index = h;
+                  message.item  = k;
+                  for (unsigned int c = 0; c < dim; ++c)
+                    message.factor[c] =
+                      (held.follows_positions(h) ? 1. : directions[k][c]) /
+                      std::sqrt(double(m));
+                }
+              owned.push_back({Source::held, h, k, std::sqrt(double(m))});
+            }
         }
-      owned_contact.assign(bounded.size(), none);
+    }
+
+    template <int dim>
+    void
+    GluingRows<dim>::number_contact_rows(
+      const Copies                         &nodes,
+      const std::vector<contact::Row<dim>> &reference_rows,
+      const std::vector<unsigned int>      &rank_of_contact,
+      std::vector<Message>                 &messages)
+    {
       const unsigned int my_rank =
         dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
       for (unsigned int i = 0; i < reference_rows.size(); ++i)
@@ -271,30 +251,32 @@ namespace snug
             {
               const unsigned int node =
                 surface.global_node(coefficients[k].first);
-              for (const unsigned int subdomain : nodes.at(node).subdomains)
+              const auto &subdomains = nodes.at(node);
+              for (const unsigned int subdomain : subdomains)
                 {
-                  add(subdomain, node, dealii::Tensor<1, dim>());
-                  messages.back().contact     = i;
-                  messages.back().coefficient = k;
+                  messages.emplace_back(subdomain, node, owned.size());
+                  Message &message = messages.back();
+                  message.source   = Source::contact;
+                  message.index    = i;
+                  message.item     = k;
+                  for (unsigned int c = 0; c < dim; ++c)
+                    message.factor[c] = 1. / (scales[i] * subdomains.size());
                 }
             }
-          bounded.push_back(1);
-          owned_contact.push_back(i);
+          owned.push_back({Source::contact, i, 0, 1. / scales[i]});
         }
-      return bounded;
     }
 
     template <int dim>
     void
     GluingRows<dim>::deliver(const std::vector<Message> &messages,
-                             const mesh::Tearing        &tearing,
-                             const qp::RowSet           &bounded)
+                             const mesh::Tearing        &tearing)
     {
       const MPI_Comm     comm = mesh.communicator();
       const unsigned int my_rank =
         dealii::Utilities::MPI::this_mpi_process(comm);
       const auto counts = dealii::Utilities::MPI::all_gather(
-        comm, static_cast<unsigned int>(bounded.size()));
+        comm, static_cast<unsigned int>(owned.size()));
       const unsigned int first_row =
         std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
       n_global = std::accumulate(counts.begin(), counts.end(), 0u);
@@ -326,17 +308,20 @@ namespace snug
               nodes.begin();
             for (unsigned int c = 0; c < dim; ++c)
               {
-                const bool follows = message.contact < scales.size();
-                if (!follows && message.value[c] == 0.)
+                if (message.factor[c] == 0.)
                   continue;
                 layout_entries[s].push_back({message.row, dim * slot + c});
                 entries[s].push_back({message.row,
                                       dim * slot + c,
-                                      message.value[c],
-                                      message.contact,
-                                      message.coefficient});
+                                      message.factor[c],
+                                      message.source,
+                                      message.index,
+                                      message.item});
               }
           }
+      qp::RowSet bounded;
+      for (const OwnedRow &row : owned)
+        bounded.push_back(row.source == Source::contact);
       layout = std::make_unique<feti::RowLayout>(comm,
                                                  bounded,
                                                  layout_entries,

@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/qp/pcpg.h>
+#include <snug/state/body_boxes.h>
 #include <snug/state/body_extents.h>
 #include <snug/state/certificate.h>
 #include <snug/state/describe.h>
@@ -69,19 +70,19 @@ namespace snug
       elasticity::FaceLoad<dim>                    face_load;
       mesh::Surface<dim>                           surface;
       std::unique_ptr<contact::Contact<dim>>       contact;
+      std::unique_ptr<HeldNodes<dim>>              held;
       std::unique_ptr<Gluing<dim>>                 gluing;
       std::vector<std::unique_ptr<Assembler<dim>>> assemblers;
       std::vector<feti::SubdomainSystem>           systems;
       std::unique_ptr<feti::TotalFeti>             feti;
-      std::vector<dealii::Tensor<1, dim>>          centres;
-      std::vector<double>                          lengths;
+      std::vector<BodyBox<dim>>                    boxes;
       Field                                        last_positions;
       double solved_to = 0.; ///< KKT tolerance of the last solve
 
       void
       set_up(const Field &positions);
       void
-      glue(const typename mesh::Surface<dim>::Field &x);
+      glue(const Field &positions);
       feti::SubdomainTable
       subdomain_table() const;
       std::vector<bool>
@@ -91,9 +92,10 @@ namespace snug
                     const std::vector<bool> &moved) const;
       void
       assemble(const Field &positions, const std::vector<bool> &moved);
+      RowCoefficients<dim>
+      rows(const Field &positions) const;
       void
-      check_vanished_rows(
-        const std::vector<contact::Row<dim>> &contact_rows) const;
+      check_vanished_rows(const RowCoefficients<dim> &rows) const;
       void
       solve_to_certificate(const qp::WarmStart &start,
                            ContactState<dim>   &state);
@@ -124,7 +126,7 @@ namespace snug
     StateSolver<dim>::Data::set_up(const Field &positions)
     {
       const RunContext::Timer timer(context, "setup");
-      measure_bodies(mesh, centres, lengths);
+      boxes = body_boxes(mesh);
       if (mesh.idealization().is_axisymmetric())
         check_radii(mesh, model.body_names);
       const auto at_surface = surface.gather(positions);
@@ -132,6 +134,8 @@ namespace snug
                                                         model.pairs,
                                                         mesh.degree(),
                                                         at_surface);
+      held =
+        std::make_unique<HeldNodes<dim>>(mesh, model.supports, 1, positions);
       systems.resize(tearing.subdomains.size());
       for (unsigned int s = 0; s < systems.size(); ++s)
         {
@@ -146,20 +150,20 @@ namespace snug
           systems[s].K           = assemblers[s]->sparsity();
           systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
         }
-      glue(at_surface);
+      glue(positions);
     }
 
     /// Everything that depends on which nodes are paired.
     template <int dim>
     void
-    StateSolver<dim>::Data::glue(const typename mesh::Surface<dim>::Field &x)
+    StateSolver<dim>::Data::glue(const Field &positions)
     {
-      const auto contact_rows = contact->rows(x);
+      const auto reference = rows(positions);
       feti.reset();
-      gluing = std::make_unique<Gluing<dim>>(
-        mesh, tearing, surface, model.supports, contact_rows);
+      gluing =
+        std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, reference);
       for (unsigned int s = 0; s < systems.size(); ++s)
-        gluing->fill_B(s, contact_rows, false, systems[s].B);
+        gluing->fill_B(s, reference, systems[s].B);
       feti = std::make_unique<feti::TotalFeti>(
         systems, gluing->layout(), subdomain_table(), model.feti, context);
       last_positions.clear();
@@ -186,9 +190,7 @@ namespace snug
                                           const std::vector<bool> &moved) const
     {
       if (mesh.idealization().is_axisymmetric())
-        check_axis(mesh,
-                   positions,
-                   *std::max_element(lengths.begin(), lengths.end()));
+        check_axis(mesh, positions, boxes);
       for (unsigned int s = 0; s < systems.size(); ++s)
         if (moved[s])
           for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
@@ -219,8 +221,8 @@ namespace snug
             assemblers[s]->stiffness(positions, system.K);
             system.f = assemblers[s]->load(positions);
             assemblers[s]->rigid_modes(positions,
-                                       centres[system.body],
-                                       lengths[system.body],
+                                       boxes[system.body].centre,
+                                       boxes[system.body].length,
                                        system.R,
                                        system.Z);
             ++context.work.assembled_subdomains;
@@ -228,17 +230,27 @@ namespace snug
     }
 
     template <int dim>
+    RowCoefficients<dim>
+    StateSolver<dim>::Data::rows(const Field &positions) const
+    {
+      return {contact->rows(surface.gather(positions)),
+              held->frames(positions)};
+    }
+
+    template <int dim>
     void
     StateSolver<dim>::Data::check_vanished_rows(
-      const std::vector<contact::Row<dim>> &contact_rows) const
+      const RowCoefficients<dim> &rows) const
     {
-      const double length = *std::max_element(lengths.begin(), lengths.end());
+      double length = 0.;
+      for (const auto &box : boxes)
+        length = std::max(length, box.length);
       for (const unsigned int i : gluing->vanished_rows())
-        if (contact_rows[i].gap < -1e-10 * length)
+        if (gluing->gap(i, rows, 0) < -1e-10 * length)
           {
             std::ostringstream text;
             text << "no equilibrium: contact row " << i << " overlaps by "
-                 << -contact_rows[i].gap
+                 << -gluing->gap(i, rows, 0)
                  << " between nodes that are held in its direction";
             throw SolveError(text.str());
           }
@@ -304,7 +316,7 @@ namespace snug
       const RunContext::Timer timer(data->context, "setup");
       const auto              x = data->surface.gather(positions);
       data->contact->pair(x);
-      data->glue(x);
+      data->glue(positions);
     }
 
     template <int dim>
@@ -314,14 +326,13 @@ namespace snug
       const auto moved = data->moved_subdomains(positions);
       everywhere(data->context.communicator(),
                  [&]() { data->check_quality(positions, moved); });
-      const auto contact_rows =
-        data->contact->rows(data->surface.gather(positions));
-      data->check_vanished_rows(contact_rows);
+      const auto rows = data->rows(positions);
+      data->check_vanished_rows(rows);
       data->last_positions.clear();
       data->assemble(positions, moved);
       for (unsigned int s = 0; s < data->systems.size(); ++s)
-        data->gluing->fill_B(s, contact_rows, false, data->systems[s].B);
-      data->feti->update(moved, data->gluing->right_hand_side(contact_rows));
+        data->gluing->fill_B(s, rows, data->systems[s].B);
+      data->feti->update(moved, data->gluing->right_hand_side(rows, 0));
       data->last_positions = positions;
       ContactState<dim> state;
       state.positions = positions;
@@ -329,7 +340,7 @@ namespace snug
         const RunContext::Timer timer(data->context, "solve");
         data->solve_to_certificate(start, state);
       }
-      describe(*this, contact_rows, state);
+      describe(*this, rows, state);
       return state;
     }
 
@@ -370,6 +381,23 @@ namespace snug
       return dealii::Utilities::MPI::sum(volume, data->context.communicator());
     }
 
+    template <int dim>
+    RowCoefficients<dim>
+    StateSolver<dim>::rows(const Field &positions) const
+    {
+      return data->rows(positions);
+    }
+
+    template <int dim>
+    RowCoefficients<dim>
+    StateSolver<dim>::row_derivatives(const Field &positions,
+                                      const Field &velocity) const
+    {
+      return {data->contact->row_derivatives(data->surface.gather(positions),
+                                             data->surface.gather(velocity)),
+              data->held->frame_derivatives(positions, velocity)};
+    }
+
 #define SNUG_GETTER(type, name, value) \
   template <int dim>                   \
   type StateSolver<dim>::name() const  \
@@ -381,6 +409,7 @@ namespace snug
     SNUG_GETTER(const Model<dim> &, model, data->model)
     SNUG_GETTER(const mesh::Surface<dim> &, surface, data->surface)
     SNUG_GETTER(const contact::Contact<dim> &, contact, *data->contact)
+    SNUG_GETTER(const HeldNodes<dim> &, held, *data->held)
     SNUG_GETTER(const elasticity::FaceLoad<dim> &, face_load, data->face_load)
     SNUG_GETTER(const std::vector<std::unique_ptr<Assembler<dim>>> &,
                 assemblers,

@@ -53,11 +53,19 @@ namespace snug
     {
       const auto                target = glue(solver);
       std::vector<unsigned int> unknown(dim * target.size(), 0);
-      for (const auto &fixed :
-           state::fixed_components<dim>(solver.mesh(), solver.model().supports))
-        for (unsigned int c = 0; c < dim; ++c)
-          if (fixed.second[c])
-            unknown[dim * target[fixed.first] + c] = eliminated;
+      const auto                frames =
+        solver.held().frames(solver.mesh().reference_positions());
+      for (unsigned int node = 0; node < target.size(); ++node)
+        {
+          const unsigned int h =
+            solver.held().find(solver.mesh().global_node(node));
+          if (h == solver.held().n_nodes())
+            continue;
+          for (const auto &direction : frames[h].directions)
+            for (unsigned int c = 0; c < dim; ++c)
+              if (direction[c] == 1.)
+                unknown[dim * target[node] + c] = eliminated;
+        }
       for (unsigned int node = 0; node < target.size(); ++node)
         for (unsigned int c = 0; c < dim; ++c)
           if (target[node] == node && unknown[dim * node + c] != eliminated)

@@ -33,13 +33,13 @@ namespace snug
                         const state::ContactState<dim>      &state,
                         typename mesh::BodyMesh<dim>::Field &gradient);
 
-    /// gradient += d/dX of lambda_I'(B_I u - g_I) at fixed u and lambda. The
-    /// share of this rank: its own nodes. Collective.
+    /// gradient += d/dX of lambda'(B u - g) over all rows at fixed u and
+    /// lambda. The share of this rank: its own nodes. Collective.
     template <int dim>
     void
-    add_contact_gradient(const state::StateSolver<dim>       &solver,
-                         const state::ContactState<dim>      &state,
-                         typename mesh::BodyMesh<dim>::Field &gradient);
+    add_constraint_gradient(const state::StateSolver<dim>       &solver,
+                            const state::ContactState<dim>      &state,
+                            typename mesh::BodyMesh<dim>::Field &gradient);
   } // namespace response
 } // namespace snug
 

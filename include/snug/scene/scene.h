@@ -13,6 +13,7 @@
 #include <snug/shape/shape_parameters.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,9 +37,11 @@ namespace snug
       mesh::BodyMeshParameters mesh;
       elasticity::Material     material;
       std::string formulation = "standard"; ///< see formulation_table()
-      /// boundary -> components held at zero, a subset of "xyz"
+      /// boundary -> components held at zero: words made of "xyz", "normal"
       std::map<std::string, std::string> supports;
-      elasticity::LoadParameters         loads;
+      /// boundary, "component = formula" of the reference position [length]
+      std::vector<std::pair<std::string, std::string>> displacements;
+      elasticity::LoadParameters                       loads;
     };
 
     /**
@@ -76,6 +79,20 @@ namespace snug
     /// "body.boundary" as {body, boundary}; without a dot, boundary is "".
     std::pair<std::string, std::string>
     split_face(const std::string &face);
+
+    /// A displacement component: 0, 1, 2 for x, y, z and dimension for the
+    /// normal; nothing for other names.
+    std::optional<unsigned int>
+    component_number(const std::string &name, unsigned int dimension);
+
+    /// Component numbers of "xy", "normal" or "normal z".
+    /// @throws std::invalid_argument saying what is wrong with them.
+    std::vector<unsigned int>
+    component_list(const std::string &words, unsigned int dimension);
+
+    /// "z = -0.012" as {"z", "-0.012"}; without '=', the second is "".
+    std::pair<std::string, std::string>
+    split_displacement(const std::string &text);
 
     /// Position of the body called @p name; bodies.size() if there is none.
     unsigned int

@@ -1,7 +1,7 @@
 #ifndef snug_state_body_extents_h
 #define snug_state_body_extents_h
 
-#include <snug/mesh/body_mesh.h>
+#include <snug/state/body_boxes.h>
 
 #include <string>
 #include <vector>
@@ -10,14 +10,6 @@ namespace snug
 {
   namespace state
   {
-    /// Centre and half diagonal of each body's bounding box at the reference
-    /// positions [length]. Collective.
-    template <int dim>
-    void
-    measure_bodies(const mesh::BodyMesh<dim>           &mesh,
-                   std::vector<dealii::Tensor<1, dim>> &centres,
-                   std::vector<double>                 &lengths);
-
     /// Bodies of an axisymmetric model must not reach negative radii.
     /// Collective. @throws InputError on all ranks.
     template <int dim>
@@ -25,13 +17,13 @@ namespace snug
     check_radii(const mesh::BodyMesh<dim>      &mesh,
                 const std::vector<std::string> &body_names);
 
-    /// Nodes on the axis are held there; @p length is that of a body.
+    /// Nodes on the axis are held there.
     /// @throws TangledMesh, on this rank, if a design moves one away.
     template <int dim>
     void
     check_axis(const mesh::BodyMesh<dim>                 &mesh,
                const typename mesh::BodyMesh<dim>::Field &positions,
-               double                                     length);
+               const std::vector<BodyBox<dim>>           &boxes);
   } // namespace state
 } // namespace snug
 

@@ -16,13 +16,13 @@ namespace snug
                  unsigned int               column);
 
     /// Fill in displacement, energies and contact points of a state from its
-    /// u and dual solution. @p contact_rows are those of its geometry.
+    /// u and dual solution. @p rows are those of its geometry.
     /// Collective.
     template <int dim>
     void
-    describe(const StateSolver<dim>               &solver,
-             const std::vector<contact::Row<dim>> &contact_rows,
-             ContactState<dim>                    &state);
+    describe(const StateSolver<dim>     &solver,
+             const RowCoefficients<dim> &rows,
+             ContactState<dim>          &state);
   } // namespace state
 } // namespace snug
 

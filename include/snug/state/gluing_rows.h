@@ -5,7 +5,7 @@
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>
-#include <snug/state/support.h>
+#include <snug/state/held_nodes.h>
 
 #include <map>
 #include <memory>
@@ -14,6 +14,15 @@ namespace snug
 {
   namespace state
   {
+    /// What the rows of B are made of at a geometry; or its derivative, where
+    /// empty frames are zero.
+    template <int dim>
+    struct RowCoefficients
+    {
+      std::vector<contact::Row<dim>> contact;
+      std::vector<HeldFrame<dim>>    held; ///< per held node
+    };
+
     /**
      * Who owns which row of B and which copies of which nodes it joins: the
      * topology of Gluing. Each node's copies meet on one rank, which numbers
@@ -23,71 +32,86 @@ namespace snug
     class GluingRows
     {
     public:
-      using Directions = std::vector<dealii::Tensor<1, dim>>;
+      /// What the value of an entry follows.
+      enum class Source : unsigned int
+      {
+        constant, ///< nothing
+        contact,  ///< coefficient `item` of contact row `index`
+        held      ///< direction `item` of held node `index`
+      };
 
-      /// An entry whose value is fixed, or follows a contact row.
       struct Entry
       {
         unsigned int local_row, dof;
-        double       value;       ///< of a fixed entry
-        unsigned int contact;     ///< contact row, or n_contact_rows
-        unsigned int coefficient; ///< index in the row's coefficients
+        double       factor; ///< the value of constant entries
+        Source       source;
+        unsigned int index, item;
+      };
+
+      /// What an owned row is, in the same terms.
+      struct OwnedRow
+      {
+        Source       source;
+        unsigned int index, item;
+        double       factor; ///< of its right-hand side
       };
 
       /// See Gluing. Collective.
-      GluingRows(const mesh::BodyMesh<dim>            &mesh,
-                 const mesh::Tearing                  &tearing,
-                 const mesh::Surface<dim>             &surface,
-                 const std::vector<Support>           &supports,
-                 const std::vector<contact::Row<dim>> &reference_rows);
+      GluingRows(const mesh::BodyMesh<dim>  &mesh,
+                 const mesh::Tearing        &tearing,
+                 const mesh::Surface<dim>   &surface,
+                 const HeldNodes<dim>       &held,
+                 const RowCoefficients<dim> &reference);
 
-      /// The part of a coefficient at a surface node that its supports leave.
+      /// The part of a coefficient at a surface node that what is held there
+      /// leaves.
       dealii::Tensor<1, dim>
-      projected(unsigned int                  surface_node,
-                const dealii::Tensor<1, dim> &coefficient) const;
+      projected(unsigned int                       surface_node,
+                const dealii::Tensor<1, dim>      &coefficient,
+                const std::vector<HeldFrame<dim>> &frames) const;
 
       std::unique_ptr<feti::RowLayout> layout;
-      std::vector<std::vector<Entry>>  entries;       ///< per subdomain
-      std::vector<unsigned int>        owned_contact; ///< per owned row
-      std::vector<double>              scales;        ///< nr per contact row
-      std::vector<unsigned int>        copies;        ///< per surface node
-      unsigned int                     n_global = 0;
+      std::vector<std::vector<Entry>>  entries; ///< per subdomain
+      std::vector<OwnedRow>            owned;
+      std::vector<double>              scales; ///< nr per contact row
+      std::vector<unsigned int>        copies; ///< per surface node
+      /// held node of each surface node, or held.n_nodes()
+      std::vector<unsigned int> held_of_surface;
+      unsigned int              n_global = 0;
 
     private:
-      /// The copies of one node, known to the owner of its rows.
-      struct NodeCopies
-      {
-        std::vector<unsigned int> subdomains; ///< global ids, ascending
-        Directions                fixed;
-      };
+      /// Subdomains of one node's copies, ascending, by global node: known to
+      /// the owner of its rows.
+      using Copies = std::map<unsigned int, std::vector<unsigned int>>;
 
       /// One entry on its way from the owner of the row to the subdomain.
       struct Message;
 
       void
-      collect_surface(const mesh::Tearing        &tearing,
-                      const std::vector<Support> &supports);
+      collect_surface(const mesh::Tearing &tearing);
       void
-      scale_rows(const std::vector<contact::Row<dim>> &reference_rows);
+      scale_rows(const RowCoefficients<dim> &reference);
       std::vector<unsigned int>
       cluster_ranks(const std::vector<contact::Row<dim>> &rows) const;
-      std::map<unsigned int, NodeCopies>
+      Copies
       collect_copies(const mesh::Tearing             &tearing,
-                     const std::vector<Support>      &supports,
                      const std::vector<unsigned int> &rank_of_contact) const;
-      qp::RowSet
-      number_rows(const std::map<unsigned int, NodeCopies> &nodes,
-                  const std::vector<contact::Row<dim>>     &reference_rows,
-                  const std::vector<unsigned int>          &rank_of_contact,
-                  std::vector<Message>                     &messages);
+      void
+      number_node_rows(const Copies               &nodes,
+                       const RowCoefficients<dim> &reference,
+                       std::vector<Message>       &messages);
+      void
+      number_contact_rows(const Copies                         &nodes,
+                          const std::vector<contact::Row<dim>> &reference_rows,
+                          const std::vector<unsigned int>      &rank_of_contact,
+                          std::vector<Message>                 &messages);
       void
       deliver(const std::vector<Message> &messages,
-              const mesh::Tearing        &tearing,
-              const qp::RowSet           &bounded);
+              const mesh::Tearing        &tearing);
 
       const mesh::BodyMesh<dim> &mesh;
       const mesh::Surface<dim>  &surface;
-      std::vector<Directions>    fixed_directions; ///< per surface node
+      const HeldNodes<dim>      &held;
     };
   } // namespace state
 } // namespace snug

@@ -19,12 +19,11 @@ namespace snug
     {
       std::vector<std::string>    body_names;
       std::vector<BodyModel<dim>> bodies;
-      /// (body, boundary) -> fixed components
-      std::vector<Support>       supports;
-      std::vector<contact::Pair> pairs;
-      feti::FetiParameters       feti;
-      qp::SolverParameters       solver;
-      bool                       linear_reference = false;
+      std::vector<Support<dim>>   supports;
+      std::vector<contact::Pair>  pairs;
+      feti::FetiParameters        feti;
+      qp::SolverParameters        solver;
+      bool                        linear_reference = false;
     };
 
     /**
@@ -80,6 +79,14 @@ namespace snug
       surface() const;
       const contact::Contact<dim> &
       contact() const;
+      const HeldNodes<dim> &
+      held() const;
+      /// What the rows of B are made of at @p positions. Collective.
+      RowCoefficients<dim>
+      rows(const Field &positions) const;
+      /// Its derivative along @p velocity, exact. Collective.
+      RowCoefficients<dim>
+      row_derivatives(const Field &positions, const Field &velocity) const;
       const elasticity::FaceLoad<dim> &
       face_load() const;
       /// Assemblers of this rank's subdomains.

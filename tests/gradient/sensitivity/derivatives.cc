@@ -258,4 +258,51 @@ namespace
     GradientScene<3> scene(given, 0.05);
     check_derivatives(scene);
   }
+
+  /// The foundation on rollers below and at its right side, which the design
+  /// bends, and which is pushed in by a formula; the punch driven from above.
+  template <int dim>
+  TestScene<dim>
+  bent_rollers(unsigned int n_cells, unsigned int n_heights)
+  {
+    auto  scene      = curved_scene<dim>(n_cells, n_heights, 0.04);
+    auto &punch      = scene.bodies[0];
+    auto &foundation = scene.bodies[1];
+    punch.loads.clear();
+    foundation.body_force[dim - 1] = -2.;
+    punch.prescribed.push_back(
+      {0,
+       face_index(dim - 1, 1),
+       dim - 1,
+       {[](const dealii::Point<dim> &x) { return -0.012 - 0.002 * x[0]; }},
+       "punch"});
+    foundation.supports.clear();
+    for (unsigned int d = 1; d < dim; ++d)
+      foundation.supports[face_index(d, 0)] = {dim};
+    foundation.prescribed.push_back(
+      {1,
+       face_index(0, 1),
+       dim,
+       {[](const dealii::Point<dim> &x) { return -0.003 * (1. + x[dim - 1]); }},
+       "side"});
+    return scene;
+  }
+
+  TEST(Gradient, RollersOnABentFace2D)
+  {
+    for (const unsigned int degree : {1, 2})
+      {
+        auto given                    = bent_rollers<2>(degree == 1 ? 6 : 3, 4);
+        given.degree                  = degree;
+        given.bodies[1].refined_below = 0.45;
+        GradientScene<2> scene(given, 0.05, "foundation.right", 0);
+        check_derivatives(scene);
+      }
+  }
+
+  TEST(Gradient, RollersOnABentFace3D)
+  {
+    GradientScene<3> scene(bent_rollers<3>(3, 3), 0.05, "foundation.right", 0);
+    check_derivatives(scene);
+  }
 } // namespace

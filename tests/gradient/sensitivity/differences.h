@@ -23,7 +23,8 @@ namespace snug
       std::vector<bool>                   strong;
     };
 
-    /// A scene whose foundation's top is a Bézier patch, solved to 1e-12.
+    /// A scene with a Bézier patch on a face, as a rule the foundation's top,
+    /// that moves along an axis; solved to 1e-12.
     template <int dim>
     class GradientScene
     {
@@ -31,9 +32,12 @@ namespace snug
       using Field = typename mesh::BodyMesh<dim>::Field;
 
       /// @p scene.design gives the heights where derivatives are taken.
-      GradientScene(const TestScene<dim> &scene, double bound)
+      GradientScene(const TestScene<dim> &scene,
+                    double                bound,
+                    const std::string    &face = "foundation.top",
+                    unsigned int          axis = dim - 1)
         : problem(scene)
-        , basis(make_basis(problem, scene, bound))
+        , basis(make_basis(problem, bound, face, axis))
         , widths(scene.design.size(), 2. * bound)
       {
         for (const auto &row : response::response_table<dim>())
@@ -123,18 +127,19 @@ namespace snug
 
     private:
       static std::unique_ptr<shape::ShapeBasis<dim>>
-      make_basis(const Problem<dim>   &problem,
-                 const TestScene<dim> &scene,
-                 double                bound)
+      make_basis(const Problem<dim> &problem,
+                 double              bound,
+                 const std::string  &face,
+                 unsigned int        axis)
       {
         shape::ShapeParameters parameters;
         parameters.basis          = "Bezier patch";
-        parameters.face           = "foundation.top";
-        parameters.control_points = scene.control_points;
+        parameters.face           = face;
+        parameters.control_points = problem.scene.control_points;
         parameters.control_points.resize(dim - 1);
         parameters.direction.assign(dim, 0.);
-        parameters.direction[dim - 1] = 1.;
-        parameters.bounds             = {-bound, bound};
+        parameters.direction[axis] = 1.;
+        parameters.bounds          = {-bound, bound};
         const shape::BodyNames names{problem.model.body_names};
         return choose(shape::shape_basis_table<dim>(), parameters.basis)
           .make(problem.mesh, names, parameters);

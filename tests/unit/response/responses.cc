@@ -76,8 +76,8 @@ namespace
            const typename Problem<dim>::Field &positions)
   {
     const auto &solver = problem.solver;
-    const auto rows = solver.contact().rows(solver.surface().gather(positions));
-    const auto lambda = solver.gluing().layout().to_local(state.dual.lambda);
+    const auto  rows   = solver.rows(positions);
+    const auto  lambda = solver.gluing().layout().to_local(state.dual.lambda);
     std::vector<feti::BEntry> B;
     Parts                     parts;
     for (unsigned int s = 0; s < state.u.size(); ++s)
@@ -93,12 +93,12 @@ namespace
             parts.strain_energy += state.u[s](i) * Ku(i) / 2;
             parts.work += state.u[s](i) * f[i];
           }
-        solver.gluing().fill_B(s, rows, false, B);
+        solver.gluing().fill_B(s, rows, B);
         for (const auto &entry : B)
           parts.contact +=
             lambda(entry.row) * entry.value * state.u[s](entry.dof);
       }
-    const auto g = solver.gluing().right_hand_side(rows);
+    const auto g = solver.gluing().right_hand_side(rows, 0);
     for (unsigned int i = 0; i < g.n_rows(); ++i)
       parts.contact -= state.dual.lambda(i) * g(i);
     return {sum(parts.strain_energy), sum(parts.work), sum(parts.contact)};
@@ -133,7 +133,7 @@ namespace
         partial[row.name] = dot<dim>(gradient, V);
         if (!response->stationary())
           continue;
-        response::add_contact_gradient(problem.solver, state, gradient);
+        response::add_constraint_gradient(problem.solver, state, gradient);
         total[row.name] = dot<dim>(gradient, V);
       }
     // round-off and the fourth order error are near 1e-11

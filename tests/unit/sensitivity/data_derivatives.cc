@@ -31,10 +31,10 @@ namespace
                const state::ContactState<dim>     &state,
                const typename Problem<dim>::Field &positions)
   {
-    const auto &solver = problem.solver;
-    const auto &layout = solver.gluing().layout();
-    const auto rows = solver.contact().rows(solver.surface().gather(positions));
-    const auto lambda = layout.to_local(state.dual.lambda);
+    const auto               &solver = problem.solver;
+    const auto               &layout = solver.gluing().layout();
+    const auto                rows   = solver.rows(positions);
+    const auto                lambda = layout.to_local(state.dual.lambda);
     qp::MultiVector           Bu(layout.n_local());
     std::vector<feti::BEntry> B;
     sensitivity::KktVectors   result;
@@ -49,14 +49,14 @@ namespace
         const auto f = assembler.load(positions);
         for (unsigned int i = 0; i < f.size(); ++i)
           r(i) += f[i];
-        solver.gluing().fill_B(s, rows, false, B);
+        solver.gluing().fill_B(s, rows, B);
         for (const auto &entry : B)
           {
             r(entry.dof) -= entry.value * lambda(entry.row);
             Bu(entry.row) += entry.value * state.u[s](entry.dof);
           }
       }
-    result.dual = solver.gluing().right_hand_side(rows);
+    result.dual = solver.gluing().right_hand_side(rows, 0);
     result.dual.add(-1., layout.to_owned(Bu));
     return result;
   }

@@ -22,13 +22,12 @@ namespace
   owned_columns(const Problem<dim> &problem)
   {
     const auto &gluing = problem.solver.gluing();
-    const auto  rows   = problem.solver.contact().rows(
-      problem.solver.surface().gather(problem.mesh.reference_positions()));
+    const auto  rows = problem.solver.rows(problem.mesh.reference_positions());
     std::vector<double>       values;
     std::vector<feti::BEntry> B;
     for (unsigned int s = 0; s < problem.tearing.subdomains.size(); ++s)
       {
-        gluing.fill_B(s, rows, false, B);
+        gluing.fill_B(s, rows, B);
         for (const auto &entry : B)
           values.push_back(entry.value);
       }
@@ -181,21 +180,20 @@ namespace
       for (unsigned int a = 0; a < u[s].n_rows(); ++a)
         field[problem.tearing.subdomains[s].nodes[a / dim]][a % dim] = u[s](a);
     const auto at_surface = surface.gather(field);
-    const auto rows =
-      problem.solver.contact().rows(surface.gather(state.positions));
-    const auto of_rows = gluing.gather_contact(Bu.column(0));
-    const auto right   = gluing.right_hand_side(rows);
-    const auto gaps    = gluing.gather_contact(right.column(0));
-    ASSERT_EQ(rows.size(), gluing.n_contact_rows());
+    const auto rows       = problem.solver.rows(state.positions);
+    const auto of_rows    = gluing.gather_contact(Bu.column(0));
+    const auto right      = gluing.right_hand_side(rows, 0);
+    const auto gaps       = gluing.gather_contact(right.column(0));
+    ASSERT_EQ(rows.contact.size(), gluing.n_contact_rows());
     EXPECT_TRUE(gluing.vanished_rows().empty());
-    for (unsigned int i = 0; i < rows.size(); ++i)
+    for (unsigned int i = 0; i < rows.contact.size(); ++i)
       {
         double value = 0.;
-        for (const auto &c : rows[i].coefficients)
+        for (const auto &c : rows.contact[i].coefficients)
           value += c.second * at_surface[c.first];
         const double nr = gluing.contact_scales()[i];
         EXPECT_NEAR(of_rows[i], value / nr, 1e-13);
-        EXPECT_NEAR(gaps[i], rows[i].gap / nr, 1e-14);
+        EXPECT_NEAR(gaps[i], rows.contact[i].gap / nr, 1e-14);
       }
   }
 

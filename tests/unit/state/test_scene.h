@@ -35,8 +35,10 @@ namespace snug
       elasticity::Formulation   formulation = elasticity::Formulation::standard;
       dealii::Tensor<1, dim>    body_force;
       std::map<unsigned int, Load> loads;
-      /// boundary -> fixed components
+      /// boundary -> fixed components, dim: the normal
       std::map<unsigned int, std::vector<unsigned int>> supports;
+      /// prescribed displacements; the scene fills in the body
+      std::vector<state::Support<dim>> prescribed;
     };
 
     /**
@@ -232,10 +234,17 @@ namespace snug
             model.bodies.push_back(
               {{body.material}, body.formulation, body.body_force, body.loads});
             for (const auto &support : body.supports)
-              model.supports.push_back({b, support.first, support.second});
+              for (const unsigned int component : support.second)
+                model.supports.push_back(
+                  {b, support.first, component, {}, "support"});
+            for (auto support : body.prescribed)
+              {
+                support.body = b;
+                model.supports.push_back(support);
+              }
           }
         model.pairs = scene.pairs;
-        if (scene.pairs.empty())
+        if (scene.pairs.empty() && scene.bodies.size() > 1)
           {
             model.pairs = {
               {{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
