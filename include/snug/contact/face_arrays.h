@@ -1,0 +1,31 @@
+#ifndef snug_contact_face_arrays_h
+#define snug_contact_face_arrays_h
+
+#include <snug/contact/segment_points.h>
+#include <snug/mesh/surface.h>
+
+namespace snug
+{
+  namespace contact
+  {
+    /// Positions of all surface nodes.
+    template <int dim>
+    FaceNodes<dim, double>
+    node_arrays(const typename mesh::Surface<dim>::Field &positions);
+
+    /// The same, differentiated along @p velocity.
+    template <int dim>
+    FaceNodes<dim, Differential<1>>
+    node_arrays(const typename mesh::Surface<dim>::Field &positions,
+                const typename mesh::Surface<dim>::Field &velocity);
+
+    /// Those of the nodes of surface face @p face.
+    template <int dim, typename Number>
+    FaceNodes<dim, Number>
+    face_nodes(const mesh::Surface<dim>     &surface,
+               unsigned int                  face,
+               const FaceNodes<dim, Number> &nodes);
+  } // namespace contact
+} // namespace snug
+
+#endif

@@ -1,0 +1,29 @@
+#ifndef snug_contact_integral_gradient_h
+#define snug_contact_integral_gradient_h
+
+#include <snug/contact/mortar_coupling.h>
+
+namespace snug
+{
+  namespace contact
+  {
+    /// Gradient with respect to the nodes of a slave and some master faces.
+    template <int dim>
+    struct FaceGradient
+    {
+      FaceNodes<dim, double>              slave;
+      std::vector<FaceNodes<dim, double>> masters;
+    };
+
+    /// The transpose of the derivative of integrate(): from the gradient of a
+    /// scalar with respect to the integrals, that to the nodes.
+    template <int dim>
+    FaceGradient<dim>
+    integrate_transpose(const SegmentQuadrature<dim>              &quadrature,
+                        const FaceNodes<dim, double>              &slave,
+                        const std::vector<FaceNodes<dim, double>> &masters,
+                        const FaceIntegrals<double>               &gradient);
+  } // namespace contact
+} // namespace snug
+
+#endif

@@ -1,0 +1,49 @@
+#ifndef snug_contact_supported_normals_h
+#define snug_contact_supported_normals_h
+
+#include <snug/contact/held_directions.h>
+#include <snug/contact/nodal_normals.h>
+
+namespace snug
+{
+  namespace contact
+  {
+    /**
+     * Nodal normals that respect symmetry planes: where supports hold
+     * directions q that a normal n leaves by less than 25 degrees,
+     *   n <- v / |v|, v = n - sum_q (q.n) q.
+     * At the edge of a curved side the mean over its faces is one-sided, so it
+     * would tilt off a symmetry plane by half of the angle between two faces.
+     * The directions q are constants.
+     */
+    template <int dim>
+    class SupportedNormals
+    {
+    public:
+      using Field = typename mesh::Surface<dim>::Field;
+
+      /// The references must outlive this. @throws TangledMesh.
+      SupportedNormals(const NodalNormals<dim>   &nodal,
+                       const HeldDirections<dim> &held);
+
+      const Field &
+      normals() const;
+
+      /// n' along @p velocity of the positions.
+      Field
+      derivative(const Field &velocity) const;
+
+      /// gradient += (dn/dx)' @p normal_gradient.
+      void
+      add_transpose(const Field &normal_gradient, Field &gradient) const;
+
+    private:
+      const NodalNormals<dim>   &nodal;
+      const HeldDirections<dim> &held;
+      Field                      unit;
+      std::vector<double>        length; ///< |v|; 0 where n is not changed
+    };
+  } // namespace contact
+} // namespace snug
+
+#endif

@@ -1,0 +1,184 @@
+#include <snug/contact/closest_point.h>
+#include <snug/contact/opposite_faces.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace snug
+{
+  namespace contact
+  {
+    namespace
+    {
+      template <int dim>
+      std::vector<dealii::Tensor<1, dim>>
+      face_field(const mesh::Surface<dim>                 &surface,
+                 unsigned int                              face,
+                 const typename mesh::Surface<dim>::Field &field)
+      {
+        std::vector<dealii::Tensor<1, dim>> values;
+        for (const unsigned int node : surface.faces()[face].nodes)
+          values.push_back(field[node]);
+        return values;
+      }
+
+      template <int dim>
+      dealii::BoundingBox<dim>
+      bounding_box(const std::vector<dealii::Tensor<1, dim>> &nodes)
+      {
+        std::vector<dealii::Point<dim>> points;
+        for (const auto &node : nodes)
+          points.emplace_back(node);
+        return dealii::BoundingBox<dim>(points);
+      }
+
+      template <int dim>
+      double
+      diameter(const dealii::BoundingBox<dim> &box)
+      {
+        const auto &corners = box.get_boundary_points();
+        return corners.first.distance(corners.second);
+      }
+
+      /// A face as the search needs it.
+      template <int dim>
+      struct SearchFace
+      {
+        std::vector<dealii::Tensor<1, dim>> nodes;
+        dealii::BoundingBox<dim>            box;
+        dealii::Tensor<1, dim>              centre, normal;
+
+        SearchFace(const mesh::Surface<dim>                 &surface,
+                   unsigned int                              face,
+                   const FaceShape<dim>                     &shape,
+                   const typename mesh::Surface<dim>::Field &positions)
+          : nodes(face_field<dim>(surface, face, positions))
+          , box(bounding_box<dim>(nodes))
+        {
+          typename FaceShape<dim>::Coordinates middle;
+          for (int a = 0; a < dim - 1; ++a)
+            middle[a] = 0.5;
+          typename FaceShape<dim>::Values values;
+          shape.evaluate(middle, values);
+          for (unsigned int k = 0; k < nodes.size(); ++k)
+            centre += values.value[k] * nodes[k];
+          normal = area_vector(
+            tangents<dim>(values, surface.faces()[face].nodes, positions));
+          normal /= normal.norm();
+        }
+
+        FaceNodes<dim, double>
+        arrays() const
+        {
+          FaceNodes<dim, double> result(nodes.size());
+          for (unsigned int k = 0; k < nodes.size(); ++k)
+            for (int i = 0; i < dim; ++i)
+              result[k][i] = nodes[k][i];
+          return result;
+        }
+      };
+
+      /// The tree of the master faces' boxes.
+      template <int dim>
+      class MasterTree
+      {
+      public:
+        MasterTree(const std::vector<SearchFace<dim>> &faces,
+                   const FaceShape<dim>               &shape)
+          : faces(faces)
+          , shape(shape)
+          , boxes(boxes_of(faces))
+          , tree(dealii::pack_rtree_of_indices(boxes))
+        {
+        }
+
+        /// Indices of the faces whose boxes are within reach of @p slave.
+        std::vector<std::size_t>
+        near(const SearchFace<dim> &slave) const
+        {
+          namespace bgi  = boost::geometry::index;
+          double closest = std::numeric_limits<double>::max();
+          for (const auto i :
+               tree | bgi::adaptors::queried(
+                        bgi::nearest(dealii::Point<dim>(slave.centre), 4)))
+            closest =
+              std::min(closest,
+                       closest_point(shape, faces[i].nodes, slave.centre)
+                         .squared_distance);
+          dealii::BoundingBox<dim> around = slave.box;
+          around.extend(1.5 * std::sqrt(closest) + diameter(slave.box));
+          std::vector<std::size_t> result;
+          for (const auto i :
+               tree | bgi::adaptors::queried(bgi::intersects(around)))
+            result.push_back(i);
+          std::sort(result.begin(), result.end());
+          return result;
+        }
+
+      private:
+        using Boxes = std::vector<dealii::BoundingBox<dim>>;
+
+        static Boxes
+        boxes_of(const std::vector<SearchFace<dim>> &faces)
+        {
+          Boxes result;
+          for (const auto &face : faces)
+            result.push_back(face.box);
+          return result;
+        }
+
+        const std::vector<SearchFace<dim>> &faces;
+        const FaceShape<dim>               &shape;
+        const Boxes                         boxes;
+        const decltype(dealii::pack_rtree_of_indices(
+          std::declval<const Boxes &>()))   tree;
+      };
+    } // namespace
+
+    template <int dim>
+    std::vector<std::vector<unsigned int>>
+    opposite_faces(const mesh::Surface<dim>                 &surface,
+                   const PairFaces                          &sides,
+                   const FaceShape<dim>                     &shape,
+                   const typename mesh::Surface<dim>::Field &positions)
+    {
+      std::vector<std::vector<unsigned int>> result(sides.slave.size());
+      std::vector<SearchFace<dim>>           masters;
+      for (const unsigned int face : sides.master)
+        masters.emplace_back(surface, face, shape, positions);
+      if (masters.empty())
+        return result;
+      const MasterTree<dim>        tree(masters, shape);
+      const SegmentQuadrature<dim> quadrature(shape.degree(),
+                                              surface.idealization());
+      for (unsigned int i = 0; i < sides.slave.size(); ++i)
+        {
+          const SearchFace<dim> slave(surface,
+                                      sides.slave[i],
+                                      shape,
+                                      positions);
+          for (const std::size_t m : tree.near(slave))
+            if (slave.normal * masters[m].normal < opposite_cosine &&
+                quadrature.overlap(slave.arrays(),
+                                   masters[m].arrays(),
+                                   pairing_margin))
+              result[i].push_back(sides.master[m]);
+        }
+      return result;
+    }
+
+#define SNUG_INSTANTIATE(dim)                                     \
+  template std::vector<std::vector<unsigned int>> opposite_faces( \
+    const mesh::Surface<dim> &,                                   \
+    const PairFaces &,                                            \
+    const FaceShape<dim> &,                                       \
+    const mesh::Surface<dim>::Field &);
+    SNUG_INSTANTIATE(2)
+    SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+  } // namespace contact
+} // namespace snug
