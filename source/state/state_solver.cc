@@ -5,6 +5,7 @@
 #include <snug/state/certificate.h>
 #include <snug/state/describe.h>
 #include <snug/state/state_solver.h>
+#include <snug/state/subdomain_table.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,22 +25,6 @@ namespace snug
 
       /// Cells below this quality are not solved (see Element::quality).
       const double least_quality = 0.02;
-
-      std::vector<std::pair<unsigned int, unsigned int>>
-      contact_boundaries(const std::vector<contact::Pair> &pairs)
-      {
-        std::vector<std::pair<unsigned int, unsigned int>> boundaries;
-        for (const auto &pair : pairs)
-          {
-            boundaries.push_back(pair.slave);
-            if (!pair.obstacle)
-              boundaries.push_back(pair.master);
-          }
-        std::sort(boundaries.begin(), boundaries.end());
-        boundaries.erase(std::unique(boundaries.begin(), boundaries.end()),
-                         boundaries.end());
-        return boundaries;
-      }
     } // namespace
 
     template <int dim>
@@ -54,7 +39,7 @@ namespace snug
         , model(model)
         , context(context)
         , face_load(mesh.degree(), mesh.idealization())
-        , surface(mesh, contact_boundaries(model.pairs))
+        , surface(mesh, contact::boundaries_of(model.pairs))
       {
         for (const auto &body : model.bodies)
           elements.emplace_back(mesh.degree(),
@@ -83,8 +68,6 @@ namespace snug
       set_up(const Field &positions);
       void
       glue(const Field &positions);
-      feti::SubdomainTable
-      subdomain_table() const;
       std::vector<bool>
       moved_subdomains(const Field &positions) const;
       void
@@ -100,26 +83,6 @@ namespace snug
       solve_to_certificate(const qp::WarmStart &start,
                            ContactState<dim>   &state);
     };
-
-    template <int dim>
-    feti::SubdomainTable
-    StateSolver<dim>::Data::subdomain_table() const
-    {
-      feti::SubdomainTable table;
-      table.n_modes    = mesh.idealization().n_rigid_motions();
-      table.first      = tearing.first_id;
-      table.body_names = model.body_names;
-      table.body.assign(tearing.n_global, 0);
-      for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
-        table.body[tearing.first_id + s] = tearing.subdomains[s].body;
-      MPI_Allreduce(MPI_IN_PLACE,
-                    table.body.data(),
-                    table.body.size(),
-                    MPI_UNSIGNED,
-                    MPI_MAX,
-                    context.communicator());
-      return table;
-    }
 
     template <int dim>
     void
@@ -165,7 +128,11 @@ namespace snug
       for (unsigned int s = 0; s < systems.size(); ++s)
         gluing->fill_B(s, reference, systems[s].B);
       feti = std::make_unique<feti::TotalFeti>(
-        systems, gluing->layout(), subdomain_table(), model.feti, context);
+        systems,
+        gluing->layout(),
+        subdomain_table(mesh, tearing, model.body_names),
+        model.feti,
+        context);
       last_positions.clear();
     }
 

@@ -59,6 +59,10 @@ namespace snug
         return slave_name + ": " + master_name;
       }
     };
+
+    /// (body, boundary) of all sides of @p pairs that have a mesh, ascending.
+    std::vector<std::pair<unsigned int, unsigned int>>
+    boundaries_of(const std::vector<Pair> &pairs);
   } // namespace contact
 } // namespace snug
 
