@@ -44,8 +44,12 @@ namespace snug
                   const Motion<dim>              &motion = {})
         : scene(scene::read_scene({"scene.prm", text, sets, ""}))
         , context(MPI_COMM_WORLD, log)
-        , mesh(MPI_COMM_WORLD, app::mesh_parameters(scene), scene.degree)
-        , tearing(mesh::tear(mesh, scene.tearing))
+        , mesh(MPI_COMM_WORLD,
+               app::mesh_parameters(scene),
+               scene.degree,
+               mesh::Idealization::natural(dim),
+               scene.tearing)
+        , tearing(mesh::tear(mesh))
         , model(moved_model(motion))
         , positions(moved_positions(motion))
         , solver(mesh, tearing, model, positions, context)
