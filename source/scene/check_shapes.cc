@@ -1,5 +1,6 @@
 #include <snug/scene/check.h>
 #include <snug/scene/values.h>
+#include <snug/shape/formula_modes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,14 @@ namespace snug
   {
     namespace
     {
+      bool
+      all_finite(const std::vector<double> &values)
+      {
+        return std::all_of(values.begin(), values.end(), [](const double v) {
+          return std::isfinite(v);
+        });
+      }
+
       /// Checks the entries of one shape, as far as no mesh is needed.
       class ShapeCheck
       {
@@ -26,10 +35,23 @@ namespace snug
         {
           if (shape.basis == "none")
             return;
-          require_face(
-            scene, origins, shape.path("Face"), shape.face, shape.face);
-          check_control_points();
-          check_direction();
+          const bool box     = names("box");
+          const bool formula = names("formula");
+          if (!box && !(formula && shape.face.empty()))
+            check_face();
+          if (!box && !names("patch"))
+            require(shape.control_points.empty(),
+                    "Control points",
+                    to_text(shape.control_points),
+                    "must be empty for " + shape.basis);
+          else
+            check_control_points(box ? scene.dimension : scene.dimension - 1);
+          if (box)
+            check_box();
+          if (formula)
+            check_modes();
+          check_numbers();
+          check_links();
           check_design();
         }
 
@@ -44,37 +66,143 @@ namespace snug
             throw origins.error(shape.path(entry), value, allowed);
         }
 
-        void
-        check_control_points() const
+        /// Whether the name of the basis holds @p word.
+        bool
+        names(const std::string &word) const
         {
-          const auto        &points = shape.control_points;
-          const unsigned int edges  = scene.dimension - 1;
-          require(points.size() == edges,
-                  "Control points",
-                  to_text(points),
-                  "must have " + to_text(edges) +
-                    (edges == 1 ? " number" : " numbers separated by commas") +
-                    ", one per edge of the face");
-          // Bernstein polynomials of higher degree lose all digits.
-          for (const unsigned int n : points)
-            require(n >= 1 && n <= 50,
-                    "Control points",
-                    to_text(points),
-                    "must lie between 1 and 50 each");
+          return shape.basis.find(word) != std::string::npos;
         }
 
         void
-        check_direction() const
+        check_face() const
+        {
+          require_face(
+            scene, origins, shape.path("Face"), shape.face, shape.face);
+          const unsigned int body =
+            body_index(scene, split_face(shape.face).first);
+          require(shape.interior != "linear blending" ||
+                    scene.bodies[body].mesh.source == "box",
+                  "Interior",
+                  shape.interior,
+                  "must be Laplace or elasticity for the body '" +
+                    scene.bodies[body].name + "', which is no box");
+        }
+
+        void
+        check_control_points(const unsigned int n_axes) const
+        {
+          const auto        &points  = shape.control_points;
+          const bool         splines = names("B-spline");
+          const unsigned int least   = splines ? shape.degree + 1 : 1;
+          require(!splines || (shape.degree >= 1 && shape.degree <= 10),
+                  "Degree",
+                  to_text(shape.degree),
+                  "must lie between 1 and 10");
+          require(points.size() == n_axes,
+                  "Control points",
+                  to_text(points),
+                  "must have " + to_text(n_axes) +
+                    (n_axes == 1 ? " number" : " numbers separated by commas") +
+                    ", one per edge of the face or box");
+          // Bernstein polynomials of higher degree lose all digits.
+          for (const unsigned int n : points)
+            require(n >= least && (splines || n <= 50),
+                    "Control points",
+                    to_text(points),
+                    splines ? "must be more than 'Degree' each"
+                            : "must lie between 1 and 50 each");
+        }
+
+        void
+        check_box() const
+        {
+          const std::string three = "must have " + to_text(scene.dimension) +
+                                    " numbers separated by commas";
+          require(shape.box_corner.size() == scene.dimension &&
+                    all_finite(shape.box_corner),
+                  "Box corner",
+                  to_text(shape.box_corner),
+                  three);
+          require(shape.box_size.size() == scene.dimension &&
+                    all_finite(shape.box_size),
+                  "Box size",
+                  to_text(shape.box_size),
+                  three);
+          for (const double edge : shape.box_size)
+            require(edge > 0.,
+                    "Box size",
+                    to_text(shape.box_size),
+                    "must be positive");
+          for (const auto &body : shape.bodies)
+            require(body_index(scene, body) < scene.bodies.size(),
+                    "Bodies",
+                    listed(shape.bodies),
+                    "there is no body '" + quotable(body) + "'");
+        }
+
+        /// Formulas are parsed, their values are checked on the mesh.
+        void
+        check_modes() const
+        {
+          try
+            {
+              if (scene.dimension == 2)
+                shape::FormulaFields<2> fields(shape);
+              else
+                shape::FormulaFields<3> fields(shape);
+            }
+          catch (const InputError &error)
+            {
+              throw InputError(origins.of(shape.path("Modes")) + error.what());
+            }
+        }
+
+        void
+        check_numbers() const
         {
           double square = 0.;
           for (const double component : shape.direction)
             square += component * component;
-          require(shape.direction.size() == scene.dimension && square > 0. &&
-                    std::isfinite(square),
+          require(shape.direction.empty() ||
+                    (shape.direction.size() == scene.dimension && square > 0. &&
+                     std::isfinite(square)),
                   "Direction",
                   to_text(shape.direction),
-                  "must be " + to_text(scene.dimension) +
+                  "must be empty or " + to_text(scene.dimension) +
                     " numbers separated by commas, not all zero");
+          const double radius = shape.filter_radius;
+          require(std::isfinite(radius) &&
+                    (radius > 0. || shape.basis != "node-wise"),
+                  "Filter radius",
+                  to_text(radius),
+                  "must be positive");
+          require(std::isfinite(shape.reach) && shape.reach >= 0.,
+                  "Reach",
+                  to_text(shape.reach),
+                  "must be positive, or 0 for the whole body");
+        }
+
+        void
+        check_links() const
+        {
+          const std::string axes =
+            std::string("xyz").substr(0, scene.dimension);
+          for (const auto &plane : shape.symmetry)
+            require(plane.first.size() == 1 &&
+                      axes.find(plane.first) != std::string::npos &&
+                      std::isfinite(plane.second),
+                    "Symmetry",
+                    to_text(shape.symmetry),
+                    "must be a list 'axis: number' with axes of '" + axes +
+                      "'");
+          for (const auto &item : shape.fixed)
+            require(item == "border" ||
+                      (!item.empty() && item.find_first_not_of("0123456789") ==
+                                          std::string::npos),
+                    "Fixed",
+                    listed(shape.fixed),
+                    "'" + quotable(item) +
+                      "' must be 'border' or the number of a control point");
         }
 
         void

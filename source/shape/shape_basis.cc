@@ -1,5 +1,9 @@
-#include <snug/shape/bezier_patch.h>
-#include <snug/shape/shape_basis.h>
+#include <snug/base/errors.h>
+#include <snug/shape/face_basis.h>
+#include <snug/shape/formula_modes.h>
+#include <snug/shape/node_wise.h>
+#include <snug/shape/spline_box.h>
+#include <snug/shape/spline_patch.h>
 
 namespace snug
 {
@@ -9,7 +13,7 @@ namespace snug
     {
       /// The basis of scenes whose shape is fixed.
       template <int dim>
-      class NoBasis : public ShapeBasis<dim>
+      class NoBasis : public Shape<dim>
       {
       public:
         using Field = typename ShapeBasis<dim>::Field;
@@ -51,6 +55,35 @@ namespace snug
       private:
         const mesh::BodyMesh<dim> &mesh;
       };
+
+      /// The basis of modes of the entry Face, made from @p arguments.
+      template <int dim, template <int> class Modes, typename... Arguments>
+      std::unique_ptr<Shape<dim>>
+      on_face(const mesh::BodyMesh<dim> &mesh,
+              const BodyNames           &bodies,
+              const ShapeParameters     &parameters,
+              const Arguments &...arguments)
+      {
+        auto face = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
+        auto modes =
+          std::make_unique<Modes<dim>>(*face, parameters, arguments...);
+        auto interior = choose(interior_table<dim>(), parameters.interior)
+                          .make(*face, parameters);
+        return std::make_unique<FaceBasis<dim>>(std::move(face),
+                                                std::move(modes),
+                                                std::move(interior));
+      }
+
+      template <int dim>
+      std::unique_ptr<Shape<dim>>
+      formula_modes(const mesh::BodyMesh<dim> &mesh,
+                    const BodyNames           &bodies,
+                    const ShapeParameters     &parameters)
+      {
+        if (parameters.face.empty())
+          return std::make_unique<FormulaBodies<dim>>(mesh, bodies, parameters);
+        return on_face<dim, FormulaFace>(mesh, bodies, parameters);
+      }
     } // namespace
 
     template <int dim>
@@ -63,28 +96,61 @@ namespace snug
     }
 
     template <int dim>
-    const ChoiceTable<MakeShapeBasis<dim>> &
+    const ChoiceTable<MakeShape<dim>> &
     shape_basis_table()
     {
-      static const ChoiceTable<MakeShapeBasis<dim>> table = {
+      static const ChoiceTable<MakeShape<dim>> table = {
         {"none",
          "the shape is fixed",
          [](const auto &mesh, const auto &, const auto &) {
            return std::make_unique<NoBasis<dim>>(mesh);
          }},
         {"Bezier patch",
-         "heights [length] of Bézier control points over a face of a body",
+         "heights [length] of Bézier control points over a face",
          [](const auto &mesh, const auto &bodies, const auto &parameters) {
-           return std::make_unique<BezierPatch<dim>>(mesh, bodies, parameters);
-         }}};
+           return on_face<dim, SplinePatch>(mesh, bodies, parameters, 0u);
+         }},
+        {"B-spline patch",
+         "heights [length] of B-spline control points over a face",
+         [](const auto &mesh, const auto &bodies, const auto &parameters) {
+           return on_face<dim, SplinePatch>(mesh,
+                                            bodies,
+                                            parameters,
+                                            parameters.degree);
+         }},
+        {"node-wise",
+         "smoothed moves [length] of all nodes of a face",
+         [](const auto &mesh, const auto &bodies, const auto &parameters) {
+           return on_face<dim, NodeWise>(mesh, bodies, parameters);
+         }},
+        {"Bezier box",
+         "moves [length] of Bézier control points of a free-form deformation "
+         "box",
+         [](const auto &mesh, const auto &bodies, const auto &parameters) {
+           return std::make_unique<SplineBox<dim>>(mesh,
+                                                   bodies,
+                                                   parameters,
+                                                   0u);
+         }},
+        {"B-spline box",
+         "the same with B-splines",
+         [](const auto &mesh, const auto &bodies, const auto &parameters) {
+           return std::make_unique<SplineBox<dim>>(mesh,
+                                                   bodies,
+                                                   parameters,
+                                                   parameters.degree);
+         }},
+        {"formula modes",
+         "amplitudes of vector fields on a face or on bodies",
+         formula_modes<dim>}};
       return table;
     }
 
     template class ShapeBasis<2>;
     template class ShapeBasis<3>;
-    template const ChoiceTable<MakeShapeBasis<2>> &
+    template const ChoiceTable<MakeShape<2>> &
     shape_basis_table<2>();
-    template const ChoiceTable<MakeShapeBasis<3>> &
+    template const ChoiceTable<MakeShape<3>> &
     shape_basis_table<3>();
   } // namespace shape
 } // namespace snug

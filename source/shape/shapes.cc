@@ -11,13 +11,24 @@ namespace snug
   {
     namespace
     {
-      /// The numbers of one part of a list for all parts.
-      std::vector<double>
-      part_of(const std::vector<double> &all,
-              const unsigned int         first,
-              const unsigned int         n)
+      template <int dim>
+      Links
+      make_links(const Shape<dim> &basis, const ShapeParameters &parameters)
       {
-        return {all.begin() + first, all.begin() + first + n};
+        const auto controls = basis.controls();
+        if (!controls.empty())
+          return Links(controls, parameters);
+        if (!parameters.fixed.empty())
+          throw bad_entry(parameters.path("Fixed"),
+                          listed(parameters.fixed),
+                          "must be empty: " + parameters.basis +
+                            " have no control points");
+        if (!parameters.symmetry.empty())
+          throw bad_entry(parameters.path("Symmetry"),
+                          parameters.symmetry.begin()->first,
+                          "must be empty: " + parameters.basis +
+                            " have no control points");
+        return Links(basis.n_variables());
       }
     } // namespace
 
@@ -32,8 +43,10 @@ namespace snug
           auto basis =
             choose(shape_basis_table<dim>(), one.basis).make(mesh, bodies, one);
           const unsigned int first = lower.size();
-          add_variables(one, basis->n_variables());
-          parts.push_back({one.name, first, std::move(basis)});
+          Links              links = make_links(*basis, one);
+          add_variables(one, links.n_variables());
+          parts.push_back(
+            {one.name, first, std::move(basis), std::move(links)});
         }
     }
 
@@ -78,6 +91,14 @@ namespace snug
     }
 
     template <int dim>
+    std::vector<double>
+    Shapes<dim>::expanded(const Part &part, const std::vector<double> &alpha)
+    {
+      const auto first = alpha.begin() + part.first;
+      return part.links.expand({first, first + part.links.n_variables()});
+    }
+
+    template <int dim>
     typename Shapes<dim>::Field
     Shapes<dim>::apply(const std::vector<double> &alpha) const
     {
@@ -85,8 +106,7 @@ namespace snug
       Field result(mesh.n_local_nodes());
       for (const Part &part : parts)
         {
-          const Field moves = part.basis->apply(
-            part_of(alpha, part.first, part.basis->n_variables()));
+          const Field moves = part.basis->apply(expanded(part, alpha));
           for (unsigned int node = 0; node < result.size(); ++node)
             result[node] += moves[node];
         }
@@ -100,20 +120,10 @@ namespace snug
       std::vector<double> result;
       for (const Part &part : parts)
         {
-          const auto values = part.basis->transpose(gradient);
+          const auto values =
+            part.links.collect(part.basis->transpose(gradient));
           result.insert(result.end(), values.begin(), values.end());
         }
-      return result;
-    }
-
-    template <int dim>
-    std::vector<Control<dim>>
-    Shapes<dim>::controls() const
-    {
-      std::vector<Control<dim>> result;
-      for (const Part &part : parts)
-        for (const auto &control : part.basis->controls())
-          result.push_back(control);
       return result;
     }
 
@@ -160,6 +170,7 @@ namespace snug
       for (const Part &part : parts)
         {
           const auto         controls = part.basis->controls();
+          const auto         values   = expanded(part, alpha);
           const unsigned int first    = points.size();
           for (unsigned int i = 0; i < controls.size(); ++i)
             {
@@ -169,7 +180,7 @@ namespace snug
                 points.push_back(
                   {part.name, control.point, control.position, {}});
               auto      &point = points[first + control.point];
-              const auto move  = alpha[part.first + i] * control.direction;
+              const auto move  = values[i] * control.direction;
               point.position += move;
               point.move += move;
             }

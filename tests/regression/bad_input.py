@@ -36,6 +36,9 @@ def input_cases(body, slave, master):
              "Shape/Basis": "Bezier patch", "Shape/Face": master,
              "Shape/Control points": "2, 2", "Shape/Direction": "0, 0, 1",
              "Shape/Bounds": "-0.1, 0.1"}
+    box = {**shape, "Shape/Basis": "Bezier box",
+           "Shape/Box corner": "0, 0, 0", "Shape/Box size": "1, 1, 1",
+           "Shape/Control points": "2, 2, 2"}
     own = f"Body {body}/"
     return [
         wrong("unknown entry", own + "Yuong's modulus", "1"),
@@ -82,6 +85,16 @@ def input_cases(body, slave, master):
         wrong("unknown response in a constraint", "Optimization/Constraints",
               "weight: initial", ["volume"], shape),
         wrong("unknown face to shape", "Shape/Face", f"{body}.x", others=shape),
+        wrong("box without a size", "Shape/Box size", "1, 0, 1", others=box),
+        wrong("box beside the bodies", "Shape/Box size", "1, 1, 2",
+              ["no node"], {**box, "Shape/Box corner": "90, 0, 0"}),
+        wrong("all control points fixed", "Shape/Fixed", "border",
+              ["nothing is left"], shape),
+        wrong("filter without a radius", "Shape/Filter radius", "0",
+              others={**shape, "Shape/Basis": "node-wise",
+                      "Shape/Control points": ""}),
+        wrong("mirror plane off the middle", "Shape/Symmetry", "x: 0.123",
+              ["no image"], shape),
     ]
 
 

@@ -1,7 +1,7 @@
 #ifndef snug_base_petsc_handle_h
 #define snug_base_petsc_handle_h
 
-#include <petscmat.h>
+#include <petscksp.h>
 #include <petscsf.h>
 
 #include <string>
@@ -68,6 +68,7 @@ namespace snug
     };
 
     using Matrix     = Handle<Mat, MatDestroy>;
+    using Solver     = Handle<KSP, KSPDestroy>;
     using Vector     = Handle<Vec, VecDestroy>;
     using StarForest = Handle<PetscSF, PetscSFDestroy>;
     using IndexSet   = Handle<IS, ISDestroy>;

@@ -1,6 +1,11 @@
 #ifndef snug_shape_entries_h
 #define snug_shape_entries_h
 
+#include <snug/shape/shape_parameters.h>
+#include <snug/shape/spline.h>
+
+#include <deal.II/base/tensor.h>
+
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,6 +24,19 @@ namespace snug
         text << (i == 0 ? "" : ", ") << values[i];
       return text.str();
     }
+
+    /// The entry Direction as a unit vector. @throws InputError
+    template <int dim>
+    dealii::Tensor<1, dim>
+    unit_direction(const ShapeParameters &parameters);
+
+    /// The net of the entry Control points along @p n_axes axes. @p degree 0:
+    /// Bernstein polynomials. @throws InputError naming Control points or
+    /// Degree.
+    SplineNet
+    spline_net(const ShapeParameters &parameters,
+               unsigned int           n_axes,
+               unsigned int           degree);
   } // namespace shape
 } // namespace snug
 

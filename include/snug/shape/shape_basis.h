@@ -51,7 +51,13 @@ namespace snug
       /// Column i on the local nodes. Collective.
       Field
       column(unsigned int i) const;
+    };
 
+    /// A basis made from the entries of one subsection.
+    template <int dim>
+    class Shape : public ShapeBasis<dim>
+    {
+    public:
       /// One per variable, or none if variables have no place.
       virtual std::vector<Control<dim>>
       controls() const = 0;
@@ -61,16 +67,16 @@ namespace snug
       faces() const = 0;
     };
 
-    /// A basis from its entries. @throws InputError naming the entry.
-    /// Collective. The mesh must outlive the basis.
+    /// A shape from its entries. @throws InputError naming the entry.
+    /// Collective. The mesh must outlive the shape.
     template <int dim>
-    using MakeShapeBasis =
-      std::unique_ptr<ShapeBasis<dim>>(const mesh::BodyMesh<dim> &,
-                                       const BodyNames &,
-                                       const ShapeParameters &);
+    using MakeShape = std::unique_ptr<Shape<dim>>(const mesh::BodyMesh<dim> &,
+                                                  const BodyNames &,
+                                                  const ShapeParameters &);
 
+    /// Rows of the entry Basis.
     template <int dim>
-    const ChoiceTable<MakeShapeBasis<dim>> &
+    const ChoiceTable<MakeShape<dim>> &
     shape_basis_table();
   } // namespace shape
 } // namespace snug

@@ -1,7 +1,7 @@
 #ifndef snug_shape_shapes_h
 #define snug_shape_shapes_h
 
-#include <snug/shape/shape_basis.h>
+#include <snug/shape/links.h>
 
 #include <string>
 
@@ -20,8 +20,8 @@ namespace snug
     };
 
     /**
-     * All shapes of a scene as one basis: their variables one after the other,
-     * their displacements added up.
+     * All shapes of a scene as one basis: of each shape the variables that its
+     * links leave, one after the other; displacements added up.
      */
     template <int dim>
     class Shapes : public ShapeBasis<dim>
@@ -41,10 +41,10 @@ namespace snug
       apply(const std::vector<double> &alpha) const override;
       std::vector<double>
       transpose(const Field &gradient) const override;
-      std::vector<Control<dim>>
-      controls() const override;
+
+      /// (body, boundary) of the faces that are shaped, ascending.
       std::vector<std::pair<unsigned int, unsigned int>>
-      faces() const override;
+      faces() const;
 
       /// @name Bounds and start of the variables
       /// @{
@@ -63,11 +63,15 @@ namespace snug
     private:
       struct Part
       {
-        std::string                      name;
-        unsigned int                     first; ///< its first variable
-        std::unique_ptr<ShapeBasis<dim>> basis;
+        std::string                 name;
+        unsigned int                first; ///< its first variable
+        std::unique_ptr<Shape<dim>> basis;
+        Links                       links;
       };
 
+      /// The basis' own variables at a design.
+      static std::vector<double>
+      expanded(const Part &part, const std::vector<double> &alpha);
       void
       add_variables(const ShapeParameters &parameters, unsigned int n);
 

@@ -153,7 +153,7 @@ TEST(Errors, NumbersThatDoNotFitTheDimension)
   expect_error({"Body punch/Body force", "1, 2", "must have 3 numbers"});
   expect_error({"Body punch/Traction", "top: 1 2", "must have 3 components"});
   expect_error({"Shape/Control points", "3, 3, 3", "must have 2 numbers"});
-  expect_error({"Shape/Direction", "0, 1", "must be 3 numbers"});
+  expect_error({"Shape/Direction", "0, 1", "3 numbers"});
   expect_error({"Shape/Bounds", "1", "two numbers"});
 }
 
@@ -258,6 +258,49 @@ TEST(Errors, Designs)
   expect_error({"Shapes", "a, a", "must not occur twice"});
   expect_error({"Shapes", "a/b", "letters"});
   EXPECT_TRUE(has(error_of({"Shapes=a"}), "unknown subsection 'Shape'"));
+}
+
+TEST(Errors, Shapes)
+{
+  const std::vector<std::string> box = {"Shape/Basis=Bezier box",
+                                        "Shape/Box corner=0, 0, 0",
+                                        "Shape/Box size=1, 1, 1",
+                                        "Shape/Control points=3, 3, 3"};
+  EXPECT_EQ(error_of(box), "");
+  expect_error({"Shape/Box size", "1, 0, 1", "positive"}, box);
+  expect_error({"Shape/Box size", "1, 1", "3 numbers"}, box);
+  expect_error({"Shape/Box corner", "", "3 numbers"}, box);
+  expect_error({"Shape/Bodies", "punch, anvil", "no body 'anvil'"}, box);
+  expect_error({"Shape/Control points", "3, 3", "3 numbers"}, box);
+
+  const std::vector<std::string> splines = {"Shape/Basis=B-spline patch",
+                                            "Shape/Control points=4, 5"};
+  EXPECT_EQ(error_of(splines), "");
+  expect_error({"Shape/Control points", "3, 5", "'Degree' each"}, splines);
+  expect_error({"Shape/Degree", "0", "between 1 and 10"}, splines);
+  expect_error({"Shape/Reach", "-1", "positive"}, splines);
+  expect_error({"Shape/Interior", "glue", "elasticity"}, splines);
+  expect_error({"Shape/Fixed", "edges", "'border'"}, splines);
+  expect_error({"Shape/Symmetry", "w: 1", "axes of 'xyz'"}, splines);
+
+  const std::vector<std::string> nodes = {"Shape/Basis=node-wise",
+                                          "Shape/Control points=",
+                                          "Shape/Filter radius=0.1"};
+  EXPECT_EQ(error_of(nodes), "");
+  expect_error({"Shape/Filter radius", "0", "positive"}, nodes);
+  expect_error({"Shape/Filter radius", "-0.1", "positive"}, nodes);
+  expect_error({"Shape/Control points", "3, 3", "must be empty"}, nodes);
+
+  const std::vector<std::string> modes = {"Shape/Basis=formula modes",
+                                          "Shape/Control points=",
+                                          "Shape/Modes=0,0,max(x,y); 1,0,z"};
+  EXPECT_EQ(error_of(modes), "");
+  EXPECT_EQ(read_with(modes).shapes[0].modes[0][2], "max(x,y)");
+  expect_error({"Shape/Modes", "0, x", "3 formulas"}, modes);
+  EXPECT_TRUE(has(error_of({"Shape/Basis=formula modes",
+                            "Shape/Control points=",
+                            "Shape/Modes=0, 0, x+("}),
+                  "--set: entry 'Shape/Modes' = 'x+(': must be a formula"));
 }
 
 TEST(Errors, MethodsAndResponses)

@@ -1,0 +1,56 @@
+#ifndef snug_shape_interior_matrix_h
+#define snug_shape_interior_matrix_h
+
+#include <snug/elasticity/element.h>
+#include <snug/mesh/body_mesh.h>
+
+namespace snug
+{
+  namespace shape
+  {
+    /// What a body's interior is made of when it follows its shaped face.
+    enum class InteriorKind
+    {
+      Laplace,   ///< the Laplacian of each component
+      elasticity ///< Young's modulus is the inverse of the cell's volume
+    };
+
+    /**
+     * The blocks of cells of the operator that carries the movement of a face
+     * into its body, on the masters of hanging nodes.
+     */
+    template <int dim>
+    class InteriorMatrix
+    {
+    public:
+      using Block = dealii::Tensor<2, dim>;
+
+      /// Matrix of the free @p nodes a cell acts on, blocks row by row.
+      struct CellMatrix
+      {
+        std::vector<unsigned int> nodes; ///< local
+        std::vector<Block>        blocks;
+      };
+
+      InteriorMatrix(const mesh::BodyMesh<dim> &mesh, InteriorKind kind);
+
+      CellMatrix
+      of_cell(const typename mesh::BodyMesh<dim>::Cell &cell) const;
+
+    private:
+      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+      std::vector<Block>
+      laplacian(const Nodes &X) const;
+      std::vector<Block>
+      stiffness(const Nodes &X) const;
+
+      const mesh::BodyMesh<dim>                  &mesh;
+      InteriorKind                                kind;
+      elasticity::Element<dim>                    element;
+      std::vector<elasticity::LagrangePoint<dim>> gauss;
+    };
+  } // namespace shape
+} // namespace snug
+
+#endif
