@@ -15,13 +15,11 @@ namespace
   {
     return text.find(part) != std::string::npos;
   }
-
   /// One wrong entry: its path, its value, and what the message must say.
   struct Wrong
   {
     std::string path, value, says;
   };
-
   /// The error names where, entry and value in one line, and says what counts.
   void
   expect_error(const Wrong &wrong, const std::vector<std::string> &before = {})
@@ -272,7 +270,6 @@ TEST(Errors, Shapes)
   expect_error({"Shape/Box corner", "", "3 numbers"}, box);
   expect_error({"Shape/Bodies", "punch, anvil", "no body 'anvil'"}, box);
   expect_error({"Shape/Control points", "3, 3", "3 numbers"}, box);
-
   const std::vector<std::string> splines = {"Shape/Basis=B-spline patch",
                                             "Shape/Control points=4, 5"};
   EXPECT_EQ(error_of(splines), "");
@@ -282,7 +279,6 @@ TEST(Errors, Shapes)
   expect_error({"Shape/Interior", "glue", "elasticity"}, splines);
   expect_error({"Shape/Fixed", "edges", "'border'"}, splines);
   expect_error({"Shape/Symmetry", "w: 1", "axes of 'xyz'"}, splines);
-
   const std::vector<std::string> nodes = {"Shape/Basis=node-wise",
                                           "Shape/Control points=",
                                           "Shape/Filter radius=0.1"};
