@@ -35,6 +35,15 @@ namespace snug
         q[0][0] = q[dim - 1][dim - 1] = -1.;
         return q;
       }
+
+      /// By the leading minors (Sylvester); 2 or 3 dimensions.
+      template <int dim>
+      bool
+      is_positive_definite(const dealii::SymmetricTensor<2, dim> &a)
+      {
+        return a[0][0] > 0. && a[0][0] * a[1][1] > a[0][1] * a[0][1] &&
+               determinant(a) > 0.;
+      }
     } // namespace
 
     /// The point y = x - m grad phi(y) with what phi is there.
@@ -74,12 +83,11 @@ namespace snug
       if (!(length > 0.) || !std::isfinite(length))
         return false;
       const dealii::Tensor<1, dim> n = gradient / length;
-      const dealii::Tensor<2, dim> identity =
-        dealii::unit_symmetric_tensor<dim>();
+      const auto identity = dealii::unit_symmetric_tensor<dim>();
       const dealii::Tensor<2, dim> across = identity - outer_product(n, n);
       const dealii::Tensor<2, dim> A      = identity + m * hessian;
       const auto bend = symmetrize(across * A * across + outer_product(n, n));
-      if (!(eigenvalues(bend)[dim - 1] > 1e-6))
+      if (!is_positive_definite(bend - 1e-6 * identity))
         return false;
       // scaled so that all entries are of order one
       for (unsigned int i = 0; i < dim; ++i)

@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/state/assumptions.h>
 
 #include <gtest/gtest.h>
 
@@ -12,15 +13,6 @@ using namespace snug::test;
 
 namespace
 {
-  const std::vector<std::string> exact = {"Solver/Relative tolerance=1e-10"};
-
-  std::vector<std::string>
-  with(std::vector<std::string> sets)
-  {
-    sets.insert(sets.end(), exact.begin(), exact.end());
-    return sets;
-  }
-
   /// Two blocks; the upper one is free along z and, without rollers, in all
   /// but that contact holds it.
   std::string
@@ -78,50 +70,6 @@ end
            "\nset Obstacles = floor\n" + sections +
            "subsection Contact\nset Slave = first\nset Pairs = " + pairs +
            "\nend\n";
-  }
-
-  /// A block pressed into the corner of three planes and, from above, by a
-  /// ball that comes down; nothing else holds it.
-  const std::string corner_scene = R"(
-set Dimension = 3
-set Bodies = block
-set Obstacles = floor, wall, side, ball
-subsection Body block
-  set Box cells = 3, 3, 3
-  set Young's modulus = 1000
-  set Pressure = right: 2, back: 3
-end
-subsection Obstacle wall
-  set Normal = 1, 0, 0
-end
-subsection Obstacle side
-  set Normal = 0, 1, 0
-end
-subsection Obstacle ball
-  set Shape = sphere
-  set Point = 0.55, 0.6, 2.5
-  set Radius = 1.5
-  set Displacement = 0, 0, -0.01
-end
-subsection Contact
-  set Pairs = block.bottom: floor, block.left: wall, block.front: side, block.top: ball
-end
-)";
-
-  Motion<3>
-  some_rotation()
-  {
-    Motion<3>            motion;
-    dealii::Tensor<2, 3> a = motion.Q, b = motion.Q;
-    a[0][0] = a[1][1] = std::cos(0.7);
-    a[1][0]           = std::sin(0.7);
-    a[0][1]           = -a[1][0];
-    b[1][1] = b[2][2] = std::cos(-1.1);
-    b[2][1]           = std::sin(-1.1);
-    b[1][2]           = -b[2][1];
-    motion.Q          = a * b;
-    motion.shift      = dealii::Point<3>(3., -2., 5.);
-    return motion;
   }
 
   std::string
@@ -257,110 +205,6 @@ end
   EXPECT_NEAR(solved.force(5)[0], -0.5, 1e-9);
 }
 
-TEST(Obstacles, EqualStiffBodies)
-{
-  // The block's nodes are slaves of both; those of the meshed ball lie
-  // opposite, so that its faces are exact but for terms of fourth order.
-  const std::string    punch = R"(
-set Dimension = 3
-set Bodies = block
-set Obstacles = ball
-subsection Body block
-  set Box size = 0.5, 0.5, 0.5
-  set Box cells = 8, 8, 6
-  set Box grading = 4, 4, 0.25
-  set Young's modulus = 1000
-  set Supports = bottom: z, left: x, front: y
-end
-subsection Obstacle ball
-  set Shape = sphere
-  set Point = 0, 0, 8.5
-  set Radius = 8
-  set Displacement = 0, 0, -0.004
-end
-subsection Contact
-  set Pairs = block.top: ball
-end
-)";
-  const std::string    stiff = R"(
-set Dimension = 3
-set Bodies = ball, block
-subsection Body ball
-  set Box corner = 0, 0, 0.5
-  set Box size = 0.5, 0.5, 0.5
-  set Box cells = 8, 8, 2
-  set Box grading = 4, 4, 1
-  set Curved faces = bottom: -(x^2 + y^2) / (8 + sqrt(64 - x^2 - y^2))
-  set Young's modulus = 1e9
-  set Supports = top: xyz
-end
-subsection Body block
-  set Box size = 0.5, 0.5, 0.5
-  set Box cells = 8, 8, 6
-  set Box grading = 4, 4, 0.25
-  set Young's modulus = 1000
-  set Supports = bottom: z, left: x, front: y
-end
-subsection Contact
-  set Slave = first
-  set Pairs = block.top: ball.bottom
-  set Gap = -0.004
-end
-)";
-  const SolvedScene<3> obstacle(punch, {"Solver/Relative tolerance=1e-8"});
-  const SolvedScene<3> body(stiff, {"Solver/Relative tolerance=1e-8"});
-  EXPECT_GT(body.state.active_contacts, 8u);
-  EXPECT_EQ(obstacle.state.active_contacts, body.state.active_contacts);
-  EXPECT_NEAR(obstacle.state.contact_force.norm(),
-              body.state.contact_force.norm(),
-              1e-3 * body.state.contact_force.norm());
-  EXPECT_NEAR(obstacle.state.max_pressure,
-              body.state.max_pressure,
-              1e-3 * body.state.max_pressure);
-}
-
-TEST(Obstacles, DoNotDependOnPlaceAndUnits)
-{
-  const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
-  const SolvedScene<3>           there(corner_scene, sharp);
-  const SolvedScene<3>           here(corner_scene, sharp, some_rotation());
-  Motion<3>                      larger;
-  larger.factor = 1000.;
-  const SolvedScene<3> in_millimetres(corner_scene, sharp, larger);
-  ASSERT_EQ(there.state.contact.size(), here.state.contact.size());
-  ASSERT_EQ(there.state.contact.size(), in_millimetres.state.contact.size());
-  const double p = there.state.max_pressure;
-  for (unsigned int i = 0; i < there.state.contact.size(); ++i)
-    {
-      const auto &point = there.state.contact[i];
-      EXPECT_NEAR(point.pressure, here.state.contact[i].pressure, 1e-9 * p);
-      EXPECT_NEAR(point.pressure,
-                  in_millimetres.state.contact[i].pressure,
-                  1e-9 * p);
-    }
-  EXPECT_NEAR(there.state.energy,
-              here.state.energy,
-              1e-9 * std::abs(there.state.energy));
-  for (unsigned int pair = 0; pair < 4; ++pair)
-    EXPECT_NEAR(
-      (some_rotation().turned(there.force(pair)) - here.force(pair)).norm(),
-      0.,
-      1e-9 * there.force(pair).norm());
-}
-
-TEST(Obstacles, PowersOfTwoTakeTheSameIterations)
-{
-  Motion<3> larger;
-  larger.factor = 1024.;
-  const SolvedScene<3> small(corner_scene, exact);
-  const SolvedScene<3> large(corner_scene, exact, larger);
-  EXPECT_EQ(small.state.f_mults, large.state.f_mults);
-  EXPECT_EQ(small.state.dual.outer_iterations,
-            large.state.dual.outer_iterations);
-  for (unsigned int i = 0; i < small.state.contact.size(); ++i)
-    EXPECT_EQ(small.state.contact[i].pressure, large.state.contact[i].pressure);
-}
-
 TEST(Stack, DoesNotDependOnTheOrderOfBodies)
 {
   auto       text = stack(3);
@@ -371,8 +215,63 @@ TEST(Stack, DoesNotDependOnTheOrderOfBodies)
     EXPECT_NEAR((a.force(p) - b.force(p)).norm(), 0., 1e-9);
 }
 
-TEST(Warnings, OfStepsBeyondSmallSlidingAndOfOverlap)
+TEST(Warnings, OfStrainAndSlipOfABlockPressedOnAPlane)
 {
-  SolvedScene<3> solved(two_blocks(true), {"Contact/Gap=-0.1"});
-  EXPECT_NEAR(solved.solver.contact().overlaps()[0], 0.4, 1e-12);
+  // plane strain: e_xx = nu (1 + nu) p / E, e_yy = -(1 - nu^2) p / E; the node
+  // at the right end slides by e_xx, faces are 1/4
+  const SolvedScene<2> solved(R"(
+set Dimension = 2
+set Bodies = block
+set Obstacles = floor
+subsection Body block
+  set Box cells = 4, 4
+  set Young's modulus = 10
+  set Poisson's ratio = 0.3
+  set Supports = left: x
+  set Pressure = top: 4
+end
+subsection Contact
+  set Pairs = block.bottom: floor
+end
+)",
+                              exact);
+  const auto          &assumptions = solved.state.assumptions;
+  const double         e_xx = 0.3 * 1.3 * 0.4, e_yy = -0.91 * 0.4;
+  EXPECT_NEAR(assumptions.strain, std::hypot(e_xx, e_yy), 1e-8);
+  EXPECT_NEAR(assumptions.rotation, 0., 1e-8);
+  EXPECT_NEAR(assumptions.slip, 4. * e_xx, 1e-8);
+  EXPECT_EQ(assumptions.drift, 0.);
+  const auto lines = state::warnings(assumptions);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].find("strains are up to 0.4"), 0u) << lines[0];
+  EXPECT_EQ(lines[1].find("active contacts slide by up to 0.62 of a face"), 0u)
+    << lines[1];
+}
+
+TEST(Warnings, OfDesignsThatLeaveTheirPairing)
+{
+  SolvedScene<3> solved(two_blocks(true));
+  const auto    &contact = solved.solver.contact();
+  const auto    &surface = solved.solver.surface();
+  auto           x       = surface.gather(solved.positions);
+  for (const auto &place : contact.places())
+    {
+      x[place.slave][0] += 0.1;
+      x[place.slave][2] += 0.3; // opens, but stays opposite
+    }
+  double largest = 0.;
+  for (const double drift : contact.drifts(x, contact.rows(x)))
+    largest = std::max(largest, drift);
+  EXPECT_NEAR(largest, 0.4, 1e-12);
+}
+
+TEST(Warnings, OfOverlapUnlessItIsWanted)
+{
+  const SolvedScene<3> solved(two_blocks(true), {"Contact/Gap=-0.1"});
+  const auto          &overlaps = solved.solver.contact().overlaps();
+  auto                 pairs    = solved.solver.contact().pairs();
+  EXPECT_NEAR(overlaps[0], 0.4, 1e-12);
+  EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 1u);
+  pairs[0].parameters.interference = true;
+  EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 0u);
 }

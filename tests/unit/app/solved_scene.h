@@ -12,6 +12,16 @@ namespace snug
 {
   namespace test
   {
+    /// Settings of states that tests compare.
+    const std::vector<std::string> exact = {"Solver/Relative tolerance=1e-10"};
+
+    inline std::vector<std::string>
+    with(std::vector<std::string> sets)
+    {
+      sets.insert(sets.end(), exact.begin(), exact.end());
+      return sets;
+    }
+
     /// A rigid motion or scaling of a whole scene: x -> factor Q x + shift.
     template <int dim>
     struct Motion
@@ -47,7 +57,7 @@ namespace snug
         , mesh(MPI_COMM_WORLD,
                app::mesh_parameters(scene),
                scene.degree,
-               mesh::Idealization::natural(dim),
+               scene::idealization(scene),
                scene.tearing)
         , tearing(mesh::tear(mesh))
         , model(moved_model(motion))

@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solved_scene.h"
+
+using namespace snug;
+using namespace snug::test;
+
+namespace
+{
+  /// A block pressed into the corner of three planes and, from above, by a
+  /// ball that comes down; nothing else holds it.
+  const std::string corner_scene = R"(
+set Dimension = 3
+set Bodies = block
+set Obstacles = floor, wall, side, ball
+subsection Body block
+  set Box cells = 3, 3, 3
+  set Young's modulus = 1000
+  set Pressure = right: 2, back: 3
+end
+subsection Obstacle wall
+  set Normal = 1, 0, 0
+end
+subsection Obstacle side
+  set Normal = 0, 1, 0
+end
+subsection Obstacle ball
+  set Shape = sphere
+  set Point = 0.55, 0.6, 2.5
+  set Radius = 1.5
+  set Displacement = 0, 0, -0.01
+end
+subsection Contact
+  set Pairs = block.bottom: floor, block.left: wall, block.front: side, block.top: ball
+end
+)";
+
+  Motion<3>
+  some_rotation()
+  {
+    Motion<3>            motion;
+    dealii::Tensor<2, 3> a = motion.Q, b = motion.Q;
+    a[0][0] = a[1][1] = std::cos(0.7);
+    a[1][0]           = std::sin(0.7);
+    a[0][1]           = -a[1][0];
+    b[1][1] = b[2][2] = std::cos(-1.1);
+    b[2][1]           = std::sin(-1.1);
+    b[1][2]           = -b[2][1];
+    motion.Q          = a * b;
+    motion.shift      = dealii::Point<3>(3., -2., 5.);
+    return motion;
+  }
+
+} // namespace
+
+TEST(Obstacles, EqualStiffBodies)
+{
+  // The block's nodes are slaves of both; those of the meshed ball lie
+  // opposite, so that its faces are exact but for terms of fourth order.
+  const std::string    punch = R"(
+set Dimension = 3
+set Bodies = block
+set Obstacles = ball
+subsection Body block
+  set Box size = 0.5, 0.5, 0.5
+  set Box cells = 8, 8, 6
+  set Box grading = 4, 4, 0.25
+  set Young's modulus = 1000
+  set Supports = bottom: z, left: x, front: y
+end
+subsection Obstacle ball
+  set Shape = sphere
+  set Point = 0, 0, 8.5
+  set Radius = 8
+  set Displacement = 0, 0, -0.004
+end
+subsection Contact
+  set Pairs = block.top: ball
+end
+)";
+  const std::string    stiff = R"(
+set Dimension = 3
+set Bodies = ball, block
+subsection Body ball
+  set Box corner = 0, 0, 0.5
+  set Box size = 0.5, 0.5, 0.5
+  set Box cells = 8, 8, 2
+  set Box grading = 4, 4, 1
+  set Curved faces = bottom: -(x^2 + y^2) / (8 + sqrt(64 - x^2 - y^2))
+  set Young's modulus = 1e9
+  set Supports = top: xyz
+end
+subsection Body block
+  set Box size = 0.5, 0.5, 0.5
+  set Box cells = 8, 8, 6
+  set Box grading = 4, 4, 0.25
+  set Young's modulus = 1000
+  set Supports = bottom: z, left: x, front: y
+end
+subsection Contact
+  set Slave = first
+  set Pairs = block.top: ball.bottom
+  set Gap = -0.004
+end
+)";
+  const SolvedScene<3> obstacle(punch, {"Solver/Relative tolerance=1e-8"});
+  const SolvedScene<3> body(stiff, {"Solver/Relative tolerance=1e-8"});
+  EXPECT_GT(body.state.active_contacts, 8u);
+  EXPECT_EQ(obstacle.state.active_contacts, body.state.active_contacts);
+  EXPECT_NEAR(obstacle.state.contact_force.norm(),
+              body.state.contact_force.norm(),
+              1e-3 * body.state.contact_force.norm());
+  EXPECT_NEAR(obstacle.state.max_pressure,
+              body.state.max_pressure,
+              1e-3 * body.state.max_pressure);
+}
+
+TEST(Obstacles, DoNotDependOnPlaceAndUnits)
+{
+  const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
+  const SolvedScene<3>           there(corner_scene, sharp);
+  const SolvedScene<3>           here(corner_scene, sharp, some_rotation());
+  Motion<3>                      larger;
+  larger.factor = 1000.;
+  const SolvedScene<3> in_millimetres(corner_scene, sharp, larger);
+  ASSERT_EQ(there.state.contact.size(), here.state.contact.size());
+  ASSERT_EQ(there.state.contact.size(), in_millimetres.state.contact.size());
+  const double p = there.state.max_pressure;
+  for (unsigned int i = 0; i < there.state.contact.size(); ++i)
+    {
+      const auto &point = there.state.contact[i];
+      EXPECT_NEAR(point.pressure, here.state.contact[i].pressure, 1e-9 * p);
+      EXPECT_NEAR(point.pressure,
+                  in_millimetres.state.contact[i].pressure,
+                  1e-9 * p);
+    }
+  EXPECT_NEAR(there.state.energy,
+              here.state.energy,
+              1e-9 * std::abs(there.state.energy));
+  for (unsigned int pair = 0; pair < 4; ++pair)
+    EXPECT_NEAR(
+      (some_rotation().turned(there.force(pair)) - here.force(pair)).norm(),
+      0.,
+      1e-9 * there.force(pair).norm());
+}
+
+TEST(Obstacles, PowersOfTwoTakeTheSameIterations)
+{
+  Motion<3> larger;
+  larger.factor = 1024.;
+  const SolvedScene<3> small(corner_scene, exact);
+  const SolvedScene<3> large(corner_scene, exact, larger);
+  EXPECT_EQ(small.state.f_mults, large.state.f_mults);
+  EXPECT_EQ(small.state.dual.outer_iterations,
+            large.state.dual.outer_iterations);
+  for (unsigned int i = 0; i < small.state.contact.size(); ++i)
+    EXPECT_EQ(small.state.contact[i].pressure, large.state.contact[i].pressure);
+}
