@@ -83,7 +83,7 @@ namespace snug
       if (!(length > 0.) || !std::isfinite(length))
         return false;
       const dealii::Tensor<1, dim> n = gradient / length;
-      const auto identity = dealii::unit_symmetric_tensor<dim>();
+      const auto identity            = dealii::unit_symmetric_tensor<dim>();
       const dealii::Tensor<2, dim> across = identity - outer_product(n, n);
       const dealii::Tensor<2, dim> A      = identity + m * hessian;
       const auto bend = symmetrize(across * A * across + outer_product(n, n));

@@ -72,18 +72,22 @@ namespace snug
                                        {"weak", 1},
                                        {"candidate", 1},
                                        {"slave", 1},
+                                       {"pair", 1},
                                        {"body", 1},
                                        {"displacement", dim},
                                        {"design_displacement", dim}});
       for (const auto &face : sources.surface.faces())
         {
-          const bool slave =
-            std::any_of(sources.pairs.begin(),
-                        sources.pairs.end(),
-                        [&](const contact::Pair &pair) {
-                          return pair.slave ==
-                                 std::make_pair(face.body, face.boundary);
-                        });
+          const auto pair =
+            std::find_if(sources.pairs.begin(),
+                         sources.pairs.end(),
+                         [&](const contact::Pair &pair) {
+                           return pair.slave ==
+                                  std::make_pair(face.body, face.boundary);
+                         });
+          const bool   slave = pair != sources.pairs.end();
+          const double number =
+            slave ? double(pair - sources.pairs.begin()) : -1.;
           Field                            corners;
           std::vector<std::vector<double>> values;
           for (const unsigned int node : face.nodes)
@@ -98,6 +102,7 @@ namespace snug
                                 double(point.weak),
                                 double(slave && candidate[node]),
                                 double(slave),
+                                number,
                                 double(face.body)});
               for (unsigned int c = 0; c < dim; ++c)
                 values.back().push_back(displacement[node][c]);

@@ -27,6 +27,7 @@ namespace snug
      * | active, weak        | 1 or 0                        |                 |
      * | candidate           | 1 where there is a row        |                 |
      * | slave               | 1 on the slave side, else 0   |                 |
+     * | pair                | first of the slave side or -1 | index           |
      * | body                | index of `Bodies`             |                 |
      * | displacement        |                               | length          |
      * | design_displacement | design minus reference        | length          |

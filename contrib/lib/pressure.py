@@ -1,0 +1,142 @@
+"""Draw the contact pressure on every slave side."""
+
+import json
+import os
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from drawing import add_scale, paint, panels, save, titles
+from states import array_of, cells_of, points_of
+
+
+class Side:
+    """The faces of one slave side at one state."""
+
+    def __init__(self, grid, pair):
+        faces = cells_of(grid)
+        number = array_of(grid, "pair")[faces[:, 0]]
+        self.faces = faces[number == pair]
+        self.nodes = np.unique(self.faces)
+        self.points = points_of(grid)
+        self.pressure = array_of(grid, "pressure")
+        self.active = [node for node in self.nodes
+                       if array_of(grid, "active")[node] > 0.5]
+        self.flat = self.faces.shape[1] == 2
+
+    def peak(self):
+        return self.pressure[self.nodes].max()
+
+    def normal(self):
+        """Coordinate axis closest to the normal: 0, 1 or 2."""
+        edge = self.points[self.faces[:, 1]] - self.points[self.faces[:, 0]]
+        if self.flat:
+            return int(np.argmin(np.abs(edge[:, :2]).sum(axis=0)))
+        normals = np.cross(edge, self.points[self.faces[:, 2]] -
+                           self.points[self.faces[:, 0]])
+        return int(np.argmax(np.abs(normals).sum(axis=0)))
+
+    def curve(self):
+        """Where to draw the two ends of the faces of a 2D side, and what the
+        place is called: the coordinate along it, or its arc length where the
+        side turns back."""
+        along = 1 - self.normal()
+        ends = self.points[self.faces][:, :, along]
+        if np.all(ends[:, 0] < ends[:, 1]) or np.all(ends[:, 0] > ends[:, 1]):
+            return ends, f"{'xyz'[along]} (scene's length)"
+        return self.arc_lengths(), "length along the face (scene's length)"
+
+    def arc_lengths(self):
+        """Faces joined where their ends coincide, from a free end if any."""
+        ends = np.round(self.points[self.faces] / np.ptp(
+            self.points[self.nodes], axis=0).max(), 9)
+        keys = [[tuple(end) for end in face] for face in ends]
+        starts = {face[0]: i for i, face in enumerate(keys)}
+        stops = {face[1] for face in keys}
+        first = [i for i, face in enumerate(keys) if face[0] not in stops]
+        result, length, left = np.zeros((len(keys), 2)), 0., set(
+            range(len(keys)))
+        for begin in first + list(range(len(keys))):
+            face = begin
+            while face in left:
+                left.remove(face)
+                step = np.linalg.norm(np.diff(
+                    self.points[self.faces[face]], axis=0))
+                result[face] = length, length + step
+                length += step
+                face = starts.get(keys[face][1])
+        return result
+
+
+def slave_sides(states):
+    """For every pair with a slave side of its own, its side at all states."""
+    pairs = np.unique(array_of(states[0][1], "pair"))
+    return {int(pair): [Side(grid, pair) for _, grid in states]
+            for pair in pairs if pair >= 0}
+
+
+def names_of(directory, sides):
+    """Names of the slave sides; none needed for a single one."""
+    if len(sides) == 1:
+        return [""]
+    with open(os.path.join(directory, "summary.json")) as file:
+        pairs = json.load(file)["state"]["pairs"]
+    return [pairs[pair]["name"].split(":")[0] for pair in sides]
+
+
+def draw_pressure(directory, states):
+    """Into contact-pressure.png: the first and the last state."""
+    sides = slave_sides(states)
+    if not sides:
+        print(f"plot: no contact faces in '{directory}', "
+              "no contact-pressure.png")
+        return
+    names = names_of(directory, sides)
+    if next(iter(sides.values()))[0].flat:
+        draw_curves(directory, states, list(sides.values()), names)
+    else:
+        draw_faces(directory, states, list(sides.values()), names)
+
+
+def draw_faces(directory, states, sides, names):
+    peak = max(side.peak() for row in sides for side in row)
+    planes = [[k for k in range(3) if k != row[0].normal()] for row in sides]
+    extents = [np.ptp(row[0].points[row[0].nodes], axis=0) for row in sides]
+    figure, axes = panels([extent[up] / extent[across] for extent, (across, up)
+                           in zip(extents, planes)], len(states))
+    for row, name, plane, line in zip(sides, names, planes, axes):
+        for side, title, axis in zip(row, titles(states), line):
+            image = paint(axis, side.points[:, plane], side.faces.tolist(),
+                          side.pressure, peak)
+            axis.plot(*side.points[side.active][:, plane].T, ".",
+                      color="white", markersize=1.5)
+            axis.set_title(f"{name} {title}\nlargest {side.peak():.4g}"
+                           .strip())
+            axis.set_xlabel(f"{'xyz'[plane[0]]} (scene's length)")
+        line[0].set_ylabel(f"{'xyz'[plane[1]]} (scene's length)")
+    figure.suptitle("Contact pressure on the slave faces; "
+                    "dots: nodes in contact")
+    add_scale(figure, axes, image, "pressure")
+    save(figure, directory, "contact-pressure.png")
+
+
+def draw_curves(directory, states, sides, names):
+    figure, axes = plt.subplots(
+        len(sides), 1, figsize=(8., 2. + 3. * len(sides)),
+        layout="constrained", squeeze=False)
+    for row, name, axis in zip(sides, names, axes[:, 0]):
+        for side, title in zip(row, titles(states)):
+            places, label = side.curve()
+            order = np.argsort(places.ravel(), kind="stable")
+            axis.plot(places.ravel()[order],
+                      side.pressure[side.faces.ravel()[order]], ".-",
+                      markersize=3, label=title)
+        axis.set_xlabel(label)
+        axis.set_ylabel("pressure\n(scene's force / length²)")
+        axis.set_ylim(bottom=0.)
+        axis.set_title(name)
+        axis.grid(True, alpha=0.3)
+        if len(states) > 1:
+            axis.legend()
+    figure.suptitle("Contact pressure on the slave faces")
+    save(figure, directory, "contact-pressure.png")
