@@ -53,10 +53,11 @@ namespace snug
       workshop.context.progress("solving the contact problem ...");
       last = std::make_unique<state::ContactState<dim>>(
         workshop.solve(design, warm_start));
-      last_design       = design;
-      warm_start.lambda = last->dual.lambda;
-      warm_start.active = last->dual.active;
-      if (!first)
+      last_design         = design;
+      warm_start.lambda   = last->dual.lambda;
+      warm_start.active   = last->dual.active;
+      const bool is_first = !first;
+      if (is_first)
         first = std::make_unique<state::ContactState<dim>>(*last);
 
       optimization::Evaluation    evaluation;
@@ -73,13 +74,27 @@ namespace snug
       if (parameters.method == "energy") // not for every constraint
         parameters.method = "auto";
       last_gradients = workshop.gradients(responses, *last, design, parameters);
-      evaluation.gradient = last_gradients.of_response.front().values;
+      const auto &of_objective = last_gradients.of_response.front();
+      evaluation.gradient      = of_objective.values;
+      if (is_first)
+        first_shape_gradient = of_objective.shape;
+      note_weak_contacts();
       for (unsigned int i = 1; i < responses.size(); ++i)
         evaluation.jacobian.push_back(last_gradients.of_response[i].values);
       evaluation.notes = {double(last->active_contacts),
                           double(last->f_mults + last_gradients.f_mults),
                           workshop.context.seconds()};
       return evaluation;
+    }
+
+    template <int dim>
+    void
+    Optimize<dim>::note_weak_contacts()
+    {
+      for (const auto &gradient : last_gradients.of_response)
+        if (!gradient.differentiable)
+          workshop.warn({one_sided_warning(last->weak_contacts) +
+                         "; going on with those of the strongly active ones"});
     }
 
     template <int dim>
@@ -222,7 +237,7 @@ namespace snug
       if (!first)
         first = std::make_unique<state::ContactState<dim>>(
           workshop.solve(workshop.basis->start(), qp::WarmStart()));
-      workshop.draw(0., *first);
+      workshop.draw(0., *first, first_shape_gradient);
       first_drawn = true;
     }
 
@@ -276,10 +291,13 @@ namespace snug
     Optimize<dim>::finish(const optimization::OptimizationResult &result)
     {
       draw_first();
+      std::optional<typename Workshop<dim>::Field> last_shape_gradient;
       if (!last || last_design != result.x)
         last = std::make_unique<state::ContactState<dim>>(
           workshop.solve(result.x, warm_start));
-      workshop.draw(result.iterations, *last);
+      else if (!last_gradients.of_response.empty())
+        last_shape_gradient = last_gradients.of_response.front().shape;
+      workshop.draw(result.iterations, *last, last_shape_gradient);
       workshop.export_shape(result.x);
 
       io::Summary summary;
@@ -291,7 +309,12 @@ namespace snug
       workshop.warn(*last);
       io::Summary::Gradient gradient;
       if (!last_gradients.of_response.empty())
-        gradient.method = last_gradients.of_response.front().method;
+        {
+          gradient.method = last_gradients.of_response[0].method;
+          gradient.reason = last_gradients.of_response[0].reason;
+          gradient.differentiable =
+            last_gradients.of_response[0].differentiable;
+        }
       gradient.f_mults = last_gradients.f_mults;
       gradient.seconds = last_gradients.seconds;
       gradient.values  = result.evaluation.gradient;

@@ -1,8 +1,8 @@
 #include <snug/app/interrupt.h>
 #include <snug/app/optimize.h>
+#include <snug/app/sensitivity.h>
 #include <snug/app/study.h>
 
-#include <iomanip>
 #include <ostream>
 
 namespace snug
@@ -31,7 +31,8 @@ namespace snug
             << ", peak pressure " << state.max_pressure << ", "
             << state.active_contacts << " active and " << state.weak_contacts
             << " weakly active of " << state.contact.size()
-            << " contact rows\n";
+            << " contact rows, distance to degeneracy "
+            << state.degeneracy_distance << '\n';
         if (state.pairs.size() > 1)
           for (const auto &pair : state.pairs)
             out << "  on " << pair.name << ": force (" << pair.force
@@ -61,7 +62,7 @@ namespace snug
       run_state(Workshop<dim> &workshop)
       {
         const auto state = solve_start(workshop);
-        workshop.draw(0., state);
+        workshop.draw(0., state, {});
         io::Summary summary;
         summary.task  = "state";
         summary.state = io::summarize(state);
@@ -69,94 +70,17 @@ namespace snug
         return 0;
       }
 
-      /// The methods of a sensitivity table: name in the table, method and
-      /// how K', f', B', g' are taken.
-      struct Method
-      {
-        std::string name, method, derivatives;
-      };
-
-      template <int dim>
-      std::vector<Method>
-      methods_of(const response::Response<dim> &response)
-      {
-        std::vector<Method> methods;
-        if (response.stationary() || !response.needs_solution())
-          methods.push_back({"energy", "energy", "exact"});
-        if (response.needs_solution())
-          {
-            methods.push_back({"adjoint", "adjoint", "exact"});
-            methods.push_back({"direct", "direct", "exact"});
-            methods.push_back(
-              {"semi-analytic", "direct", "finite differences"});
-          }
-        // last: they leave the solver at another design
-        methods.push_back(
-          {"finite differences", "finite differences", "exact"});
-        return methods;
-      }
-
-      void
-      print_table(std::ostream                                &out,
-                  const std::vector<io::Summary::GradientRow> &rows)
-      {
-        const int name_width = 20, width = 17;
-        out << std::left << std::setw(name_width) << "method" << std::right;
-        for (const auto &row : rows)
-          out << std::setw(width + 2) << row.method;
-        const auto line = [&](const std::string &name, const auto &value) {
-          out << '\n'
-              << std::left << std::setw(name_width) << name << std::right;
-          for (const auto &row : rows)
-            out << "  " << std::setw(width) << value(row);
-        };
-        const auto precision = out.precision(9);
-        for (unsigned int j = 0; j < rows.front().values.size(); ++j)
-          line("dJ/dalpha_" + std::to_string(j),
-               [&](const auto &row) { return row.values[j]; });
-        out.precision(3);
-        line("F-mults", [](const auto &row) { return row.f_mults; });
-        line("factorizations",
-             [](const auto &row) { return row.numeric_factorizations; });
-        line("seconds", [](const auto &row) { return row.seconds; });
-        out << std::endl;
-        out.precision(precision);
-      }
-
       template <int dim>
       int
       run_sensitivity(Workshop<dim> &workshop)
       {
-        const auto state  = solve_start(workshop);
-        const auto design = workshop.basis->start();
-        workshop.draw(0., state);
+        const auto  state = solve_start(workshop);
         io::Summary summary;
         summary.task  = "sensitivity";
         summary.state = io::summarize(state);
-        io::Summary::Gradient gradient;
-        for (const Method &method : methods_of(*workshop.objective))
-          {
-            workshop.context.progress("gradient by " + method.name + " ...");
-            auto parameters        = workshop.scene.gradient;
-            parameters.method      = method.method;
-            parameters.derivatives = method.derivatives;
-            const auto result = workshop.gradients({workshop.objective.get()},
-                                                   state,
-                                                   design,
-                                                   parameters);
-            gradient.methods.push_back({method.name,
-                                        result.f_mults,
-                                        result.numeric_factorizations,
-                                        result.seconds,
-                                        result.of_response[0].values});
-          }
-        const auto &wanted = workshop.scene.gradient.method;
-        for (const auto &row : gradient.methods)
-          if (row.method == wanted ||
-              (wanted == "auto" && gradient.method.empty()))
-            static_cast<io::Summary::GradientRow &>(gradient) = row;
-        summary.gradient = gradient;
-        print_table(workshop.context.out(), gradient.methods);
+        const Sensitivity<dim> sensitivity(workshop, state);
+        workshop.draw(0., state, sensitivity.shape_gradient);
+        summary.gradient = sensitivity.gradient;
         workshop.write_summary(summary);
         return 0;
       }

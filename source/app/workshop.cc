@@ -35,6 +35,14 @@ namespace snug
       }
     } // namespace
 
+    std::string
+    one_sided_warning(const unsigned int weak_contacts)
+    {
+      return std::to_string(weak_contacts) +
+             " contacts are weakly active (neither force nor gap): what "
+             "depends on the displacement has only one-sided derivatives";
+    }
+
     template <int dim>
     Workshop<dim>::Workshop(RunContext &context, const scene::Scene &scene)
       : context(context), scene(scene)
@@ -96,25 +104,48 @@ namespace snug
     }
 
     template <int dim>
-    sensitivity::Gradients
+    std::vector<double>
+    Workshop<dim>::bound_widths() const
+    {
+      std::vector<double> widths;
+      for (unsigned int i = 0; i < basis->n_variables(); ++i)
+        widths.push_back(basis->upper_bounds()[i] - basis->lower_bounds()[i]);
+      return widths;
+    }
+
+    template <int dim>
+    sensitivity::Gradients<dim>
     Workshop<dim>::gradients(const sensitivity::Responses<dim>     &responses,
                              const state::ContactState<dim>        &state,
                              const std::vector<double>             &design,
                              const sensitivity::GradientParameters &parameters)
     {
-      std::vector<double> widths;
-      for (unsigned int i = 0; i < design.size(); ++i)
-        widths.push_back(basis->upper_bounds()[i] - basis->lower_bounds()[i]);
+      const auto widths = bound_widths();
       return sensitivity::gradients<dim>(
         {*solver, *basis, state, design, widths, parameters}, responses);
     }
 
     template <int dim>
+    std::vector<sensitivity::OneSided>
+    Workshop<dim>::one_sided_gradients(
+      const sensitivity::Responses<dim> &responses,
+      const state::ContactState<dim>    &state,
+      const std::vector<double>         &design)
+    {
+      const RunContext::Timer timer(context, "gradient");
+      const auto              widths = bound_widths();
+      return sensitivity::one_sided_gradients<dim>(
+        {*solver, *basis, state, design, widths, scene.gradient}, responses);
+    }
+
+    template <int dim>
     void
-    Workshop<dim>::draw(double time, const state::ContactState<dim> &state)
+    Workshop<dim>::draw(double                          time,
+                        const state::ContactState<dim> &state,
+                        const std::optional<Field>     &shape_gradient)
     {
       const RunContext::Timer timer(context, "output");
-      fields->write(time, state);
+      fields->write(time, state, shape_gradient ? &*shape_gradient : nullptr);
       contact_output->write(time, state);
     }
 

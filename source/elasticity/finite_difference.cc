@@ -6,41 +6,62 @@ namespace snug
 {
   namespace elasticity
   {
+    const ChoiceTable<Stencil()> &
+    stencil_table()
+    {
+      static const ChoiceTable<Stencil()> table = {
+        {"forward",
+         "(f(h) - f(0)) / h",
+         []() {
+           return Stencil{{0., 1.}, {-1., 1.}};
+         }},
+        {"central",
+         "(f(h) - f(-h)) / 2h",
+         []() {
+           return Stencil{{-1., 1.}, {-1. / 2., 1. / 2.}};
+         }},
+        {"fourth order", "(f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h", []() {
+           return Stencil{{-2., -1., 1., 2.},
+                          {1. / 12., -8. / 12., 8. / 12., -1. / 12.}};
+         }}};
+      return table;
+    }
+
     template <int dim>
     std::vector<dealii::Tensor<1, dim>>
-    central_difference(const NodeFunction<dim>                   &f,
-                       const std::vector<dealii::Tensor<1, dim>> &X,
-                       const std::vector<dealii::Tensor<1, dim>> &V,
-                       const double                               step)
+    difference(const Stencil                             &stencil,
+               const NodeFunction<dim>                   &f,
+               const std::vector<dealii::Tensor<1, dim>> &X,
+               const std::vector<dealii::Tensor<1, dim>> &V,
+               const double                               step)
     {
       AssertDimension(X.size(), V.size());
       Assert(step > 0., dealii::ExcMessage("The step must be positive."));
-
-      std::vector<dealii::Tensor<1, dim>> forward(X), backward(X), f_forward,
-        f_backward;
-      for (unsigned int a = 0; a < X.size(); ++a)
+      std::vector<dealii::Tensor<1, dim>> at, values, sum;
+      for (unsigned int k = 0; k < stencil.places.size(); ++k)
         {
-          forward[a] += step * V[a];
-          backward[a] -= step * V[a];
+          at = X;
+          for (unsigned int a = 0; a < X.size(); ++a)
+            at[a] += stencil.places[k] * step * V[a];
+          f(at, values);
+          sum.resize(values.size());
+          for (unsigned int a = 0; a < values.size(); ++a)
+            sum[a] += stencil.weights[k] / step * values[a];
         }
-      f(forward, f_forward);
-      f(backward, f_backward);
-
-      AssertDimension(f_forward.size(), f_backward.size());
-      for (unsigned int a = 0; a < f_forward.size(); ++a)
-        f_forward[a] = (f_forward[a] - f_backward[a]) / (2. * step);
-      return f_forward;
+      return sum;
     }
 
     template std::vector<dealii::Tensor<1, 2>>
-    central_difference(const NodeFunction<2> &,
-                       const std::vector<dealii::Tensor<1, 2>> &,
-                       const std::vector<dealii::Tensor<1, 2>> &,
-                       double);
+    difference(const Stencil &,
+               const NodeFunction<2> &,
+               const std::vector<dealii::Tensor<1, 2>> &,
+               const std::vector<dealii::Tensor<1, 2>> &,
+               double);
     template std::vector<dealii::Tensor<1, 3>>
-    central_difference(const NodeFunction<3> &,
-                       const std::vector<dealii::Tensor<1, 3>> &,
-                       const std::vector<dealii::Tensor<1, 3>> &,
-                       double);
+    difference(const Stencil &,
+               const NodeFunction<3> &,
+               const std::vector<dealii::Tensor<1, 3>> &,
+               const std::vector<dealii::Tensor<1, 3>> &,
+               double);
   } // namespace elasticity
 } // namespace snug

@@ -331,13 +331,20 @@ namespace snug
     double
     TotalFeti::feasibility_scale(const qp::MultiVector &lambda) const
     {
+      return feasibility_scale(rigid_load, lambda);
+    }
+
+    double
+    TotalFeti::feasibility_scale(const qp::MultiVector &e,
+                                 const qp::MultiVector &lambda) const
+    {
       double             largest = 0., norm_e = 0.;
       const unsigned int m = coarse.subdomains().n_modes;
       for (unsigned int s = 0; s < coarse.n_kernel() / m; ++s)
         {
           double square = 0.;
           for (unsigned int i = 0; i < m; ++i)
-            square += rigid_load(s * m + i) * rigid_load(s * m + i);
+            square += e(s * m + i) * e(s * m + i);
           norm_e += square;
           largest = std::max(largest, square);
         }

@@ -3,6 +3,7 @@
 #include <snug/io/fields.h>
 #include <snug/io/nodal_stress.h>
 #include <snug/io/patch_list.h>
+#include <snug/io/shared_nodes.h>
 #include <snug/io/text_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,6 +14,25 @@ namespace snug
   {
     namespace
     {
+      /// Shares of a node gradient summed over ranks, those of hanging nodes
+      /// given to their masters: zero where it is null. Collective.
+      template <int dim>
+      std::vector<double>
+      summed(const mesh::BodyMesh<dim>                 &mesh,
+             const typename mesh::BodyMesh<dim>::Field *gradient)
+      {
+        std::vector<double> values(dim * mesh.n_local_nodes());
+        if (gradient == nullptr)
+          return values;
+        auto field = *gradient;
+        mesh.distribute_hanging(field);
+        for (unsigned int node = 0; node < field.size(); ++node)
+          for (unsigned int c = 0; c < dim; ++c)
+            values[dim * node + c] = field[node][c];
+        sum_at_shared_nodes(mesh, dim, values);
+        return values;
+      }
+
       /// The components of all quantities of FieldOutput at one node.
       template <int dim>
       std::vector<double>
@@ -54,16 +74,23 @@ namespace snug
 
     template <int dim>
     void
-    FieldOutput<dim>::write(double time, const state::ContactState<dim> &state)
+    FieldOutput<dim>::write(
+      double                                     time,
+      const state::ContactState<dim>            &state,
+      const typename mesh::BodyMesh<dim>::Field *shape_gradient)
     {
+      const auto gradient = summed(mesh, shape_gradient);
       const auto stress =
         nodal_stress(mesh, bodies, state.positions, state.displacement);
-      PatchList<dim, dim> patches({{"displacement", dim},
-                                   {"stress", 9},
-                                   {"von_mises", 1},
-                                   {"body", 1},
-                                   {"subdomain", 1},
-                                   {"design_displacement", dim}});
+      std::vector<Quantity> quantities{{"displacement", dim},
+                                       {"stress", 9},
+                                       {"von_mises", 1},
+                                       {"body", 1},
+                                       {"subdomain", 1},
+                                       {"design_displacement", dim}};
+      if (shape_gradient != nullptr)
+        quantities.push_back({"shape_gradient", dim});
+      PatchList<dim, dim> patches(quantities);
       for (unsigned int k = 0; k < mesh.cells().size(); ++k)
         {
           const auto                         &cell = mesh.cells()[k];
@@ -78,6 +105,10 @@ namespace snug
                 state.positions[node] - mesh.reference_positions()[node],
                 node,
                 {double(cell.body), double(subdomain_of_cell[k])}));
+              if (shape_gradient != nullptr)
+                values.back().insert(values.back().end(),
+                                     gradient.begin() + dim * node,
+                                     gradient.begin() + dim * (node + 1));
             }
           patches.add(points, values);
         }

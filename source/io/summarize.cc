@@ -29,16 +29,17 @@ namespace snug
       result.strain_energy = state.strain_energy;
       for (unsigned int c = 0; c < dim; ++c)
         result.contact_force.push_back(state.contact_force[c]);
-      result.contact_area     = state.contact_area;
-      result.max_pressure     = state.max_pressure;
-      result.active_contacts  = state.active_contacts;
-      result.weak_contacts    = state.weak_contacts;
-      result.outer_iterations = state.dual.outer_iterations;
-      result.f_mults          = state.f_mults;
-      result.linear_f_mults   = state.linear_f_mults;
-      result.method           = state.dual.method;
-      result.certificate      = state.certificate;
-      result.assumptions      = state.assumptions;
+      result.contact_area        = state.contact_area;
+      result.max_pressure        = state.max_pressure;
+      result.active_contacts     = state.active_contacts;
+      result.weak_contacts       = state.weak_contacts;
+      result.degeneracy_distance = state.degeneracy_distance;
+      result.outer_iterations    = state.dual.outer_iterations;
+      result.f_mults             = state.f_mults;
+      result.linear_f_mults      = state.linear_f_mults;
+      result.method              = state.dual.method;
+      result.certificate         = state.certificate;
+      result.assumptions         = state.assumptions;
       for (const auto &of_pair : state.pairs)
         {
           Summary::Pair pair;

@@ -64,6 +64,7 @@ namespace snug
                 {"max_pressure", state.max_pressure},
                 {"active_contacts", state.active_contacts},
                 {"weak_contacts", state.weak_contacts},
+                {"degeneracy_distance", state.degeneracy_distance},
                 {"outer_iterations", state.outer_iterations},
                 {"f_mults", state.f_mults},
                 {"linear_f_mults", linear},
@@ -89,13 +90,17 @@ namespace snug
                 {"f_mults", row.f_mults},
                 {"numeric_factorizations", row.numeric_factorizations},
                 {"seconds", row.seconds},
-                {"values", row.values}};
+                {"values", row.values},
+                {"step", row.step},
+                {"displacement_difference", row.displacement_difference},
+                {"differentiable", row.differentiable}};
       }
 
       Json
       summary_part(const Summary::Gradient &gradient)
       {
         Json part       = summary_part(Summary::GradientRow(gradient));
+        part["reason"]  = gradient.reason;
         part["methods"] = Json::array();
         for (const auto &row : gradient.methods)
           part["methods"].push_back(summary_part(row));

@@ -1,9 +1,11 @@
+#include <snug/elasticity/finite_difference.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/mesh/partition.h>
 #include <snug/optimization/minimize.h>
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
 #include <snug/scene/entries.h>
+#include <snug/sensitivity/data_derivatives.h>
 #include <snug/sensitivity/gradient.h>
 
 namespace snug
@@ -275,19 +277,33 @@ namespace snug
                     "methods are solved: block: all at once; recycled: one "
                     "after the other, each starting in the search directions "
                     "of those before.");
-        entries.add("Derivatives",
-                    gradient.derivatives,
-                    choice("exact|finite differences"),
-                    "Derivatives of stiffness, loads and contact rows: exact, "
-                    "or by central differences (semi-analytic).");
+        add_choice(entries,
+                   "Derivatives",
+                   gradient.derivatives,
+                   sensitivity::derivatives_table(),
+                   "Derivatives of stiffness, loads and contact rows.");
         entries.add("Semi-analytic step",
                     gradient.semi_analytic_step,
                     "Step of those differences relative to the cell size; "
                     "above 0, at most 0.1.");
+        add_choice(entries,
+                   "Differences",
+                   gradient.differences,
+                   elasticity::stencil_table(),
+                   "Formula of overall finite differences.");
         entries.add("Step",
                     gradient.step,
                     "Step of overall finite differences relative to the "
                     "width of the bounds; above 0, at most 0.1.");
+        entries.add("Shape gradient",
+                    gradient.shape_gradient,
+                    "Also write the derivative of the objective by the "
+                    "positions of the nodes, the point field shape_gradient of "
+                    "solution.pvd.");
+        entries.add("Compare",
+                    gradient.compare,
+                    "Task = sensitivity: all methods side by side, or only "
+                    "Gradient/Method.");
       }
 
       void

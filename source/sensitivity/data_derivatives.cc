@@ -1,9 +1,10 @@
-#include <snug/elasticity/finite_difference.h>
+#include <snug/elasticity/semi_analytic.h>
 #include <snug/sensitivity/data_derivatives.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace snug
 {
@@ -11,46 +12,44 @@ namespace snug
   {
     namespace
     {
-      /// What the derivatives of one subdomain are taken of and how.
+      template <int dim>
+      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+      template <int dim>
+      double
+      largest(const Nodes<dim> &V)
+      {
+        double norm = 0.;
+        for (const auto &v : V)
+          norm = std::max(norm, v.norm());
+        return norm;
+      }
+
+      /// The differences of a scheme that is not exact.
+      template <int dim>
+      elasticity::SemiAnalytic<dim>
+      semi_analytic(const state::StateSolver<dim> &solver,
+                    const GradientParameters      &parameters)
+      {
+        const auto scheme =
+          choose(derivatives_table(), parameters.derivatives).make();
+        return elasticity::SemiAnalytic<dim>(
+          choose(elasticity::stencil_table(), scheme.stencil).make(),
+          scheme.refined,
+          parameters.semi_analytic_step,
+          solver.mesh().idealization());
+      }
+
+      /// What the derivatives of one subdomain are taken of.
       template <int dim>
       struct SubdomainDerivative
       {
         using Field = typename mesh::BodyMesh<dim>::Field;
-        using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-        const state::StateSolver<dim>  &solver;
-        const state::ContactState<dim> &state;
-        const GradientParameters       &parameters;
-        unsigned int                    s;
-
-        /// Nodes of a cell or face that move at all.
-        static double
-        largest(const Nodes &V)
-        {
-          double norm = 0.;
-          for (const auto &v : V)
-            norm = std::max(norm, v.norm());
-          return norm;
-        }
-
-        /// f' along V for nodes X: exact() or the central difference of f.
-        template <typename Exact>
-        Nodes
-        derivative(const elasticity::NodeFunction<dim> &f,
-                   const Exact                         &exact,
-                   const Nodes                         &X,
-                   const Nodes                         &V) const
-        {
-          if (parameters.derivatives == "exact")
-            {
-              Nodes r;
-              exact(r);
-              return r;
-            }
-          const double size = (X.back() - X.front()).norm();
-          return elasticity::central_difference<dim>(
-            f, X, V, parameters.semi_analytic_step * size / largest(V));
-        }
+        const state::StateSolver<dim>       &solver;
+        const state::ContactState<dim>      &state;
+        const elasticity::SemiAnalytic<dim> *differences; ///< null: exact
+        unsigned int                         s;
 
         void
         add_cells(const Field &velocity, double *ft) const;
@@ -68,30 +67,31 @@ namespace snug
         const auto &b         = assembler.body_model().body_force;
         for (unsigned int i = 0; i < assembler.cells().size(); ++i)
           {
-            const Nodes V = assembler.cell_field(i, velocity);
-            if (largest(V) == 0.)
+            const auto V = assembler.cell_field(i, velocity);
+            if (largest<dim>(V) == 0.)
               continue;
             const auto &material = assembler.material(i);
-            const Nodes X        = assembler.cell_field(i, state.positions);
-            const Nodes u = assembler.cell_values(i, state.u[s].column(0));
-            const Nodes r = derivative(
-              [&](const Nodes &x, Nodes &f) {
-                element.internal_force(x, material, u, f);
-              },
-              [&](Nodes &f) {
-                element.internal_force_derivative(X, V, material, u, f);
-              },
-              X,
-              V);
+            const auto  X        = assembler.cell_field(i, state.positions);
+            const auto  u = assembler.cell_values(i, state.u[s].column(0));
+            Nodes<dim>  r;
+            if (differences == nullptr)
+              element.internal_force_derivative(X, V, material, u, r);
+            else
+              differences->internal_force_derivative(
+                element, X, V, material, u, r);
             assembler.add_cell_vector(i, -1., r, ft);
             if (b.norm() == 0.)
               continue;
-            const Nodes load = derivative(
-              [&](const Nodes &x, Nodes &f) { element.body_force(x, b, f); },
-              [&](Nodes &f) { element.body_force_derivative(X, V, b, f); },
-              X,
-              V);
-            assembler.add_cell_vector(i, 1., load, ft);
+            if (differences == nullptr)
+              element.body_force_derivative(X, V, b, r);
+            else
+              r = differences->load_derivative(
+                [&](const Nodes<dim> &x, Nodes<dim> &f) {
+                  element.body_force(x, b, f);
+                },
+                X,
+                V);
+            assembler.add_cell_vector(i, 1., r, ft);
           }
       }
 
@@ -104,89 +104,105 @@ namespace snug
         const auto &face_load = solver.face_load();
         for (unsigned int i = 0; i < assembler.loaded_faces().size(); ++i)
           {
-            const Nodes V = assembler.face_field(i, velocity);
-            if (largest(V) == 0.)
+            const auto V = assembler.face_field(i, velocity);
+            if (largest<dim>(V) == 0.)
               continue;
-            const Nodes X    = assembler.face_field(i, state.positions);
+            const auto  X    = assembler.face_field(i, state.positions);
             const auto &load = assembler.face_model(i);
-            const Nodes r    = derivative(
-              [&](const Nodes &x, Nodes &f) {
-                face_load.force(x, load.pressure, load.traction, f);
-              },
-              [&](Nodes &f) {
-                face_load.force_derivative(
-                  X, V, load.pressure, load.traction, f);
-              },
-              X,
-              V);
+            Nodes<dim>  r;
+            if (differences == nullptr)
+              face_load.force_derivative(X, V, load.pressure, load.traction, r);
+            else
+              r = differences->load_derivative(
+                [&](const Nodes<dim> &x, Nodes<dim> &f) {
+                  face_load.force(x, load.pressure, load.traction, f);
+                },
+                X,
+                V);
             assembler.add_face_vector(i, 1., r, ft);
           }
       }
 
-      /// (forward - backward) / (2 step) of all numbers.
+      /// rows <- rows + weight of; all have the same entries.
       template <int dim>
-      state::RowCoefficients<dim>
-      central_difference(const state::RowCoefficients<dim> &forward,
-                         const state::RowCoefficients<dim> &backward,
-                         double                             step)
+      void
+      add(double                             weight,
+          const state::RowCoefficients<dim> &of,
+          state::RowCoefficients<dim>       &rows)
       {
-        auto       result   = forward;
-        const auto subtract = [step](auto &value, const auto &other) {
-          value = (value - other) / (2 * step);
-        };
-        for (unsigned int i = 0; i < result.contact.size(); ++i)
+        for (unsigned int i = 0; i < rows.contact.size(); ++i)
           {
-            auto       &row   = result.contact[i];
-            const auto &other = backward.contact[i];
+            auto       &row   = rows.contact[i];
+            const auto &other = of.contact[i];
             for (unsigned int k = 0; k < row.coefficients.size(); ++k)
-              subtract(row.coefficients[k].second,
-                       other.coefficients[k].second);
-            subtract(row.gap, other.gap);
-            subtract(row.normal, other.normal);
+              row.coefficients[k].second +=
+                weight * other.coefficients[k].second;
+            row.gap += weight * other.gap;
+            row.normal += weight * other.normal;
           }
-        for (unsigned int h = 0; h < result.held.size(); ++h)
-          for (unsigned int k = 0; k < result.held[h].directions.size(); ++k)
+        for (unsigned int h = 0; h < rows.held.size(); ++h)
+          for (unsigned int k = 0; k < rows.held[h].directions.size(); ++k)
             {
-              subtract(result.held[h].directions[k],
-                       backward.held[h].directions[k]);
-              for (unsigned int c = 0; c < result.held[h].values[k].size(); ++c)
-                subtract(result.held[h].values[k][c],
-                         backward.held[h].values[k][c]);
+              rows.held[h].directions[k] += weight * of.held[h].directions[k];
+              for (unsigned int c = 0; c < rows.held[h].values[k].size(); ++c)
+                rows.held[h].values[k][c] += weight * of.held[h].values[k][c];
             }
-        return result;
+      }
+
+      /// Diagonal of the smallest face of the bodies over the largest velocity
+      /// of a face node. Collective.
+      template <int dim>
+      double
+      time_across_face(const state::StateSolver<dim> &solver,
+                       const Nodes<dim>              &X,
+                       const Nodes<dim>              &V)
+      {
+        double size = std::numeric_limits<double>::max(), speed = 0.;
+        for (const auto &face : solver.mesh().boundary_faces())
+          {
+            size =
+              std::min(size, (X[face.nodes.back()] - X[face.nodes[0]]).norm());
+            for (const unsigned int node : face.nodes)
+              speed = std::max(speed, V[node].norm());
+          }
+        const MPI_Comm comm = solver.context().communicator();
+        size                = dealii::Utilities::MPI::min(size, comm);
+        speed               = dealii::Utilities::MPI::max(speed, comm);
+        return speed > 0. ? size / speed : 0.;
       }
 
       /// Derivatives of what the rows of B are made of along a velocity.
+      /// Collective.
       template <int dim>
       state::RowCoefficients<dim>
-      row_derivatives(const state::StateSolver<dim>             &solver,
-                      const typename mesh::BodyMesh<dim>::Field &X,
-                      const typename mesh::BodyMesh<dim>::Field &V,
-                      const GradientParameters                  &parameters)
+      row_derivatives(const state::StateSolver<dim> &solver,
+                      const Nodes<dim>              &X,
+                      const Nodes<dim>              &V,
+                      const GradientParameters      &parameters)
       {
-        if (parameters.derivatives == "exact")
+        const auto scheme =
+          choose(derivatives_table(), parameters.derivatives).make();
+        const double time = time_across_face(solver, X, V);
+        if (scheme.stencil.empty() || time == 0.)
           return solver.row_derivatives(X, V);
-        double size = 0., speed = 0.;
-        for (const auto &face : solver.mesh().boundary_faces())
-          for (const unsigned int node : face.nodes)
-            {
-              size  = std::max(size, (X[node] - X[face.nodes[0]]).norm());
-              speed = std::max(speed, V[node].norm());
-            }
-        const MPI_Comm comm = solver.context().communicator();
-        size                = dealii::Utilities::MPI::max(size, comm);
-        speed               = dealii::Utilities::MPI::max(speed, comm);
-        const double step =
-          parameters.semi_analytic_step * size / (speed > 0. ? speed : 1.);
-        auto forward = X, backward = X;
-        for (unsigned int a = 0; a < X.size(); ++a)
+        const auto stencil =
+          choose(elasticity::stencil_table(), scheme.stencil).make();
+        const double                step = parameters.semi_analytic_step * time;
+        state::RowCoefficients<dim> result;
+        for (unsigned int k = 0; k < stencil.places.size(); ++k)
           {
-            forward[a] += step * V[a];
-            backward[a] -= step * V[a];
+            auto x = X;
+            for (unsigned int a = 0; a < X.size(); ++a)
+              x[a] += stencil.places[k] * step * V[a];
+            const auto rows = solver.rows(x);
+            if (k == 0)
+              {
+                result = rows;
+                add(-1., rows, result);
+              }
+            add(stencil.weights[k] / step, rows, result);
           }
-        return central_difference(solver.rows(forward),
-                                  solver.rows(backward),
-                                  step);
+        return result;
       }
 
       /// ft -= B'^T lambda and B' u into the local rows, column j.
@@ -205,6 +221,33 @@ namespace snug
       }
     } // namespace
 
+    const ChoiceTable<DataScheme()> &
+    derivatives_table()
+    {
+      static const ChoiceTable<DataScheme()> table = {
+        {"exact", "differentiated by hand", []() { return DataScheme(); }},
+        {"forward differences",
+         "of element quantities (semi-analytic)",
+         []() {
+           return DataScheme{"forward", false};
+         }},
+        {"central differences",
+         "the same from both sides",
+         []() {
+           return DataScheme{"central", false};
+         }},
+        {"refined forward differences",
+         "forward ones that take the rigid motion of each element exactly, for "
+         "slender bodies",
+         []() {
+           return DataScheme{"forward", true};
+         }},
+        {"refined central differences", "the same from both sides", []() {
+           return DataScheme{"central", true};
+         }}};
+      return table;
+    }
+
     template <int dim>
     KktVectors
     data_derivatives(
@@ -222,6 +265,10 @@ namespace snug
         result.primal.emplace_back(u.n_rows(), k);
       qp::MultiVector Bu(layout.n_local(), k);
       result.dual = qp::MultiVector(layout.n_owned(), k);
+      std::unique_ptr<elasticity::SemiAnalytic<dim>> differences;
+      if (parameters.derivatives != "exact")
+        differences = std::make_unique<elasticity::SemiAnalytic<dim>>(
+          semi_analytic(solver, parameters));
       std::vector<feti::BEntry> B_derivative;
       for (unsigned int j = 0; j < k; ++j)
         {
@@ -236,7 +283,7 @@ namespace snug
             {
               const SubdomainDerivative<dim> subdomain{solver,
                                                        state,
-                                                       parameters,
+                                                       differences.get(),
                                                        s};
               double                        *ft = result.primal[s].column(j);
               subdomain.add_cells(velocities[j], ft);

@@ -1,3 +1,4 @@
+#include <snug/elasticity/finite_difference.h>
 #include <snug/sensitivity/methods.h>
 
 namespace snug
@@ -17,41 +18,84 @@ namespace snug
       return x;
     }
 
+    namespace
+    {
+      /// What is differenced, at one design.
+      template <int dim>
+      struct Values
+      {
+        std::vector<double>                 responses;
+        typename mesh::BodyMesh<dim>::Field displacement;
+
+        Values(const GradientProblem<dim>     &problem,
+               const Responses<dim>           &to_evaluate,
+               const state::ContactState<dim> &state)
+          : displacement(state.displacement)
+        {
+          for (const auto *response : to_evaluate)
+            responses.push_back(response->value(problem.solver, state));
+        }
+      };
+
+      template <int dim>
+      Values<dim>
+      values_at(const GradientProblem<dim> &problem,
+                const Responses<dim>       &responses,
+                const std::vector<double>  &design)
+      {
+        // cold start: a warm one would stop at once and hide u'
+        const auto state = problem.solver.solve(positions(problem.solver.mesh(),
+                                                          problem.basis,
+                                                          design),
+                                                qp::WarmStart());
+        return Values<dim>(problem, responses, state);
+      }
+    } // namespace
+
     template <int dim>
-    std::vector<Gradient>
+    Gradients<dim>
     difference_gradients(const GradientProblem<dim> &problem,
                          const Responses<dim>       &responses)
     {
-      std::vector<Gradient> result(responses.size(),
-                                   {"finite differences", "", {}});
+      const auto &parameters = problem.parameters;
+      const auto  stencil =
+        choose(elasticity::stencil_table(), parameters.differences).make();
+      const Values<dim> here(problem, responses, problem.state);
+      Gradients<dim>    result;
+      for (unsigned int i = 0; i < responses.size(); ++i)
+        result.of_response.push_back({"finite differences", "", {}});
       for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
         {
-          const double step = problem.parameters.step * problem.bound_widths[j];
-          std::vector<double> differences(responses.size());
-          for (const double sign : {1., -1.})
+          const double        step = parameters.step * problem.bound_widths[j];
+          std::vector<double> slopes(responses.size());
+          typename mesh::BodyMesh<dim>::Field field(here.displacement.size());
+          for (unsigned int k = 0; k < stencil.places.size(); ++k)
             {
-              // cold start: a warm one would stop at once and hide u'
               auto design = problem.design;
-              design[j] += sign * step;
-              const auto state = problem.solver.solve(
-                positions(problem.solver.mesh(), problem.basis, design),
-                qp::WarmStart());
+              design[j] += stencil.places[k] * step;
+              const auto   there  = stencil.places[k] == 0.
+                                      ? here
+                                      : values_at(problem, responses, design);
+              const double weight = stencil.weights[k] / step;
               for (unsigned int i = 0; i < responses.size(); ++i)
-                differences[i] +=
-                  sign * responses[i]->value(problem.solver, state);
+                slopes[i] += weight * there.responses[i];
+              for (unsigned int node = 0; node < field.size(); ++node)
+                field[node] += weight * there.displacement[node];
             }
           for (unsigned int i = 0; i < responses.size(); ++i)
-            result[i].values.push_back(differences[i] / (2 * step));
+            result.of_response[i].values.push_back(slopes[i]);
+          result.displacement.push_back(field);
         }
       return result;
     }
-#define SNUG_INSTANTIATE(dim)                          \
-  template mesh::BodyMesh<dim>::Field positions(       \
-    const mesh::BodyMesh<dim> &,                       \
-    const shape::ShapeBasis<dim> &,                    \
-    const std::vector<double> &);                      \
-  template std::vector<Gradient> difference_gradients( \
-    const GradientProblem<dim> &, const Responses<dim> &);
+
+#define SNUG_INSTANTIATE(dim)                                                \
+  template mesh::BodyMesh<dim>::Field positions(                             \
+    const mesh::BodyMesh<dim> &,                                             \
+    const shape::ShapeBasis<dim> &,                                          \
+    const std::vector<double> &);                                            \
+  template Gradients<dim> difference_gradients(const GradientProblem<dim> &, \
+                                               const Responses<dim> &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -3,30 +3,16 @@
 #include <snug/sensitivity/methods.h>
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/sensitivity/tangent_system.h>
+#include <snug/state/describe.h>
 
 namespace snug
 {
   namespace sensitivity
   {
+    using response::Partials;
+
     namespace
     {
-      template <int dim>
-      using Partials = response::Partials<dim>;
-
-      /// ft_j, ct_j of all variables.
-      template <int dim>
-      KktVectors
-      derivatives_of_data(const GradientProblem<dim> &problem)
-      {
-        std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
-        for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
-          velocities.push_back(problem.basis.column(j));
-        return data_derivatives(problem.solver,
-                                problem.state,
-                                velocities,
-                                problem.parameters);
-      }
-
       template <int dim>
       TangentSystem
       tangent_system(const GradientProblem<dim> &problem)
@@ -37,35 +23,6 @@ namespace snug
                              problem.parameters.solves == "block"
                                ? Solves::block
                                : Solves::recycled);
-      }
-
-      /// (dJ/du, dJ/dlambda), a column per response.
-      template <int dim>
-      KktVectors
-      state_partials(const GradientProblem<dim>       &problem,
-                     const std::vector<Partials<dim>> &partials)
-      {
-        const auto  &solver     = problem.solver;
-        const auto  &of_contact = solver.gluing().contact_of_row();
-        const auto  &scales     = solver.gluing().contact_scales();
-        KktVectors   result;
-        unsigned int k = partials.size();
-        result.dual    = qp::MultiVector(solver.feti().n_owned(), k);
-        for (const auto &u : problem.state.u)
-          result.primal.emplace_back(u.n_rows(), k);
-        for (unsigned int j = 0; j < k; ++j)
-          {
-            for (unsigned int s = 0; s < partials[j].u.size(); ++s)
-              std::copy_n(partials[j].u[s].column(0),
-                          partials[j].u[s].n_rows(),
-                          result.primal[s].column(j));
-            if (!partials[j].forces.empty())
-              for (unsigned int i = 0; i < of_contact.size(); ++i)
-                if (of_contact[i] < scales.size())
-                  result.dual(i, j) =
-                    partials[j].forces[of_contact[i]] / scales[of_contact[i]];
-          }
-        return result;
       }
 
       /// values_j += column i of products (adjoint, residual derivatives).
@@ -87,18 +44,71 @@ namespace snug
     }
 
     template <int dim>
-    KktVectors
-    state_derivatives(const GradientProblem<dim> &problem)
+    std::vector<Partials<dim>>
+    partials_of(const GradientProblem<dim> &problem,
+                const Responses<dim>       &responses)
     {
-      return tangent_system(problem).solve(derivatives_of_data(problem));
+      std::vector<Partials<dim>> partials;
+      for (const auto *response : responses)
+        partials.push_back(response->partials(problem.solver, problem.state));
+      return partials;
     }
 
     template <int dim>
-    std::vector<Gradient>
+    KktVectors
+    state_partials(const GradientProblem<dim>       &problem,
+                   const std::vector<Partials<dim>> &partials)
+    {
+      const auto  &solver     = problem.solver;
+      const auto  &of_contact = solver.gluing().contact_of_row();
+      const auto  &scales     = solver.gluing().contact_scales();
+      KktVectors   result;
+      unsigned int k = partials.size();
+      result.dual    = qp::MultiVector(solver.feti().n_owned(), k);
+      for (const auto &u : problem.state.u)
+        result.primal.emplace_back(u.n_rows(), k);
+      for (unsigned int j = 0; j < k; ++j)
+        {
+          for (unsigned int s = 0; s < partials[j].u.size(); ++s)
+            std::copy_n(partials[j].u[s].column(0),
+                        partials[j].u[s].n_rows(),
+                        result.primal[s].column(j));
+          if (!partials[j].forces.empty())
+            for (unsigned int i = 0; i < of_contact.size(); ++i)
+              if (of_contact[i] < scales.size())
+                result.dual(i, j) =
+                  partials[j].forces[of_contact[i]] / scales[of_contact[i]];
+        }
+      return result;
+    }
+
+    template <int dim>
+    KktVectors
+    residual_derivatives(const GradientProblem<dim> &problem)
+    {
+      std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
+      for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
+        velocities.push_back(problem.basis.column(j));
+      return data_derivatives(problem.solver,
+                              problem.state,
+                              velocities,
+                              problem.parameters);
+    }
+
+    template <int dim>
+    KktVectors
+    state_derivatives(const GradientProblem<dim> &problem)
+    {
+      return tangent_system(problem).solve(residual_derivatives(problem));
+    }
+
+    template <int dim>
+    Gradients<dim>
     energy_gradients(const GradientProblem<dim> &problem,
                      const Responses<dim>       &responses)
     {
-      std::vector<Gradient> result;
+      const bool     exact = problem.parameters.derivatives == "exact";
+      Gradients<dim> result;
       for (const auto *response : responses)
         {
           if (needs_solve(*response))
@@ -107,89 +117,98 @@ namespace snug
                              "'adjoint' or 'direct'");
           auto field =
             response->partials(problem.solver, problem.state).positions;
-          const bool exact = problem.parameters.derivatives == "exact";
           if (response->stationary() && exact)
             response::add_constraint_gradient(problem.solver,
                                               problem.state,
                                               field);
-          Gradient gradient{"energy", "", problem.basis.transpose(field)};
+          Gradient<dim> gradient{"energy", "", problem.basis.transpose(field)};
           if (response->stationary() && !exact)
             {
               KktVectors adjoint; // w = 0, eta = -lambda
               adjoint.dual = qp::MultiVector(problem.solver.feti().n_owned());
               adjoint.dual.add(-1., problem.state.dual.lambda);
               add_row(products(adjoint,
-                               derivatives_of_data(problem),
+                               residual_derivatives(problem),
                                problem.solver.context().communicator()),
                       0,
                       gradient.values);
             }
-          result.push_back(gradient);
+          else
+            gradient.shape = field;
+          result.of_response.push_back(gradient);
         }
       return result;
     }
 
     template <int dim>
-    std::vector<Gradient>
+    Gradients<dim>
     adjoint_gradients(const GradientProblem<dim> &problem,
                       const Responses<dim>       &responses)
     {
-      std::vector<Partials<dim>> partials;
-      for (const auto *response : responses)
-        partials.push_back(response->partials(problem.solver, problem.state));
+      auto       partials = partials_of(problem, responses);
       const auto adjoint =
         tangent_system(problem).solve(state_partials(problem, partials));
       const bool      exact = problem.parameters.derivatives == "exact";
       qp::MultiVector through_state;
       if (!exact)
         through_state = products(adjoint,
-                                 derivatives_of_data(problem),
+                                 residual_derivatives(problem),
                                  problem.solver.context().communicator());
-      std::vector<Gradient> result;
+      Gradients<dim> result;
       for (unsigned int i = 0; i < responses.size(); ++i)
         {
           auto &field = partials[i].positions;
           if (exact)
             add_residual_gradient(
               problem.solver, problem.state, adjoint, i, field);
-          result.push_back({"adjoint", "", problem.basis.transpose(field)});
-          if (!exact)
-            add_row(through_state, i, result.back().values);
+          Gradient<dim> gradient{"adjoint", "", problem.basis.transpose(field)};
+          if (exact)
+            gradient.shape = field;
+          else
+            add_row(through_state, i, gradient.values);
+          result.of_response.push_back(gradient);
         }
       return result;
     }
 
     template <int dim>
-    std::vector<Gradient>
+    Gradients<dim>
     direct_gradients(const GradientProblem<dim> &problem,
                      const Responses<dim>       &responses)
     {
-      std::vector<Partials<dim>> partials;
-      for (const auto *response : responses)
-        partials.push_back(response->partials(problem.solver, problem.state));
+      const auto partials    = partials_of(problem, responses);
+      const auto derivatives = state_derivatives(problem);
       const auto through_state =
         products(state_partials(problem, partials),
-                 state_derivatives(problem),
+                 derivatives,
                  problem.solver.context().communicator());
-      std::vector<Gradient> result;
+      Gradients<dim> result;
       for (unsigned int i = 0; i < responses.size(); ++i)
         {
-          result.push_back(
+          result.of_response.push_back(
             {"direct", "", problem.basis.transpose(partials[i].positions)});
-          add_row(through_state, i, result.back().values);
+          add_row(through_state, i, result.of_response[i].values);
         }
+      for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
+        result.displacement.push_back(
+          state::nodal_values(problem.solver, derivatives.primal, j));
       return result;
     }
 
-#define SNUG_INSTANTIATE(dim)                                          \
-  template bool       needs_solve(const response::Response<dim> &);    \
-  template KktVectors state_derivatives(const GradientProblem<dim> &); \
-  template std::vector<Gradient> energy_gradients(                     \
-    const GradientProblem<dim> &, const Responses<dim> &);             \
-  template std::vector<Gradient> adjoint_gradients(                    \
-    const GradientProblem<dim> &, const Responses<dim> &);             \
-  template std::vector<Gradient> direct_gradients(                     \
-    const GradientProblem<dim> &, const Responses<dim> &);
+#define SNUG_INSTANTIATE(dim)                                                 \
+  template bool needs_solve(const response::Response<dim> &);                 \
+  template std::vector<Partials<dim>> partials_of(                            \
+    const GradientProblem<dim> &, const Responses<dim> &);                    \
+  template KktVectors     state_partials(const GradientProblem<dim> &,        \
+                                         const std::vector<Partials<dim>> &); \
+  template KktVectors     residual_derivatives(const GradientProblem<dim> &); \
+  template KktVectors     state_derivatives(const GradientProblem<dim> &);    \
+  template Gradients<dim> energy_gradients(const GradientProblem<dim> &,      \
+                                           const Responses<dim> &);           \
+  template Gradients<dim> adjoint_gradients(const GradientProblem<dim> &,     \
+                                            const Responses<dim> &);          \
+  template Gradients<dim> direct_gradients(const GradientProblem<dim> &,      \
+                                           const Responses<dim> &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

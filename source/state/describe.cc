@@ -116,6 +116,11 @@ namespace snug
             point.strong = lambda[i] > strong_part * largest;
             point.weak =
               !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
+            if (largest > 0.)
+              state.degeneracy_distance =
+                std::min(state.degeneracy_distance,
+                         std::max(lambda[i] / largest,
+                                  std::abs(gaps[i]) / largest_gap));
           }
       }
 

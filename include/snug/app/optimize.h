@@ -32,6 +32,8 @@ namespace snug
       evaluate(const Design &design);
       void
       choose_constraints();
+      void
+      note_weak_contacts();
       optimization::JournalSettings
       journal_settings() const;
       void
@@ -68,8 +70,10 @@ namespace snug
       /// the last state solved, and the first one
       std::unique_ptr<state::ContactState<dim>> last, first;
       Design                                    last_design;
-      sensitivity::Gradients                    last_gradients;
-      bool                                      first_drawn = false;
+      sensitivity::Gradients<dim>               last_gradients;
+      /// of the objective at the first design, if asked for
+      std::optional<typename Workshop<dim>::Field> first_shape_gradient;
+      bool                                         first_drawn = false;
       bool         paired_anew     = false; ///< and not yet evaluated
       unsigned int iterations_done = 0;     ///< of earlier searches
     };

@@ -6,6 +6,7 @@
 #include <snug/io/fields.h>
 #include <snug/io/summary.h>
 #include <snug/sensitivity/gradient.h>
+#include <snug/sensitivity/one_sided.h>
 #include <snug/shape/shapes.h>
 
 #include <memory>
@@ -14,6 +15,10 @@ namespace snug
 {
   namespace app
   {
+    /// "3 contacts are weakly active: ..." for the log and the summary.
+    std::string
+    one_sided_warning(unsigned int weak_contacts);
+
     /**
      * What every task of a scene works with: mesh, tearing, shape basis,
      * state solver and the writers of results.
@@ -36,15 +41,24 @@ namespace snug
       solve(const std::vector<double> &design, const qp::WarmStart &start);
 
       /// Gradients of responses at a state. Collective.
-      sensitivity::Gradients
+      sensitivity::Gradients<dim>
       gradients(const sensitivity::Responses<dim>     &responses,
                 const state::ContactState<dim>        &state,
                 const std::vector<double>             &design,
                 const sensitivity::GradientParameters &parameters);
 
-      /// Add a state to the pictures. Collective.
+      /// One-sided derivatives of responses at a state. Collective.
+      std::vector<sensitivity::OneSided>
+      one_sided_gradients(const sensitivity::Responses<dim> &responses,
+                          const state::ContactState<dim>    &state,
+                          const std::vector<double>         &design);
+
+      /// Add a state to the pictures, with its shape gradient (this rank's
+      /// share) if there is one. Collective.
       void
-      draw(double time, const state::ContactState<dim> &state);
+      draw(double                          time,
+           const state::ContactState<dim> &state,
+           const std::optional<Field>     &shape_gradient);
 
       /// Print what was read. Collective.
       void
@@ -54,6 +68,10 @@ namespace snug
       /// it for the summary, once.
       void
       warn(const state::ContactState<dim> &state);
+
+      /// The same for any lines.
+      void
+      warn(const std::vector<std::string> &lines);
 
       /// How far a design moved slave nodes off the points they are paired
       /// with, in faces. Collective.
@@ -82,8 +100,8 @@ namespace snug
       std::unique_ptr<response::Response<dim>> objective;
 
     private:
-      void
-      warn(const std::vector<std::string> &lines);
+      std::vector<double>
+      bound_widths() const;
 
       std::vector<std::string>                warnings;
       std::unique_ptr<io::FieldOutput<dim>>   fields;

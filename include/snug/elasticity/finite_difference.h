@@ -1,6 +1,8 @@
 #ifndef snug_elasticity_finite_difference_h
 #define snug_elasticity_finite_difference_h
 
+#include <snug/base/choice.h>
+
 #include <deal.II/base/tensor.h>
 
 #include <functional>
@@ -10,24 +12,31 @@ namespace snug
 {
   namespace elasticity
   {
+    /// A derivative as a sum of values, f' ~ sum_k weight_k f(place_k step)
+    /// / step.
+    struct Stencil
+    {
+      std::vector<double> places, weights;
+    };
+
+    /// Rows "forward", "central" and "fourth order".
+    const ChoiceTable<Stencil()> &
+    stencil_table();
+
     /// f <- a vector per node, computed from the node positions X.
     template <int dim>
     using NodeFunction =
       std::function<void(const std::vector<dealii::Tensor<1, dim>> &X,
                          std::vector<dealii::Tensor<1, dim>>       &f)>;
 
-    /**
-     * (f(X + step V) - f(X - step V)) / (2 step): the semi-analytic
-     * alternative to the exact derivatives of Element and FaceLoad. The error
-     * is O(step^2) + O(round-off / step); best is a step that moves nodes by
-     * about 1e-5 of the cell. The step multiplies V.
-     */
+    /// The derivative of f at X along V by @p stencil; the step multiplies V.
     template <int dim>
     std::vector<dealii::Tensor<1, dim>>
-    central_difference(const NodeFunction<dim>                   &f,
-                       const std::vector<dealii::Tensor<1, dim>> &X,
-                       const std::vector<dealii::Tensor<1, dim>> &V,
-                       double                                     step);
+    difference(const Stencil                             &stencil,
+               const NodeFunction<dim>                   &f,
+               const std::vector<dealii::Tensor<1, dim>> &X,
+               const std::vector<dealii::Tensor<1, dim>> &V,
+               double                                     step);
   } // namespace elasticity
 } // namespace snug
 

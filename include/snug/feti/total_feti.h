@@ -62,6 +62,10 @@ namespace snug
       apply_Gt(const qp::MultiVector &alpha) const override;
       double
       feasibility_scale(const qp::MultiVector &lambda) const override;
+      /// The same for another rigid part @p e of the loads, one column.
+      double
+      feasibility_scale(const qp::MultiVector &e,
+                        const qp::MultiVector &lambda) const;
       std::unique_ptr<qp::Face>
       face(const qp::RowSet &free) const override;
       std::string

@@ -29,6 +29,7 @@ namespace snug
      * | body                | 1          | index of `Bodies`|
      * | subdomain           | 1          | global id        |
      * | design_displacement | 3          | length           |
+     * | shape_gradient      | 3          | objective / length |
      *
      * Stress is smoothed as nodal_stress() says; von Mises is that of the
      * smoothed stress. In 2D the component zz is the stress across the section,
@@ -48,11 +49,18 @@ namespace snug
                   const std::vector<state::BodyModel<dim>> &bodies,
                   const std::string                        &directory);
 
-      /// Add @p state to the series as that of @p time (the number of the
-      /// design iteration, say). Collective.
-      /// @throws std::runtime_error if a file cannot be written.
+      /**
+       * Add @p state to the series as that of @p time (the number of the
+       * design iteration, say). Collective.
+       * @param[in] shape_gradient dJ/dX at the local nodes, hanging ones
+       *   included, as shares that add up over ranks; null: not written.
+       * @throws std::runtime_error if a file cannot be written.
+       */
       void
-      write(double time, const state::ContactState<dim> &state);
+      write(
+        double                                     time,
+        const state::ContactState<dim>            &state,
+        const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr);
 
     private:
       const mesh::BodyMesh<dim>                  &mesh;

@@ -58,7 +58,8 @@ namespace snug
         std::vector<double> contact_force;
         double              contact_area = none, max_pressure = none;
         unsigned int        active_contacts = 0, weak_contacts = 0;
-        unsigned int        outer_iterations = 0;
+        double              degeneracy_distance = none;
+        unsigned int        outer_iterations    = 0;
         unsigned long       f_mults = 0, linear_f_mults = 0;
         std::string         method; ///< the solver that finished
         std::vector<Pair>   pairs;
@@ -73,11 +74,16 @@ namespace snug
         unsigned long       f_mults                = 0;
         unsigned long       numeric_factorizations = 0;
         double              seconds                = none;
-        std::vector<double> values; ///< [objective / length]
+        std::vector<double> values;      ///< [objective / length]
+        double              step = none; ///< relative, of differences
+        /// ||u' - u'_direct|| / ||u'_direct|| over all nodes and variables
+        double displacement_difference = none;
+        bool   differentiable          = true; ///< or one-sided only
       };
 
       struct Gradient : GradientRow
       {
+        std::string reason; ///< why 'auto' took the method
         /// All methods side by side, where the task compares them.
         std::vector<GradientRow> methods;
       };

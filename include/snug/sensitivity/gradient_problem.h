@@ -5,6 +5,8 @@
 #include <snug/sensitivity/gradient_parameters.h>
 #include <snug/shape/shape_basis.h>
 
+#include <optional>
+
 namespace snug
 {
   namespace sensitivity
@@ -26,11 +28,30 @@ namespace snug
     using Responses = std::vector<const response::Response<dim> *>;
 
     /// A gradient dJ/dalpha.
+    template <int dim>
     struct Gradient
     {
       std::string         method; ///< the method used, never "auto"
       std::string         reason; ///< why "auto" took it; else empty
       std::vector<double> values;
+      /// dJ/dX if the method has it: this rank's share at the local nodes,
+      /// hanging ones included; values are its products with the velocities.
+      std::optional<typename mesh::BodyMesh<dim>::Field> shape = {};
+      /// False where J has only one-sided derivatives, at weakly active
+      /// contacts: the values are those of the strongly active set alone.
+      bool differentiable = true;
+    };
+
+    /// Gradients of several responses at one state and what they cost together.
+    template <int dim>
+    struct Gradients
+    {
+      std::vector<Gradient<dim>> of_response;
+      /// u'_j at the local nodes, if the method has it
+      std::vector<typename mesh::BodyMesh<dim>::Field> displacement = {};
+      unsigned long                                    f_mults      = 0;
+      unsigned long numeric_factorizations                          = 0;
+      double        seconds = 0.; ///< wall
     };
 
     /// Node positions of a design: reference + V alpha.

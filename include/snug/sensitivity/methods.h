@@ -14,9 +14,26 @@ namespace snug
     bool
     needs_solve(const response::Response<dim> &response);
 
+    /// The partial derivatives of all responses. Collective.
+    template <int dim>
+    std::vector<response::Partials<dim>>
+    partials_of(const GradientProblem<dim> &problem,
+                const Responses<dim>       &responses);
+
+    /// (dJ/du, dJ/dlambda), a column per response.
+    template <int dim>
+    KktVectors
+    state_partials(const GradientProblem<dim>                 &problem,
+                   const std::vector<response::Partials<dim>> &partials);
+
+    /// ft and ct of data_derivatives(), a column per variable. Collective.
+    template <int dim>
+    KktVectors
+    residual_derivatives(const GradientProblem<dim> &problem);
+
     /**
-     * u'_j (per subdomain) and lambda'_j (owned rows), a column per design
-     * variable, by the direct method on the strongly active set, all from the
+     * u'_j (per subdomain) and lambda'_j (owned rows), a column per variable,
+     * by the direct method on the strongly active set, all from the
      * factorizations of the state. Collective. @throws SolveError.
      */
     template <int dim>
@@ -24,7 +41,8 @@ namespace snug
     state_derivatives(const GradientProblem<dim> &problem);
 
     // Each of these is one method for any responses. All are collective and
-    // throw SolveError.
+    // throw SolveError. dJ/dX is given by the first
+    // two with exact derivatives of the data, u' by the last two.
 
     /**
      * J' = dJ/dX . V - lambda'(g' - B'u) for responses that need no solve:
@@ -32,7 +50,7 @@ namespace snug
      * @throws InputError for others.
      */
     template <int dim>
-    std::vector<Gradient>
+    Gradients<dim>
     energy_gradients(const GradientProblem<dim> &problem,
                      const Responses<dim>       &responses);
 
@@ -42,20 +60,20 @@ namespace snug
      * block solve.
      */
     template <int dim>
-    std::vector<Gradient>
+    Gradients<dim>
     adjoint_gradients(const GradientProblem<dim> &problem,
                       const Responses<dim>       &responses);
 
     /// J'_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dlambda . lambda'_j.
     template <int dim>
-    std::vector<Gradient>
+    Gradients<dim>
     direct_gradients(const GradientProblem<dim> &problem,
                      const Responses<dim>       &responses);
 
-    /// Central differences of states solved from cold. The solver is left at
-    /// another geometry than the state's.
+    /// Differences of states solved from cold, by parameters.differences. The
+    /// solver is left at another geometry than the state's.
     template <int dim>
-    std::vector<Gradient>
+    Gradients<dim>
     difference_gradients(const GradientProblem<dim> &problem,
                          const Responses<dim>       &responses);
   } // namespace sensitivity

@@ -5,6 +5,7 @@
 #include <snug/mesh/body_mesh.h>
 #include <snug/qp/solver.h>
 
+#include <limits>
 #include <vector>
 
 namespace snug
@@ -87,10 +88,13 @@ namespace snug
       double                 max_pressure    = 0.;
       unsigned int           active_contacts = 0;
       unsigned int           weak_contacts   = 0;
-      unsigned long          f_mults         = 0; ///< of the contact solve
-      unsigned long          linear_f_mults  = 0; ///< 0: not asked for
-      Certificate            certificate;
-      Assumptions            assumptions;
+      /// least of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), the
+      /// distance from a weakly active contact; infinite without contacts
+      double degeneracy_distance   = std::numeric_limits<double>::infinity();
+      unsigned long f_mults        = 0; ///< of the contact solve
+      unsigned long linear_f_mults = 0; ///< 0: not asked for
+      Certificate   certificate;
+      Assumptions   assumptions;
     };
   } // namespace state
 } // namespace snug

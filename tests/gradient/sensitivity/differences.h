@@ -109,7 +109,7 @@ namespace snug
                 parameters};
       }
 
-      sensitivity::Gradients
+      sensitivity::Gradients<dim>
       gradients(const state::ContactState<dim>        &state,
                 const std::vector<std::string>        &names,
                 const sensitivity::GradientParameters &parameters)

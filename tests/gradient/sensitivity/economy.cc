@@ -83,7 +83,7 @@ namespace
     const auto       state = scene.solve(scene.problem.scene.design);
     sensitivity::GradientParameters exact, differences;
     exact.method = differences.method = "direct";
-    differences.derivatives           = "finite differences";
+    differences.derivatives           = "central differences";
     const std::vector<std::string> responses{"compliance", "probe"};
     const auto                     a = scene.gradients(state, responses, exact);
     const auto b = scene.gradients(state, responses, differences);

@@ -1,7 +1,5 @@
 #include "cells.h"
 
-#include <snug/elasticity/finite_difference.h>
-
 using namespace elasticity_cells;
 
 template <typename Case>
@@ -179,23 +177,4 @@ TYPED_TEST(ElementDerivatives, VolumeGradient)
                 1e-13 * norm<dim>(gradient))
         << of.name();
     }
-}
-
-TYPED_TEST(ElementDerivatives, CentralDifferenceIsOfSecondOrder)
-{
-  constexpr int dim   = TestFixture::dim;
-  const auto   &of    = this->elements[0];
-  const auto    exact = this->force_derivative(of, this->V);
-  const auto    error = [&](const double step) {
-    const auto approximation = central_difference<dim>(
-      [&](const Nodes<dim> &X, Nodes<dim> &f) {
-        f = this->force(of.element, X, this->u);
-      },
-      of.X,
-      this->V,
-      step);
-    return distance<dim>(approximation, exact) / norm<dim>(exact);
-  };
-  EXPECT_NEAR(error(2e-3) / error(1e-3), 4., 0.05);
-  EXPECT_LT(error(1e-5), 1e-8);
 }

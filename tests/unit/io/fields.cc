@@ -145,6 +145,33 @@ namespace snug
           << name;
     }
 
+    TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
+    {
+      const test::ScratchDirectory scratch;
+      const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD,
+                                   test::two_boxes<2>(false),
+                                   1);
+      io::FieldOutput<2>           output(mesh,
+                                test::one_subdomain_per_rank(mesh),
+                                test::two_bodies<2>(),
+                                scratch.path);
+      const auto                   state = linear_state(mesh);
+      int                          rank;
+      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+      // all of a node's gradient on one rank, what it is from the position
+      auto share = state.displacement;
+      for (unsigned int node = 0; node < share.size(); ++node)
+        if (mesh.owner(node) != static_cast<unsigned int>(rank))
+          share[node] = 0.;
+      output.write(0., state, &share);
+      const auto vtu = test::read_vtu(
+        test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+      for (unsigned int p = 0; p < vtu.n_points; ++p)
+        for (unsigned int c = 0; c < 2; ++c)
+          EXPECT_EQ(entry(vtu, "shape_gradient", p, c),
+                    entry(vtu, "displacement", p, c));
+    }
+
     TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
     {
       const test::ScratchDirectory          scratch;

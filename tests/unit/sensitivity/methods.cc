@@ -40,7 +40,7 @@ namespace
         .make(problem.mesh, {problem.model.body_names}, given);
     }
 
-    sensitivity::Gradients
+    sensitivity::Gradients<2>
     gradients(const std::vector<std::string> &names, const std::string &method)
     {
       std::vector<std::unique_ptr<response::Response<2>>> made;
@@ -60,7 +60,7 @@ namespace
                                        responses);
     }
 
-    sensitivity::Gradient
+    sensitivity::Gradient<2>
     gradient(const std::string &response, const std::string &method)
     {
       return gradients({response}, method).of_response.front();
@@ -120,7 +120,7 @@ namespace
     ASSERT_EQ(expected.size(), 3u);
     for (const std::string method : {"adjoint", "direct"})
       for (const std::string solves : {"block", "recycled"})
-        for (const std::string derivatives : {"exact", "finite differences"})
+        for (const std::string derivatives : {"exact", "central differences"})
           {
             parameters.solves      = solves;
             parameters.derivatives = derivatives;
@@ -131,6 +131,29 @@ namespace
                           expected[i],
                           1e-8 * std::abs(expected[1]));
           }
+  }
+
+  TEST_F(Methods, ShapeGradientsHaveTheGradientAsProductsWithTheBasis)
+  {
+    EXPECT_FALSE(gradient("compliance", "adjoint").shape);
+    parameters.shape_gradient                                  = true;
+    const std::pair<const char *, const char *> combinations[] = {
+      {"potential energy", "energy"},
+      {"volume", "direct"},
+      {"compliance", "adjoint"},
+      {"compliance", "direct"},
+      {"strain energy", "finite differences"}};
+    for (const auto &[response, method] : combinations)
+      {
+        const auto found = gradient(response, method);
+        ASSERT_TRUE(found.shape);
+        const auto products = basis->transpose(*found.shape);
+        for (unsigned int i = 0; i < 3; ++i)
+          EXPECT_NEAR(products[i],
+                      found.values[i],
+                      1e-12 * std::abs(found.values[1]))
+            << response << " by " << method;
+      }
   }
 
   TEST_F(Methods, PositionsOfADesignAreReferencePlusBasis)
