@@ -28,6 +28,9 @@ namespace snug
       require(parameters.maximum_evaluations > 0,
               "Maximum evaluations",
               parameters.maximum_evaluations);
+      require(parameters.gradient_tolerance > 0.,
+              "Gradient tolerance",
+              parameters.gradient_tolerance);
       require(parameters.objective_tolerance > 0.,
               "Objective tolerance",
               parameters.objective_tolerance);

@@ -63,6 +63,10 @@ namespace snug
       ++iterations;
       report();
 
+      const bool feasible = is_feasible(*last);
+      if (feasible &&
+          problem.projected_gradient(*last) <= parameters.gradient_tolerance)
+        return End::gradient;
       const double f  = last->evaluation.objective;
       const double df = std::abs(f - previous->evaluation.objective);
       double       dy = 0.;
@@ -72,7 +76,6 @@ namespace snug
       const bool by_objective =
         df <= parameters.objective_tolerance * std::abs(f);
       const bool by_design = dy <= parameters.design_tolerance;
-      const bool feasible  = is_feasible(*last);
       const bool is_stuck =
         !feasible && by_design && last->violation > previous->violation / 2.;
       const bool is_close =
@@ -123,6 +126,8 @@ namespace snug
     {
       switch (end)
         {
+          case End::gradient:
+            return "gradient tolerance";
           case End::objective:
             return "objective tolerance";
           case End::design:
@@ -143,8 +148,9 @@ namespace snug
     OptimizationResult
     Progress::result(const End end) const
     {
-      const bool  by_tolerance = end == End::objective || end == End::design;
-      const auto &point        = by_tolerance ? last : best;
+      const bool by_tolerance =
+        end == End::gradient || end == End::objective || end == End::design;
+      const auto        &point = by_tolerance ? last : best;
       OptimizationResult result;
       result.x                    = point->x;
       result.evaluation           = point->evaluation;

@@ -222,6 +222,7 @@ namespace snug
                           std::to_string(progress.n_iterations()));
               return true;
             case End::none:
+            case End::gradient:
             case End::evaluations:
             case End::interrupted:
               return false;

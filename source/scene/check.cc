@@ -79,6 +79,7 @@ namespace snug
                          section + "Maximum evaluations",
                          parameters.maximum_evaluations);
         const std::pair<const char *, double> tolerances[] = {
+          {"Gradient tolerance", parameters.gradient_tolerance},
           {"Objective tolerance", parameters.objective_tolerance},
           {"Design tolerance", parameters.design_tolerance},
           {"Constraint tolerance", parameters.constraint_tolerance}};

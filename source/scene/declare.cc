@@ -330,6 +330,10 @@ namespace snug
         entries.add("Maximum evaluations",
                     optimization.maximum_evaluations,
                     "Largest number of designs that are evaluated.");
+        entries.add("Gradient tolerance",
+                    optimization.gradient_tolerance,
+                    "Stop when the projected gradient is smaller, relative to "
+                    "the first gradient.");
         entries.add("Objective tolerance",
                     optimization.objective_tolerance,
                     "Stop when the objective changes by less, relative.");

@@ -60,9 +60,9 @@ namespace snug
       double              objective_final      = 0.;
       double              constraint_violation = 0.; ///< as in Iteration
       double              projected_gradient   = 0.; ///< as in Iteration
-      /// "objective tolerance", "design tolerance", "maximum evaluations",
-      /// "round-off", "constraints violated", "interrupted" or
-      /// "restarts exhausted (tangled meshes)"
+      /// "gradient tolerance", "objective tolerance", "design tolerance",
+      /// "maximum evaluations", "round-off", "constraints violated",
+      /// "interrupted" or "restarts exhausted (tangled meshes)"
       std::string stop_reason;
       /// Stopped by a tolerance at a design that meets the constraints, or by
       /// round-off where the projected gradient is at most the square root of

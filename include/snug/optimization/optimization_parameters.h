@@ -18,6 +18,7 @@ namespace snug
       unsigned int                       maximum_evaluations = 200;
       double objective_tolerance  = 1e-8; ///< relative, of the objective
       double design_tolerance     = 1e-7; ///< relative to bound widths
+      double gradient_tolerance   = 1e-6; ///< of the projected gradient
       double constraint_tolerance = 1e-8; ///< relative to the target
     };
   } // namespace optimization

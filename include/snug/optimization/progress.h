@@ -14,6 +14,7 @@ namespace snug
     enum class End
     {
       none,
+      gradient,
       objective,
       design,
       evaluations,
@@ -42,11 +43,11 @@ namespace snug
 
       /**
        * Count and report an accepted design, unless it is the last one again,
-       * and say whether it ends the search: End::objective, End::design,
-       * End::none or, if the step was within the design tolerance but far from
-       * halved a violation beyond its tolerance, End::round_off. A step that is
-       * not
-       * @p full tells less: only two of them in a row end the search.
+       * and say whether it ends the search: End::gradient, End::objective,
+       * End::design, End::none or, if the step was within the design tolerance
+       * but far from halved a violation beyond its tolerance, End::round_off.
+       * Of the size of a step that is not @p full, only two in a row end the
+       * search.
        */
       End
       accept(const Point &point, bool full);

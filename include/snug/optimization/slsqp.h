@@ -13,10 +13,11 @@ namespace snug
      * to order one (ScaledProblem).
      *
      * The search ends at an accepted design x that meets the constraints to
-     * the constraint tolerance when, since the accepted design before, the
-     * objective changed by at most objective_tolerance |f(x)| or every
-     * variable by at most design_tolerance of its bound width; if the line
-     * search shortened that step, the next one must agree. NLopt 2.7.1 has its
+     * the constraint tolerance when its projected gradient is at most
+     * gradient_tolerance or, since the accepted design before, the objective
+     * changed by at most objective_tolerance |f(x)| or every variable by at
+     * most design_tolerance of its bound width; if the line search shortened
+     * that step, the next one must agree. NLopt 2.7.1 has its
      * own tests, but they also report success at designs that violate the
      * constraints, so they are switched off.
      *

@@ -124,6 +124,7 @@ inline snug::optimization::OptimizationParameters
 tight()
 {
   snug::optimization::OptimizationParameters parameters;
+  parameters.gradient_tolerance  = 1e-13;
   parameters.objective_tolerance = 1e-13;
   parameters.design_tolerance    = 1e-10;
   return parameters;

@@ -41,7 +41,8 @@ TEST(Slsqp, EndsByItsOwnToleranceWithinDefaults)
   const Knapsack knapsack(16);
   const auto result = minimize(knapsack.problem(), OptimizationParameters());
   EXPECT_TRUE(result.success);
-  EXPECT_TRUE(result.stop_reason == "objective tolerance" ||
+  EXPECT_TRUE(result.stop_reason == "gradient tolerance" ||
+              result.stop_reason == "objective tolerance" ||
               result.stop_reason == "design tolerance")
     << result.stop_reason;
   EXPECT_LE(result.constraint_violation, 1e-8);

@@ -307,6 +307,7 @@ TEST(Errors, MethodsAndResponses)
   expect_error({"Optimization/Constraints", "volume: nan", "'initial' or"});
   expect_error({"Optimization/Constraints", "potential energy: 1", "already"});
   expect_error({"Optimization/Maximum evaluations", "0", "at least 1"});
+  expect_error({"Optimization/Gradient tolerance", "0", "between"});
   expect_error({"Optimization/Objective tolerance", "0", "between"});
   expect_error({"Optimization/Design tolerance", "1", "between"});
   expect_error({"Optimization/Constraint tolerance", "-1", "between"});
