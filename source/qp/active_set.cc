@@ -284,7 +284,7 @@ namespace snug
         RowSet leaving = mask;
         for (unsigned int i = 0; i < next.size(); ++i)
           leaving[i] = mask[i] && !next[i];
-        DirectionBasis known = krylov->directions_off(leaving);
+        DirectionBasis known = krylov->directions().off(leaving, comm);
         mask                 = next;
         krylov.reset();
         if (any(changed, comm))
@@ -328,6 +328,7 @@ namespace snug
       {
         DualSolution result;
         result.lambda           = lambda;
+        result.directions       = krylov->directions();
         result.residual         = residual;
         result.amplitudes       = kkt.amplitudes;
         result.active           = loaded_rows(problem.bounded(), lambda);

@@ -141,5 +141,13 @@ namespace snug
         square = std::sqrt(square);
       return squares;
     }
+
+    MultiVector
+    times(const MultiVector &x, const MultiVector &C)
+    {
+      MultiVector product(x.n_rows(), C.n_columns());
+      product.add_product(1., x, C);
+      return product;
+    }
   } // namespace qp
 } // namespace snug

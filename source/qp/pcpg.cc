@@ -1,3 +1,4 @@
+#include <snug/qp/independent_columns.h>
 #include <snug/qp/pcpg.h>
 
 #include <deal.II/base/exceptions.h>
@@ -23,43 +24,36 @@ namespace snug
       /// of the square of its F-norm.
       const double noise = 1e-12;
 
+      /// A column whose residual is this part of its tolerance from the span
+      /// of the others' converges with them.
+      const double negligible = 0.5;
+
+      /// Columns that stand out by less of the longest than this wait: later
+      /// the directions of the others may do.
+      const double minor = 0.3;
+
       /// Iterations without a smaller residual that mean it is at its floor.
       const unsigned int patience = 40;
 
+      /// Columns of @p x, divided by @p units, that span the others nearly.
       MultiVector
-      selected_columns(const MultiVector               &x,
-                       const std::vector<unsigned int> &columns)
+      leading_part(const MultiVector               &x,
+                   const std::vector<unsigned int> &columns,
+                   const std::vector<double>       &units,
+                   MPI_Comm                         comm)
       {
-        MultiVector part(x.n_rows(), 0);
+        MultiVector scaled(x.n_rows(), 0);
         for (const unsigned int j : columns)
-          part.append(x.columns_from(j, 1));
-        return part;
-      }
-
-      /// x * C
-      MultiVector
-      times(const MultiVector &x, const MultiVector &C)
-      {
-        MultiVector product(x.n_rows(), C.n_columns());
-        product.add_product(1., x, C);
-        return product;
-      }
-
-      /// A <- A (I - 2 v v' / v'v)
-      void
-      reflect(const std::vector<double> &v, MultiVector &A)
-      {
-        double square = 0.;
-        for (const double entry : v)
-          square += entry * entry;
-        for (unsigned int i = 0; i < A.n_rows(); ++i)
           {
-            double product = 0.;
-            for (unsigned int j = 0; j < v.size(); ++j)
-              product += A(i, j) * v[j];
-            for (unsigned int j = 0; j < v.size(); ++j)
-              A(i, j) -= 2. * product / square * v[j];
+            MultiVector column(x.n_rows());
+            column.add(1. / units[j], x.columns_from(j, 1));
+            scaled.append(column);
           }
+        MultiVector part(x.n_rows(), 0);
+        for (const unsigned int j : leading_columns(
+               inner_products(scaled, scaled, comm), negligible, minor))
+          part.append(scaled.columns_from(j, 1));
+        return part;
       }
 
       /// Remembers the smallest worst column and when it was reached.
@@ -84,79 +78,6 @@ namespace snug
       };
     } // namespace
 
-    MultiVector
-    orthonormal_combinations(const MultiVector         &S,
-                             const std::vector<double> &smallest,
-                             double                     cut)
-    {
-      const unsigned int       k = S.n_rows();
-      MultiVector              C(k, 0);
-      std::vector<MultiVector> candidates; // S-orthogonal to C's columns
-      std::vector<double>      squares;    // c'Sc of the candidates
-      for (unsigned int j = 0; j < k; ++j)
-        if (S(j, j) > smallest[j])
-          {
-            candidates.emplace_back(k);
-            candidates.back()(j) = 1. / std::sqrt(S(j, j));
-            squares.push_back(1.);
-          }
-      while (!candidates.empty())
-        {
-          const std::size_t pivot =
-            std::max_element(squares.begin(), squares.end()) - squares.begin();
-          MultiVector       c      = candidates[pivot];
-          const MultiVector Sc     = times(S, c);
-          const double      square = inner_products(c, Sc, MPI_COMM_SELF)(0);
-          if (!(square > cut))
-            break;
-          candidates.erase(candidates.begin() + pivot);
-          squares.erase(squares.begin() + pivot);
-          for (std::size_t j = 0; j < candidates.size(); ++j)
-            {
-              const double part =
-                inner_products(candidates[j], Sc, MPI_COMM_SELF)(0) / square;
-              candidates[j].add(-part, c);
-              squares[j] -= part * part * square;
-            }
-          for (unsigned int i = 0; i < k; ++i)
-            c(i) /= std::sqrt(square);
-          C.append(c);
-        }
-      return C;
-    }
-
-    MultiVector
-    null_space(MultiVector A)
-    {
-      const unsigned int m = A.n_rows(), n = A.n_columns();
-      MultiVector        Q(n, n); // product of the reflections
-      double             largest = 0.;
-      for (unsigned int j = 0; j < n; ++j)
-        {
-          Q(j, j) = 1.;
-          for (unsigned int i = 0; i < m; ++i)
-            largest = std::max(largest, std::abs(A(i, j)));
-        }
-      unsigned int rank = 0;
-      for (unsigned int row = 0; row < m && rank < n; ++row)
-        {
-          std::vector<double> v(n, 0.); // of the reflection
-          double              square = 0.;
-          for (unsigned int j = rank; j < n; ++j)
-            {
-              v[j] = A(row, j);
-              square += v[j] * v[j];
-            }
-          if (std::sqrt(square) <= noise * largest)
-            continue;
-          v[rank] += std::copysign(std::sqrt(square), v[rank]);
-          reflect(v, A);
-          reflect(v, Q);
-          ++rank;
-        }
-      return Q.columns_from(rank, n - rank);
-    }
-
     Pcpg::Pcpg(const DualProblem &problem,
                const Face        &face,
                DirectionBasis     known)
@@ -168,33 +89,9 @@ namespace snug
       if (basis.P.n_columns() == 0)
         basis = {MultiVector(problem.n_owned(), 0),
                  MultiVector(problem.n_owned(), 0)};
-    }
-
-    DirectionBasis
-    Pcpg::directions_off(const RowSet &rows) const
-    {
-      const unsigned int        n = basis.P.n_columns();
-      std::vector<unsigned int> mine;
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        if (rows[i])
-          mine.push_back(i);
-      unsigned int count = mine.size(), first = 0, total = 0;
-      MPI_Exscan(&count, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
-      MPI_Allreduce(&count, &total, 1, MPI_UNSIGNED, MPI_SUM, comm);
-      if (total >= n)
-        return DirectionBasis();
-      MultiVector on_rows(total, n);
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int i = 0; i < count; ++i)
-          on_rows(first + i, j) = basis.P(mine[i], j);
-      MPI_Allreduce(
-        MPI_IN_PLACE, on_rows.column(0), total * n, MPI_DOUBLE, MPI_SUM, comm);
-      const MultiVector N   = null_space(on_rows);
-      DirectionBasis    off = {times(basis.P, N), times(basis.FP, N)};
-      for (unsigned int j = 0; j < off.P.n_columns(); ++j)
-        for (const unsigned int i : mine)
-          off.P(i, j) = 0.;
-      return off;
+      for (const double length : norms(basis.P, comm)) // p'Fp = 1
+        largest_rayleigh_quotient =
+          std::max(largest_rayleigh_quotient, 1. / (length * length));
     }
 
     void
@@ -222,7 +119,8 @@ namespace snug
     }
 
     MultiVector
-    Pcpg::directions(const MultiVector &r, std::vector<double> &removed) const
+    Pcpg::new_directions(const MultiVector   &r,
+                         std::vector<double> &removed) const
     {
       MultiVector Z = face.precondition(r);
       face.project(Z);
@@ -306,15 +204,18 @@ namespace snug
           both.append(residual);
           const auto                sizes = norms(both, comm);
           std::vector<unsigned int> remaining;
+          std::vector<double>       goals(k);
           double                    worst = 0.;
           if (result.iterations == 0)
             first = sizes;
           for (unsigned int j = 0; j < k; ++j)
-            if (!(sizes[j] <= std::max(tolerances[j], rounding * sizes[k + j])))
-              {
-                remaining.push_back(j);
-                worst = std::max(worst, sizes[j] / first[j]);
-              }
+            {
+              goals[j] = std::max(tolerances[j], rounding * sizes[k + j]);
+              if (sizes[j] <= goals[j])
+                continue;
+              remaining.push_back(j);
+              worst = std::max(worst, sizes[j] / first[j]);
+            }
           result.residual_norms.assign(sizes.begin(), sizes.begin() + k);
           result.converged = remaining.empty();
           if (result.converged || result.iterations == max_iterations ||
@@ -322,7 +223,7 @@ namespace snug
             return result;
           std::vector<double> removed;
           const MultiVector   Z =
-            directions(selected_columns(r, remaining), removed);
+            new_directions(leading_part(r, remaining, goals, comm), removed);
           if (Z.n_columns() == 0 || !step(Z, removed, lambda, residual))
             return result;
           ++result.iterations;

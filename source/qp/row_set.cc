@@ -69,6 +69,15 @@ namespace snug
     }
 
     RowSet
+    complement(const RowSet &rows)
+    {
+      RowSet others(rows.size());
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        others[i] = !rows[i];
+      return others;
+    }
+
+    RowSet
     loaded_rows(const RowSet &bounded, const MultiVector &lambda)
     {
       RowSet rows(bounded.size(), 1);

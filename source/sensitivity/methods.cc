@@ -22,7 +22,8 @@ namespace snug
                              problem.solver.model().solver,
                              problem.parameters.solves == "block"
                                ? Solves::block
-                               : Solves::recycled);
+                               : Solves::recycled,
+                             problem.state.dual.directions);
       }
 
       /// values_j += column i of products (adjoint, residual derivatives).

@@ -76,8 +76,12 @@ namespace snug
       const auto &parameters = solver.model().solver;
       const auto  strong     = strong_rows(solver, state);
       const auto  weak       = weak_rows(solver, state);
-      const auto  linear =
-        TangentSystem(feti, strong, parameters, Solves::block).solve(data);
+      const auto  linear     = TangentSystem(feti,
+                                        strong,
+                                        parameters,
+                                        Solves::block,
+                                        state.dual.directions)
+                            .solve(data);
       if (state.weak_contacts == 0)
         return linear;
       KktVectors result;

@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/qp/pcpg.h>
+#include <snug/qp/row_set.h>
 #include <snug/sensitivity/tangent_system.h>
 
 namespace snug
@@ -21,11 +22,13 @@ namespace snug
     TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
                                  const qp::RowSet           &rows,
                                  const qp::SolverParameters &parameters,
-                                 Solves                      solves)
+                                 Solves                      solves,
+                                 const qp::DirectionBasis   &known)
       : feti(feti)
       , parameters(parameters)
       , solves(solves)
       , face(feti.face(rows))
+      , known(known.off(qp::complement(rows), feti.context().communicator()))
     {
     }
 
@@ -50,7 +53,7 @@ namespace snug
                             qp::MultiVector           &residual,
                             const std::vector<double> &tolerances) const
     {
-      qp::Pcpg krylov(feti, *face);
+      qp::Pcpg krylov(feti, *face, known);
       if (solves == Solves::block)
         return krylov.solve(mu, residual, tolerances, parameters.max_iterations)
           .converged;

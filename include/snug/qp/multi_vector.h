@@ -85,6 +85,10 @@ namespace snug
     /// Euclidean norms of the columns, equal on all ranks. Collective.
     std::vector<double>
     norms(const MultiVector &X, MPI_Comm comm);
+
+    /// x C with C (x.n_columns x n).
+    MultiVector
+    times(const MultiVector &x, const MultiVector &C);
   } // namespace qp
 } // namespace snug
 

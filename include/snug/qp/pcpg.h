@@ -1,7 +1,7 @@
 #ifndef snug_qp_pcpg_h
 #define snug_qp_pcpg_h
 
-#include <snug/qp/dual_problem.h>
+#include <snug/qp/direction_basis.h>
 
 namespace snug
 {
@@ -16,21 +16,16 @@ namespace snug
       bool converged = false;
     };
 
-    /// Directions P with P' F P = I, and F P (n_owned x n each).
-    struct DirectionBasis
-    {
-      MultiVector P{0, 0}, FP{0, 0};
-    };
-
     /**
      * Block preconditioned conjugate projected gradients with full
      * reorthogonalisation for the linear problems on a face,
      * @f[ P_M (d_j - F \lambda_j) = 0, \qquad j = 1, \dots, k. @f]
      * Each iteration adds a block of directions
-     * @f$P_M M^{-1}_M P_M r_j@f$, one per column that is not converged, made
-     * F-orthonormal to all earlier ones, and minimizes all k columns over it.
-     * Linearly dependent directions are dropped before F is applied, so a
-     * block of equal columns costs what one of them does.
+     * @f$P_M M^{-1}_M P_M r_j@f$, made F-orthonormal to all earlier ones, and
+     * minimizes all k columns over it. Only columns whose residuals, measured
+     * by their tolerances, stand out from the span of the others' give
+     * directions, and linearly dependent ones are dropped before F is applied:
+     * similar columns cost little more than one of them does.
      *
      * The directions are kept: solving again on the same face, with tighter
      * tolerances or corrected residuals, continues the iteration. Those that
@@ -64,13 +59,12 @@ namespace snug
             const std::vector<double> &tolerances,
             unsigned int               max_iterations);
 
-      /**
-       * An F-orthonormal basis of the directions' span that vanishes on
-       * @p rows; without F-mults. Empty if there are as many rows as
-       * directions. Collective.
-       */
-      DirectionBasis
-      directions_off(const RowSet &rows) const;
+      /// All directions so far.
+      const DirectionBasis &
+      directions() const
+      {
+        return basis;
+      }
 
     private:
       /// Minimize over directions already there.
@@ -84,7 +78,7 @@ namespace snug
       /// New directions from the projected residuals @p r, and what the last
       /// orthogonalisation removed from them.
       MultiVector
-      directions(const MultiVector &r, std::vector<double> &removed) const;
+      new_directions(const MultiVector &r, std::vector<double> &removed) const;
 
       /// Append an F-orthonormal basis of @p Z and minimize over it; false
       /// if F vanishes on Z up to rounding.
@@ -109,22 +103,6 @@ namespace snug
          MultiVector               &residual,
          const std::vector<double> &tolerances,
          unsigned int               max_iterations);
-
-    /// Orthonormal basis of the null space of @p A (m x n) by Householder
-    /// reflections; n x (n - rank).
-    MultiVector
-    null_space(MultiVector A);
-
-    /**
-     * Rank-revealing Cholesky factorization of the symmetric positive
-     * semidefinite S (k x k): C (k x rank) with C' S C = I. Pivots (of S
-     * scaled to unit diagonal) below @p cut are dropped, and rows whose
-     * diagonal entry is not above their entry of @p smallest.
-     */
-    MultiVector
-    orthonormal_combinations(const MultiVector         &S,
-                             const std::vector<double> &smallest,
-                             double                     cut);
   } // namespace qp
 } // namespace snug
 

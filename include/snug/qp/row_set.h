@@ -23,6 +23,10 @@ namespace snug
     RowSet
     with_one_change(const RowSet &from, const RowSet &to, MPI_Comm comm);
 
+    /// The rows that are not in @p rows.
+    RowSet
+    complement(const RowSet &rows);
+
     /// The equality rows and those with lambda_i > 0 (one column).
     RowSet
     loaded_rows(const RowSet &bounded, const MultiVector &lambda);

@@ -2,7 +2,7 @@
 #define snug_qp_solver_h
 
 #include <snug/base/choice.h>
-#include <snug/qp/dual_problem.h>
+#include <snug/qp/direction_basis.h>
 
 #include <string>
 
@@ -41,6 +41,8 @@ namespace snug
       unsigned int  outer_iterations = 0;
       unsigned long f_mults          = 0;
       std::string   method; ///< the solver that finished
+      /// of the linear problem on the active set, if the solver used any
+      DirectionBasis directions;
     };
 
     /// A solver of the dual QP.

@@ -32,16 +32,19 @@ namespace snug
      * the partial derivatives of a response.
      *
      * Its dual, min 1/2 mu'F mu - mu'(B K^+ b - c) with G mu = R'b, is solved
-     * by PCPG with the factorizations of the state: no new one.
+     * by PCPG with the factorizations of the state, no new one, and in the
+     * F-orthonormal directions that the state left behind before any other.
      */
     class TangentSystem
     {
     public:
-      /// @p feti must outlive this object.
+      /// @p feti must outlive this object. Solves begin in the directions
+      /// @p known of the state's solver. Collective.
       TangentSystem(const feti::TotalFeti      &feti,
                     const qp::RowSet           &rows,
                     const qp::SolverParameters &parameters,
-                    Solves                      solves);
+                    Solves                      solves,
+                    const qp::DirectionBasis   &known);
 
       /**
        * z and mu for every column. Collective.
@@ -66,6 +69,7 @@ namespace snug
       const qp::SolverParameters      parameters;
       const Solves                    solves;
       const std::unique_ptr<qp::Face> face;
+      const qp::DirectionBasis        known;
     };
   } // namespace sensitivity
 } // namespace snug

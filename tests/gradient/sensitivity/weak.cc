@@ -157,7 +157,8 @@ namespace
                                  sensitivity::strong_rows(scene.problem.solver,
                                                           state),
                                  scene.problem.model.solver,
-                                 sensitivity::Solves::block)
+                                 sensitivity::Solves::block,
+                                 state.dual.directions)
         .solve(right);
     std::vector<mesh::BodyMesh<2>::Field> by_qp, by_strong;
     for (unsigned int j = 0; j < list.size(); ++j)

@@ -1,5 +1,6 @@
 #include "membranes.h"
 
+#include <snug/qp/independent_columns.h>
 #include <snug/qp/pcpg.h>
 
 #include <gtest/gtest.h>
@@ -229,7 +230,8 @@ TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
   MultiVector lambda(problem.n_owned(), 1), residual = problem.slice(b);
   Pcpg        on_all_rows(problem, *whole);
   const auto  first = on_all_rows.solve(lambda, residual, {1e-3}, 100);
-  const auto  known = on_all_rows.directions_off(problem.slice(leaving));
+  const auto  known =
+    on_all_rows.directions().off(problem.slice(leaving), MPI_COMM_WORLD);
   // a direction is lost per row
   EXPECT_EQ(known.P.n_columns(), first.iterations - 3);
   const auto P = problem.gather(known.P), FP = problem.gather(known.FP);
@@ -240,7 +242,9 @@ TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
       identity(j, j) = 1.;
       for (unsigned int i = 0; i < 40; ++i)
         if (leaving[i])
-          EXPECT_EQ(P(i, j), 0.);
+          {
+            EXPECT_EQ(P(i, j), 0.);
+          }
     }
   EXPECT_LT(dense::distance(dense::product(dense::transpose(P), FP), identity),
             1e-12);
@@ -254,6 +258,61 @@ TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
                             solve_directly(problem.data, staying, b)),
             1e-10);
   EXPECT_LE(next.iterations + known.P.n_columns(), alone.f_mults + 3);
+}
+
+TEST(Pcpg, BlocksBeginInKnownDirections)
+{
+  const DenseProblem problem(linear_data(40, 3, 21));
+  const RowSet       all(40, 1);
+  std::mt19937       generator(22);
+  const auto         b    = dense::random(40, 2, generator);
+  const auto         face = problem.face(problem.slice(all));
+  // the first column is solved, the second is new
+  MultiVector lambda(problem.n_owned(), 1);
+  MultiVector residual = problem.slice(b).columns_from(0, 1);
+  Pcpg        first(problem, *face);
+  first.solve(lambda, residual, {1e-11}, 100);
+  MultiVector both(problem.n_owned(), 2);
+  residual = problem.slice(b);
+  Pcpg next(problem, *face, first.directions());
+  EXPECT_TRUE(next.solve(both, residual, {1e-10, 1e-10}, 100).converged);
+  EXPECT_LT(dense::distance(problem.gather(both),
+                            solve_directly(problem.data, all, b)),
+            1e-9);
+  EXPECT_LE(next.directions().P.n_columns(), 40u);
+}
+
+TEST(LeadingColumns, AreNearToAllOthers)
+{
+  std::mt19937 generator(23);
+  auto         A = dense::random(9, 3, generator);
+  auto         x = dense::product(A, dense::random(3, 7, generator));
+  x.add(1e-6, dense::random(9, 7, generator));
+  const auto S = dense::product(dense::transpose(x), x);
+  EXPECT_EQ(leading_columns(S, 1e-4, 0.).size(), 3u);
+  EXPECT_EQ(leading_columns(S, 0., 1e-4).size(), 3u);
+  EXPECT_EQ(leading_columns(S, 1e-9, 0.).size(), 7u);
+  // farther than any column: the longest one alone
+  const auto one = leading_columns(S, 1e9, 0.);
+  ASSERT_EQ(one.size(), 1u);
+  for (unsigned int j = 0; j < 7; ++j)
+    EXPECT_LE(S(j, j), S(one[0], one[0]));
+  // distances from the span, by projection on an orthonormal basis
+  const auto    taken = leading_columns(S, 0., 0.2);
+  dense::Matrix Q(9, 0);
+  for (const unsigned int j : taken)
+    {
+      auto q = x.columns_from(j, 1);
+      for (unsigned int repeat = 0; repeat < 2; ++repeat)
+        q.add_product(-1., Q, dense::product(dense::transpose(Q), q));
+      dense::Matrix unit(9);
+      unit.add(1. / norms(q, MPI_COMM_SELF)[0], q);
+      Q.append(unit);
+    }
+  auto rest = x;
+  rest.add_product(-1., Q, dense::product(dense::transpose(Q), x));
+  for (const double distance : norms(rest, MPI_COMM_SELF))
+    EXPECT_LE(distance, 0.2 * std::sqrt(S(one[0], one[0])));
 }
 
 TEST(NullSpace, OfDependentRows)

@@ -1,0 +1,31 @@
+#ifndef snug_qp_direction_basis_h
+#define snug_qp_direction_basis_h
+
+#include <snug/qp/dual_problem.h>
+
+namespace snug
+{
+  namespace qp
+  {
+    /// Directions P with P' F P = I, and F P (n_owned x n each).
+    struct DirectionBasis
+    {
+      MultiVector P{0, 0}, FP{0, 0};
+
+      /**
+       * An F-orthonormal basis of the directions' span that vanishes on
+       * @p rows; without F-mults. Empty if there are as many of these rows
+       * with nonzeros as directions. Collective.
+       */
+      DirectionBasis
+      off(const RowSet &rows, MPI_Comm comm) const;
+    };
+
+    /// Orthonormal basis of the null space of @p A (m x n) by Householder
+    /// reflections; n x (n - rank).
+    MultiVector
+    null_space(MultiVector A);
+  } // namespace qp
+} // namespace snug
+
+#endif
