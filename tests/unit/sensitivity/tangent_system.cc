@@ -39,7 +39,8 @@ namespace
       feti,
       sensitivity::strong_rows(problem.solver, state),
       problem.model.solver,
-      solves);
+      solves,
+      state.dual.directions);
     const auto derivatives = system.solve(data);
 
     auto residual = feti.multiply_Bt(derivatives.dual);
@@ -110,7 +111,8 @@ namespace
         const sensitivity::TangentSystem system(problem.solver.feti(),
                                                 rows,
                                                 problem.model.solver,
-                                                solves);
+                                                solves,
+                                                state.dual.directions);
         const auto                       all = system.solve(data);
         for (const unsigned int j : {0, 5})
           {
