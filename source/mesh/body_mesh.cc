@@ -10,7 +10,6 @@
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_tools.h>
-#include <deal.II/fe/mapping_q1.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
@@ -49,13 +48,13 @@ namespace snug
       std::vector<unsigned int>       node_body;
       std::vector<dealii::Point<dim>> logical;
       Field                           reference;
+      CoarseCells<dim>                coarse;
       std::vector<unsigned int>       parts; ///< of cells
       std::vector<Cell>               cells;
       std::vector<Face>               faces;
       std::vector<Hanging>            hanging;
       std::vector<unsigned int>       hanging_of_node; ///< or n_hanging
       std::vector<std::pair<unsigned int, unsigned int>> neighbours;
-      unsigned long                                      n_cells      = 0;
       unsigned long                                      n_free_nodes = 0;
 
       unsigned int
@@ -86,11 +85,11 @@ namespace snug
       const TearingParameters               &tearing)
     {
       for (const auto &body : bodies)
-        geometries.push_back(
-          choose(body_geometry_table<dim>(), body.source).make(body));
+        geometries.push_back(make_geometry<dim>(body));
       dealii::parallel::distributed::Triangulation<dim> refined(comm);
       create_coarse_mesh(geometries, refined);
-      refine(bodies, geometries, refined);
+      coarse = CoarseCells<dim>(refined);
+      refine(bodies, geometries, coarse, refined);
       parts = distribute(geometries, tearing, degree, refined, triangulation);
     }
 
@@ -106,7 +105,6 @@ namespace snug
       first_node_of_rank.assign(1, 0);
       for (const unsigned int n : ends)
         first_node_of_rank.push_back(first_node_of_rank.back() + n);
-      n_cells = triangulation.n_global_active_cells();
     }
 
     template <int dim>
@@ -115,25 +113,28 @@ namespace snug
     {
       logical.resize(relevant.n_elements());
       node_body.resize(relevant.n_elements());
-      const dealii::MappingQ1<dim>                 mapping;
+      reference.resize(relevant.n_elements());
+      std::vector<bool>                            done(relevant.n_elements());
       std::vector<dealii::types::global_dof_index> indices(
         fe.n_dofs_per_cell());
       for (const auto &cell : nodes.active_cell_iterators())
         if (!cell->is_artificial())
           {
+            const unsigned int body = cell->material_id();
             cell->get_dof_indices(indices);
             for (unsigned int i = 0; i < indices.size(); ++i)
               {
                 const unsigned int node = local(indices[i]);
-                node_body[node]         = cell->material_id();
-                logical[node] =
-                  mapping.transform_unit_to_real_cell(cell,
-                                                      fe.unit_support_point(i));
+                if (done[node])
+                  continue;
+                const auto point =
+                  coarse.point(cell->id(), fe.unit_support_point(i));
+                done[node]      = true;
+                node_body[node] = body;
+                logical[node]   = geometries[body]->logical(point);
+                reference[node] = geometries[body]->position(point);
               }
           }
-      reference.resize(logical.size());
-      for (unsigned int node = 0; node < logical.size(); ++node)
-        reference[node] = geometries[node_body[node]]->position(logical[node]);
     }
 
     template <int dim>
@@ -182,7 +183,11 @@ namespace snug
         if (cell->is_locally_owned())
           {
             cell->get_dof_indices(indices);
-            Cell entry{cell->material_id(), parts[cells.size()], {}};
+            const unsigned int body = cell->material_id();
+            Cell               entry{body,
+                       parts[cells.size()],
+                       geometries[body]->region(coarse.coarse_cell(cell->id())),
+                       {}};
             for (const unsigned int i : order)
               entry.nodes.push_back(local(indices[i]));
             cells.push_back(entry);
@@ -240,13 +245,6 @@ namespace snug
     }
 
     template <int dim>
-    unsigned int
-    BodyMesh<dim>::n_bodies() const
-    {
-      return data->geometries.size();
-    }
-
-    template <int dim>
     const BodyGeometry<dim> &
     BodyMesh<dim>::geometry(unsigned int body) const
     {
@@ -272,13 +270,6 @@ namespace snug
     BodyMesh<dim>::hanging() const
     {
       return data->hanging;
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::n_local_nodes() const
-    {
-      return data->reference.size();
     }
 
     template <int dim>
@@ -386,7 +377,11 @@ namespace snug
   }
     SNUG_GETTER(MPI_Comm, communicator, data->comm)
     SNUG_GETTER(unsigned int, degree, data->degree)
-    SNUG_GETTER(unsigned long, n_global_cells, data->n_cells)
+    SNUG_GETTER(unsigned long,
+                n_global_cells,
+                data->triangulation.n_global_active_cells())
+    SNUG_GETTER(unsigned int, n_bodies, data->geometries.size())
+    SNUG_GETTER(unsigned int, n_local_nodes, data->reference.size())
     SNUG_GETTER(unsigned long, n_global_free_nodes, data->n_free_nodes)
 #undef SNUG_GETTER
 

@@ -40,46 +40,46 @@ namespace snug
           {level << 32 | static_cast<unsigned int>(parent->index()), path}};
       }
 
-      /// Size of the box around the vertices of @p body. Collective.
+      /// Collective.
       template <int dim>
-      dealii::Tensor<1, dim>
-      box_size(const BodyGeometry<dim> &geometry,
-               unsigned int             body,
-               const Refined<dim>      &refined)
+      bool
+      has_one_level(unsigned int body, const Refined<dim> &refined)
       {
-        std::vector<double> ends(2 * dim, -std::numeric_limits<double>::max());
+        int levels[2] = {-1, -100}; // largest, and smallest with a minus
         for (const auto &cell : refined.active_cell_iterators())
           if (cell->is_locally_owned() && cell->material_id() == body)
-            for (const unsigned int v : cell->vertex_indices())
-              {
-                const auto x = geometry.position(cell->vertex(v));
-                for (unsigned int c = 0; c < dim; ++c)
-                  {
-                    ends[c]       = std::max(ends[c], x[c]);
-                    ends[dim + c] = std::max(ends[dim + c], -x[c]);
-                  }
-              }
-        dealii::Utilities::MPI::max(ends, refined.get_communicator(), ends);
-        dealii::Tensor<1, dim> size;
-        for (unsigned int c = 0; c < dim; ++c)
-          size[c] = ends[c] + ends[dim + c];
-        return size;
+            {
+              levels[0] = std::max(levels[0], cell->level());
+              levels[1] = std::max(levels[1], -cell->level());
+            }
+        MPI_Allreduce(MPI_IN_PLACE,
+                      levels,
+                      2,
+                      MPI_INT,
+                      MPI_MAX,
+                      refined.get_communicator());
+        return levels[0] == -levels[1];
       }
 
       template <int dim>
       CellSet<dim>
       cell_set(const BodyGeometry<dim> &geometry,
                unsigned int             body,
+               const CoarseCells<dim>  &coarse,
                const Refined<dim>      &refined)
       {
         CellSet<dim> set;
         set.communicator = refined.get_communicator();
-        set.size         = box_size(geometry, body, refined);
+        set.size         = geometry.extent();
+        dealii::Point<dim> centre;
+        for (unsigned int d = 0; d < dim; ++d)
+          centre[d] = 0.5;
         for (const auto &cell : refined.active_cell_iterators())
           if (cell->is_locally_owned() && cell->material_id() == body)
             {
               const unsigned int number = cell->global_active_cell_index();
-              set.centres.push_back(cell->center());
+              set.centres.push_back(
+                geometry.logical(coarse.point(cell->id(), centre)));
               set.numbers.push_back(number);
               set.keys.push_back(key<dim>(cell));
               for (const unsigned int f : cell->face_indices())
@@ -94,6 +94,7 @@ namespace snug
         set.n_global =
           dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(),
                                                      set.communicator);
+        set.layered = geometry.has_grid() && has_one_level(body, refined);
         return set;
       }
 
@@ -252,9 +253,10 @@ namespace snug
                const Refined<dim>      &refined,
                dealii::parallel::fullydistributed::Triangulation<dim> &result)
     {
+      const CoarseCells<dim>    coarse(refined);
       std::vector<CellSet<dim>> sets;
       for (unsigned int body = 0; body < geometries.size(); ++body)
-        sets.push_back(cell_set(*geometries[body], body, refined));
+        sets.push_back(cell_set(*geometries[body], body, coarse, refined));
       const Parts               parts = decide_parts(sets, parameters, degree);
       const auto                ranks = ranks_of_parts(parts.cells,
                                         dealii::Utilities::MPI::n_mpi_processes(

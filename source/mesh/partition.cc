@@ -9,7 +9,14 @@ namespace snug
     partition_table()
     {
       static const ChoiceTable<Partition(const CellSet<dim> &, double)> table =
-        {{"grid",
+        {{"auto",
+          "grid for boxes and rings that are not refined locally, METIS for "
+          "others",
+          [](const CellSet<dim> &set, double cells_each) {
+            return set.layered ? grid_partition(set, cells_each)
+                               : graph_partition(set, cells_each);
+          }},
+         {"grid",
           "a grid of slabs along the axes, cut between layers of cells; near "
           "cubes, which need fewest iterations",
           grid_partition<dim>},

@@ -63,11 +63,11 @@ namespace snug
       refine_step(
         dealii::parallel::distributed::Triangulation<dim> &triangulation,
         const std::function<
-          bool(unsigned int, const dealii::Point<dim> &, unsigned int)> &wanted)
+          bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
       {
         for (const auto &cell : triangulation.active_cell_iterators())
           if (cell->is_locally_owned() &&
-              wanted(cell->material_id(), cell->center(), cell->level()))
+              wanted(cell->material_id(), cell->id(), cell->level()))
             cell->set_refine_flag();
         triangulation.execute_coarsening_and_refinement();
       }
@@ -77,6 +77,7 @@ namespace snug
     void
     refine(const std::vector<BodyMeshParameters>             &bodies,
            const Geometries<dim>                             &geometries,
+           const CoarseCells<dim>                            &coarse,
            dealii::parallel::distributed::Triangulation<dim> &triangulation)
     {
       unsigned int global_steps = 0, local_steps = 0;
@@ -92,23 +93,27 @@ namespace snug
                                                    body.refine_where)
                   : nullptr);
         }
+      dealii::Point<dim> centre;
+      for (unsigned int d = 0; d < dim; ++d)
+        centre[d] = 0.5;
       for (unsigned int step = 0; step < global_steps; ++step)
         refine_step<dim>(triangulation,
                          [&](unsigned int body,
-                             const dealii::Point<dim> &,
+                             const dealii::CellId &,
                              unsigned int level) {
                            return level < bodies[body].refinements;
                          });
       for (unsigned int step = 0; step < local_steps; ++step)
         refine_step<dim>(triangulation,
-                         [&](unsigned int              body,
-                             const dealii::Point<dim> &centre,
-                             unsigned int              level) {
+                         [&](unsigned int          body,
+                             const dealii::CellId &cell,
+                             unsigned int          level) {
                            return formulas[body] &&
                                   level < bodies[body].refinements +
                                             bodies[body].local_refinements &&
                                   formulas[body]->value(
-                                    geometries[body]->position(centre)) > 0.;
+                                    geometries[body]->position(
+                                      coarse.point(cell, centre))) > 0.;
                          });
     }
 
@@ -118,6 +123,7 @@ namespace snug
     template void
     refine(const std::vector<BodyMeshParameters> &,
            const Geometries<2> &,
+           const CoarseCells<2> &,
            dealii::parallel::distributed::Triangulation<2> &);
     template void
     create_coarse_mesh(const Geometries<3> &,
@@ -125,6 +131,7 @@ namespace snug
     template void
     refine(const std::vector<BodyMeshParameters> &,
            const Geometries<3> &,
+           const CoarseCells<3> &,
            dealii::parallel::distributed::Triangulation<3> &);
   } // namespace mesh
 } // namespace snug

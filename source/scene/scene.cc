@@ -16,9 +16,7 @@ namespace snug
       std::vector<std::string>
       boundary_names_in(const mesh::BodyMeshParameters &parameters)
       {
-        return choose(mesh::body_geometry_table<dim>(), parameters.source)
-          .make(parameters)
-          ->boundary_names();
+        return mesh::make_geometry<dim>(parameters)->boundary_names();
       }
     } // namespace
 

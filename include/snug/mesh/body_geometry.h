@@ -4,16 +4,20 @@
 #include <snug/base/choice.h>
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
 
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace snug
 {
   namespace mesh
   {
+    struct ImportedMesh;
+
     /**
      * Mesh entries of `subsection Body NAME`. Faces of a box are called left,
      * right (x-, x+), front, back (y-, y+), bottom, top (z-, z+); in 2D left,
@@ -36,16 +40,55 @@ namespace snug
       /// touches the flat one at its centre; R > 0 is convex. In 2D a
       /// cylinder's axis is z.
       std::map<std::string, std::string> curved_faces;
-      unsigned int                       refinements = 0;
+
+      /// @name Round bodies
+      /// @{
+      double      radius       = 1.;     ///< outer [length]
+      double      inner_radius = 0.5;    ///< of rings and shells [length]
+      double      length       = 1.;     ///< of cylinders and rings [length]
+      std::string part         = "full"; ///< full, half, quarter, eighth
+      /// ring: around, across, along; cylinder: across, along; shell: around,
+      /// across; disc, sphere: across
+      std::vector<unsigned int> round_cells;
+      /// @}
+
+      std::string                         file;     ///< path of the mesh file
+      std::shared_ptr<const ImportedMesh> imported; ///< what is in it
+
+      /// @name Placement, in this order
+      /// @{
+      /// formulas of x, y, z: components of a displacement [length]
+      std::vector<std::string> warp;
+      double                   scale = 1.;
+      /// {axis, degrees}, one after the other about the origin
+      std::vector<std::pair<std::string, std::string>> rotate;
+      std::vector<double>                              shift; ///< [length]
+      /// @}
+
+      unsigned int refinements = 0;
       /// cells are refined where this formula of x, y, z is positive
       std::string  refine_where;
       unsigned int local_refinements = 0;
     };
 
+    /// A point of a body: a cell of its coarse mesh and coordinates in
+    /// [0,1]^dim in that cell. Points between cells have several.
+    template <int dim>
+    struct MeshPoint
+    {
+      unsigned int       cell;
+      dealii::Point<dim> unit;
+    };
+
     /**
-     * The reference geometry of one body: a coarse mesh in logical
-     * coordinates and the map from logical coordinates to positions, which is
-     * evaluated anew on every mesh.
+     * The reference geometry of one body: a coarse mesh and the map from its
+     * cells to positions, which is evaluated anew on every mesh, so that
+     * curved faces stay curved.
+     *
+     * Some bodies have a grid: their coarse cells lie in layers along the axes
+     * of logical coordinates in [0,1]^dim, and boundary 2d + s is the side s of
+     * axis d. Some of these also have a frame, a map from [0,1]^dim to
+     * positions.
      */
     template <int dim>
     class BodyGeometry
@@ -53,13 +96,14 @@ namespace snug
     public:
       virtual ~BodyGeometry() = default;
 
-      /// Coarse mesh in logical coordinates; boundary faces get the index of
-      /// their name in boundary_names().
+      /// Cells with their vertices in deal.II's order; boundary faces get the
+      /// index of their name in boundary_names(). Vertices only tell cells
+      /// apart; they need not lie at their reference positions.
       struct CoarseMesh
       {
         std::vector<dealii::Point<dim>>        vertices;
-        std::vector<std::vector<unsigned int>> cells; ///< deal.II vertex order
-        /// face vertices (in the order of the cell) and boundary index
+        std::vector<std::vector<unsigned int>> cells;
+        /// face vertices (in any order) and boundary index
         std::vector<std::pair<std::vector<unsigned int>, unsigned int>>
           boundary_faces;
       };
@@ -70,32 +114,59 @@ namespace snug
       virtual const std::vector<std::string> &
       boundary_names() const = 0;
 
-      /// Reference position of the point with logical coordinates @p logical.
-      /// @throws InputError where the formula of a face is not finite.
+      /// Names of the regions, to which materials may refer; at least one.
+      virtual std::vector<std::string>
+      region_names() const;
+
+      /// Index of the region of a cell of the coarse mesh.
+      virtual unsigned int
+      region(unsigned int coarse_cell) const;
+
+      /// Reference position. @throws InputError where a formula is not finite.
       virtual dealii::Point<dim>
-      position(const dealii::Point<dim> &logical) const = 0;
+      position(const MeshPoint<dim> &point) const = 0;
+
+      /// The same point has the same coordinates in all its cells, up to
+      /// round-off; their order of magnitude is 1.
+      virtual dealii::Point<dim>
+      logical(const MeshPoint<dim> &point) const = 0;
+
+      /// Lengths along the logical axes; only their ratios matter.
+      virtual dealii::Tensor<1, dim>
+      extent() const = 0;
+
+      virtual bool
+      has_grid() const;
+      virtual bool
+      has_frame() const;
 
       /**
-       * Fraction in [0,1]^dim of the body's box at @p logical: the frame of
-       * Bézier patches. For face 2d+s, coordinate d is the distance from the
-       * opposite side.
+       * Fraction in [0,1]^dim of the body's frame at @p logical. For face
+       * 2d+s, coordinate d is the distance from the opposite side. Only with
+       * a frame.
        */
       virtual dealii::Point<dim>
-      box_fraction(const dealii::Point<dim> &logical) const = 0;
+      box_fraction(const dealii::Point<dim> &logical) const;
 
-      /// The point at @p fraction of the body's box, faces not yet curved.
+      /// The point at @p fraction of the frame, faces not yet curved. Only
+      /// with a frame.
       virtual dealii::Point<dim>
-      box_position(const dealii::Point<dim> &fraction) const = 0;
+      box_position(const dealii::Point<dim> &fraction) const;
     };
 
     /**
-     * Rows "box". @throws InputError naming the entry: Box corner, Box size,
-     * Box cells, Box grading or Curved faces.
+     * Rows "box", "disc" (2D), "ring", "cylinder", "sphere", "shell" (3D),
+     * "file". @throws InputError naming the entry.
      */
     template <int dim>
     const ChoiceTable<
       std::unique_ptr<BodyGeometry<dim>>(const BodyMeshParameters &)> &
     body_geometry_table();
+
+    /// The geometry of a body, placed as its parameters say.
+    template <int dim>
+    std::unique_ptr<BodyGeometry<dim>>
+    make_geometry(const BodyMeshParameters &parameters);
 
     /// Index of @p name in the boundary names. @throws InputError listing them.
     template <int dim>

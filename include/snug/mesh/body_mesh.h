@@ -34,8 +34,9 @@ namespace snug
       struct Cell
       {
         unsigned int              body;
-        unsigned int              part;  ///< wholly on this rank
-        std::vector<unsigned int> nodes; ///< local node indices
+        unsigned int              part;   ///< wholly on this rank
+        unsigned int              region; ///< index of the regions of the body
+        std::vector<unsigned int> nodes;  ///< local node indices
       };
 
       /**

@@ -20,7 +20,7 @@ namespace snug
     struct TearingParameters
     {
       unsigned int subdomains = 0;      ///< of all bodies, a target; 0: by size
-      std::string  method     = "grid"; ///< a name of partition_table()
+      std::string  method     = "auto"; ///< a name of partition_table()
     };
 
     /**
@@ -42,7 +42,8 @@ namespace snug
       /// body on one rank only.
       std::vector<std::array<unsigned int, 2>> neighbours;
       unsigned long                            n_global; ///< cells of the body
-      dealii::Tensor<1, dim> size; ///< of the body's box [length]
+      dealii::Tensor<1, dim>                   size; ///< along the logical axes
+      bool layered; ///< all cells lie in layers along the logical axes
     };
 
     /// Parts of one body, the same on any number of ranks.
@@ -54,7 +55,7 @@ namespace snug
 
     /**
      * Ways to partition the cells of a body into parts of about a given number
-     * of cells. Collective. Rows "grid" and "METIS".
+     * of cells. Collective. Rows "auto", "grid" and "METIS".
      *
      * Parts that are cubes of cells with flat sides need half the iterations
      * of the ragged ones a graph partitioner finds (54 subdomains of 6^3

@@ -1,7 +1,7 @@
 #ifndef snug_mesh_triangulate_h
 #define snug_mesh_triangulate_h
 
-#include <snug/mesh/body_geometry.h>
+#include <snug/mesh/coarse_cells.h>
 
 #include <deal.II/distributed/tria.h>
 
@@ -13,8 +13,7 @@ namespace snug
     using Geometries = std::vector<std::unique_ptr<BodyGeometry<dim>>>;
 
     /// The coarse meshes of all bodies, side by side in one triangulation:
-    /// material id = body, boundary id = index of the body's names, logical
-    /// coordinates.
+    /// material id = body, boundary id = index of the body's names.
     template <int dim>
     void
     create_coarse_mesh(
@@ -27,6 +26,7 @@ namespace snug
     void
     refine(const std::vector<BodyMeshParameters>             &bodies,
            const Geometries<dim>                             &geometries,
+           const CoarseCells<dim>                            &coarse,
            dealii::parallel::distributed::Triangulation<dim> &triangulation);
   } // namespace mesh
 } // namespace snug

@@ -1,4 +1,4 @@
-#include <snug/mesh/body_geometry.h>
+#include <snug/mesh/grid_geometry.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -13,10 +13,13 @@ using dealii::Point;
 namespace
 {
   template <int dim>
-  std::unique_ptr<mesh::BodyGeometry<dim>>
+  std::unique_ptr<mesh::GridGeometry<dim>>
   box(const mesh::BodyMeshParameters &parameters)
   {
-    return choose(mesh::body_geometry_table<dim>(), "box").make(parameters);
+    auto body =
+      choose(mesh::body_geometry_table<dim>(), "box").make(parameters);
+    return std::unique_ptr<mesh::GridGeometry<dim>>(
+      dynamic_cast<mesh::GridGeometry<dim> *>(body.release()));
   }
 
   /// The message of the InputError that making the box throws; "" if none.
@@ -90,14 +93,14 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           centre[d] = 0.5;
         centre[f / 2]          = f % 2;
-        Point<dim> ball_centre = geometry->position(centre);
+        Point<dim> ball_centre = geometry->grid_position(centre);
         ball_centre[f / 2] -= (f % 2 == 1 ? 1. : -1.) * radius;
         for (const auto &point : logical_points<dim>(f))
-          EXPECT_NEAR(geometry->position(point).distance(ball_centre),
+          EXPECT_NEAR(geometry->grid_position(point).distance(ball_centre),
                       std::abs(radius),
                       1e-13);
         for (const auto &point : logical_points<dim>(f ^ 1))
-          EXPECT_NEAR((geometry->position(point) -
+          EXPECT_NEAR((geometry->grid_position(point) -
                        geometry->box_position(geometry->box_fraction(point)))
                         .norm(),
                       0.,
@@ -115,14 +118,14 @@ TEST(BodyGeometry, GradedCellsAreInGeometricProgression)
   const auto          geometry = box<2>(parameters);
   std::vector<double> size;
   for (unsigned int i = 0; i < 5; ++i)
-    size.push_back(geometry->position(Point<2>((i + 1) / 5., 0.))[0] -
-                   geometry->position(Point<2>(i / 5., 0.))[0]);
+    size.push_back(geometry->grid_position(Point<2>((i + 1) / 5., 0.))[0] -
+                   geometry->grid_position(Point<2>(i / 5., 0.))[0]);
   EXPECT_NEAR(size[4] / size[0], 8., 1e-12);
   for (unsigned int i = 1; i < 5; ++i)
     EXPECT_NEAR(size[i] / size[i - 1], std::pow(8., 0.25), 1e-12);
-  EXPECT_EQ(geometry->position(Point<2>(0., 0.))[0], 0.);
-  EXPECT_NEAR(geometry->position(Point<2>(1., 0.))[0], 2., 1e-14);
-  EXPECT_NEAR(geometry->position(Point<2>(0., 0.3))[1], 0.3, 1e-15);
+  EXPECT_EQ(geometry->grid_position(Point<2>(0., 0.))[0], 0.);
+  EXPECT_NEAR(geometry->grid_position(Point<2>(1., 0.))[0], 2., 1e-14);
+  EXPECT_NEAR(geometry->grid_position(Point<2>(0., 0.3))[1], 0.3, 1e-15);
   EXPECT_GT(geometry->box_fraction(Point<2>(0.1, 0.))[0], 0.);
 }
 
@@ -137,7 +140,7 @@ TEST(BodyGeometry, CellsAreEqualInTheFinePartAndGrowFromThere)
       const auto          geometry = box<2>(parameters);
       std::vector<double> at;
       for (unsigned int i = 0; i <= 6; ++i)
-        at.push_back(geometry->position(Point<2>(i / 6., 0.))[0]);
+        at.push_back(geometry->grid_position(Point<2>(i / 6., 0.))[0]);
       for (unsigned int i = 1; i <= 3; ++i)
         EXPECT_NEAR(at[i], i * fine / 3., 1e-14);
       const double q = (at[4] - at[3]) / (at[3] - at[2]);
@@ -174,12 +177,14 @@ TEST(BodyGeometry, CylindricalFaceIsStraightAlongItsAxis)
   // axis through (y, z) = (2 + 1.5, 3 + 4): the face touches z = 3
   for (const auto &point : logical_points<3>(4))
     {
-      const auto x = geometry->position(point);
+      const auto x = geometry->grid_position(point);
       EXPECT_NEAR(std::hypot(x[1] - 3.5, x[2] - 7.), 4., 1e-13);
     }
   const auto arc = box<2>(curved_2d("top", "cylinder z -6"));
   for (const auto &point : logical_points<2>(3))
-    EXPECT_NEAR(arc->position(point).distance(Point<2>(2., 11.)), 6., 1e-13);
+    EXPECT_NEAR(arc->grid_position(point).distance(Point<2>(2., 11.)),
+                6.,
+                1e-13);
 }
 
 TEST(BodyGeometry, FormulaMovesFaceOutwardsAndFadesLinearly)
@@ -195,7 +200,7 @@ TEST(BodyGeometry, FormulaMovesFaceOutwardsAndFadesLinearly)
       const double y = flat[1], z = flat[2];
       // the left face lies at x = 1
       const double left = 0.1 * y + 0.01 * z * z + 1., right = 0.2 * z;
-      const auto   moved = geometry->position(point) - flat;
+      const auto   moved = geometry->grid_position(point) - flat;
       EXPECT_NEAR(moved[0],
                   -left * (1. - fraction[0]) + right * fraction[0],
                   1e-14);
