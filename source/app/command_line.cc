@@ -121,7 +121,8 @@ Finds the shape of elastic bodies that makes their contact best.
                         --set "Body punch/Box cells=4, 4, 4" --set Task=state
     --output DIR        leave the results there
     --restart           go on with an interrupted optimization
-    --validate          read and check the file, solve nothing
+    --validate          read and check the file, list bodies and boundaries with
+                        areas and bounding boxes, solve nothing
     --print-parameters  all entries, their defaults and meaning (Markdown)
     --help, --version
 

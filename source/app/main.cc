@@ -1,5 +1,6 @@
 #include <snug/app/command_line.h>
 #include <snug/app/failure.h>
+#include <snug/app/inventory.h>
 #include <snug/app/study.h>
 #include <snug/base/version.h>
 #include <snug/scene/read_scene.h>
@@ -46,28 +47,6 @@ namespace
     return true;
   }
 
-  void
-  print_valid(const app::Options &options,
-              const scene::Scene &scene,
-              std::ostream       &out)
-  {
-    for (const auto &body : scene.bodies)
-      {
-        std::size_t cells = std::size_t(1)
-                            << scene.dimension * body.mesh.refinements;
-        for (const unsigned int n : body.mesh.cells)
-          cells *= n;
-        out << "body " << body.name << ": " << cells << " cells";
-        if (body.mesh.local_refinements > 0)
-          out << " before local refinement";
-        out << ", boundaries";
-        for (const auto &name : scene::boundary_names(body, scene.dimension))
-          out << ' ' << name;
-        out << '\n';
-      }
-    out << options.file << " is valid" << std::endl;
-  }
-
   int
   run(const app::Options &options)
   {
@@ -76,10 +55,14 @@ namespace
       scene::read_scene({options.file,
                          scene::read_text(options.file, MPI_COMM_WORLD),
                          options.sets,
-                         options.output});
+                         options.output,
+                         [](const std::string &file) {
+                           return scene::read_text(file, MPI_COMM_WORLD);
+                         }});
     if (!options.validate)
       return app::run_study(context, scene, options);
-    print_valid(options, scene, context.out());
+    app::print_meshes(scene, context.communicator(), context.out());
+    context.out() << options.file << " is valid" << std::endl;
     return 0;
   }
 } // namespace

@@ -1,3 +1,4 @@
+#include <snug/app/inventory.h>
 #include <snug/app/workshop.h>
 #include <snug/io/shape_export.h>
 #include <snug/io/text_file.h>
@@ -56,11 +57,12 @@ namespace snug
           if (context.rank() == 0)
             io::write_text_file(path("parameters.prm"), text.str());
         });
-        mesh    = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
+        mesh = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
                                                      mesh_parameters(scene),
                                                      scene.degree,
                                                      idealization(scene),
                                                      scene.tearing);
+        check_distances(scene, *mesh);
         tearing = mesh::tear(*mesh);
         shape::BodyNames names;
         for (const auto &body : scene.bodies)
@@ -166,6 +168,7 @@ namespace snug
           << solver->gluing().n_rows() << " dual rows, " << basis->n_variables()
           << " design variables, " << context.n_ranks() << " ranks"
           << std::endl;
+      print_import_notes(scene, out);
       const auto               &pairs = solver->contact().pairs();
       std::vector<unsigned int> rows(pairs.size(), 0);
       for (const auto &place : solver->contact().places())

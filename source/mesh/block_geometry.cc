@@ -186,6 +186,16 @@ namespace snug
     }
 
     template <int dim>
+    double
+    BlockGeometry<dim>::n_coarse_cells() const
+    {
+      double n = mesh->blocks.size();
+      for (const unsigned int along : mesh->cells)
+        n *= along;
+      return n;
+    }
+
+    template <int dim>
     const std::vector<std::string> &
     BlockGeometry<dim>::boundary_names() const
     {

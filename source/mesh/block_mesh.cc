@@ -1,8 +1,12 @@
 #include <snug/mesh/block_mesh.h>
 
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/geometry_info.h>
+
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <set>
 
 namespace snug
 {
@@ -74,18 +78,77 @@ namespace snug
       mesh.surfaces       = surfaces;
     }
 
-    void
-    order_consistently(BlockMesh<2> &mesh)
+    namespace
     {
-      std::vector<dealii::CellData<2>> cells;
-      for (const auto &block : mesh.blocks)
+      template <int dim>
+      bool
+      is_consistent(const std::vector<dealii::CellData<dim>> &cells)
+      {
+        using Info = dealii::GeometryInfo<dim>;
+        std::set<std::pair<unsigned int, unsigned int>> edges;
+        for (const auto &cell : cells)
+          for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
+            edges.emplace(cell.vertices[Info::line_to_cell_vertices(e, 0)],
+                          cell.vertices[Info::line_to_cell_vertices(e, 1)]);
+        return std::none_of(edges.begin(), edges.end(), [&](const auto &edge) {
+          return edges.count({edge.second, edge.first}) > 0;
+        });
+      }
+
+      template <int dim>
+      std::vector<dealii::CellData<dim>>
+      first_vertices(const std::vector<std::vector<unsigned int>> &blocks)
+      {
+        std::vector<dealii::CellData<dim>> cells;
+        for (const auto &block : blocks)
+          {
+            cells.emplace_back(1u << dim);
+            std::copy_n(block.begin(),
+                        1u << dim,
+                        cells.back().vertices.begin());
+          }
+        return cells;
+      }
+    } // namespace
+
+    template <int dim>
+    bool
+    order_consistently(BlockMesh<dim> &mesh)
+    {
+      auto cells = first_vertices<dim>(mesh.blocks);
+      if (is_consistent(cells))
+        return true;
+      try
         {
-          cells.emplace_back(block.size());
-          cells.back().vertices = block;
+          dealii::GridTools::consistently_order_cells(cells);
         }
-      dealii::GridTools::consistently_order_cells(cells);
+      catch (const dealii::ExceptionBase &)
+        {
+          return false;
+        }
+      if (!is_consistent(cells))
+        return false;
       for (unsigned int b = 0; b < cells.size(); ++b)
         mesh.blocks[b] = cells[b].vertices;
+      return true;
+    }
+
+    void
+    order_layer_consistently(BlockMesh<3> &mesh)
+    {
+      auto cells = first_vertices<2>(mesh.blocks);
+      dealii::GridTools::consistently_order_cells(cells);
+      for (unsigned int b = 0; b < cells.size(); ++b)
+        {
+          const auto old = mesh.blocks[b];
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              const auto place =
+                std::find(old.begin(), old.end(), cells[b].vertices[v]);
+              mesh.blocks[b][v]     = *place;
+              mesh.blocks[b][v + 4] = *(place + 4);
+            }
+        }
     }
 
     template void
@@ -96,5 +159,9 @@ namespace snug
     remove_unused_boundaries(BlockMesh<2> &);
     template void
     remove_unused_boundaries(BlockMesh<3> &);
+    template bool
+    order_consistently(BlockMesh<2> &);
+    template bool
+    order_consistently(BlockMesh<3> &);
   } // namespace mesh
 } // namespace snug

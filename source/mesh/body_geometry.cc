@@ -81,8 +81,9 @@ namespace snug
     {
       static const ChoiceTable<Make<dim>> table = {
         {"box",
-         "box of hexahedra or quadrilaterals, with graded cells and curved "
-         "faces [length]",
+         "box, with graded cells and curved faces; boundaries left, right (x), "
+         "bottom, top (y) in 2D and left, right (x), front, back (y), bottom, "
+         "top (z) in 3D",
          make_box<dim>},
         {"ring",
          "between two circles about the origin, in 3D a hollow cylinder along "
@@ -103,7 +104,11 @@ namespace snug
          only<dim, 3>(make_sphere)},
         {"shell",
          "3D, a sphere with a concentric hole; boundary inner",
-         only<dim, 3>(make_shell)}};
+         only<dim, 3>(make_shell)},
+        {"file",
+         "the mesh file, boundaries as they are named there and free for what "
+         "has no name",
+         make_imported<dim>}};
       return table;
     }
 

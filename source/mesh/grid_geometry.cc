@@ -87,6 +87,16 @@ namespace snug
     }
 
     template <int dim>
+    double
+    GridGeometry<dim>::n_coarse_cells() const
+    {
+      double n = 1.;
+      for (const unsigned int along : cells)
+        n *= along;
+      return n;
+    }
+
+    template <int dim>
     const std::vector<std::string> &
     GridGeometry<dim>::boundary_names() const
     {

@@ -95,6 +95,12 @@ namespace snug
           return body->coarse_mesh();
         }
 
+        double
+        n_coarse_cells() const override
+        {
+          return body->n_coarse_cells();
+        }
+
         const std::vector<std::string> &
         boundary_names() const override
         {

@@ -184,6 +184,7 @@ namespace snug
         set_cut_planes(mesh, 1);
         finish(mesh, parameters.radius);
         mirror_octant(mesh, parts);
+        order_consistently(mesh);
         return mesh;
       }
 
@@ -217,6 +218,7 @@ namespace snug
         set_cut_planes(mesh, 2);
         finish(mesh, parameters.radius);
         mirror_octant(mesh, parts);
+        order_layer_consistently(mesh);
         return mesh;
       }
 

@@ -136,6 +136,14 @@ namespace snug
       }
     } // namespace
 
+    bool
+    all_finite(const std::vector<double> &values)
+    {
+      return std::all_of(values.begin(), values.end(), [](const double v) {
+        return std::isfinite(v);
+      });
+    }
+
     void
     check(const Scene &scene, const Origins &origins)
     {

@@ -22,15 +22,6 @@ namespace snug
         });
       }
 
-      bool
-      is_positive(const std::vector<double> &values)
-      {
-        return is_finite(values) &&
-               std::all_of(values.begin(), values.end(), [](const double v) {
-                 return v > 0.;
-               });
-      }
-
       /// Checks the entries of one body.
       class BodyCheck
       {
@@ -64,73 +55,9 @@ namespace snug
         }
 
         void
-        check_box() const
-        {
-          const auto &mesh = body.mesh;
-          require_length(mesh.corner.size(), "Box corner", mesh.corner);
-          require_length(mesh.size.size(), "Box size", mesh.size);
-          require_length(mesh.cells.size(), "Box cells", mesh.cells);
-          require_length(mesh.grading.size(), "Box grading", mesh.grading);
-          require_length(mesh.fine_length.size(),
-                         "Box fine length",
-                         mesh.fine_length);
-          require(is_finite(mesh.corner),
-                  "Box corner",
-                  to_text(mesh.corner),
-                  "must be finite");
-          require(model != "axisymmetric" || mesh.corner[0] >= 0.,
-                  "Box corner",
-                  to_text(mesh.corner),
-                  "must not have a negative x, the radius of axisymmetric "
-                  "models");
-          require(is_positive(mesh.size),
-                  "Box size",
-                  to_text(mesh.size),
-                  "must be positive");
-          require(is_positive(mesh.grading),
-                  "Box grading",
-                  to_text(mesh.grading),
-                  "must be positive");
-          require(std::count(mesh.cells.begin(), mesh.cells.end(), 0U) == 0,
-                  "Box cells",
-                  to_text(mesh.cells),
-                  "must be at least 1 each");
-        }
-
-        void
-        check_refinement() const
-        {
-          const auto &mesh = body.mesh;
-          // Every rank holds all coarse cells; p4est numbers at most 2^31
-          // nodes.
-          constexpr double most_coarse = 4e6, most = 1e9;
-          double           cells = 1.;
-          for (const unsigned int n : mesh.cells)
-            cells *= n;
-          require(cells <= most_coarse,
-                  "Box cells",
-                  to_text(mesh.cells),
-                  "must give at most 4e6 cells; use 'Refinements' for more");
-          require(mesh.refinements < 30 &&
-                    cells * std::pow(2., dimension * mesh.refinements) <= most,
-                  "Refinements",
-                  to_text(mesh.refinements),
-                  "must give at most 1e9 cells");
-          require(mesh.local_refinements <= 15,
-                  "Local refinements",
-                  to_text(mesh.local_refinements),
-                  "must be at most 15");
-          require(mesh.local_refinements == 0 || !mesh.refine_where.empty(),
-                  "Refine where",
-                  mesh.refine_where,
-                  "must be a formula of x, y, z when there are local "
-                  "refinements");
-        }
-
-        void
         check_boundaries() const
         {
-          const auto known = names();
+          const auto known = boundary_names(body, dimension);
           require_known(known, "Supports", body.supports);
           require_known(known, "Displacement", body.displacements);
           require_known(known, "Pressure", body.loads.pressure);
@@ -288,39 +215,6 @@ namespace snug
             }
         }
 
-        /// Boundary names of the mesh; making it also checks its formulas.
-        std::vector<std::string>
-        names() const
-        {
-          if (!body.mesh.refine_where.empty())
-            check_formula("Refine where",
-                          body.mesh.refine_where,
-                          body.mesh.refine_where);
-          try
-            {
-              return boundary_names(body, dimension);
-            }
-          catch (const InputError &error)
-            {
-              throw with_place(error.what());
-            }
-        }
-
-        /// The error of a mesh, which names its entries "entry 'Box cells'",
-        /// with origin and section.
-        InputError
-        with_place(const std::string &message) const
-        {
-          const std::string begin = "entry '";
-          const auto        quote = message.find('\'', begin.size());
-          if (message.rfind(begin, 0) != 0 || quote == std::string::npos)
-            return origins.error(path("Mesh"), body.mesh.source, message);
-          const std::string entry =
-            path(message.substr(begin.size(), quote - begin.size()));
-          return InputError(origins.of(entry) + begin + entry +
-                            message.substr(quote));
-        }
-
         unsigned int       dimension;
         const std::string &model;
         const Body        &body;
@@ -379,11 +273,9 @@ namespace snug
     {
       for (const auto &body : scene.bodies)
         {
+          check_mesh(scene, body, origins);
           const BodyCheck check(scene, body, origins);
           check.check_material();
-          if (body.mesh.source == "box")
-            check.check_box();
-          check.check_refinement();
           check.check_boundaries();
           check.check_supports();
           check.check_displacements();

@@ -11,14 +11,6 @@ namespace snug
   {
     namespace
     {
-      bool
-      all_finite(const std::vector<double> &values)
-      {
-        return std::all_of(values.begin(), values.end(), [](const double v) {
-          return std::isfinite(v);
-        });
-      }
-
       /// Checks the entries of one shape, as far as no mesh is needed.
       class ShapeCheck
       {

@@ -84,73 +84,12 @@ namespace snug
       }
 
       void
-      declare_mesh(Entries &entries, Body &body)
-      {
-        auto &mesh = body.mesh;
-        add_choice(entries,
-                   "Mesh",
-                   mesh.source,
-                   mesh::body_geometry_table<3>(),
-                   "Source of the mesh.");
-        entries.add("Box corner",
-                    mesh.corner,
-                    "Corner with the smallest coordinates [length]; empty: "
-                    "the origin.");
-        entries.add("Box size",
-                    mesh.size,
-                    "Length of the edges along x, y, z [length]; empty: 1.");
-        entries.add("Box cells",
-                    mesh.cells,
-                    "Number of cells along x, y, z, before refinement.");
-        entries.add("Box grading",
-                    mesh.grading,
-                    "Along x, y, z: size of the last cell over the size of the "
-                    "first, sizes growing geometrically; empty: 1, equal "
-                    "cells.");
-        entries.add("Box fine length",
-                    mesh.fine_length,
-                    "Along x, y, z: half of the cells are equal and fill this "
-                    "much from the lower end, sizes of the others grow from "
-                    "there [length]; 0 or empty: not.");
-        entries.add(
-          "Curved faces",
-          {[&mesh]() { return to_text(mesh.curved_faces, ';'); },
-           [&mesh](const std::string &text) {
-             from_text(text, mesh.curved_faces, ';');
-           }},
-          pairs("a list 'boundary: sphere R; boundary: cylinder AXIS R; "
-                "boundary: FORMULA' of different boundaries, separated by "
-                "semicolons",
-                ';'),
-          "Faces that are not flat, separated by semicolons (formulas may "
-          "hold commas): 'bottom: sphere 4', 'bottom: cylinder x 4' (radius "
-          "[length], positive if convex; the axis is the cylinder's, z in 2D) "
-          "or a "
-          "formula of x, y, z for the outward displacement of the face "
-          "[length], 'bottom: -(x^2)/8'.");
-        entries.add("Refinements",
-                    mesh.refinements,
-                    "How often every cell is split into 4 (2D) or 8 (3D).");
-        entries.add("Refine where",
-                    mesh.refine_where,
-                    anything("a formula of x, y, z"),
-                    "Cells are refined where this formula of x, y, z is "
-                    "positive at their centre, 'Local refinements' times.");
-        entries.add("Local refinements",
-                    mesh.local_refinements,
-                    "How often cells are split where 'Refine where' says so; "
-                    "adjacent cells differ by one level (hanging nodes).");
-      }
-
-      void
       declare_body(Entries &entries, Body &body)
       {
         entries.begin_section("Body " + body.name,
                               "One body: its mesh, material, supports and "
-                              "loads. Boundaries of a box are left, right (x), "
-                              "bottom, top (y) in 2D and left, right (x), "
-                              "front, back (y), bottom, top (z) in 3D.");
-        declare_mesh(entries, body);
+                              "loads.");
+        declare_mesh(entries, body.mesh);
         entries.add("Young's modulus",
                     body.material.youngs_modulus,
                     "Young's modulus [force/length^2], positive.");

@@ -1,9 +1,11 @@
+#include <snug/mesh/imported_mesh.h>
 #include <snug/scene/check.h>
 #include <snug/scene/entries.h>
 #include <snug/scene/read_scene.h>
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <sstream>
@@ -144,6 +146,39 @@ namespace snug
           }
       }
 
+      /// Read the mesh files of all bodies. Their paths become absolute, so
+      /// that the scene may be printed elsewhere.
+      void
+      read_meshes(const SceneSource &source,
+                  const Origins     &origins,
+                  Scene             &scene)
+      {
+        for (auto &body : scene.bodies)
+          {
+            auto &mesh = body.mesh;
+            if (mesh.source != "file")
+              continue;
+            const std::string path = "Body " + body.name + "/Mesh file";
+            if (mesh.file.empty() || !source.read_file)
+              throw origins.error(path, mesh.file, "must be a mesh file");
+            try
+              {
+                namespace fs = std::filesystem;
+                mesh.file =
+                  fs::absolute(fs::path(source.file).parent_path() / mesh.file)
+                    .lexically_normal()
+                    .string();
+                mesh.imported = mesh::import_mesh(source.read_file(mesh.file),
+                                                  mesh,
+                                                  scene.dimension);
+              }
+            catch (const InputError &error)
+              {
+                throw mesh_error(body, origins, error.what());
+              }
+          }
+      }
+
       std::string
       table_cell(std::string text)
       {
@@ -178,7 +213,7 @@ namespace snug
       text.resize(header[1]);
       MPI_Bcast(&text[0], header[1], MPI_CHAR, 0, communicator);
       if (header[0] == 0)
-        throw InputError("cannot read the parameter file '" + quotable(file) +
+        throw InputError("cannot read the file '" + quotable(file) +
                          "': " + text);
       return text;
     }
@@ -194,6 +229,7 @@ namespace snug
       check_names(scene, origins);
       assign(statements, scene);
       complete(scene);
+      read_meshes(source, origins, scene);
       check(scene, origins);
       return scene;
     }

@@ -75,6 +75,11 @@ def input_cases(body, slave, master):
         wrong("gap that is no formula", "Contact/Gap", "2 * t",
               ["formula of x,y,z"]),
         wrong("zero cells", own + "Box cells", "0, 2, 2"),
+        wrong("disc in 3D", own + "Mesh", "disc", ["Dimension = 2"]),
+        wrong("hole larger than the ring", own + "Inner radius", "2",
+              others={own + "Mesh": "ring", own + "Supports": ""}),
+        wrong("no mesh file", own + "Mesh file", "",
+              others={own + "Mesh": "file"}),
         wrong("flat box", own + "Box size", "1, 1, 0"),
         wrong("no tolerance", "Solver/Relative tolerance", "0"),
         wrong("empty bounds", "Shape/Bounds", "0.1, -0.1", others=shape),
@@ -109,6 +114,9 @@ def option_cases():
         Case("wrong value in a setting", {}, ["Task", "optimise"],
              ["--set", "Task=optimise"]),
     ]
+
+
+MESHES = pathlib.Path(__file__).resolve().parents[1] / "meshes"
 
 
 class Runner:
@@ -215,13 +223,57 @@ def check_files(runner, scene):
                         [no_set.name, "Task : state"])
 
 
+def check_mesh_files(runner):
+    """Mesh files that are wrong: the message names the file and the place."""
+    good = (MESHES / "block.ucd").read_text(encoding="utf-8")
+    first = "5 1 hex 1 9 10 3 5 11 12 8"
+    flat = good.replace("12 6 0", "12 4 0").split("5 1 hex")[0]
+    cases = [
+        ("truncated mesh", good[:good.index(first) + 9], {}, ["line 19"]),
+        ("inverted cell", good.replace(first, "5 1 hex 5 11 12 8 1 9 10 3"), {},
+         ["line 19", "element 5", "inverted"]),
+        ("surface mesh", flat, {}, ["4 quadrilaterals"]),
+        ("missing physical name", good, {"Boundary names": "3: top"},
+         ["line 15", "group 2"]),
+        ("boundary not in the file", good, {"Supports": "left: x"},
+         ["left", "bottom, top, free"]),
+        ("units that put bodies far apart", good, {"Shift": "0, 0, 1000"},
+         ["part.bottom", "999 apart", "Scale"]),
+        ("face that is not round", good, {"Curved faces": "top: sphere"},
+         ["top: sphere", "does not fit"])]
+    for title, mesh, entries, names in cases:
+        path = runner.folder / (title.replace(" ", "-") + ".ucd")
+        path.write_text(mesh, encoding="utf-8")
+        scene = mesh_scene(runner, title, {"Mesh file": path.name, **entries})
+        place = [] if "Shift" in entries else [scene.name]
+        if len(entries) == 0:
+            place.append(path.name)
+        runner.expect_error(title, [scene], [*place, *names])
+        runner.expect_error(title, ["--validate", scene], names, ranks=3)
+    scene = mesh_scene(runner, "no such mesh", {"Mesh file": "nowhere.msh"})
+    runner.expect_error("missing mesh file", [scene],
+                        [scene.name, "nowhere.msh"], ranks=3)
+
+
+def mesh_scene(runner, title, entries):
+    """A body of a mesh file with these entries on a box."""
+    part = {"Mesh": "file", "Boundary names": "2: bottom, 3: top",
+            "Shift": "0, 0, 1", "Pressure": "top: 1", **entries}
+    return runner.write_text(title, "\n".join(
+        ["set Bodies = part, base", "subsection Body part",
+         *(f"set {name} = {value}" for name, value in part.items()), "end",
+         "subsection Body base", "set Box cells = 2, 2, 2",
+         "set Box size = 2, 1, 1", "set Supports = bottom: xyz", "end",
+         "subsection Contact", "set Pairs = part.bottom: base.top", "end", ""]))
+
+
 def check_good(runner, scene):
     """What is right ends with 0 and says nothing on standard error."""
     runner.expect_success("--help", ["--help"], "--validate")
     runner.expect_success("--version", ["--version"], "snug")
     runner.expect_success("--print-parameters", ["--print-parameters"],
                           "Relative tolerance")
-    runner.expect_success("--validate", ["--validate", scene])
+    runner.expect_success("--validate", ["--validate", scene], "area")
     results = runner.folder / "results"
     runner.expect_success("a state", [scene, "--output", results,
                                       "--set", "Task=state"])
@@ -255,6 +307,7 @@ def main():
         for case in cases[:3] + cases[-5:-3]:
             check_case(runner, case, ranks=3)
         check_files(runner, scene)
+        check_mesh_files(runner)
         floating = {f"Body {body}/Supports": "" for body in bodies}
         runner.expect_error("no supports at all",
                             [runner.write("floating", floating)], [], status=3)

@@ -25,6 +25,9 @@ namespace snug
       typename BodyGeometry<dim>::CoarseMesh
       coarse_mesh() const override;
 
+      double
+      n_coarse_cells() const override;
+
       const std::vector<std::string> &
       boundary_names() const override;
 

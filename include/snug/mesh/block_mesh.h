@@ -56,10 +56,22 @@ namespace snug
     void
     remove_unused_boundaries(BlockMesh<dim> &mesh);
 
-    /// Order the vertices of the blocks such that all blocks give their edges
-    /// the same direction, as deal.II expects in 2D.
+    /**
+     * Order the vertices of the blocks, which stay right-handed, such that all
+     * blocks give the edges they share the same direction, as deal.II needs in
+     * 2D and p4est in 3D. Axes may change places, so in 3D all axes must have
+     * equally many cells.
+     * @return whether there is such an order, which is always so in 2D;
+     *   without, nothing is changed.
+     */
+    template <int dim>
+    bool
+    order_consistently(BlockMesh<dim> &mesh);
+
+    /// The same for the bottoms of blocks whose last axis goes from one surface
+    /// to another.
     void
-    order_consistently(BlockMesh<2> &mesh);
+    order_layer_consistently(BlockMesh<3> &mesh);
   } // namespace mesh
 } // namespace snug
 

@@ -52,8 +52,14 @@ namespace snug
       std::vector<unsigned int> round_cells;
       /// @}
 
-      std::string                         file;     ///< path of the mesh file
-      std::shared_ptr<const ImportedMesh> imported; ///< what is in it
+      /// @name Mesh files
+      /// @{
+      std::string              file;    ///< path
+      std::vector<std::string> regions; ///< of the file; empty: all
+      /// number of a group without a name -> name
+      std::map<std::string, std::string>  boundary_numbers;
+      std::shared_ptr<const ImportedMesh> imported; ///< what is in the file
+      /// @}
 
       /// @name Placement, in this order
       /// @{
@@ -110,6 +116,10 @@ namespace snug
 
       virtual CoarseMesh
       coarse_mesh() const = 0;
+
+      /// Number of its cells; may be larger than any mesh can be.
+      virtual double
+      n_coarse_cells() const = 0;
 
       virtual const std::vector<std::string> &
       boundary_names() const = 0;

@@ -29,6 +29,9 @@ namespace snug
       typename BodyGeometry<dim>::CoarseMesh
       coarse_mesh() const override;
 
+      double
+      n_coarse_cells() const override;
+
       const std::vector<std::string> &
       boundary_names() const override;
 

@@ -35,6 +35,8 @@ namespace snug
     void
     check_names(const Scene &scene, const Origins &origins);
     void
+    check_mesh(const Scene &scene, const Body &body, const Origins &origins);
+    void
     check_bodies(const Scene &scene, const Origins &origins);
     void
     check_contact(const Scene &scene, const Origins &origins);
@@ -44,6 +46,13 @@ namespace snug
     check_methods(const Scene &scene, const Origins &origins);
     /// @}
 
+    /// The error of a body's mesh, which names its entries "entry 'Box cells'",
+    /// with origin and section.
+    InputError
+    mesh_error(const Body        &body,
+               const Origins     &origins,
+               const std::string &message);
+
     /// Throw unless @p face is "body.boundary" of the scene; it is (a part of)
     /// the @p value of the entry @p path.
     void
@@ -52,6 +61,9 @@ namespace snug
                  const std::string &path,
                  const std::string &value,
                  const std::string &face);
+
+    bool
+    all_finite(const std::vector<double> &values);
 
     /// Names of the responses an objective or a constraint may be.
     std::vector<std::string>

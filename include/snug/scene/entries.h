@@ -123,7 +123,9 @@ namespace snug
     void
     declare(Entries &entries, Scene &scene);
 
-    /// Parts of declare(): obstacles, contact and its pairs; shapes.
+    /// Parts of declare(): meshes; obstacles, contact and its pairs; shapes.
+    void
+    declare_mesh(Entries &entries, mesh::BodyMeshParameters &mesh);
     void
     declare_contact(Entries &entries, Scene &scene);
     void

@@ -5,6 +5,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ namespace snug
       std::string              text; ///< contents of the parameter file
       std::vector<std::string> sets; ///< "Subsection/Entry=value"
       std::string              output_directory; ///< if not empty, overrides
+      /// reads mesh files; with none they cannot be read
+      std::function<std::string(const std::string &file)> read_file = {};
     };
 
     /**
@@ -30,9 +33,10 @@ namespace snug
     read_text(const std::string &file, MPI_Comm communicator);
 
     /**
-     * Read and check a scene. Lists left empty that have a default (corner,
-     * size, grading, body force, initial design) are filled in. Not collective;
-     * equal sources give equal scenes and equal errors.
+     * Read and check a scene and the mesh files it names. Lists left empty
+     * that have a default (corner, size, grading, body force, initial design)
+     * are filled in. Equal sources give equal scenes and equal errors;
+     * collective if reading files is.
      *
      * @throws InputError, one line with file, line, entry, value and what is
      *   allowed; see check() for what is checked beyond the form of values.

@@ -1,0 +1,71 @@
+#ifndef snug_app_inventory_h
+#define snug_app_inventory_h
+
+#include <snug/mesh/body_mesh.h>
+#include <snug/scene/scene.h>
+
+#include <iosfwd>
+
+namespace snug
+{
+  namespace app
+  {
+    /// What the meshes of a scene look like, for who writes one.
+    template <int dim>
+    struct Inventory
+    {
+      /// Bounding box [length].
+      struct Box
+      {
+        dealii::Point<dim> lower, upper;
+      };
+
+      struct Boundary
+      {
+        std::string name;
+        double      area = 0.; ///< [length^2]
+        Box         box;
+      };
+
+      struct Body
+      {
+        std::string           name;
+        unsigned long         n_cells = 0;
+        Box                   box;
+        std::vector<Boundary> boundaries;
+      };
+
+      std::vector<Body> bodies;
+    };
+
+    /// The meshes as they are, refined. Collective.
+    template <int dim>
+    Inventory<dim>
+    take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
+    /// One line per body and boundary.
+    template <int dim>
+    void
+    print(const Inventory<dim> &inventory, std::ostream &out);
+
+    /**
+     * @throws InputError if the faces of a pair are farther apart than ten
+     *   times the larger of their bodies, as in a mix-up of units. Collective.
+     */
+    template <int dim>
+    void
+    check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
+    /// One line for each body whose mesh file was changed on reading.
+    void
+    print_import_notes(const scene::Scene &scene, std::ostream &out);
+
+    /// Make the meshes of a scene, check and print them. Collective.
+    void
+    print_meshes(const scene::Scene &scene,
+                 MPI_Comm            communicator,
+                 std::ostream       &out);
+  } // namespace app
+} // namespace snug
+
+#endif

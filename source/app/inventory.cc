@@ -1,0 +1,258 @@
+#include <snug/app/build_model.h>
+#include <snug/app/inventory.h>
+#include <snug/contact/tributary.h>
+#include <snug/mesh/imported_mesh.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <ostream>
+#include <sstream>
+
+namespace snug
+{
+  namespace app
+  {
+    namespace
+    {
+      template <int dim>
+      using Box = typename Inventory<dim>::Box;
+
+      /// The box of @p points of all ranks. Collective.
+      template <int dim>
+      Box<dim>
+      box_of(const std::vector<dealii::Tensor<1, dim>> &points,
+             MPI_Comm                                   communicator)
+      {
+        std::vector<double> ends(2 * dim, -std::numeric_limits<double>::max());
+        for (const auto &x : points)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              ends[d]       = std::max(ends[d], x[d]);
+              ends[dim + d] = std::max(ends[dim + d], -x[d]);
+            }
+        dealii::Utilities::MPI::max(ends, communicator, ends);
+        Box<dim> box;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            box.upper[d] = ends[d] + 0.; // no -0
+            box.lower[d] = 0. - ends[dim + d];
+          }
+        return box;
+      }
+
+      template <int dim>
+      Box<dim>
+      box_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
+      {
+        std::vector<dealii::Tensor<1, dim>> points;
+        for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+          if (mesh.body_of_node(node) == body)
+            points.push_back(mesh.reference_positions()[node]);
+        return box_of<dim>(points, mesh.communicator());
+      }
+
+      template <int dim>
+      Box<dim>
+      box_of_boundary(const mesh::BodyMesh<dim> &mesh,
+                      unsigned int               body,
+                      unsigned int               boundary)
+      {
+        std::vector<dealii::Tensor<1, dim>> points;
+        for (const auto &face : mesh.boundary_faces())
+          if (face.body == body && face.boundary == boundary)
+            for (const unsigned int node : face.nodes)
+              points.push_back(mesh.reference_positions()[node]);
+        return box_of<dim>(points, mesh.communicator());
+      }
+
+      template <int dim>
+      double
+      area_of(const mesh::BodyMesh<dim> &mesh,
+              const mesh::Surface<dim>  &surface)
+      {
+        std::vector<unsigned int> faces;
+        for (unsigned int f = 0; f < surface.faces().size(); ++f)
+          faces.push_back(f);
+        const auto areas =
+          contact::tributary_areas<dim>(surface,
+                                        faces,
+                                        contact::FaceShape<dim>(mesh.degree()),
+                                        surface.gather(
+                                          mesh.reference_positions()));
+        double sum = 0.;
+        for (unsigned int node = 0; node < areas.size(); ++node)
+          if (surface.masters(node).empty())
+            sum += areas[node];
+        return sum;
+      }
+
+      template <int dim>
+      typename Inventory<dim>::Body
+      inventory_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
+      {
+        typename Inventory<dim>::Body entry;
+        for (const auto &cell : mesh.cells())
+          entry.n_cells += cell.body == body;
+        entry.n_cells =
+          dealii::Utilities::MPI::sum(entry.n_cells, mesh.communicator());
+        entry.box         = box_of_body(mesh, body);
+        const auto &names = mesh.geometry(body).boundary_names();
+        for (unsigned int b = 0; b < names.size(); ++b)
+          {
+            const mesh::Surface<dim> surface(mesh, {{body, b}});
+            entry.boundaries.push_back({names[b],
+                                        area_of(mesh, surface),
+                                        box_of_boundary(mesh, body, b)});
+          }
+        return entry;
+      }
+
+      /// @p size: of the body, against which round-off does not show.
+      template <int dim>
+      std::string
+      to_text(const Box<dim> &box, double size)
+      {
+        const double       least = 1e-9 * size;
+        std::ostringstream text;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const auto shown = [&](const double x) {
+              return std::abs(x) < least ? 0. : x;
+            };
+            text << (d == 0 ? "" : ", ") << "xyz"[d] << ' '
+                 << shown(box.lower[d]);
+            if (box.upper[d] - box.lower[d] > least)
+              text << " to " << shown(box.upper[d]);
+          }
+        return text.str();
+      }
+
+      /// Zero where boxes overlap.
+      template <int dim>
+      double
+      distance(const Box<dim> &a, const Box<dim> &b)
+      {
+        dealii::Tensor<1, dim> gap;
+        for (unsigned int d = 0; d < dim; ++d)
+          gap[d] =
+            std::max({0., a.lower[d] - b.upper[d], b.lower[d] - a.upper[d]});
+        return gap.norm();
+      }
+
+      template <int dim>
+      void
+      print_meshes_in(const scene::Scene &scene,
+                      MPI_Comm            communicator,
+                      std::ostream       &out)
+      {
+        const mesh::BodyMesh<dim> mesh(communicator,
+                                       mesh_parameters(scene),
+                                       scene.degree,
+                                       idealization(scene),
+                                       scene.tearing);
+        print_import_notes(scene, out);
+        print(take_inventory(scene, mesh), out);
+        check_distances(scene, mesh);
+      }
+    } // namespace
+
+    template <int dim>
+    Inventory<dim>
+    take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+    {
+      Inventory<dim> inventory;
+      for (unsigned int body = 0; body < scene.bodies.size(); ++body)
+        {
+          inventory.bodies.push_back(inventory_of_body(mesh, body));
+          inventory.bodies.back().name = scene.bodies[body].name;
+        }
+      return inventory;
+    }
+
+    template <int dim>
+    void
+    print(const Inventory<dim> &inventory, std::ostream &out)
+    {
+      for (const auto &body : inventory.bodies)
+        {
+          const double size = body.box.lower.distance(body.box.upper);
+          out << "body " << body.name << ": " << body.n_cells << " cells, "
+              << to_text<dim>(body.box, size) << '\n';
+          std::size_t width = 0;
+          for (const auto &boundary : body.boundaries)
+            width = std::max(width, boundary.name.size());
+          for (const auto &boundary : body.boundaries)
+            out << "  " << std::left << std::setw(width) << boundary.name
+                << "  area " << std::setw(10) << boundary.area << "  "
+                << to_text<dim>(boundary.box, size) << '\n';
+        }
+    }
+
+    template <int dim>
+    void
+    check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+    {
+      const double too_far = 10.;
+      for (const auto &pair : scene.contact.pairs)
+        {
+          if (scene::split_face(pair.master).second.empty())
+            continue; // an obstacle
+          double   size = 0.;
+          Box<dim> boxes[2];
+          for (const unsigned int side : {0, 1})
+            {
+              const auto face =
+                find_face(scene, mesh, side == 0 ? pair.slave : pair.master);
+              const auto body = box_of_body(mesh, face.first);
+              boxes[side]     = box_of_boundary(mesh, face.first, face.second);
+              size            = std::max(size, body.lower.distance(body.upper));
+            }
+          const double gap = distance<dim>(boxes[0], boxes[1]);
+          if (gap <= too_far * size)
+            continue;
+          std::ostringstream text;
+          text << "are " << gap << " apart, but the larger body is only "
+               << size << " long; have the meshes the same units? See 'Scale' "
+               << "and 'Shift'";
+          throw InputError(scene.file + ": entry 'Contact/Pairs': '" +
+                           pair.slave + "' and '" + pair.master + "' " +
+                           text.str());
+        }
+    }
+
+    void
+    print_import_notes(const scene::Scene &scene, std::ostream &out)
+    {
+      for (const auto &body : scene.bodies)
+        if (body.mesh.imported)
+          for (const auto &note : body.mesh.imported->notes)
+            out << "body " << body.name << ", " << body.mesh.file << ": "
+                << note << '\n';
+    }
+
+    void
+    print_meshes(const scene::Scene &scene,
+                 MPI_Comm            communicator,
+                 std::ostream       &out)
+    {
+      if (scene.dimension == 2)
+        print_meshes_in<2>(scene, communicator, out);
+      else
+        print_meshes_in<3>(scene, communicator, out);
+    }
+
+#define SNUG_INSTANTIATE(dim)                                            \
+  template Inventory<dim> take_inventory(const scene::Scene &,           \
+                                         const mesh::BodyMesh<dim> &);   \
+  template void           print(const Inventory<dim> &, std::ostream &); \
+  template void           check_distances(const scene::Scene &,          \
+                                          const mesh::BodyMesh<dim> &);
+    SNUG_INSTANTIATE(2)
+    SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+  } // namespace app
+} // namespace snug

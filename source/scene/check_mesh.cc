@@ -1,0 +1,222 @@
+#include <snug/mesh/formula.h>
+#include <snug/scene/check.h>
+#include <snug/scene/values.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug
+{
+  namespace scene
+  {
+    namespace
+    {
+      /// Checks the mesh entries of one body.
+      class MeshCheck
+      {
+      public:
+        MeshCheck(const Scene &scene, const Body &body, const Origins &origins)
+          : dimension(scene.dimension)
+          , model(scene.model)
+          , body(body)
+          , mesh(body.mesh)
+          , origins(origins)
+        {
+        }
+
+        void
+        check_box() const
+        {
+          require_length("Box corner", mesh.corner);
+          require_length("Box size", mesh.size);
+          require_length("Box cells", mesh.cells);
+          require_length("Box grading", mesh.grading);
+          require_length("Box fine length", mesh.fine_length);
+          require(all_finite(mesh.corner),
+                  "Box corner",
+                  to_text(mesh.corner),
+                  "must be finite");
+          require_positive("Box size", mesh.size);
+          require_positive("Box grading", mesh.grading);
+          require(std::count(mesh.cells.begin(), mesh.cells.end(), 0U) == 0,
+                  "Box cells",
+                  to_text(mesh.cells),
+                  "must be at least 1 each");
+          double cells = 1.;
+          for (const unsigned int n : mesh.cells)
+            cells *= n;
+          check_coarse(cells, "Box cells", to_text(mesh.cells));
+        }
+
+        /// The mesh can be made of its entries and is not too large.
+        void
+        check_geometry() const
+        {
+          if (dimension == 2)
+            check_geometry_in<2>();
+          else
+            check_geometry_in<3>();
+        }
+
+        void
+        check_local_refinement() const
+        {
+          require(mesh.local_refinements <= 15,
+                  "Local refinements",
+                  to_text(mesh.local_refinements),
+                  "must be at most 15");
+          require(mesh.local_refinements == 0 || !mesh.refine_where.empty(),
+                  "Refine where",
+                  mesh.refine_where,
+                  "must be a formula of x, y, z when there are local "
+                  "refinements");
+        }
+
+      private:
+        template <int dim>
+        void
+        check_geometry_in() const
+        {
+          try
+            {
+              if (!mesh.refine_where.empty())
+                mesh::Formula<dim>("Refine where", mesh.refine_where);
+              const auto geometry = mesh::make_geometry<dim>(mesh);
+              check_size(geometry->n_coarse_cells());
+              if (model == "axisymmetric")
+                check_radii(*geometry);
+            }
+          catch (const InputError &error)
+            {
+              throw mesh_error(body, origins, error.what());
+            }
+        }
+
+        /// Every rank holds all coarse cells.
+        void
+        check_coarse(const double       cells,
+                     const std::string &entry,
+                     const std::string &value) const
+        {
+          require(cells <= 4e6,
+                  entry,
+                  value,
+                  "must give at most 4e6 cells; use 'Refinements' for more");
+        }
+
+        void
+        check_size(const double cells) const
+        {
+          if (mesh.source == "file")
+            check_coarse(cells, "Mesh file", mesh.file);
+          else
+            check_coarse(cells, "Cells", to_text(mesh.round_cells));
+          // p4est numbers at most 2^31 nodes.
+          require(mesh.refinements < 30 &&
+                    cells * std::pow(2., dimension * mesh.refinements) <= 1e9,
+                  "Refinements",
+                  to_text(mesh.refinements),
+                  "must give at most 1e9 cells");
+        }
+
+        /// x, the radius, must not be negative.
+        template <int dim>
+        void
+        check_radii(const mesh::BodyGeometry<dim> &geometry) const
+        {
+          double least = 0., largest = 0.;
+          for (unsigned int cell = 0; cell < geometry.n_coarse_cells(); ++cell)
+            for (unsigned int v = 0; v < 1 << dim; ++v)
+              {
+                dealii::Point<dim> unit;
+                for (unsigned int d = 0; d < dim; ++d)
+                  unit[d] = v >> d & 1;
+                const double x = geometry.position({cell, unit})[0];
+                least          = std::min(least, x);
+                largest        = std::max(largest, x);
+              }
+          const double round_off = 1e-10;
+          const bool   box       = mesh.source == "box";
+          require(least >= -round_off * largest,
+                  box ? "Box corner" : "Mesh",
+                  box ? to_text(mesh.corner) : mesh.source,
+                  "must not have a negative x, the radius of axisymmetric "
+                  "models");
+        }
+
+        std::string
+        path(const std::string &entry) const
+        {
+          return "Body " + body.name + "/" + entry;
+        }
+
+        void
+        require(const bool         good,
+                const std::string &entry,
+                const std::string &value,
+                const std::string &allowed) const
+        {
+          if (!good)
+            throw origins.error(path(entry), value, allowed);
+        }
+
+        template <typename T>
+        void
+        require_length(const std::string    &entry,
+                       const std::vector<T> &values) const
+        {
+          require(values.size() == dimension,
+                  entry,
+                  to_text(values),
+                  "must have " + to_text(dimension) +
+                    " numbers separated by commas, one per dimension");
+        }
+
+        void
+        require_positive(const std::string         &entry,
+                         const std::vector<double> &values) const
+        {
+          require(all_finite(values) &&
+                    std::all_of(values.begin(),
+                                values.end(),
+                                [](const double v) { return v > 0.; }),
+                  entry,
+                  to_text(values),
+                  "must be positive");
+        }
+
+        unsigned int                    dimension;
+        const std::string              &model;
+        const Body                     &body;
+        const mesh::BodyMeshParameters &mesh;
+        const Origins                  &origins;
+      };
+    } // namespace
+
+    InputError
+    mesh_error(const Body        &body,
+               const Origins     &origins,
+               const std::string &message)
+    {
+      const std::string section = "Body " + body.name + "/";
+      const std::string begin   = "entry '";
+      const auto        quote   = message.find('\'', begin.size());
+      if (message.rfind(begin, 0) != 0 || quote == std::string::npos)
+        return origins.error(section + "Mesh", body.mesh.source, message);
+      const std::string entry =
+        section + message.substr(begin.size(), quote - begin.size());
+      return InputError(origins.of(entry) + begin + entry +
+                        message.substr(quote));
+    }
+
+    void
+    check_mesh(const Scene &scene, const Body &body, const Origins &origins)
+    {
+      const MeshCheck check(scene, body, origins);
+      if (body.mesh.source == "box")
+        check.check_box();
+      check.check_geometry();
+      check.check_local_refinement();
+    }
+  } // namespace scene
+} // namespace snug
