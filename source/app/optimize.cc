@@ -77,7 +77,13 @@ namespace snug
       const auto &of_objective = last_gradients.of_response.front();
       evaluation.gradient      = of_objective.values;
       if (is_first)
-        first_shape_gradient = of_objective.shape;
+        {
+          first_shape_gradient = of_objective.shape;
+          if (!of_objective.reason.empty())
+            workshop.context.out()
+              << "auto takes " << of_objective.method
+              << " for the objective: " << of_objective.reason << std::endl;
+        }
       note_weak_contacts();
       for (unsigned int i = 1; i < responses.size(); ++i)
         evaluation.jacobian.push_back(last_gradients.of_response[i].values);

@@ -15,6 +15,11 @@ namespace snug
          []() {
            return Stencil{{0., 1.}, {-1., 1.}};
          }},
+        {"backward",
+         "(f(0) - f(-h)) / h",
+         []() {
+           return Stencil{{-1., 0.}, {-1., 1.}};
+         }},
         {"central",
          "(f(h) - f(-h)) / 2h",
          []() {

@@ -19,7 +19,7 @@ namespace snug
       std::vector<double> places, weights;
     };
 
-    /// Rows "forward", "central" and "fourth order".
+    /// Rows "forward", "backward", "central" and "fourth order".
     const ChoiceTable<Stencil()> &
     stencil_table();
 

@@ -80,6 +80,7 @@ namespace
       double      step, ratio;
     };
     for (const Order &order : {Order{"forward", 1e-4, 2.},
+                               Order{"backward", 1e-4, 2.},
                                Order{"central", 1e-3, 4.},
                                Order{"fourth order", 1e-2, 16.}})
       for (const bool refined : {false, true})

@@ -1,0 +1,151 @@
+"""The charts of gradients: files and pictures of what the other modules measure."""
+
+import drawing  # first: it chooses pictures without a display
+import matplotlib.pyplot as plt
+from matplotlib.ticker import MaxNLocator
+
+import cost
+import slender
+import steps
+import tolerances
+import weak
+from runs import write_csv
+
+# Below this an error is rounding; logarithmic axes have no zero.
+FLOOR = 1e-16
+
+MARKERS = "osD^v<>Px*"
+
+
+def by(rows, key):
+    """{value of key: its rows}, in the order of the rows."""
+    groups = {}
+    for row in rows:
+        groups.setdefault(row[key], []).append(row)
+    return groups
+
+
+def curves(axis, rows, key, x, y):
+    """One logarithmic curve per value of key."""
+    for marker, (name, group) in zip(MARKERS, by(rows, key).items()):
+        axis.loglog([row[x] for row in group],
+                    [max(row[y], FLOOR) for row in group],
+                    marker + "-", label=name, markersize=4, linewidth=1.)
+    axis.set_xlabel(x)
+    axis.grid(True, alpha=0.3)
+
+
+def panels(columns, height=4.5):
+    return plt.subplots(1, columns, figsize=(5. * columns + 2.5, height),
+                        layout="constrained", squeeze=False)
+
+
+def add_legend(axis):
+    """Right of the axis."""
+    axis.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize="small")
+
+
+def draw_steps(output, quick):
+    rows = steps.measure(quick)
+    write_csv(output / "gradient-steps.csv", rows)
+    scenes = by(rows, "scene")
+    figure, axes = plt.subplots(len(scenes), 2, squeeze=False, sharex=True,
+                                sharey=True, layout="constrained",
+                                figsize=(13., 3.6 * len(scenes) + 0.6))
+    for line, (scene, group) in zip(axes, scenes.items()):
+        for axis, quantity in zip(line, ("error of dJ", "error of u'")):
+            curves(axis, group, "method", "step", quantity)
+            axis.set_title(f"{scene}: {quantity}", fontsize="medium")
+        line[0].set_ylabel("relative error")
+    figure.suptitle("Error against step: of cell size (semi-analytic), "
+                    "of bound width (overall)")
+    add_legend(axes[0, 1])
+    drawing.save(figure, output, "gradient-steps.png")
+
+
+def draw_slender(output, quick):
+    rows = slender.measure(quick)
+    write_csv(output / "gradient-slender.csv", rows)
+    figure, ((axis,),) = panels(1, 5.)
+    for row in rows:
+        row["label"] = row["derivatives"] + (
+            "" if row["derivatives"] == "exact" else f", step {row['step']:g}")
+    curves(axis, rows, "label", "L/H", "error")
+    forward = by(rows, "derivatives")["forward"]
+    places = [row["L/H"] for row in forward]
+    axis.loglog(places, [0.5 * forward[0]["error"] * (place / places[0])**2
+                         for place in places], "k:", label="(L/H)²")
+    axis.set_ylabel("relative error of dC/dL")
+    axis.set_title("Cantilever, length as variable")
+    axis.set_xticks(places, [str(place) for place in places])
+    axis.minorticks_off()
+    add_legend(axis)
+    drawing.save(figure, output, "gradient-slender.png")
+
+
+def draw_cost(output, quick):
+    rows = cost.measure(quick)
+    write_csv(output / "gradient-cost.csv", rows)
+    write_csv(output / "gradient-cost-large.csv", cost.measure_large(quick))
+    write_csv(output / "gradient-cost-many.csv", cost.measure_many(quick))
+    figure, axes = panels(2)
+    for axis, x in zip(axes[0], ("F-mults", "seconds")):
+        shown = [row for row in rows if row[x] > 0]
+        curves(axis, shown, "method", x, "error of dJ")
+        for row in shown:
+            axis.annotate(row["variables"], (row[x], max(row["error of dJ"],
+                                                         FLOOR)),
+                          fontsize="x-small", xytext=(3, 3),
+                          textcoords="offset points")
+        for row in (row for row in rows if row["F-mults"] == 0):
+            if x == "F-mults":
+                axis.axhline(row["error of dJ"], color="black", linewidth=0.6,
+                             linestyle=":")
+    axes[0, 0].set_ylabel("relative error of dJ")
+    figure.suptitle("Error against cost, states solved to 1e-6; numbers: "
+                    "variables; dotted: energy, no F-mult")
+    add_legend(axes[0, 1])
+    drawing.save(figure, output, "gradient-cost.png")
+
+
+def draw_tolerances(output, quick):
+    rows = tolerances.measure(quick)
+    write_csv(output / "gradient-tolerances.csv", rows)
+    figure, ((axis,),) = panels(1, 5.)
+    curves(axis, rows, "method", "tolerance", "error of dJ")
+    axis.set_xlabel("tolerance of the state")
+    axis.set_ylabel("relative error of dJ")
+    axis.set_title("3D Hertz, 9 heights; steps of overall differences 1e-4")
+    add_legend(axis)
+    drawing.save(figure, output, "gradient-tolerances.png")
+
+
+def draw_weak(output, quick):
+    sides, path, widest = weak.measure(quick)
+    write_csv(output / "gradient-weak.csv", sides)
+    write_csv(output / "gradient-weak-path.csv", path)
+    figure, axes = panels(2)
+    compliance, energy = axes[0]
+    for axis, name in ((compliance, "compliance"), (energy, "energy")):
+        for side in (-1, 1):
+            part = [row for row in path if side * row["load"] > 0.]
+            axis.plot([row["load"] for row in part],
+                      [row[name] for row in part], "C0.-", markersize=4,
+                      label="gradient of a state" if side > 0 else None)
+        axis.set_xlabel("load over that of the weak contact, less 1")
+        axis.xaxis.set_major_locator(MaxNLocator(5))
+        axis.grid(True, alpha=0.3)
+    for name, style in (("QP, up", "C1^"), ("QP, down", "C1v"),
+                        ("strong set", "C2+"), ("central differences", "C3x")):
+        compliance.plot(0., widest[name], style, markersize=8, label=name,
+                        fillstyle="none")
+    compliance.set_title("compliance, by the adjoint method")
+    energy.set_title("potential energy")
+    compliance.set_ylabel(f"derivative by height {widest['variable']}")
+    compliance.legend(fontsize="small")
+    figure.suptitle("Across a weakly active contact")
+    drawing.save(figure, output, "gradient-weak.png")
+
+
+CHARTS = {"steps": draw_steps, "slender": draw_slender, "cost": draw_cost,
+          "tolerances": draw_tolerances, "weak": draw_weak}

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""The charts of gradients, small: charts.py CHART SNUG.
+
+Every chart leaves its table and its picture, and the tables say what the pages claim:
+exact derivatives of a slender body are exact, refined differences do not mind its
+slenderness, and at a weakly active contact the quadratic program gives the derivatives
+of both sides, which the strong set alone does not.
+"""
+
+import csv
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def slender_errors(directory, derivatives):
+    return [float(row["error"])
+            for row in read(directory / "gradient-slender.csv")
+            if row["derivatives"] == derivatives]
+
+
+def claims(directory):
+    """(what, whether it holds)"""
+    forward = slender_errors(directory, "forward")
+    refined = slender_errors(directory, "refined forward")
+    sides = read(directory / "gradient-weak.csv")
+
+    def apart(one, other):
+        """Largest difference over the variables, relative to the largest value."""
+        return max(abs(float(row[one]) - float(row[other]))
+                   for row in sides) / max(abs(float(row[one]))
+                                           for row in sides)
+
+    yield "exact", max(slender_errors(directory, "exact")) < 1e-9
+    yield "differences mind slenderness", forward[-1] > 8. * forward[0]
+    yield "refined ones do not", max(refined) < 3. * min(refined)
+    for side in ("up", "down"):
+        yield f"QP {side}", apart(f"QP, {side}", f"differences, {side}") < 1e-5
+    yield "strong set", max(apart("QP, up", "strong set"),
+                            apart("QP, down", "strong set")) > 1e-2
+
+
+def main(chart, program):
+    with tempfile.TemporaryDirectory() as name:
+        directory = pathlib.Path(name)
+        subprocess.run([chart, "gradient", "--quick", "--output", name],
+                       env={**os.environ, "SNUG": program,
+                            "PYTHONDONTWRITEBYTECODE": "1"}, check=True)
+        wrong = [f"{what}: not so" for what, holds in claims(directory)
+                 if not holds]
+        wrong += [f"{kind} missing: {path}" for path in
+                  ("steps", "slender", "cost", "tolerances", "weak")
+                  for kind in ("csv", "png")
+                  if not (directory / f"gradient-{path}.{kind}").stat().st_size]
+    print("\n".join(wrong) or "all as claimed")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
