@@ -127,11 +127,14 @@ def draw_weak(output, quick):
     figure, axes = panels(2)
     compliance, energy = axes[0]
     for axis, name in ((compliance, "compliance"), (energy, "energy")):
-        for side in (-1, 1):
-            part = [row for row in path if side * row["load"] > 0.]
+        below = [row for row in path if row["load"] < 0.]
+        above = [row for row in path if row["load"] > 0.]
+        label = "gradient of a state"
+        for part in (below, above) if axis is compliance else (path,):
             axis.plot([row["load"] for row in part],
                       [row[name] for row in part], "C0.-", markersize=4,
-                      label="gradient of a state" if side > 0 else None)
+                      label=label)
+            label = None
         axis.set_xlabel("load over that of the weak contact, less 1")
         axis.xaxis.set_major_locator(MaxNLocator(5))
         axis.grid(True, alpha=0.3)

@@ -74,6 +74,6 @@ def write_csv(path, rows):
         writer = csv.DictWriter(file, list(rows[0]))
         writer.writeheader()
         for row in rows:
-            writer.writerow({key: f"{value:.6g}" if isinstance(value, float)
+            writer.writerow({key: f"{value:.9g}" if isinstance(value, float)
                              else value for key, value in row.items()})
     print(path)
