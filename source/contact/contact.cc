@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/contact/contact.h>
+#include <snug/contact/mortar_rows.h>
 #include <snug/contact/nodal_rows.h>
 #include <snug/contact/obstacle_rows.h>
 
@@ -85,26 +86,34 @@ namespace snug
                   "slave nodes against the closest points of master faces",
                   [](const PairGeometry<dim> &pair) {
                     return std::make_unique<NodalRows<dim>>(pair);
+                  }},
+                 {"mortar",
+                  "mean gaps around slave nodes, integrated over both faces: "
+                  "for meshes that do not match",
+                  [](const PairGeometry<dim> &pair) {
+                    return std::make_unique<MortarRows<dim>>(pair);
                   }}};
       return table;
     }
 
     template <int dim>
-    Contact<dim>::Contact(const mesh::Surface<dim> &surface,
-                          const std::vector<Pair>  &pairs,
-                          unsigned int              degree,
-                          const Field              &positions)
+    Contact<dim>::Contact(const mesh::Surface<dim>  &surface,
+                          const std::vector<Pair>   &pairs,
+                          unsigned int               degree,
+                          const Field               &positions,
+                          const HeldDirections<dim> &held)
       : surface(surface), shape(degree), chosen(pairs)
     {
       for (Pair &pair : chosen)
         choose_slave(surface, positions, pair);
-      this->pair(positions);
+      this->pair(positions, held);
     }
 
     template <int dim>
     void
-    Contact<dim>::pair(const Field &positions)
+    Contact<dim>::pair(const Field &positions, const HeldDirections<dim> &held)
     {
+      AssertDimension(held.size(), surface.n_nodes());
       groups.clear();
       row_places.clear();
       // nodes with a row, by what their rows are against
@@ -118,8 +127,8 @@ namespace snug
           PairFaces sides{faces_of(surface, pair.slave), {}};
           if (!pair.obstacle)
             sides.master = faces_of(surface, pair.master);
-          groups.push_back(
-            make_group({surface, shape, pair, sides, positions, taken_here}));
+          groups.push_back(make_group(
+            {surface, shape, pair, sides, positions, held, taken_here}));
           for (const unsigned int slave : groups.back().rows->slaves())
             {
               row_places.push_back({p, slave});

@@ -2,10 +2,12 @@
 #include <snug/contact/opposite_faces.h>
 
 #include <deal.II/base/bounding_box.h>
+#include <deal.II/base/numbers.h>
 
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace snug
@@ -14,6 +16,9 @@ namespace snug
   {
     namespace
     {
+      /// Limits of angles are met up to this.
+      const double equal_cosine = 1e-9;
+
       template <int dim>
       std::vector<dealii::Tensor<1, dim>>
       face_field(const mesh::Surface<dim>                 &surface,
@@ -141,42 +146,41 @@ namespace snug
 
     template <int dim>
     std::vector<std::vector<unsigned int>>
-    opposite_faces(const mesh::Surface<dim>                 &surface,
-                   const PairFaces                          &sides,
-                   const FaceShape<dim>                     &shape,
-                   const typename mesh::Surface<dim>::Field &positions)
+    opposite_faces(const PairGeometry<dim> &pair)
     {
-      std::vector<std::vector<unsigned int>> result(sides.slave.size());
+      const auto &slaves      = pair.sides.slave;
+      const auto  search_face = [&](unsigned int face) {
+        return SearchFace<dim>(pair.surface, face, pair.shape, pair.positions);
+      };
+      const double angle =
+        std::min(pair.pair.parameters.largest_angle, steepest_angle);
+      const double least_cosine =
+        std::cos(angle / 180. * dealii::numbers::PI) - equal_cosine;
+      std::vector<std::vector<unsigned int>> result(slaves.size());
       std::vector<SearchFace<dim>>           masters;
-      for (const unsigned int face : sides.master)
-        masters.emplace_back(surface, face, shape, positions);
+      for (const unsigned int face : pair.sides.master)
+        masters.push_back(search_face(face));
       if (masters.empty())
         return result;
-      const MasterTree<dim>        tree(masters, shape);
-      const SegmentQuadrature<dim> quadrature(shape.degree(),
-                                              surface.idealization());
-      for (unsigned int i = 0; i < sides.slave.size(); ++i)
+      const MasterTree<dim>        tree(masters, pair.shape);
+      const SegmentQuadrature<dim> quadrature(pair.shape.degree(),
+                                              pair.surface.idealization());
+      for (unsigned int i = 0; i < slaves.size(); ++i)
         {
-          const SearchFace<dim> slave(surface,
-                                      sides.slave[i],
-                                      shape,
-                                      positions);
+          const SearchFace<dim> slave = search_face(slaves[i]);
           for (const std::size_t m : tree.near(slave))
-            if (slave.normal * masters[m].normal < opposite_cosine &&
+            if (-(slave.normal * masters[m].normal) >= least_cosine &&
                 quadrature.overlap(slave.arrays(),
                                    masters[m].arrays(),
                                    pairing_margin))
-              result[i].push_back(sides.master[m]);
+              result[i].push_back(pair.sides.master[m]);
         }
       return result;
     }
 
 #define SNUG_INSTANTIATE(dim)                                     \
   template std::vector<std::vector<unsigned int>> opposite_faces( \
-    const mesh::Surface<dim> &,                                   \
-    const PairFaces &,                                            \
-    const FaceShape<dim> &,                                       \
-    const mesh::Surface<dim>::Field &);
+    const PairGeometry<dim> &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -77,12 +77,18 @@ namespace snug
 
     template <int dim>
     bool
+    Opposition<dim>::is_near(double distance) const
+    {
+      return std::abs(distance) <= largest_distance;
+    }
+
+    template <int dim>
+    bool
     Opposition<dim>::holds(unsigned int                  slave,
                            double                        distance,
                            const dealii::Tensor<1, dim> &normal) const
     {
-      return std::abs(distance) <= largest_distance &&
-             normals[slave] * normal >= least_cosine;
+      return is_near(distance) && normals[slave] * normal >= least_cosine;
     }
 
 #define SNUG_INSTANTIATE(dim)                                                     \

@@ -67,7 +67,7 @@ namespace snug
                     pair.largest_angle,
                     "Between the slave's normal and the direction into the "
                     "master at the first design [degrees]; slave nodes beyond "
-                    "carry no contact row.");
+                    "carry no contact row. Mortar: between faces, at most 60.");
         entries.add("Gap",
                     pair.gap,
                     anything("a formula of x, y and, in 3D, z"),

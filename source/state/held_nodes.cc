@@ -311,6 +311,22 @@ namespace snug
     }
 
     template <int dim>
+    contact::HeldDirections<dim>
+    HeldNodes<dim>::directions(const mesh::Surface<dim> &surface,
+                               const Field              &positions) const
+    {
+      const Frames                 at_nodes = frames(positions);
+      contact::HeldDirections<dim> result(surface.n_nodes());
+      for (unsigned int node = 0; node < result.size(); ++node)
+        {
+          const unsigned int held_node = find(surface.global_node(node));
+          if (held_node < n_nodes())
+            result[node] = at_nodes[held_node].directions;
+        }
+      return result;
+    }
+
+    template <int dim>
     typename HeldNodes<dim>::Frames
     HeldNodes<dim>::frame_derivatives(const Field &positions,
                                       const Field &velocity) const

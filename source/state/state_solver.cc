@@ -92,13 +92,15 @@ namespace snug
       boxes = body_boxes(mesh);
       if (mesh.idealization().is_axisymmetric())
         check_radii(mesh, model.body_names);
-      const auto at_surface = surface.gather(positions);
-      contact               = std::make_unique<contact::Contact<dim>>(surface,
-                                                        model.pairs,
-                                                        mesh.degree(),
-                                                        at_surface);
       held =
         std::make_unique<HeldNodes<dim>>(mesh, model.supports, 1, positions);
+      contact =
+        std::make_unique<contact::Contact<dim>>(surface,
+                                                model.pairs,
+                                                mesh.degree(),
+                                                surface.gather(positions),
+                                                held->directions(surface,
+                                                                 positions));
       systems.resize(tearing.subdomains.size());
       for (unsigned int s = 0; s < systems.size(); ++s)
         {
@@ -281,8 +283,8 @@ namespace snug
     StateSolver<dim>::pair(const Field &positions)
     {
       const RunContext::Timer timer(data->context, "setup");
-      const auto              x = data->surface.gather(positions);
-      data->contact->pair(x);
+      data->contact->pair(data->surface.gather(positions),
+                          data->held->directions(data->surface, positions));
       data->glue(positions);
     }
 

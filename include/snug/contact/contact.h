@@ -34,17 +34,19 @@ namespace snug
     public:
       using Field = typename mesh::Surface<dim>::Field;
 
-      /// Pair at @p positions. @p surface must outlive this object.
+      /// Pair at @p positions, where supports hold @p held. @p surface must
+      /// outlive this object.
       /// @throws InputError naming a pair that is left without rows.
-      Contact(const mesh::Surface<dim> &surface,
-              const std::vector<Pair>  &pairs,
-              unsigned int              degree,
-              const Field              &positions);
+      Contact(const mesh::Surface<dim>  &surface,
+              const std::vector<Pair>   &pairs,
+              unsigned int               degree,
+              const Field               &positions,
+              const HeldDirections<dim> &held);
 
       /// Pair anew at @p positions, with the slaves chosen before.
       /// @throws InputError as the constructor does.
       void
-      pair(const Field &positions);
+      pair(const Field &positions, const HeldDirections<dim> &held);
 
       /// Groups refer to the shape.
       Contact(const Contact &) = delete;

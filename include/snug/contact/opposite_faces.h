@@ -1,7 +1,7 @@
 #ifndef snug_contact_opposite_faces_h
 #define snug_contact_opposite_faces_h
 
-#include <snug/contact/projection.h>
+#include <snug/contact/pair_geometry.h>
 #include <snug/contact/segment_points.h>
 
 namespace snug
@@ -15,21 +15,19 @@ namespace snug
      */
     constexpr double pairing_margin = 0.1;
 
-    /// Faces steeper to each other than this are not opposite: -cos(60 deg).
-    constexpr double opposite_cosine = -0.5;
+    /// Faces are projected onto each other up to this angle [degrees].
+    constexpr double steepest_angle = 60.;
 
     /**
      * For each slave face the master faces, ascending, that lie opposite to it:
-     * their normals at the centres are within 60 degrees of opposite, they
-     * overlap along the slave's normal, and their distance is at most 1.5 times
-     * that of the closest master face plus the slave face's diameter.
+     * their normals at the centres are opposite up to the pair's largest angle
+     * (and steepest_angle), they overlap along the slave's normal, and their
+     * distance is at most 1.5 times that of the closest master face plus the
+     * slave face's diameter, so that nothing behind it is taken.
      */
     template <int dim>
     std::vector<std::vector<unsigned int>>
-    opposite_faces(const mesh::Surface<dim>                 &surface,
-                   const PairFaces                          &sides,
-                   const FaceShape<dim>                     &shape,
-                   const typename mesh::Surface<dim>::Field &positions);
+    opposite_faces(const PairGeometry<dim> &pair);
   } // namespace contact
 } // namespace snug
 

@@ -2,6 +2,7 @@
 #define snug_contact_pair_geometry_h
 
 #include <snug/contact/face_shape.h>
+#include <snug/contact/held_directions.h>
 #include <snug/contact/pair.h>
 
 namespace snug
@@ -28,6 +29,8 @@ namespace snug
       const Pair               &pair;
       PairFaces                 sides;
       const Field              &positions;
+      /// what supports hold, per surface node
+      const HeldDirections<dim> &held;
       /// surface nodes with a row against this master by an earlier pair: a
       /// second one would be the same
       std::vector<bool> taken;
@@ -58,8 +61,12 @@ namespace snug
     public:
       explicit Opposition(const PairGeometry<dim> &pair);
 
-      /// For the unit @p normal into the master; only the size of @p distance
-      /// counts. Limits are met up to round-off.
+      /// Whether the size of @p distance is within the search distance, up to
+      /// round-off.
+      bool
+      is_near(double distance) const;
+
+      /// Also for the unit @p normal into the master.
       bool
       holds(unsigned int                  slave,
             double                        distance,

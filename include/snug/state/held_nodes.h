@@ -1,6 +1,7 @@
 #ifndef snug_state_held_nodes_h
 #define snug_state_held_nodes_h
 
+#include <snug/contact/held_directions.h>
 #include <snug/contact/nodal_normals.h>
 #include <snug/state/held_frame.h>
 #include <snug/state/support.h>
@@ -59,7 +60,12 @@ namespace snug
       Frames
       frames(const Field &positions) const;
 
-      /// Their derivatives along @p velocity, exact; empty at nodes whose
+      /// What is held at each node of @p surface, at @p positions. Collective.
+      contact::HeldDirections<dim>
+      directions(const mesh::Surface<dim> &surface,
+                 const Field              &positions) const;
+
+      /// Derivatives of frames() along @p velocity, exact; empty at nodes whose
       /// directions do not follow the positions. Collective.
       Frames
       frame_derivatives(const Field &positions, const Field &velocity) const;

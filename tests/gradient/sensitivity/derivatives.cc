@@ -369,4 +369,32 @@ namespace
     GradientScene<3> scene(bent_rollers<3>(3, 3), 0.05, "foundation.right", 0);
     check_derivatives(scene);
   }
+
+  /// Meshes that do not match, hanging nodes on both sides.
+  template <int dim>
+  TestScene<dim>
+  mortar_scene(unsigned int n_punch, unsigned int n_foundation)
+  {
+    auto scene   = two_blocks<dim>(n_punch, n_foundation, 3.);
+    scene.method = "mortar";
+    narrow_punch(scene);
+    set_design(scene, dim == 2 ? 4 : 3, 0.04);
+    scene.bodies[0].refined_below   = 0.4;
+    scene.bodies[1].refined_below   = 0.45;
+    scene.solver.relative_tolerance = 1e-12;
+    return scene;
+  }
+
+  TEST(Gradient, Mortar)
+  {
+    for (const unsigned int degree : {1, 2})
+      {
+        auto given   = mortar_scene<2>(6 / degree, 8 / degree - 1);
+        given.degree = degree;
+        GradientScene<2> scene(given, 0.05);
+        check_derivatives(scene);
+      }
+    GradientScene<3> scene(mortar_scene<3>(3, 4), 0.05);
+    check_derivatives(scene);
+  }
 } // namespace

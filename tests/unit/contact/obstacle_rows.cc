@@ -40,7 +40,8 @@ namespace
     const Contact<dim> contact(scene.surface,
                                {pair_with<dim>(shape), TwoBoxes<dim>::pair()},
                                degree,
-                               scene.positions);
+                               scene.positions,
+                               scene.held);
     // element sizes are 0.08, differences of formulas are good to 1e-10
     EXPECT_LT(derivative_error(scene, contact, 1e-4), 1e-8) << shape;
     EXPECT_LT(reverse_error(scene, contact), 1e-9) << shape;
@@ -73,8 +74,9 @@ TEST(ObstacleRows, GapIsDistancePlusFormulaMinusApproach)
   Pair              pair      = plane_below(0.9);
   pair.obstacle->displacement = {7., 0.03};
   pair.parameters.gap         = "0.5 * x";
-  const Contact<2> contact(scene.surface, {pair}, 1, scene.positions);
-  const auto       rows = contact.rows(scene.positions);
+  const Contact<2> contact(
+    scene.surface, {pair}, 1, scene.positions, scene.held);
+  const auto rows = contact.rows(scene.positions);
   ASSERT_EQ(rows.size(), 5u);
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
@@ -97,7 +99,8 @@ TEST(ObstacleRows, NodesOutOfReachOrTurnedAwayCarryNone)
   const auto        n_rows = [&](const PairParameters &parameters) {
     Pair pair       = plane_below(0.9);
     pair.parameters = parameters;
-    return Contact<2>(scene.surface, {pair}, 1, scene.positions).n_rows();
+    return Contact<2>(scene.surface, {pair}, 1, scene.positions, scene.held)
+      .n_rows();
   };
   PairParameters parameters;
   EXPECT_EQ(n_rows(parameters), 11u);
@@ -122,7 +125,11 @@ TEST(ObstacleRows, ANodeMeetsAnObstacleOnce)
   Pair       bottom = plane_below(0.9), left = bottom;
   left.slave              = {0, 0};
   bottom.obstacle->normal = left.obstacle->normal = {1., 1.};
-  const Contact<2> contact(surface, {bottom, left}, 1, positions);
+  const Contact<2> contact(surface,
+                           {bottom, left},
+                           1,
+                           positions,
+                           HeldDirections<2>(surface.n_nodes()));
   EXPECT_EQ(contact.n_rows(), 5u + 2u - 1u);
 }
 
@@ -133,7 +140,8 @@ TEST(Contact, SlaveIsTheFinerSideWhereAsked)
   for (const std::string slave : {"first", "finer"})
     {
       pair.parameters.slave = slave;
-      const Contact<3> contact(scene.surface, {pair}, 1, scene.positions);
+      const Contact<3> contact(
+        scene.surface, {pair}, 1, scene.positions, scene.held);
       EXPECT_EQ(contact.n_rows(), slave == "first" ? 16u : 36u);
       EXPECT_EQ(contact.pairs()[0].name(),
                 slave == "first" ? "slave: master" : "master: slave");

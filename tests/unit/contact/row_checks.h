@@ -94,4 +94,53 @@ reverse_error(const TwoBoxes<dim>               &scene,
   return std::abs(direct - reverse) / scale;
 }
 
+/// x -> Q x + shift with a fixed rotation Q.
+template <int dim>
+dealii::Tensor<2, dim>
+some_rotation()
+{
+  const double           a = 0.7, b = -1.1;
+  dealii::Tensor<2, dim> q;
+  q[0][0] = q[1][1] = std::cos(a);
+  q[0][1]           = -std::sin(a);
+  q[1][0]           = std::sin(a);
+  if (dim == 2)
+    return q;
+  dealii::Tensor<2, dim> r;
+  q[dim - 1][dim - 1] = r[0][0] = 1.;
+  r[1][1] = r[dim - 1][dim - 1] = std::cos(b);
+  r[1][dim - 1]                 = -std::sin(b);
+  r[dim - 1][1]                 = std::sin(b);
+  return q * r;
+}
+
+/// Gaps stay and normals turn when both bodies move rigidly.
+template <int dim>
+void
+expect_invariance(TwoBoxes<dim> &scene)
+{
+  const auto                   contact = scene.contact();
+  const auto                   rows    = contact.rows(scene.positions);
+  const dealii::Tensor<2, dim> q       = some_rotation<dim>();
+  dealii::Tensor<1, dim>       shift;
+  shift[0] = 3.;
+  shift[1] = -2.;
+  for (auto &x : scene.positions)
+    x = q * x + shift;
+  const auto moved_rows = scene.contact().rows(scene.positions);
+  ASSERT_EQ(rows.size(), moved_rows.size());
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      EXPECT_NEAR(rows[i].gap, moved_rows[i].gap, 1e-13);
+      EXPECT_NEAR((q * rows[i].normal - moved_rows[i].normal).norm(),
+                  0.,
+                  1e-12);
+      // a translation of both bodies does not open the contact
+      dealii::Tensor<1, dim> total;
+      for (const auto &c : rows[i].coefficients)
+        total += c.second;
+      EXPECT_NEAR(total.norm(), 0., 1e-14);
+    }
+}
+
 #endif

@@ -20,6 +20,7 @@ struct TwoBoxes
     : mesh(communicator, bodies, degree)
     , surface(mesh, {pair().slave, pair().master})
     , positions(surface.gather(mesh.reference_positions()))
+    , held(surface.n_nodes())
   {
   }
 
@@ -71,7 +72,9 @@ struct TwoBoxes
   snug::contact::Contact<dim>
   contact() const
   {
-    return {surface, {pair()}, mesh.degree(), positions};
+    auto used              = pair();
+    used.parameters.method = method;
+    return {surface, {used}, mesh.degree(), positions, held};
   }
 
   std::vector<snug::contact::Projection>
@@ -132,6 +135,9 @@ struct TwoBoxes
   snug::mesh::BodyMesh<dim> mesh;
   snug::mesh::Surface<dim>  surface;
   Field                     positions;
+
+  snug::contact::HeldDirections<dim> held;
+  std::string                        method = "nodal";
 };
 
 /// a + factor * b

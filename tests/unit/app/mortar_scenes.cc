@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include "solved_scene.h"
+
+using namespace snug;
+using namespace snug::test;
+
+namespace
+{
+  /// A quarter of a sphere on a block of other faces.
+  std::string
+  sphere_on_block(const std::string &bodies = "upper, lower",
+                  const std::string &method = "mortar")
+  {
+    return "set Dimension = 3\nset Bodies = " + bodies + R"(
+subsection Body upper
+  set Box corner = 0, 0, 1
+  set Box cells = 4, 4, 3
+  set Curved faces = bottom: -(x^2 + y^2) / 32
+  set Young's modulus = 1000
+  set Supports = left: normal, front: normal
+  set Pressure = top: 1
+end
+subsection Body lower
+  set Box cells = 5, 5, 3
+  set Young's modulus = 1000
+  set Supports = left: normal, front: normal, bottom: normal
+end
+subsection Contact
+  set Method = )" +
+           method + R"(
+  set Slave = first
+  set Pairs = lower.top: upper.bottom
+end
+)";
+  }
+
+  const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
+
+  Motion<3>
+  some_motion()
+  {
+    Motion<3>            motion;
+    dealii::Tensor<2, 3> a = motion.Q, b = motion.Q;
+    a[0][0] = a[1][1] = std::cos(0.7);
+    a[1][0]           = std::sin(0.7);
+    a[0][1]           = -a[1][0];
+    b[1][1] = b[2][2] = std::cos(-1.1);
+    b[2][1]           = std::sin(-1.1);
+    b[1][2]           = -b[2][1];
+    motion.Q          = a * b;
+    motion.shift      = dealii::Point<3>(3., -2., 5.);
+    return motion;
+  }
+
+  /// Of the pressures of two states, in the order of the rows, relative to the
+  /// largest.
+  double
+  largest_difference(const SolvedScene<3> &a, const SolvedScene<3> &b)
+  {
+    EXPECT_EQ(a.state.contact.size(), b.state.contact.size());
+    double worst = 0.;
+    for (unsigned int i = 0; i < a.state.contact.size(); ++i)
+      worst = std::max(worst,
+                       std::abs(a.state.contact[i].pressure -
+                                b.state.contact[i].pressure));
+    return worst / a.state.max_pressure;
+  }
+
+  void
+  expect_invariance(const std::string &method)
+  {
+    SCOPED_TRACE(method);
+    const std::string    text = sphere_on_block("upper, lower", method);
+    const SolvedScene<3> here(text, sharp);
+    EXPECT_GT(here.state.active_contacts, 6u);
+    EXPECT_LT(largest_difference(here, {text, sharp, some_motion()}), 1e-9);
+    Motion<3> to_millimetres;
+    to_millimetres.factor = 1000.;
+    EXPECT_LT(largest_difference(here, {text, sharp, to_millimetres}), 1e-9);
+    const SolvedScene<3> turned_round(sphere_on_block("lower, upper", method),
+                                      sharp);
+    EXPECT_LT(largest_difference(here, turned_round), 1e-9);
+  }
+
+  void
+  expect_same_iterations(const std::string &method)
+  {
+    SCOPED_TRACE(method);
+    const std::string text = sphere_on_block("upper, lower", method);
+    Motion<3>         larger;
+    larger.factor = 1024.;
+    const SolvedScene<3> here(text), there(text, {}, larger);
+    const SolvedScene<3> stiff(text,
+                               {"Body upper/Young's modulus=1024000",
+                                "Body lower/Young's modulus=1024000",
+                                "Body upper/Pressure=top: 1024"});
+    EXPECT_EQ(here.state.f_mults, there.state.f_mults);
+    EXPECT_EQ(here.state.f_mults, stiff.state.f_mults);
+    for (unsigned int i = 0; i < here.state.contact.size(); ++i)
+      {
+        const double p = here.state.contact[i].pressure;
+        EXPECT_EQ(p, there.state.contact[i].pressure);
+        EXPECT_EQ(1024. * p, stiff.state.contact[i].pressure);
+      }
+  }
+} // namespace
+
+TEST(SphereOnBlock, DoesNotDependOnPlaceUnitsAndOrder)
+{
+  expect_invariance("nodal");
+  expect_invariance("mortar");
+}
+
+TEST(SphereOnBlock, PowersOfTwoTakeTheSameIterations)
+{
+  expect_same_iterations("nodal");
+  expect_same_iterations("mortar");
+}
