@@ -26,6 +26,9 @@ def slender_errors(directory, derivatives):
             if row["derivatives"] == derivatives]
 
 
+CHARTS = ("steps", "slender", "cost", "tolerances", "weak")
+
+
 def claims(directory):
     """(what, whether it holds)"""
     forward = slender_errors(directory, "forward")
@@ -50,15 +53,14 @@ def claims(directory):
 def main(chart, program):
     with tempfile.TemporaryDirectory() as name:
         directory = pathlib.Path(name)
-        subprocess.run([chart, "gradient", "--quick", "--output", name],
+        subprocess.run([chart, "gradient", "--quick", "--output", name, *CHARTS],
                        env={**os.environ, "SNUG": program,
                             "PYTHONDONTWRITEBYTECODE": "1"}, check=True)
         wrong = [f"{what}: not so" for what, holds in claims(directory)
                  if not holds]
-        wrong += [f"{kind} missing: {path}" for path in
-                  ("steps", "slender", "cost", "tolerances", "weak")
+        wrong += [f"{path}.{kind}: missing" for path in CHARTS
                   for kind in ("csv", "png")
-                  if not (directory / f"gradient-{path}.{kind}").stat().st_size]
+                  if not (directory / f"gradient-{path}.{kind}").is_file()]
     print("\n".join(wrong) or "all as claimed")
     return 1 if wrong else 0
 

@@ -26,11 +26,13 @@ def by(rows, key):
 
 
 def curves(axis, rows, key, x, y):
-    """One logarithmic curve per value of key."""
-    for marker, (name, group) in zip(MARKERS, by(rows, key).items()):
-        axis.loglog([row[x] for row in group],
-                    [max(row[y], FLOOR) for row in group],
-                    marker + "-", label=name, markersize=4, linewidth=1.)
+    """One logarithmic curve per value of key that has any y."""
+    for index, (name, group) in enumerate(by(rows, key).items()):
+        if any(row[y] > 0. for row in group):
+            axis.loglog([row[x] for row in group],
+                        [max(row[y], FLOOR) for row in group],
+                        MARKERS[index] + "-", color=f"C{index}", label=name,
+                        markersize=4, linewidth=1.)
     axis.set_xlabel(x)
     axis.grid(True, alpha=0.3)
 
@@ -59,7 +61,9 @@ def draw_steps(output, quick):
         line[0].set_ylabel("relative error")
     figure.suptitle("Error against step: of cell size (semi-analytic), "
                     "of bound width (overall)")
-    add_legend(axes[0, 1])
+    axes[0, 1].legend(*axes[0, 0].get_legend_handles_labels(),
+                      loc="center left", bbox_to_anchor=(1.02, 0.5),
+                      fontsize="small")
     drawing.save(figure, output, "gradient-steps.png")
 
 
@@ -86,8 +90,6 @@ def draw_slender(output, quick):
 def draw_cost(output, quick):
     rows = cost.measure(quick)
     write_csv(output / "gradient-cost.csv", rows)
-    write_csv(output / "gradient-cost-large.csv", cost.measure_large(quick))
-    write_csv(output / "gradient-cost-many.csv", cost.measure_many(quick))
     figure, axes = panels(2)
     for axis, x in zip(axes[0], ("F-mults", "seconds")):
         shown = [row for row in rows if row[x] > 0]
@@ -106,6 +108,12 @@ def draw_cost(output, quick):
                     "variables; dotted: energy, no F-mult")
     add_legend(axes[0, 1])
     drawing.save(figure, output, "gradient-cost.png")
+
+
+def write_large(output, quick):
+    """Tables only."""
+    write_csv(output / "gradient-large.csv", cost.measure_large(quick))
+    write_csv(output / "gradient-many.csv", cost.measure_many(quick))
 
 
 def draw_tolerances(output, quick):
@@ -151,4 +159,4 @@ def draw_weak(output, quick):
 
 
 CHARTS = {"steps": draw_steps, "slender": draw_slender, "cost": draw_cost,
-          "tolerances": draw_tolerances, "weak": draw_weak}
+          "large": write_large, "tolerances": draw_tolerances, "weak": draw_weak}

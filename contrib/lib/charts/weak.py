@@ -30,7 +30,7 @@ def weakening_pressure():
     loads = vanishing(PRESSURE, 0.999 * PRESSURE)
     contact = loads.index(max(loads))
     load = loads[contact]
-    for distance in (1e-3, 1e-5, 1e-7):
+    for distance in (1e-3, 1e-6):
         load = vanishing((1. + 2. * distance) * load,
                          (1. + distance) * load)[contact]
     return load
