@@ -103,6 +103,7 @@ namespace snug
               status = run_sensitivity(workshop);
               break;
             case scene::Task::optimize:
+              catch_interrupts();
               status = Optimize<dim>(workshop, options.restart).run();
               break;
           }
@@ -117,7 +118,6 @@ namespace snug
               const scene::Scene &scene,
               const Options      &options)
     {
-      catch_interrupts();
       return scene.dimension == 2 ? run_task<2>(context, scene, options)
                                   : run_task<3>(context, scene, options);
     }
