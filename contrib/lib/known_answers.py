@@ -1,0 +1,181 @@
+"""What contrib/gallery measures in its scenes, and the known answers.
+
+A measure takes the result of a scene and that of the scene it is compared with,
+if there is one, and returns quantities as (name, value, known answer)."""
+
+import math
+
+
+def moduli(*bodies):
+    """Hertz' modulus E* of (E, nu) pairs."""
+    return 1 / sum((1 - nu**2) / E for E, nu in bodies)
+
+
+def hertz_line(result, load, radius, modulus):
+    """Half-width and peak pressure of cylinders under a load per length."""
+    a = math.sqrt(4 * load * radius / (math.pi * modulus))
+    p0 = 2 * load / (math.pi * a)
+    return [("p0", max(result.pressures()), p0),
+            ("a", result.half_width(a, lambda p: abs(p["x"])), a)]
+
+
+def hertz_point(result, load, radius, modulus, r):
+    """Contact radius and peak pressure of spheres under a load."""
+    a = (3 * load * radius / (4 * modulus))**(1 / 3)
+    p0 = 3 * load / (2 * math.pi * a**2)
+    return [("p0", max(result.pressures()), p0),
+            ("a", result.half_width(a, r), a)]
+
+
+def line_contact(result, _):
+    load = 2 * abs(result.state["contact_force"][1])
+    return hertz_line(result, load, 4., moduli((1000, .3), (1000, .3)))
+
+
+def two_cylinders(result, _):
+    load = 2 * abs(result.state["contact_force"][1])
+    return hertz_line(result, load, 1 / (1 / 4 + 1 / 8),
+                      moduli((1000, .3), (4000, .2)))
+
+
+def two_cylinders_plane_stress(result, _):
+    load = 2 * abs(result.state["contact_force"][1])
+    return hertz_line(result, load, 1 / (1 / 4 + 1 / 8),
+                      moduli((1000, 0), (4000, 0)))
+
+
+def nafems_roller(result, _):
+    load = 2 * abs(result.state["contact_force"][1])
+    return hertz_line(result, load, 50.,
+                      moduli((210000, .3), (70000, .3)))
+
+
+def point_contact(result, _):
+    load = 4 * abs(result.state["contact_force"][2])
+    return hertz_point(result, load, 4., moduli((1000, .3), (1000, .3)),
+                       lambda p: math.hypot(p["x"], p["y"]))
+
+
+def axisymmetric_point_contact(result, _):
+    load = abs(result.state["contact_force"][1])
+    return hertz_point(result, load, 4., moduli((1000, .3), (1000, .3)),
+                       lambda p: p["x"])
+
+
+def solid_against_axisymmetric(result, section):
+    """The same cylinders as a section; loads of the full ones."""
+    load = 4 * abs(result.state["contact_force"][2])
+    known = abs(section.state["contact_force"][1])
+    a = section.half_width(.23, lambda p: p["x"])
+    return [("load", load, known),
+            ("p0", max(result.pressures()), max(section.pressures())),
+            ("a", result.half_width(a, lambda p: math.hypot(p["x"], p["y"])),
+             a)]
+
+
+def rigid_against_stiff(result, stiff):
+    return [("load", abs(result.state["contact_force"][1]),
+             abs(stiff.state["contact_force"][1])),
+            ("p0", max(result.pressures()), max(stiff.pressures()))]
+
+
+def gmsh_pin(result, _):
+    load = 4 * abs(result.state["contact_force"][2])
+    return hertz_point(result, load, 2., moduli((1000, .3)),
+                       lambda p: math.hypot(p["x"], p["y"]))
+
+
+def lame(model):
+    """Pressure of an interference 0.002 at radius 2 between rings from 1 to 2
+    and 2 to 3."""
+    a, b, c = 1., 2., 3.
+    compliance = 0.
+    for E, nu, ratio, sign in ((2000, .2, (c * c + b * b) / (c * c - b * b), 1),
+                               (1000, .3, (b * b + a * a) / (b * b - a * a),
+                                -1)):
+        if model == "plane strain":
+            E, nu = E / (1 - nu * nu), nu / (1 - nu)
+        compliance += (ratio + sign * nu) / E
+    pressure = .002 / (b * compliance)
+    return lambda result, _: [(f"pressure, {which.__name__}",
+                               which(result.pressures()), pressure)
+                              for which in (min, max)]
+
+
+def perfect_fit():
+    """Persson's pin of equal material without clearance: half of the contact
+    angle and the largest pressure times radius over load."""
+    def logarithm(s, r):
+        return math.log((r + s) / (r - s))
+
+    def clearance(b):
+        n, total = 2000, 0.
+        for i in range(n):
+            angle = math.pi * ((i + .5) / n - .5)
+            t, weight = b * math.sin(angle), b * math.cos(angle) * math.pi / n
+            total += weight * logarithm(b * math.cos(angle),
+                                        math.hypot(1, b)) / (1 + t * t)
+        return 2 * (1 - b * b) - total / (math.pi * (1 + b * b))
+    low, high = .5, 1.
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = ((middle, high) if clearance(middle) > 0
+                     else (low, middle))
+    r = math.hypot(1, low)
+    return low, (2 * low / (math.pi * r) + logarithm(low, r) /
+                 (2 * math.pi * low**2 * (1 + low**2)))
+
+
+def pin_in_hole(result, _):
+    load = 2 * abs(result.state["contact_force"][1])
+    b, pressure = perfect_fit()
+    end = result.half_width(b, lambda p: math.tan(
+        math.atan2(abs(p["x"]), -p["y"]) / 2), first=.8, last=.98)
+    return [("p0", max(result.pressures()), pressure * load),
+            ("end [degrees]", math.degrees(2 * math.atan(end)),
+             math.degrees(2 * math.atan(b)))]
+
+
+def flat_punch(result, _):
+    """The force within 0.9 of the half width and the pressure in the middle."""
+    load = abs(result.state["contact_force"][1])
+    middle = min(result.points, key=lambda p: abs(p["x"]))
+    inner = math.fsum(abs(p["force"]) for p in result.points if p["x"] < .9)
+    edge = max(p["x"] + p["area"] / 2 for p in result.points if p["x"] < .9)
+    return [("p in the middle", middle["pressure"], 2 * load / math.pi),
+            ("force within 0.9", inner,
+             2 * load / math.pi * math.asin(edge))]
+
+
+def incompressible(result, fine):
+    """Pressures at the nodes of the coarse mesh, beside those of the fine."""
+    known = {(round(p["x"], 6), round(p["y"], 6)): p["pressure"]
+             for p in fine.points}
+    worst = max(((p["pressure"], known[round(p["x"], 6), round(p["y"], 6)])
+                 for p in result.points), key=lambda q: abs(q[0] - q[1]))
+    return [("p where they differ most", *worst),
+            ("peak p", max(result.pressures()), max(known.values()))]
+
+
+def uniform_pressure(result, _):
+    return [(f"pressure, {which.__name__}", which(result.pressures()), 1.)
+            for which in (min, max)]
+
+
+def stack(result, _):
+    return [(f"pressure, {name}, {which.__name__}",
+             which(result.pressures(pair)), 2.)
+            for pair, name in ((0, "upper"), (1, "lower"))
+            for which in (min, max)]
+
+
+def floating_block(result, _):
+    """Pressure 1 on the unit top of the block."""
+    return [("contact force", abs(result.state["contact_force"][2]), 1.)]
+
+
+def five_bodies(result, _):
+    """Every contact carries the weights above it."""
+    return [(f"force on {pair + 1}",
+             math.fsum(p["force"] for p in result.points if p["pair"] == pair),
+             math.fsum(range(pair + 1, 6))) for pair in range(5)]
