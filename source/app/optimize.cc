@@ -17,6 +17,14 @@ namespace snug
       , history(workshop.path("history.csv"), workshop.basis->n_variables())
     {
       choose_constraints();
+      // its scale is that of the first design, whatever a journal replays
+      if (workshop.scene.optimization.combine == "worst" &&
+          workshop.n_load_cases() > 1)
+        {
+          if (first.empty())
+            first = workshop.solve(workshop.basis->start());
+          workshop.combined_objective(first);
+        }
     }
 
     template <int dim>
@@ -27,18 +35,23 @@ namespace snug
       geometry.positions = workshop.positions(workshop.basis->start());
       for (const auto &entry : workshop.scene.optimization.constraints)
         {
+          const auto name = scene::constraint_name(workshop.scene, entry.first);
           Constraint constraint;
-          constraint.name = entry.first;
+          constraint.name      = entry.first;
+          constraint.load_case = name.load_case.value_or(0);
           constraint.response =
-            choose(response::response_table<dim>(), entry.first).make();
-          const bool initial = entry.second == "initial";
-          if (initial && constraint.response->needs_solution() && !first)
-            first = std::make_unique<state::ContactState<dim>>(
-              workshop.solve(workshop.basis->start(), qp::WarmStart()));
+            choose(response::response_table<dim>(), name.response).make();
+          const bool initial  = entry.second == "initial";
+          const bool of_state = constraint.response->needs_solution();
+          if (initial && of_state && first.empty())
+            first = workshop.solve(workshop.basis->start());
           constraint.target =
-            !initial ? std::stod(entry.second)
-                     : constraint.response->value(*workshop.solver,
-                                                  first ? *first : geometry);
+            !initial
+              ? std::stod(entry.second)
+              : constraint.response->value(*workshop.solver,
+                                           of_state
+                                             ? first[constraint.load_case]
+                                             : geometry);
           constraints.push_back(std::move(constraint));
         }
     }
@@ -49,34 +62,37 @@ namespace snug
     {
       check_interrupts(workshop.context.communicator());
       if (paired_anew)
-        warm_start = qp::WarmStart();
+        warm_starts.clear();
       workshop.context.progress("solving the contact problem ...");
-      last = std::make_unique<state::ContactState<dim>>(
-        workshop.solve(design, warm_start));
-      last_design         = design;
-      warm_start.lambda   = last->dual.lambda;
-      warm_start.active   = last->dual.active;
-      const bool is_first = !first;
-      if (is_first)
-        first = std::make_unique<state::ContactState<dim>>(*last);
+      last        = workshop.solve(design, warm_starts);
+      last_design = design;
+      warm_starts.clear();
+      for (const auto &state : last)
+        warm_starts.push_back({state.dual.lambda, state.dual.active});
+      // after a replay the search goes on elsewhere
+      const bool is_start = design == workshop.basis->start() && !paired_anew;
+      if (is_start)
+        first = last;
 
-      optimization::Evaluation    evaluation;
-      sensitivity::Responses<dim> responses = {workshop.objective.get()};
-      evaluation.objective = workshop.objective->value(*workshop.solver, *last);
+      optimization::Evaluation                      evaluation;
+      std::vector<typename Workshop<dim>::Measured> responses;
+      evaluation.objective = workshop.combined_objective(last).value;
       for (const Constraint &constraint : constraints)
         {
+          const auto &state = last[constraint.load_case];
           evaluation.constraints.push_back(
-            constraint.response->value(*workshop.solver, *last) -
+            constraint.response->value(*workshop.solver, state) -
             constraint.target);
-          responses.push_back(constraint.response.get());
+          responses.push_back(
+            {constraint.response.get(), constraint.load_case});
         }
       auto parameters = workshop.scene.gradient;
       if (parameters.method == "energy") // not for every constraint
         parameters.method = "auto";
-      last_gradients = workshop.gradients(responses, *last, design, parameters);
+      last_gradients = workshop.gradients(last, responses, design, parameters);
       const auto &of_objective = last_gradients.of_response.front();
       evaluation.gradient      = of_objective.values;
-      if (is_first)
+      if (is_start)
         {
           first_shape_gradient = of_objective.shape;
           if (!of_objective.reason.empty())
@@ -85,11 +101,15 @@ namespace snug
               << " for the objective: " << of_objective.reason << std::endl;
         }
       note_weak_contacts();
-      for (unsigned int i = 1; i < responses.size(); ++i)
-        evaluation.jacobian.push_back(last_gradients.of_response[i].values);
-      evaluation.notes = {double(last->active_contacts),
-                          double(last->f_mults + last_gradients.f_mults),
-                          workshop.context.seconds()};
+      for (unsigned int i = 0; i < responses.size(); ++i)
+        evaluation.jacobian.push_back(last_gradients.of_response[1 + i].values);
+      double active = 0., f_mults = last_gradients.f_mults;
+      for (const auto &state : last)
+        {
+          active += state.active_contacts;
+          f_mults += state.f_mults;
+        }
+      evaluation.notes = {active, f_mults, workshop.context.seconds()};
       return evaluation;
     }
 
@@ -97,9 +117,12 @@ namespace snug
     void
     Optimize<dim>::note_weak_contacts()
     {
+      unsigned int weak_contacts = 0;
+      for (const auto &state : last)
+        weak_contacts += state.weak_contacts;
       for (const auto &gradient : last_gradients.of_response)
         if (!gradient.differentiable)
-          workshop.warn({one_sided_warning(last->weak_contacts) +
+          workshop.warn({one_sided_warning(weak_contacts) +
                          "; going on with those of the strongly active ones"});
     }
 
@@ -107,13 +130,16 @@ namespace snug
     void
     Optimize<dim>::save_warm_start(const std::string &path) const
     {
-      std::ofstream       file(path, std::ios::binary);
-      const std::uint64_t n = warm_start.lambda.n_rows();
-      file.write(reinterpret_cast<const char *>(&n), sizeof n);
-      file.write(reinterpret_cast<const char *>(warm_start.lambda.column(0)),
-                 n * sizeof(double));
-      file.write(reinterpret_cast<const char *>(warm_start.active.data()),
-                 warm_start.active.size());
+      std::ofstream file(path, std::ios::binary);
+      for (const auto &start : warm_starts)
+        {
+          const std::uint64_t n = start.lambda.n_rows();
+          file.write(reinterpret_cast<const char *>(&n), sizeof n);
+          file.write(reinterpret_cast<const char *>(start.lambda.column(0)),
+                     n * sizeof(double));
+          file.write(reinterpret_cast<const char *>(start.active.data()),
+                     start.active.size());
+        }
       if (!file.flush())
         throw std::runtime_error("cannot write '" + path + "'");
     }
@@ -125,16 +151,20 @@ namespace snug
       if (paired_anew)
         return;
       std::ifstream file(path, std::ios::binary);
-      std::uint64_t n = 0;
-      file.read(reinterpret_cast<char *>(&n), sizeof n);
-      if (!file || n != workshop.solver->feti().n_owned())
-        throw std::runtime_error("'" + path +
-                                 "' does not belong to this scene");
-      warm_start.lambda = qp::MultiVector(n);
-      warm_start.active.resize(n);
-      file.read(reinterpret_cast<char *>(warm_start.lambda.column(0)),
-                n * sizeof(double));
-      file.read(reinterpret_cast<char *>(warm_start.active.data()), n);
+      warm_starts.resize(workshop.n_load_cases());
+      for (auto &start : warm_starts)
+        {
+          std::uint64_t n = 0;
+          file.read(reinterpret_cast<char *>(&n), sizeof n);
+          if (!file || n != workshop.solver->feti().n_owned())
+            throw std::runtime_error("'" + path +
+                                     "' does not belong to this scene");
+          start.lambda = qp::MultiVector(n);
+          start.active.resize(n);
+          file.read(reinterpret_cast<char *>(start.lambda.column(0)),
+                    n * sizeof(double));
+          file.read(reinterpret_cast<char *>(start.active.data()), n);
+        }
       if (!file)
         throw std::runtime_error("'" + path + "' is incomplete");
     }
@@ -240,10 +270,9 @@ namespace snug
     {
       if (first_drawn)
         return;
-      if (!first)
-        first = std::make_unique<state::ContactState<dim>>(
-          workshop.solve(workshop.basis->start(), qp::WarmStart()));
-      workshop.draw(0., *first, first_shape_gradient);
+      if (first.empty())
+        first = workshop.solve(workshop.basis->start());
+      workshop.draw(0., first, first_shape_gradient);
       first_drawn = true;
     }
 
@@ -263,7 +292,7 @@ namespace snug
            "points they were paired with by up to "
         << drift << " of a face" << std::endl;
       workshop.solver->pair(workshop.positions(design));
-      last.reset();
+      last.clear();
       paired_anew = true;
       return true;
     }
@@ -298,21 +327,22 @@ namespace snug
     {
       draw_first();
       std::optional<typename Workshop<dim>::Field> last_shape_gradient;
-      if (!last || last_design != result.x)
-        last = std::make_unique<state::ContactState<dim>>(
-          workshop.solve(result.x, warm_start));
+      if (last.empty() || last_design != result.x)
+        last = workshop.solve(result.x, warm_starts);
       else if (!last_gradients.of_response.empty())
         last_shape_gradient = last_gradients.of_response.front().shape;
-      workshop.draw(result.iterations, *last, last_shape_gradient);
+      workshop.draw(result.iterations, last, last_shape_gradient);
       workshop.export_shape(result.x);
 
       io::Summary summary;
       summary.task = "optimize";
-      if (workshop.scene.report_linear_reference)
-        last->linear_f_mults = workshop.solver->linear_f_mults(*last);
-      summary.initial_state = io::summarize(*first);
-      summary.state         = io::summarize(*last);
-      workshop.warn(*last);
+      for (auto &state : last)
+        {
+          if (workshop.scene.report_linear_reference)
+            state.linear_f_mults = workshop.solver->linear_f_mults(state);
+          workshop.warn(state);
+        }
+      workshop.summarize_states(first, last, summary);
       io::Summary::Gradient gradient;
       if (!last_gradients.of_response.empty())
         {
@@ -332,10 +362,16 @@ namespace snug
         << "stopped: " << result.stop_reason << " after " << result.iterations
         << " iterations and " << result.evaluations << " evaluations\n"
         << workshop.scene.optimization.objective << ' '
-        << result.objective_initial << " -> " << result.objective_final
-        << ", peak pressure " << first->max_pressure << " -> "
-        << last->max_pressure << ", active contacts " << first->active_contacts
-        << " -> " << last->active_contacts << std::endl;
+        << result.objective_initial << " -> " << result.objective_final;
+      for (unsigned int c = 0; c < last.size(); ++c)
+        workshop.context.out()
+          << (last.size() == 1
+                ? std::string()
+                : ", load case " + workshop.scene.load_cases[c].name)
+          << ", peak pressure " << first[c].max_pressure << " -> "
+          << last[c].max_pressure << ", active contacts "
+          << first[c].active_contacts << " -> " << last[c].active_contacts;
+      workshop.context.out() << std::endl;
     }
 
     template class Optimize<2>;

@@ -46,15 +46,19 @@ namespace snug
     } // namespace
 
     template <int dim>
-    Sensitivity<dim>::Sensitivity(Workshop<dim>                  &workshop,
-                                  const state::ContactState<dim> &state)
-      : workshop(workshop), state(state)
+    Sensitivity<dim>::Sensitivity(
+      Workshop<dim>                               &workshop,
+      const std::vector<state::ContactState<dim>> &states)
+      : workshop(workshop), states(states)
     {
       choose_method();
-      bool one_sided = state.weak_contacts > 0 &&
-                       sensitivity::needs_solve(*workshop.objective);
+      unsigned int weak_contacts = 0;
+      for (const auto &state : states)
+        weak_contacts += state.weak_contacts;
+      bool one_sided =
+        weak_contacts > 0 && sensitivity::needs_solve(*workshop.objective);
       if (one_sided)
-        workshop.warn({one_sided_warning(state.weak_contacts)});
+        workshop.warn({one_sided_warning(weak_contacts)});
       for (const Method &method : methods())
         {
           // differences leave the solver at another design
@@ -129,11 +133,11 @@ namespace snug
     Sensitivity<dim>::add(const Method &method)
     {
       workshop.context.progress("gradient by " + method.name + " ...");
-      const auto  result       = workshop.gradients({workshop.objective.get()},
-                                             state,
+      const auto               result       = workshop.gradients(states,
+                                             {},
                                              workshop.basis->start(),
                                              method.parameters);
-      const auto &of_objective = result.of_response.front();
+      const auto              &of_objective = result.of_response.front();
       io::Summary::GradientRow row;
       row.method                 = method.name;
       row.f_mults                = result.f_mults;
@@ -161,11 +165,8 @@ namespace snug
     {
       const double        start  = workshop.context.seconds();
       const unsigned long before = workshop.context.work.f_mults;
-      const auto          found  = workshop
-                           .one_sided_gradients({workshop.objective.get()},
-                                                state,
-                                                workshop.basis->start())
-                           .front();
+      const auto          found =
+        workshop.one_sided_gradients(states, workshop.basis->start());
       io::Summary::GradientRow row; // each is half of the work
       row.f_mults = (workshop.context.work.f_mults - before) / 2;
       row.seconds = (workshop.context.seconds() - start) / 2;

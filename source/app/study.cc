@@ -45,27 +45,34 @@ namespace snug
       }
 
       template <int dim>
-      state::ContactState<dim>
+      std::vector<state::ContactState<dim>>
       solve_start(Workshop<dim> &workshop)
       {
         workshop.context.progress("solving the contact problem ...");
-        auto state = workshop.solve(workshop.basis->start(), qp::WarmStart());
-        if (workshop.scene.report_linear_reference)
-          state.linear_f_mults = workshop.solver->linear_f_mults(state);
-        print_state(workshop.context.out(), state);
-        workshop.warn(state);
-        return state;
+        auto states = workshop.solve(workshop.basis->start());
+        for (auto &state : states)
+          {
+            if (workshop.scene.report_linear_reference)
+              state.linear_f_mults = workshop.solver->linear_f_mults(state);
+            if (states.size() > 1)
+              workshop.context.out()
+                << "load case "
+                << workshop.scene.load_cases[state.load_case].name << ": ";
+            print_state(workshop.context.out(), state);
+            workshop.warn(state);
+          }
+        return states;
       }
 
       template <int dim>
       int
       run_state(Workshop<dim> &workshop)
       {
-        const auto state = solve_start(workshop);
-        workshop.draw(0., state, {});
+        const auto states = solve_start(workshop);
+        workshop.draw(0., states);
         io::Summary summary;
-        summary.task  = "state";
-        summary.state = io::summarize(state);
+        summary.task = "state";
+        workshop.summarize_states({}, states, summary);
         workshop.write_summary(summary);
         return 0;
       }
@@ -74,12 +81,12 @@ namespace snug
       int
       run_sensitivity(Workshop<dim> &workshop)
       {
-        const auto  state = solve_start(workshop);
+        const auto  states = solve_start(workshop);
         io::Summary summary;
-        summary.task  = "sensitivity";
-        summary.state = io::summarize(state);
-        const Sensitivity<dim> sensitivity(workshop, state);
-        workshop.draw(0., state, sensitivity.shape_gradient);
+        summary.task = "sensitivity";
+        workshop.summarize_states({}, states, summary);
+        const Sensitivity<dim> sensitivity(workshop, states);
+        workshop.draw(0., states, sensitivity.shape_gradient);
         summary.gradient = sensitivity.gradient;
         workshop.write_summary(summary);
         return 0;

@@ -6,6 +6,7 @@
 #include <snug/state/assumptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <sstream>
 
@@ -15,19 +16,15 @@ namespace snug
   {
     namespace
     {
-      /// The shapes of a scene; errors begin with its file, as all of the
-      /// input do. Collective.
-      template <int dim>
-      std::unique_ptr<shape::Shapes<dim>>
-      make_shapes(const scene::Scene        &scene,
-                  const mesh::BodyMesh<dim> &mesh,
-                  const shape::BodyNames    &names)
+      /// What @p make makes of a scene; errors begin with its file, as all of
+      /// the input do.
+      template <typename Make>
+      auto
+      made_of(const scene::Scene &scene, const Make &make)
       {
         try
           {
-            return std::make_unique<shape::Shapes<dim>>(mesh,
-                                                        names,
-                                                        scene.shapes);
+            return make();
           }
         catch (const InputError &error)
           {
@@ -67,27 +64,53 @@ namespace snug
         shape::BodyNames names;
         for (const auto &body : scene.bodies)
           names.names.push_back(body.name);
-        basis = make_shapes(scene, *mesh, names);
+        basis = made_of(scene, [&]() {
+          return std::make_unique<shape::Shapes<dim>>(*mesh,
+                                                      names,
+                                                      scene.shapes);
+        });
         objective =
           choose(response::response_table<dim>(), scene.optimization.objective)
             .make();
       }
-      solver =
-        std::make_unique<state::StateSolver<dim>>(*mesh,
-                                                  tearing,
-                                                  build_model(scene, *mesh),
-                                                  positions(basis->start()),
-                                                  context);
-      fields         = std::make_unique<io::FieldOutput<dim>>(*mesh,
-                                                      tearing,
-                                                      solver->model().bodies,
-                                                      scene.output_directory);
-      contact_output = std::make_unique<io::ContactOutput<dim>>(
+      solver = made_of(scene, [&]() {
+        return std::make_unique<state::StateSolver<dim>>(
+          *mesh,
+          tearing,
+          build_model(scene, *mesh),
+          positions(basis->start()),
+          context);
+      });
+      if (n_load_cases() == 1)
+        add_pictures(scene.output_directory);
+      else
+        for (const auto &load_case : scene.load_cases)
+          {
+            io::make_output_directory(context, path(load_case.name));
+            add_pictures(path(load_case.name));
+          }
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::add_pictures(const std::string &directory)
+    {
+      pictures.emplace_back();
+      pictures.back().fields = std::make_unique<io::FieldOutput<dim>>(
+        *mesh, tearing, solver->model().bodies, directory);
+      pictures.back().contact = std::make_unique<io::ContactOutput<dim>>(
         typename io::ContactOutput<dim>::Sources{*mesh,
                                                  solver->surface(),
                                                  solver->contact().pairs(),
                                                  solver->contact().places()},
-        scene.output_directory);
+        directory);
+    }
+
+    template <int dim>
+    unsigned int
+    Workshop<dim>::n_load_cases() const
+    {
+      return solver->model().load_cases.size();
     }
 
     template <int dim>
@@ -98,57 +121,31 @@ namespace snug
     }
 
     template <int dim>
-    state::ContactState<dim>
-    Workshop<dim>::solve(const std::vector<double> &design,
-                         const qp::WarmStart       &start)
+    std::vector<state::ContactState<dim>>
+    Workshop<dim>::solve(const std::vector<double>        &design,
+                         const std::vector<qp::WarmStart> &starts)
     {
-      return solver->solve(positions(design), start);
-    }
-
-    template <int dim>
-    std::vector<double>
-    Workshop<dim>::bound_widths() const
-    {
-      std::vector<double> widths;
-      for (unsigned int i = 0; i < basis->n_variables(); ++i)
-        widths.push_back(basis->upper_bounds()[i] - basis->lower_bounds()[i]);
-      return widths;
-    }
-
-    template <int dim>
-    sensitivity::Gradients<dim>
-    Workshop<dim>::gradients(const sensitivity::Responses<dim>     &responses,
-                             const state::ContactState<dim>        &state,
-                             const std::vector<double>             &design,
-                             const sensitivity::GradientParameters &parameters)
-    {
-      const auto widths = bound_widths();
-      return sensitivity::gradients<dim>(
-        {*solver, *basis, state, design, widths, parameters}, responses);
-    }
-
-    template <int dim>
-    std::vector<sensitivity::OneSided>
-    Workshop<dim>::one_sided_gradients(
-      const sensitivity::Responses<dim> &responses,
-      const state::ContactState<dim>    &state,
-      const std::vector<double>         &design)
-    {
-      const RunContext::Timer timer(context, "gradient");
-      const auto              widths = bound_widths();
-      return sensitivity::one_sided_gradients<dim>(
-        {*solver, *basis, state, design, widths, scene.gradient}, responses);
+      std::vector<state::ContactState<dim>> states;
+      const auto                            x = positions(design);
+      for (unsigned int c = 0; c < n_load_cases(); ++c)
+        states.push_back(
+          solver->solve(x, starts.empty() ? qp::WarmStart() : starts[c], c));
+      return states;
     }
 
     template <int dim>
     void
-    Workshop<dim>::draw(double                          time,
-                        const state::ContactState<dim> &state,
-                        const std::optional<Field>     &shape_gradient)
+    Workshop<dim>::draw(double                                       time,
+                        const std::vector<state::ContactState<dim>> &states,
+                        const std::optional<Field> &shape_gradient)
     {
       const RunContext::Timer timer(context, "output");
-      fields->write(time, state, shape_gradient ? &*shape_gradient : nullptr);
-      contact_output->write(time, state);
+      for (unsigned int c = 0; c < states.size(); ++c)
+        {
+          pictures[c].fields->write(
+            time, states[c], shape_gradient ? &*shape_gradient : nullptr);
+          pictures[c].contact->write(time, states[c]);
+        }
     }
 
     template <int dim>
@@ -209,6 +206,30 @@ namespace snug
            solver->contact().drifts(x, solver->contact().rows(x)))
         largest = std::max(largest, drift);
       return largest;
+    }
+
+    template <int dim>
+    void
+    Workshop<dim>::summarize_states(
+      const std::vector<state::ContactState<dim>> &initial,
+      const std::vector<state::ContactState<dim>> &states,
+      io::Summary                                 &summary) const
+    {
+      summary.state = io::summarize(states.front());
+      if (!initial.empty())
+        summary.initial_state = io::summarize(initial.front());
+      if (states.size() == 1)
+        return;
+      for (unsigned int c = 0; c < states.size(); ++c)
+        {
+          io::Summary::LoadCase load_case;
+          load_case.name   = scene.load_cases[c].name;
+          load_case.weight = scene.load_cases[c].weight;
+          load_case.state  = io::summarize(states[c]);
+          if (!initial.empty())
+            load_case.initial_state = io::summarize(initial[c]);
+          summary.load_cases.push_back(load_case);
+        }
     }
 
     template <int dim>

@@ -115,14 +115,24 @@ namespace snug
     }
 
     template <int dim>
-    void
-    Element<dim>::body_force(const Nodes                  &X,
-                             const dealii::Tensor<1, dim> &b,
-                             Nodes                        &f) const
+    typename Element<dim>::Nodes
+    Element<dim>::quadrature_points(const Nodes &X) const
     {
+      Nodes points;
+      for (const auto &shape : gauss)
+        points.push_back(value(shape, X));
+      return points;
+    }
+
+    template <int dim>
+    void
+    Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
+    {
+      AssertDimension(b.size(), gauss.size());
       f.assign(n_nodes(), {});
-      for (const auto &point : gauss_points(X))
-        point.add_source(b, f);
+      const auto points = gauss_points(X);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        points[q].add_source(b[q], f);
     }
 
     template <int dim>

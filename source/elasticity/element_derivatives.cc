@@ -79,27 +79,32 @@ namespace snug
 
     template <int dim>
     void
-    Element<dim>::body_force_derivative(const Nodes                  &X,
-                                        const Nodes                  &V,
-                                        const dealii::Tensor<1, dim> &b,
-                                        Nodes                        &f) const
+    Element<dim>::body_force_derivative(const Nodes &X,
+                                        const Nodes &V,
+                                        const Nodes &b,
+                                        Nodes       &f) const
     {
+      AssertDimension(b.size(), gauss.size());
       f.assign(n_nodes(), {});
-      for (const auto &point : gauss_points(X))
-        point.add_source(trace(point.gradient(V)) * b, f);
+      const auto points = gauss_points(X);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        points[q].add_source(trace(points[q].gradient(V)) * b[q], f);
     }
 
     template <int dim>
     void
-    Element<dim>::add_body_force_gradient(const Nodes                  &X,
-                                          const dealii::Tensor<1, dim> &b,
-                                          const Nodes                  &u,
-                                          const double                  factor,
-                                          Nodes &gradient) const
+    Element<dim>::add_body_force_gradient(const Nodes &X,
+                                          const Nodes &b,
+                                          const Nodes &u,
+                                          const double factor,
+                                          Nodes       &gradient) const
     {
-      for (const auto &point : gauss_points(X))
-        point.add_flux(factor * (value(point.shape, u) * b) * identity,
-                       gradient);
+      AssertDimension(b.size(), gauss.size());
+      const auto points = gauss_points(X);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        points[q].add_flux(factor * (value(points[q].shape, u) * b[q]) *
+                             identity,
+                           gradient);
     }
 
     template <int dim>
@@ -112,29 +117,26 @@ namespace snug
         point.add_flux(factor * identity, gradient);
     }
 
-#define SNUG_INSTANTIATE(dim)                                              \
-  template void Element<dim>::internal_force_derivative(const Nodes &,     \
-                                                        const Nodes &,     \
-                                                        const Material &,  \
-                                                        const Nodes &,     \
-                                                        Nodes &) const;    \
-  template void Element<dim>::add_energy_gradient(const Nodes &,           \
-                                                  const Material &,        \
-                                                  const Nodes &,           \
-                                                  const Nodes &,           \
-                                                  double,                  \
-                                                  Nodes &) const;          \
-  template void Element<dim>::body_force_derivative(                       \
-    const Nodes &, const Nodes &, const dealii::Tensor<1, dim> &, Nodes &) \
-    const;                                                                 \
-  template void Element<dim>::add_body_force_gradient(                     \
-    const Nodes &,                                                         \
-    const dealii::Tensor<1, dim> &,                                        \
-    const Nodes &,                                                         \
-    double,                                                                \
-    Nodes &) const;                                                        \
-  template void Element<dim>::add_volume_gradient(const Nodes &,           \
-                                                  double,                  \
+#define SNUG_INSTANTIATE(dim)                                             \
+  template void Element<dim>::internal_force_derivative(const Nodes &,    \
+                                                        const Nodes &,    \
+                                                        const Material &, \
+                                                        const Nodes &,    \
+                                                        Nodes &) const;   \
+  template void Element<dim>::add_energy_gradient(const Nodes &,          \
+                                                  const Material &,       \
+                                                  const Nodes &,          \
+                                                  const Nodes &,          \
+                                                  double,                 \
+                                                  Nodes &) const;         \
+  template void Element<dim>::body_force_derivative(const Nodes &,        \
+                                                    const Nodes &,        \
+                                                    const Nodes &,        \
+                                                    Nodes &) const;       \
+  template void Element<dim>::add_body_force_gradient(                    \
+    const Nodes &, const Nodes &, const Nodes &, double, Nodes &) const;  \
+  template void Element<dim>::add_volume_gradient(const Nodes &,          \
+                                                  double,                 \
                                                   Nodes &) const;
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

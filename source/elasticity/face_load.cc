@@ -80,6 +80,85 @@ namespace snug
       {
         return {{cross_product_3d(t[1], c), cross_product_3d(c, t[0])}};
       }
+
+      /// A Gauss point of a face with nodes X.
+      template <int dim>
+      struct FacePoint
+      {
+        using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+        FacePoint(const LagrangePoint<dim - 1> &shape,
+                  const mesh::Idealization     &idealization,
+                  const Nodes                  &X)
+          : shape(shape)
+          , x(interpolate<dim>(shape, X))
+          , t(tangents<dim>(shape, X))
+          , m(area_vector(t))
+          , weight(shape.weight * idealization.weight(x))
+          , weight_gradient(shape.weight *
+                            idealization.template weight_gradient<dim>())
+        {
+        }
+
+        /// dA.
+        double
+        area() const
+        {
+          return weight * m.norm();
+        }
+
+        /// (n dA)' along V.
+        dealii::Tensor<1, dim>
+        vector_derivative(const Nodes &V) const
+        {
+          return weight * area_vector_derivative(t, tangents<dim>(shape, V)) +
+                 (weight_gradient * interpolate<dim>(shape, V)) * m;
+        }
+
+        /// dA' along V.
+        double
+        area_derivative(const Nodes &V) const
+        {
+          return vector_derivative(V) * m / m.norm();
+        }
+
+        /// gradient_a += d/dX_a (c . n dA); with c = kappa n of kappa dA.
+        void
+        add_vector_gradient(const dealii::Tensor<1, dim> &c,
+                            Nodes                        &gradient) const
+        {
+          const auto gradient_t = area_vector_transpose(t, c);
+          for (unsigned int a = 0; a < gradient.size(); ++a)
+            {
+              gradient[a] += (c * m) * shape.values[a] * weight_gradient;
+              for (unsigned int i = 0; i < dim - 1; ++i)
+                gradient[a] += weight * shape.gradients[a][i] * gradient_t[i];
+            }
+        }
+
+        const LagrangePoint<dim - 1>               &shape;
+        dealii::Tensor<1, dim>                      x;
+        std::array<dealii::Tensor<1, dim>, dim - 1> t;
+        dealii::Tensor<1, dim>                      m;
+        double                 weight; ///< of the quadrature and of the section
+        dealii::Tensor<1, dim> weight_gradient;
+      };
+
+      /// Pressure and traction of a load at Gauss point q.
+      template <int dim>
+      double
+      pressure(const FaceLoadValues<dim> &load, unsigned int q)
+      {
+        return load.pressure.empty() ? 0. : load.pressure[q];
+      }
+
+      template <int dim>
+      dealii::Tensor<1, dim>
+      traction(const FaceLoadValues<dim> &load, unsigned int q)
+      {
+        return load.traction.empty() ? dealii::Tensor<1, dim>()
+                                     : load.traction[q];
+      }
     } // namespace
 
     template <int dim>
@@ -93,84 +172,175 @@ namespace snug
     }
 
     template <int dim>
+    typename FaceLoad<dim>::Nodes
+    FaceLoad<dim>::quadrature_points(const Nodes &X) const
+    {
+      Nodes points;
+      for (const auto &shape : gauss)
+        points.push_back(interpolate<dim>(shape, X));
+      return points;
+    }
+
+    template <int dim>
     void
-    FaceLoad<dim>::force(const Nodes                  &X,
-                         const double                  pressure,
-                         const dealii::Tensor<1, dim> &traction,
-                         Nodes                        &f) const
+    FaceLoad<dim>::force(const Nodes               &X,
+                         const FaceLoadValues<dim> &load,
+                         Nodes                     &f) const
     {
       f.assign(X.size(), {});
-      for (const auto &shape : gauss)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
         {
-          const auto   m    = area_vector(tangents<dim>(shape, X));
-          const auto   load = m.norm() * traction - pressure * m;
-          const double weight =
-            shape.weight * idealization.weight(interpolate<dim>(shape, X));
+          const FacePoint<dim> point(gauss[q], idealization, X);
+          const auto           force =
+            point.area() * (traction(load, q) + load.linear.value(point.x)) -
+            pressure(load, q) * point.weight * point.m;
           for (unsigned int a = 0; a < X.size(); ++a)
-            f[a] += weight * shape.values[a] * load;
+            f[a] += gauss[q].values[a] * force;
         }
     }
 
     template <int dim>
     void
-    FaceLoad<dim>::force_derivative(const Nodes                  &X,
-                                    const Nodes                  &V,
-                                    const double                  pressure,
-                                    const dealii::Tensor<1, dim> &traction,
-                                    Nodes                        &f) const
+    FaceLoad<dim>::force_derivative(const Nodes               &X,
+                                    const Nodes               &V,
+                                    const FaceLoadValues<dim> &load,
+                                    const LinearTraction<dim> &linear,
+                                    Nodes                     &f) const
     {
-      const auto weight_gradient = idealization.weight_gradient<dim>();
       f.assign(X.size(), {});
-      for (const auto &shape : gauss)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
         {
-          const auto t = tangents<dim>(shape, X);
-          const auto m = area_vector(t);
-          const auto m_derivative =
-            area_vector_derivative(t, tangents<dim>(shape, V));
-          const auto load = m.norm() * traction - pressure * m;
-          const auto load_derivative =
-            (m * m_derivative) / m.norm() * traction - pressure * m_derivative;
-          const double weight = idealization.weight(interpolate<dim>(shape, X));
-          const double weight_derivative =
-            weight_gradient * interpolate<dim>(shape, V);
+          const FacePoint<dim> point(gauss[q], idealization, X);
+          const auto           linear_derivative =
+            linear.uniform + turned(linear.spin, point.x - load.linear.centre) +
+            turned(load.linear.spin,
+                   interpolate<dim>(gauss[q], V) - linear.centre);
+          const auto force_derivative =
+            point.area_derivative(V) *
+              (traction(load, q) + load.linear.value(point.x)) +
+            point.area() * linear_derivative -
+            pressure(load, q) * point.vector_derivative(V);
           for (unsigned int a = 0; a < X.size(); ++a)
-            f[a] += shape.weight * shape.values[a] *
-                    (weight * load_derivative + weight_derivative * load);
+            f[a] += gauss[q].values[a] * force_derivative;
         }
     }
 
     template <int dim>
     void
-    FaceLoad<dim>::add_force_gradient(const Nodes                  &X,
-                                      const double                  pressure,
-                                      const dealii::Tensor<1, dim> &traction,
-                                      const Nodes                  &u,
-                                      const double                  factor,
-                                      Nodes &gradient) const
+    FaceLoad<dim>::add_force_gradient(const Nodes               &X,
+                                      const FaceLoadValues<dim> &load,
+                                      const Nodes               &u,
+                                      const double               factor,
+                                      Nodes                     &gradient) const
     {
       AssertDimension(u.size(), X.size());
       AssertDimension(gradient.size(), X.size());
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const FacePoint<dim> point(gauss[q], idealization, X);
+          const auto           displacement = interpolate<dim>(gauss[q], u);
+          point.add_vector_gradient(factor *
+                                      ((displacement * traction(load, q)) /
+                                         point.m.norm() * point.m -
+                                       pressure(load, q) * displacement),
+                                    gradient);
+        }
+    }
+
+    template <int dim>
+    void
+    FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
+                                          const ResultantWork<dim> &work,
+                                          const Nodes              &u,
+                                          const double              factor,
+                                          Nodes &gradient) const
+    {
+      const auto  &w  = work.traction.spin;
+      const auto  &y  = work.rotation;
+      const double yw = y * w;
+      // u x w = -(w x u)
+      const auto shift = -1. / work.area * turned(w, work.displacement);
       for (const auto &shape : gauss)
         {
-          const auto displacement = interpolate<dim>(shape, u);
-          const auto t            = tangents<dim>(shape, X);
-          const auto m            = area_vector(t);
-          const auto gradient_m =
-            (displacement * traction) / m.norm() * m - pressure * displacement;
-          const auto gradient_t = area_vector_transpose(t, gradient_m);
-          const auto gradient_x =
-            ((m.norm() * traction - pressure * m) * displacement) *
-            idealization.weight_gradient<dim>();
-          const double weight = idealization.weight(interpolate<dim>(shape, X));
-          for (unsigned int a = 0; a < X.size(); ++a)
+          const FacePoint<dim>   point(shape, idealization, X);
+          const auto             displacement = interpolate<dim>(shape, u);
+          const auto             r            = point.x - work.traction.centre;
+          dealii::Tensor<1, dim> in_plane_w, in_plane_y;
+          for (unsigned int c = 0; c < dim; ++c)
             {
-              gradient[a] +=
-                factor * shape.weight * shape.values[a] * gradient_x;
-              for (unsigned int i = 0; i < dim - 1; ++i)
-                gradient[a] += factor * shape.weight * weight *
-                               shape.gradients[a][i] * gradient_t[i];
+              in_plane_w[c] = w[c];
+              in_plane_y[c] = y[c];
             }
+          const double wr = in_plane_w * r, yr = in_plane_y * r;
+          const double kappa =
+            displacement * work.traction.value(point.x) -
+            work.traction.uniform * work.displacement / work.area - shift * r -
+            r.norm_square() * yw + yr * wr;
+          const auto k = -1. * turned(w, displacement) - shift - 2. * yw * r +
+                         wr * in_plane_y + yr * in_plane_w;
+          point.add_vector_gradient(factor * kappa / point.m.norm() * point.m,
+                                    gradient);
+          for (unsigned int a = 0; a < X.size(); ++a)
+            gradient[a] += factor * point.area() * shape.values[a] * k;
         }
+    }
+
+    template <int dim>
+    AreaMoments<dim>
+    FaceLoad<dim>::moments(const Nodes                  &X,
+                           const dealii::Tensor<1, dim> &origin) const
+    {
+      AreaMoments<dim> result;
+      for (const auto &shape : gauss)
+        {
+          const FacePoint<dim> point(shape, idealization, X);
+          const auto           x = point.x - origin;
+          result.area += point.area();
+          result.first += point.area() * x;
+          result.second += point.area() * outer_product(x, x);
+        }
+      return result;
+    }
+
+    template <int dim>
+    AreaMoments<dim>
+    FaceLoad<dim>::moment_derivatives(
+      const Nodes                  &X,
+      const Nodes                  &V,
+      const dealii::Tensor<1, dim> &origin) const
+    {
+      AreaMoments<dim> result;
+      for (const auto &shape : gauss)
+        {
+          const FacePoint<dim> point(shape, idealization, X);
+          const auto           x      = point.x - origin;
+          const auto           v      = interpolate<dim>(shape, V);
+          const double         change = point.area_derivative(V);
+          result.area += change;
+          result.first += change * x + point.area() * v;
+          result.second +=
+            change * outer_product(x, x) +
+            point.area() * (outer_product(v, x) + outer_product(x, v));
+        }
+      return result;
+    }
+
+    template <int dim>
+    Resultant<dim>
+    FaceLoad<dim>::displacement_moments(
+      const Nodes                  &X,
+      const Nodes                  &u,
+      const dealii::Tensor<1, dim> &centre) const
+    {
+      Resultant<dim> result;
+      for (const auto &shape : gauss)
+        {
+          const FacePoint<dim> point(shape, idealization, X);
+          const auto displacement = point.area() * interpolate<dim>(shape, u);
+          result.force += displacement;
+          result.moment += moment_of(point.x - centre, displacement);
+        }
+      return result;
     }
 
     template <int dim>
@@ -180,9 +350,7 @@ namespace snug
       std::vector<double> areas(X.size());
       for (const auto &shape : gauss)
         {
-          const double dA = shape.weight *
-                            idealization.weight(interpolate<dim>(shape, X)) *
-                            area_vector(tangents<dim>(shape, X)).norm();
+          const double dA = FacePoint<dim>(shape, idealization, X).area();
           for (unsigned int a = 0; a < X.size(); ++a)
             areas[a] += shape.values[a] * dA;
         }

@@ -73,10 +73,8 @@ namespace snug
     }
 
     void
-    TotalFeti::update(const std::vector<bool> &changed,
-                      const qp::MultiVector   &g)
+    TotalFeti::update(const std::vector<bool> &changed)
     {
-      gap = g;
       everywhere(run.communicator(), [&]() {
         const RunContext::Timer timer(run, "factorization");
         for (unsigned int s = 0; s < systems.size(); ++s)
@@ -92,6 +90,13 @@ namespace snug
       const RunContext::Timer timer(run, "solve");
       gather_rows();
       weight_rows();
+    }
+
+    void
+    TotalFeti::set_loads(const qp::MultiVector &g)
+    {
+      const RunContext::Timer timer(run, "solve");
+      gap        = g;
       rigid_load = rigid_part(loads());
       dual_load  = multiply_B(apply_inverse(loads()));
       dual_load.add(-1., gap);

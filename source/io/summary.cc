@@ -121,6 +121,17 @@ namespace snug
                 {"design", optimization.design}};
       }
 
+      Json
+      summary_part(const Summary::LoadCase &load_case)
+      {
+        Json part = {{"name", load_case.name},
+                     {"weight", load_case.weight},
+                     {"state", summary_part(load_case.state)}};
+        if (load_case.initial_state)
+          part["initial_state"] = summary_part(*load_case.initial_state);
+        return part;
+      }
+
       /// The keys of a part that was not computed, with null for values.
       template <typename Part>
       Json
@@ -172,6 +183,8 @@ namespace snug
                    {"warnings", warnings}};
       if (initial_state)
         text["initial_state"] = summary_part(*initial_state);
+      for (const auto &load_case : load_cases)
+        text["load_cases"].push_back(summary_part(load_case));
       // File names in messages need not be UTF-8; JSON must be.
       return text.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
     }

@@ -1,4 +1,5 @@
 #include <snug/response/cell_gradients.h>
+#include <snug/state/describe.h>
 
 namespace snug
 {
@@ -94,29 +95,33 @@ namespace snug
     {
       const auto add = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
         const auto &assembler = *solver.assemblers()[s];
-        const auto &b         = assembler.body_model().body_force;
-        if (b.norm() > 0.)
+        if (assembler.has_body_force(state.load_case))
           assembler.element().add_body_force_gradient(
             assembler.cell_field(i, state.positions),
-            b,
+            assembler.body_force(i, state.load_case),
             assembler.cell_values(i, w[s].column(0)),
             factor,
             values);
       };
       add_cells(solver, add, gradient);
 
+      const auto tractions = solver.resultants().tractions(state.positions);
       const auto add_face =
         [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
           const auto &assembler = *solver.assemblers()[s];
           solver.face_load().add_force_gradient(
             assembler.face_field(i, state.positions),
-            assembler.face_model(i).pressure,
-            assembler.face_model(i).traction,
+            assembler.face_load_values(i, state.load_case, tractions),
             assembler.face_values(i, w[s].column(0)),
             factor,
             values);
         };
       add_loaded_faces(solver, add_face, gradient);
+      solver.resultants().add_work_gradient(state.load_case,
+                                            state.positions,
+                                            state::nodal_values(solver, w, 0),
+                                            factor,
+                                            gradient);
     }
 
     template <int dim>

@@ -65,7 +65,7 @@ namespace snug
                  const State                   &state) const override
         {
           Partials<dim> result{{}, {}, zero_field(solver)};
-          const auto    f = solver.feti().loads();
+          const auto    f = solver.loads(state.positions, state.load_case);
           for (unsigned int s = 0; s < state.u.size(); ++s)
             {
               result.u.emplace_back(state.u[s].n_rows());

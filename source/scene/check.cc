@@ -60,19 +60,30 @@ namespace snug
                          section + "Objective",
                          parameters.objective,
                          parameters.objective);
-        for (const auto &[response, target] : parameters.constraints)
+        for (const auto &[name, target] : parameters.constraints)
           {
             const std::string path = section + "Constraints";
-            require_response(origins, path, constraints, response);
-            if (response == parameters.objective)
+            const auto        of   = constraint_name(scene, name);
+            require_response(origins, path, constraints, of.response);
+            if (name == parameters.objective)
               throw origins.error(path,
                                   constraints,
-                                  "'" + response +
-                                    "' is the objective already");
+                                  "'" + name + "' is the objective already");
+            // The same in 2D and 3D.
+            const bool of_state =
+              choose(response::response_table<3>(), of.response)
+                .make()
+                ->needs_solution();
+            if (scene.load_cases.size() > 1 && of_state && !of.load_case)
+              throw origins.error(path,
+                                  constraints,
+                                  "'" + name + "' must name its load case: '" +
+                                    scene.load_cases.front().name + "." + name +
+                                    "'");
             if (target != "initial" && !form_of(0.).pattern->match(target))
               throw origins.error(path,
                                   constraints,
-                                  "the value of '" + response +
+                                  "the value of '" + name +
                                     "' must be 'initial' or a number");
           }
         require_positive(origins,
@@ -136,14 +147,6 @@ namespace snug
       }
     } // namespace
 
-    bool
-    all_finite(const std::vector<double> &values)
-    {
-      return std::all_of(values.begin(), values.end(), [](const double v) {
-        return std::isfinite(v);
-      });
-    }
-
     void
     check(const Scene &scene, const Origins &origins)
     {
@@ -160,6 +163,7 @@ namespace snug
       check_model(scene, origins);
       check_names(scene, origins);
       check_bodies(scene, origins);
+      check_loads(scene, origins);
       check_contact(scene, origins);
       check_shapes(scene, origins);
       check_methods(scene, origins);

@@ -1,11 +1,9 @@
-#include <snug/mesh/formula.h>
 #include <snug/scene/check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 namespace snug
@@ -14,14 +12,6 @@ namespace snug
   {
     namespace
     {
-      bool
-      is_finite(const std::vector<double> &values)
-      {
-        return std::all_of(values.begin(), values.end(), [](const double v) {
-          return std::isfinite(v);
-        });
-      }
-
       /// Checks the entries of one body.
       class BodyCheck
       {
@@ -47,6 +37,11 @@ namespace snug
                   "Poisson's ratio",
                   to_text(nu),
                   "must be above -1 and below 0.5");
+          const double density = body.material.density;
+          require(std::isfinite(density) && density >= 0.,
+                  "Density",
+                  to_text(density),
+                  "must not be negative");
           require(model != "plane stress" || body.formulation == "standard",
                   "Formulation",
                   body.formulation,
@@ -59,9 +54,6 @@ namespace snug
         {
           const auto known = boundary_names(body, dimension);
           require_known(known, "Supports", body.supports);
-          require_known(known, "Displacement", body.displacements);
-          require_known(known, "Pressure", body.loads.pressure);
-          require_known(known, "Traction", body.loads.traction);
         }
 
         void
@@ -79,64 +71,9 @@ namespace snug
               {
                 throw origins.error(path("Supports"),
                                     to_text(body.supports),
-                                    error.what() + component_names());
+                                    error.what() + std::string("; ") +
+                                      component_names(dimension));
               }
-        }
-
-        void
-        check_displacements() const
-        {
-          std::set<std::pair<std::string, unsigned int>> known;
-          for (const auto &item : body.supports)
-            for (const unsigned int c : component_list(item.second, dimension))
-              known.emplace(item.first, c);
-          for (const auto &item : body.displacements)
-            {
-              const auto [name, formula] = split_displacement(item.second);
-              const auto number          = component_number(name, dimension);
-              const auto value           = to_text(body.displacements);
-              require(number.has_value(),
-                      "Displacement",
-                      value,
-                      "'" + quotable(name) + "' is no component" +
-                        component_names());
-              require(!formula.empty(),
-                      "Displacement",
-                      value,
-                      "'" + quotable(item.second) +
-                        "' must read 'component = formula'");
-              require(known.emplace(item.first, *number).second,
-                      "Displacement",
-                      value,
-                      "'" + name + "' of '" + item.first +
-                        "' is held twice or by 'Supports' as well");
-              check_formula("Displacement", value, formula);
-            }
-        }
-
-        void
-        check_loads() const
-        {
-          const auto &loads = body.loads;
-          for (const auto &item : loads.pressure)
-            require(std::isfinite(item.second),
-                    "Pressure",
-                    to_text(loads.pressure),
-                    "must be finite");
-          for (const auto &item : loads.traction)
-            require(is_finite(item.second) && item.second.size() == dimension,
-                    "Traction",
-                    to_text(loads.traction),
-                    "the vector of '" + item.first + "' must have " +
-                      to_text(dimension) + " components separated by blanks");
-          if (!loads.body_force.empty())
-            require_length(loads.body_force.size(),
-                           "Body force",
-                           loads.body_force);
-          require(is_finite(loads.body_force),
-                  "Body force",
-                  to_text(loads.body_force),
-                  "must be finite");
         }
 
       private:
@@ -156,19 +93,6 @@ namespace snug
             throw origins.error(path(entry), value, allowed);
         }
 
-        template <typename T>
-        void
-        require_length(const std::size_t     n,
-                       const std::string    &entry,
-                       const std::vector<T> &values) const
-        {
-          require(n == dimension,
-                  entry,
-                  to_text(values),
-                  "must have " + to_text(dimension) +
-                    " numbers separated by commas, one per dimension");
-        }
-
         template <typename Map>
         void
         require_known(const std::vector<std::string> &known,
@@ -183,36 +107,6 @@ namespace snug
                     "'" + quotable(item.first) + "' is no boundary of '" +
                       body.name + "', they are " + listed(known) +
                       did_you_mean(item.first, known));
-        }
-
-        std::string
-        component_names() const
-        {
-          return std::string("; components are ") +
-                 (dimension == 2 ? "x, y" : "x, y, z") + " and normal";
-        }
-
-        /// @p formula, a part of the @p value of an entry, must be one.
-        void
-        check_formula(const std::string &entry,
-                      const std::string &value,
-                      const std::string &formula) const
-        {
-          try
-            {
-              if (dimension == 2)
-                mesh::Formula<2>(entry, formula);
-              else
-                mesh::Formula<3>(entry, formula);
-            }
-          catch (const InputError &error)
-            {
-              const std::string message = error.what();
-              throw origins.error(path(entry),
-                                  value,
-                                  "'" + quotable(formula) + "' " +
-                                    message.substr(message.find("must be")));
-            }
         }
 
         unsigned int       dimension;
@@ -253,9 +147,11 @@ namespace snug
     void
     check_names(const Scene &scene, const Origins &origins)
     {
-      std::vector<std::string> bodies, obstacles, shapes;
+      std::vector<std::string> bodies, load_cases, obstacles, shapes;
       for (const auto &body : scene.bodies)
         bodies.push_back(body.name);
+      for (const auto &load_case : scene.load_cases)
+        load_cases.push_back(load_case.name);
       for (const auto &obstacle : scene.obstacles)
         obstacles.push_back(obstacle.name);
       for (const auto &shape : scene.shapes)
@@ -264,6 +160,7 @@ namespace snug
       if (bodies.empty())
         throw origins.error("Bodies", "", "must name at least one body");
       check_list_of_names("Bodies", bodies, origins);
+      check_list_of_names("Load cases", load_cases, origins);
       check_list_of_names("Obstacles", obstacles, origins);
       check_list_of_names("Shapes", shapes, origins);
     }
@@ -278,8 +175,6 @@ namespace snug
           check.check_material();
           check.check_boundaries();
           check.check_supports();
-          check.check_displacements();
-          check.check_loads();
         }
     }
   } // namespace scene

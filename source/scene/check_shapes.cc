@@ -2,7 +2,6 @@
 #include <snug/scene/values.h>
 #include <snug/shape/formula_modes.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace snug

@@ -1,6 +1,7 @@
 #include <snug/elasticity/finite_difference.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/mesh/partition.h>
+#include <snug/optimization/combination.h>
 #include <snug/optimization/minimize.h>
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
@@ -72,6 +73,20 @@ namespace snug
                     "Names of the shapes, separated by commas; each has its "
                     "own subsection Shape NAME. Empty: one shape without a "
                     "name, in subsection Shape.");
+        entries.add("Load cases",
+                    {[&scene]() {
+                       std::vector<std::string> names;
+                       for (const auto &load_case : scene.load_cases)
+                         names.push_back(load_case.name);
+                       return listed(names);
+                     },
+                     [](const std::string &) {}},
+                    pairs("names separated by commas"),
+                    "Names of the load cases, separated by commas; each has "
+                    "its own subsection Load case NAME with loads besides "
+                    "those of the bodies. Empty: one, with the loads of the "
+                    "bodies alone.");
+        add_gravity(entries, scene.gravity);
         entries.add("Output directory",
                     scene.output_directory,
                     "Where results go; made if it is not there. Relative to "
@@ -110,29 +125,19 @@ namespace snug
                     "along the outward normal of any face, flat, oblique or "
                     "curved (symmetry planes, rollers): 'side: normal, end: "
                     "normal z'.");
-        entries.add("Displacement",
-                    {[&body]() { return to_text(body.displacements); },
-                     [&body](const std::string &text) {
-                       from_text(text, body.displacements);
-                     }},
-                    pairs("a list 'boundary: component = formula, ...'"),
-                    "Prescribed displacement components of boundaries "
-                    "[length]: x, y, z or normal, by formulas of x, y, z in "
-                    "the reference geometry: 'top: z = -0.012, top: x = "
-                    "1e-3*y, bore: normal = 0.01'. The other components stay "
-                    "free.");
-        entries.add("Pressure",
-                    body.loads.pressure,
-                    "Pressure on boundaries [force/length^2], positive "
-                    "pushes: 'top: 100'.");
-        entries.add("Traction",
-                    body.loads.traction,
-                    "Force per area on boundaries [force/length^2], "
-                    "components separated by blanks: 'top: 0 0 -5, left: 1 0 "
-                    "0'.");
+        entries.add("Density",
+                    body.material.density,
+                    "Mass per volume [mass/length^3], for gravity.");
+        declare_loads(entries, body.loads, "boundary");
         entries.add("Body force",
-                    body.loads.body_force,
-                    "Force per volume x, y, z [force/length^3]; empty: none.");
+                    {[&body]() { return to_text(body.body_force); },
+                     [&body](const std::string &text) {
+                       body.body_force = vector_components(text);
+                     }},
+                    anything("formulas separated by commas or blanks, one per "
+                             "dimension"),
+                    "Force per volume along x, y, z [force/length^3], formulas "
+                    "of x, y, z in the reference geometry; empty: none.");
       }
 
       void
@@ -260,12 +265,19 @@ namespace snug
                    optimization.objective,
                    response::response_table<3>(),
                    "The response to be made least.");
+        add_choice(entries,
+                   "Combine",
+                   optimization.combine,
+                   optimization::combination_table(),
+                   "What several load cases make of the objective.");
         entries.add("Constraints",
                     optimization.constraints,
                     pairs("a list 'response: initial, response: number, ...' "
                           "of different responses"),
                     "Responses that must keep their initial value or equal a "
-                    "number: 'volume: initial'.");
+                    "number: 'volume: initial'. With several load cases, one "
+                    "that depends on the state names its load case: "
+                    "'closing.compliance: 5'.");
         entries.add("Maximum evaluations",
                     optimization.maximum_evaluations,
                     "Largest number of designs that are evaluated.");
@@ -293,6 +305,7 @@ namespace snug
       declare_general(entries, scene);
       for (auto &body : scene.bodies)
         declare_body(entries, body);
+      declare_load_cases(entries, scene);
       declare_contact(entries, scene);
       declare_shapes(entries, scene);
       declare_solver(entries, scene);

@@ -63,8 +63,8 @@ namespace snug
         return dealii::Utilities::split_string_list(names);
       }
 
-      /// First pass: bodies, obstacles and shapes, without what they are made
-      /// of.
+      /// First pass: bodies, load cases, obstacles and shapes, without what
+      /// they are made of.
       void
       make_named(const std::vector<Statement> &statements, Scene &scene)
       {
@@ -72,6 +72,11 @@ namespace snug
           {
             scene.bodies.emplace_back();
             scene.bodies.back().name = name;
+          }
+        for (const auto &name : names_in(statements, "Load cases"))
+          {
+            scene.load_cases.emplace_back();
+            scene.load_cases.back().name = name;
           }
         for (const auto &name : names_in(statements, "Obstacles"))
           {
@@ -132,7 +137,6 @@ namespace snug
             fill(body.mesh.size, scene.dimension, 1.);
             fill(body.mesh.grading, scene.dimension, 1.);
             fill(body.mesh.fine_length, scene.dimension, 0.);
-            fill(body.loads.body_force, scene.dimension, 0.);
           }
         std::vector<double> last(scene.dimension, 0.);
         last.back() = 1.;
@@ -193,7 +197,7 @@ namespace snug
       is_name_list(const Entries::Description &entry)
       {
         return entry.name == "Bodies" || entry.name == "Obstacles" ||
-               entry.name == "Pairs";
+               entry.name == "Load cases" || entry.name == "Pairs";
       }
     } // namespace
 
@@ -249,6 +253,8 @@ namespace snug
       Scene scene;
       scene.bodies.emplace_back();
       scene.bodies.front().name = "NAME";
+      scene.load_cases.emplace_back();
+      scene.load_cases.front().name = "NAME";
       scene.obstacles.emplace_back();
       scene.obstacles.front().name = "NAME";
       scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});

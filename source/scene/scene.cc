@@ -80,6 +80,18 @@ namespace snug
               dealii::Utilities::trim(text.substr(equals + 1))};
     }
 
+    ConstraintName
+    constraint_name(const Scene &scene, const std::string &name)
+    {
+      for (unsigned int c = 0; c < scene.load_cases.size(); ++c)
+        {
+          const std::string prefix = scene.load_cases[c].name + ".";
+          if (name.rfind(prefix, 0) == 0)
+            return {name.substr(prefix.size()), c};
+        }
+      return {name, {}};
+    }
+
     unsigned int
     body_index(const Scene &scene, const std::string &name)
     {

@@ -2,7 +2,9 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -246,6 +248,12 @@ namespace snug
     }
 
     std::string
+    to_text(const std::vector<std::string> &values)
+    {
+      return joined_values(values, ", ");
+    }
+
+    std::string
     to_text(const NumberMap &map)
     {
       return joined_pairs(map, ',', [](const double v) { return to_text(v); });
@@ -273,6 +281,31 @@ namespace snug
       return joined_pairs(pairs, separator, [](const std::string &v) {
         return v;
       });
+    }
+
+    bool
+    all_finite(const std::vector<double> &values)
+    {
+      return std::all_of(values.begin(), values.end(), [](const double v) {
+        return std::isfinite(v);
+      });
+    }
+
+    std::vector<std::string>
+    components(const std::string &text)
+    {
+      std::vector<std::string> result;
+      for (const auto &part : split(text, ' '))
+        if (!part.empty())
+          result.push_back(part);
+      return result;
+    }
+
+    std::vector<std::string>
+    vector_components(const std::string &text)
+    {
+      const auto parts = split(text, ',');
+      return parts.size() > 1 ? parts : components(text);
     }
 
     void
@@ -338,9 +371,8 @@ namespace snug
     {
       read_map(text, ',', map, [](const std::string &item) {
         std::vector<double> vector;
-        for (const auto &component : split(item, ' '))
-          if (!component.empty())
-            from_text(component, vector.emplace_back());
+        for (const auto &component : components(item))
+          from_text(component, vector.emplace_back());
         return vector;
       });
     }

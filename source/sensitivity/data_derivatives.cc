@@ -44,7 +44,8 @@ namespace snug
       template <int dim>
       struct SubdomainDerivative
       {
-        using Field = typename mesh::BodyMesh<dim>::Field;
+        using Field     = typename mesh::BodyMesh<dim>::Field;
+        using Tractions = typename state::ResultantLoads<dim>::Tractions;
 
         const state::StateSolver<dim>       &solver;
         const state::ContactState<dim>      &state;
@@ -54,7 +55,10 @@ namespace snug
         void
         add_cells(const Field &velocity, double *ft) const;
         void
-        add_faces(const Field &velocity, double *ft) const;
+        add_faces(const Field     &velocity,
+                  const Tractions &tractions,
+                  const Tractions &changes,
+                  double          *ft) const;
       };
 
       template <int dim>
@@ -64,7 +68,7 @@ namespace snug
       {
         const auto &assembler = *solver.assemblers()[s];
         const auto &element   = assembler.element();
-        const auto &b         = assembler.body_model().body_force;
+        const bool  loaded    = assembler.has_body_force(state.load_case);
         for (unsigned int i = 0; i < assembler.cells().size(); ++i)
           {
             const auto V = assembler.cell_field(i, velocity);
@@ -80,8 +84,9 @@ namespace snug
               differences->internal_force_derivative(
                 element, X, V, material, u, r);
             assembler.add_cell_vector(i, -1., r, ft);
-            if (b.norm() == 0.)
+            if (!loaded)
               continue;
+            const auto b = assembler.body_force(i, state.load_case);
             if (differences == nullptr)
               element.body_force_derivative(X, V, b, r);
             else
@@ -95,27 +100,37 @@ namespace snug
           }
       }
 
+      /// Resultants change the loads of a whole face where any of it moves:
+      /// their tractions are differentiated exactly.
       template <int dim>
       void
-      SubdomainDerivative<dim>::add_faces(const Field &velocity,
-                                          double      *ft) const
+      SubdomainDerivative<dim>::add_faces(const Field     &velocity,
+                                          const Tractions &tractions,
+                                          const Tractions &changes,
+                                          double          *ft) const
       {
         const auto &assembler = *solver.assemblers()[s];
         const auto &face_load = solver.face_load();
         for (unsigned int i = 0; i < assembler.loaded_faces().size(); ++i)
           {
             const auto V = assembler.face_field(i, velocity);
+            const auto X = assembler.face_field(i, state.positions);
+            const auto load =
+              assembler.face_load_values(i, state.load_case, tractions);
+            const auto change =
+              assembler.linear_traction(i, state.load_case, changes);
+            Nodes<dim> r;
+            face_load.force_derivative(
+              X, Nodes<dim>(V.size()), load, change, r);
+            assembler.add_face_vector(i, 1., r, ft);
             if (largest<dim>(V) == 0.)
               continue;
-            const auto  X    = assembler.face_field(i, state.positions);
-            const auto &load = assembler.face_model(i);
-            Nodes<dim>  r;
             if (differences == nullptr)
-              face_load.force_derivative(X, V, load.pressure, load.traction, r);
+              face_load.force_derivative(X, V, load, {}, r);
             else
               r = differences->load_derivative(
                 [&](const Nodes<dim> &x, Nodes<dim> &f) {
-                  face_load.force(x, load.pressure, load.traction, f);
+                  face_load.force(x, load, f);
                 },
                 X,
                 V);
@@ -260,7 +275,8 @@ namespace snug
       const auto        &layout = solver.gluing().layout();
       const auto         lambda = layout.to_local(state.dual.lambda);
       const auto         rows   = solver.rows(state.positions);
-      KktVectors         result;
+      const auto tractions = solver.resultants().tractions(state.positions);
+      KktVectors result;
       for (const auto &u : state.u)
         result.primal.emplace_back(u.n_rows(), k);
       qp::MultiVector Bu(layout.n_local(), k);
@@ -277,8 +293,13 @@ namespace snug
                                                        velocities[j],
                                                        parameters);
           const auto g =
-            solver.gluing().right_hand_side_derivative(rows, derivative, 0);
+            solver.gluing().right_hand_side_derivative(rows,
+                                                       derivative,
+                                                       state.load_case);
           std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
+          const auto changes =
+            solver.resultants().traction_derivatives(state.positions,
+                                                     velocities[j]);
           for (unsigned int s = 0; s < state.u.size(); ++s)
             {
               const SubdomainDerivative<dim> subdomain{solver,
@@ -287,7 +308,7 @@ namespace snug
                                                        s};
               double                        *ft = result.primal[s].column(j);
               subdomain.add_cells(velocities[j], ft);
-              subdomain.add_faces(velocities[j], ft);
+              subdomain.add_faces(velocities[j], tractions, changes, ft);
               solver.gluing().fill_B_derivative(s,
                                                 rows,
                                                 derivative,

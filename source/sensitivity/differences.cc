@@ -47,7 +47,8 @@ namespace snug
         const auto state = problem.solver.solve(positions(problem.solver.mesh(),
                                                           problem.basis,
                                                           design),
-                                                qp::WarmStart());
+                                                qp::WarmStart(),
+                                                problem.state.load_case);
         return Values<dim>(problem, responses, state);
       }
     } // namespace

@@ -12,7 +12,7 @@ namespace snug
     template <int dim>
     Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
                               const mesh::Subdomain           &subdomain,
-                              const BodyModel<dim>            &model,
+                              const Model<dim>                &model,
                               const elasticity::Element<dim>  &element,
                               const elasticity::FaceLoad<dim> &face_load)
       : mesh(mesh)
@@ -27,9 +27,15 @@ namespace snug
       std::sort(cells.begin(), cells.end());
       for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
         {
-          const auto &face = mesh.boundary_faces()[f];
-          if (model.loads.count(face.boundary) == 1 &&
-              std::binary_search(cells.begin(), cells.end(), face.cell))
+          const auto &face      = mesh.boundary_faces()[f];
+          const auto  is_loaded = [&](const LoadCase<dim> &load_case) {
+            return load_case.bodies[subdomain.body].boundaries.count(
+                     face.boundary) == 1;
+          };
+          if (std::binary_search(cells.begin(), cells.end(), face.cell) &&
+              std::any_of(model.load_cases.begin(),
+                          model.load_cases.end(),
+                          is_loaded))
             {
               faces.push_back(f);
               face_reach.emplace_back(mesh, subdomain, face.nodes);
@@ -121,23 +127,24 @@ namespace snug
 
     template <int dim>
     std::vector<double>
-    Assembler<dim>::load(const Field &positions) const
+    Assembler<dim>::load(const Field     &positions,
+                         unsigned int     load_case,
+                         const Tractions &tractions) const
     {
       std::vector<double> f(n_dofs(), 0.);
       Nodes               r;
-      if (model.body_force.norm() > 0.)
+      if (has_body_force(load_case))
         for (unsigned int i = 0; i < cell_reach.size(); ++i)
           {
             the_element.body_force(cell_field(i, positions),
-                                   model.body_force,
+                                   body_force(i, load_case),
                                    r);
             add_cell_vector(i, 1., r, f.data());
           }
       for (unsigned int i = 0; i < faces.size(); ++i)
         {
           face_load.force(face_field(i, positions),
-                          face_model(i).pressure,
-                          face_model(i).traction,
+                          face_load_values(i, load_case, tractions),
                           r);
           add_face_vector(i, 1., r, f.data());
         }
@@ -271,24 +278,101 @@ namespace snug
     }
 
     template <int dim>
-    const typename BodyModel<dim>::Load &
-    Assembler<dim>::face_model(unsigned int i) const
+    const BodyLoads<dim> &
+    Assembler<dim>::loads(unsigned int load_case) const
     {
-      return model.loads.at(mesh.boundary_faces()[faces[i]].boundary);
+      return model.load_cases[load_case].bodies[subdomain.body];
     }
 
     template <int dim>
-    const BodyModel<dim> &
-    Assembler<dim>::body_model() const
+    const BoundaryLoad<dim> *
+    Assembler<dim>::boundary_load(unsigned int i, unsigned int load_case) const
     {
-      return model;
+      const auto &boundaries = loads(load_case).boundaries;
+      const auto  found =
+        boundaries.find(mesh.boundary_faces()[faces[i]].boundary);
+      return found == boundaries.end() ? nullptr : &found->second;
+    }
+
+    template <int dim>
+    elasticity::FaceLoadValues<dim>
+    Assembler<dim>::face_load_values(unsigned int     i,
+                                     unsigned int     load_case,
+                                     const Tractions &tractions) const
+    {
+      elasticity::FaceLoadValues<dim> values;
+      const auto                     *load = boundary_load(i, load_case);
+      if (load == nullptr)
+        return values;
+      const auto reference =
+        face_load.quadrature_points(face_field(i, mesh.reference_positions()));
+      for (const auto &x : reference)
+        {
+          if (load->pressure)
+            values.pressure.push_back(load->pressure(dealii::Point<dim>(x)));
+          if (load->traction)
+            values.traction.push_back(load->traction(dealii::Point<dim>(x)));
+        }
+      values.linear = linear_traction(i, load_case, tractions);
+      return values;
+    }
+
+    template <int dim>
+    elasticity::LinearTraction<dim>
+    Assembler<dim>::linear_traction(unsigned int     i,
+                                    unsigned int     load_case,
+                                    const Tractions &tractions) const
+    {
+      const auto &face  = mesh.boundary_faces()[faces[i]];
+      const auto  found = tractions[load_case].find({face.body, face.boundary});
+      return found == tractions[load_case].end()
+               ? elasticity::LinearTraction<dim>()
+               : found->second;
+    }
+
+    template <int dim>
+    bool
+    Assembler<dim>::has_resultants() const
+    {
+      for (unsigned int c = 0; c < model.load_cases.size(); ++c)
+        for (unsigned int i = 0; i < faces.size(); ++i)
+          {
+            const auto *load = boundary_load(i, c);
+            if (load != nullptr && load->has_resultant())
+              return true;
+          }
+      return false;
+    }
+
+    template <int dim>
+    bool
+    Assembler<dim>::has_body_force(unsigned int load_case) const
+    {
+      return loads(load_case).body_force ||
+             loads(load_case).gravity.norm() > 0.;
+    }
+
+    template <int dim>
+    typename Assembler<dim>::Nodes
+    Assembler<dim>::body_force(unsigned int i, unsigned int load_case) const
+    {
+      const auto &of_body = loads(load_case);
+      Nodes b(the_element.n_nodes(), material(i).density * of_body.gravity);
+      if (!of_body.body_force)
+        return b;
+      const auto reference = the_element.quadrature_points(
+        cell_field(i, mesh.reference_positions()));
+      for (unsigned int q = 0; q < b.size(); ++q)
+        b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));
+      return b;
     }
 
     template <int dim>
     const elasticity::Material &
     Assembler<dim>::material(unsigned int i) const
     {
-      return model.material(mesh.cells()[subdomain.cells[i]]);
+      return model.bodies[subdomain.body].material(
+        mesh.cells()[subdomain.cells[i]]);
     }
 
     template <int dim>

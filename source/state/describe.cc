@@ -105,7 +105,8 @@ namespace snug
             ContactPoint &point = state.contact[i];
             const double  scale = gluing.contact_scales()[i];
             point.area          = areas[i];
-            point.gap = scale == 0. ? gluing.gap(i, rows, 0) : gaps[i] * scale;
+            point.gap = scale == 0. ? gluing.gap(i, rows, state.load_case)
+                                    : gaps[i] * scale;
             if (scale == 0.)
               continue;
             point.force = lambda[i] / scale;

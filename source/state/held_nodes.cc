@@ -39,20 +39,8 @@ namespace snug
         return boundaries;
       }
 
-      /// Whether node k of a face lies on the axis of rotation.
       template <int dim>
-      bool
-      is_on_axis(const std::vector<unsigned int>          &nodes,
-                 unsigned int                              k,
-                 const typename mesh::Surface<dim>::Field &x)
-      {
-        const double round_off = 1e-10;
-        const double size      = (x[nodes.back()] - x[nodes.front()]).norm();
-        return x[nodes[k]][0] <= round_off * size;
-      }
-
-      template <int dim>
-      SolveError
+      TangledMesh
       dependent_error(const dealii::Tensor<1, dim> &x)
       {
         std::ostringstream text;
@@ -122,9 +110,9 @@ namespace snug
       for (unsigned int f = 0; f < surface.faces().size(); ++f)
         {
           const auto &face = surface.faces()[f];
-          for (unsigned int k = 0; axis && k < face.nodes.size(); ++k)
-            if (is_on_axis<dim>(face.nodes, k, reference))
-              add(face.nodes[k],
+          for (const unsigned int node : face.nodes)
+            if (axis && reference[node][0] == 0.)
+              add(node,
                   {"the axis of rotation",
                    0,
                    0,

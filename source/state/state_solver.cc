@@ -1,16 +1,12 @@
 #include <snug/base/errors.h>
 #include <snug/qp/pcpg.h>
-#include <snug/state/body_boxes.h>
-#include <snug/state/body_extents.h>
 #include <snug/state/certificate.h>
 #include <snug/state/describe.h>
 #include <snug/state/state_solver.h>
-#include <snug/state/subdomain_table.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace snug
@@ -22,9 +18,6 @@ namespace snug
       /// The KKT residual is a norm over all rows, the certificate a maximum:
       /// solving this much below the tolerance meets it at once, as a rule.
       const double certificate_margin = 0.25;
-
-      /// Cells below this quality are not solved (see Element::quality).
-      const double least_quality = 0.02;
     } // namespace
 
     template <int dim>
@@ -33,52 +26,15 @@ namespace snug
       Data(const mesh::BodyMesh<dim> &mesh,
            const mesh::Tearing       &tearing,
            const Model<dim>          &model,
+           const Field               &positions,
            RunContext                &context)
-        : mesh(mesh)
-        , tearing(tearing)
-        , model(model)
-        , context(context)
-        , face_load(mesh.degree(), mesh.idealization())
-        , surface(mesh, contact::boundaries_of(model.pairs))
+        : problem(mesh, tearing, model, positions, context)
       {
-        for (const auto &body : model.bodies)
-          elements.emplace_back(mesh.degree(),
-                                mesh.idealization(),
-                                body.formulation);
       }
 
-      const mesh::BodyMesh<dim>                   &mesh;
-      const mesh::Tearing                         &tearing;
-      Model<dim>                                   model;
-      RunContext                                  &context;
-      std::vector<elasticity::Element<dim>>        elements; ///< per body
-      elasticity::FaceLoad<dim>                    face_load;
-      mesh::Surface<dim>                           surface;
-      std::unique_ptr<contact::Contact<dim>>       contact;
-      std::unique_ptr<HeldNodes<dim>>              held;
-      std::unique_ptr<Gluing<dim>>                 gluing;
-      std::vector<std::unique_ptr<Assembler<dim>>> assemblers;
-      std::vector<feti::SubdomainSystem>           systems;
-      std::unique_ptr<feti::TotalFeti>             feti;
-      std::vector<BodyBox<dim>>                    boxes;
-      Field                                        last_positions;
-      double solved_to = 0.; ///< KKT tolerance of the last solve
+      StateProblem<dim> problem;
+      double            solved_to = 0.; ///< KKT tolerance of the last solve
 
-      void
-      set_up(const Field &positions);
-      void
-      glue(const Field &positions);
-      std::vector<bool>
-      moved_subdomains(const Field &positions) const;
-      void
-      check_quality(const Field             &positions,
-                    const std::vector<bool> &moved) const;
-      void
-      assemble(const Field &positions, const std::vector<bool> &moved);
-      RowCoefficients<dim>
-      rows(const Field &positions) const;
-      void
-      check_vanished_rows(const RowCoefficients<dim> &rows) const;
       void
       solve_to_certificate(const qp::WarmStart &start,
                            ContactState<dim>   &state);
@@ -86,152 +42,13 @@ namespace snug
 
     template <int dim>
     void
-    StateSolver<dim>::Data::set_up(const Field &positions)
-    {
-      const RunContext::Timer timer(context, "setup");
-      boxes = body_boxes(mesh);
-      if (mesh.idealization().is_axisymmetric())
-        check_radii(mesh, model.body_names);
-      held =
-        std::make_unique<HeldNodes<dim>>(mesh, model.supports, 1, positions);
-      contact =
-        std::make_unique<contact::Contact<dim>>(surface,
-                                                model.pairs,
-                                                mesh.degree(),
-                                                surface.gather(positions),
-                                                held->directions(surface,
-                                                                 positions));
-      systems.resize(tearing.subdomains.size());
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        {
-          const auto &subdomain = tearing.subdomains[s];
-          assemblers.push_back(
-            std::make_unique<Assembler<dim>>(mesh,
-                                             subdomain,
-                                             model.bodies[subdomain.body],
-                                             elements[subdomain.body],
-                                             face_load));
-          systems[s].body        = subdomain.body;
-          systems[s].K           = assemblers[s]->sparsity();
-          systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
-        }
-      glue(positions);
-    }
-
-    /// Everything that depends on which nodes are paired.
-    template <int dim>
-    void
-    StateSolver<dim>::Data::glue(const Field &positions)
-    {
-      const auto reference = rows(positions);
-      feti.reset();
-      gluing =
-        std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, reference);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        gluing->fill_B(s, reference, systems[s].B);
-      feti = std::make_unique<feti::TotalFeti>(
-        systems,
-        gluing->layout(),
-        subdomain_table(mesh, tearing, model.body_names),
-        model.feti,
-        context);
-      last_positions.clear();
-    }
-
-    template <int dim>
-    std::vector<bool>
-    StateSolver<dim>::Data::moved_subdomains(const Field &positions) const
-    {
-      std::vector<bool> moved(systems.size(), last_positions.empty());
-      if (last_positions.empty())
-        return moved;
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        for (const unsigned int cell : tearing.subdomains[s].cells)
-          for (const unsigned int node : mesh.cells()[cell].nodes)
-            if (positions[node] != last_positions[node])
-              moved[s] = true;
-      return moved;
-    }
-
-    template <int dim>
-    void
-    StateSolver<dim>::Data::check_quality(const Field             &positions,
-                                          const std::vector<bool> &moved) const
-    {
-      if (mesh.idealization().is_axisymmetric())
-        check_axis(mesh, positions, boxes);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        if (moved[s])
-          for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
-            {
-              const auto   X       = assemblers[s]->cell_field(i, positions);
-              const double quality = assemblers[s]->element().quality(X);
-              if (quality >= least_quality)
-                continue;
-              std::ostringstream text;
-              text << "the mesh of body " << model.body_names[systems[s].body]
-                   << " is tangled near (" << X.front() << "): cell quality "
-                   << quality << " is below " << least_quality
-                   << "; tighten the bounds of the shape";
-              throw TangledMesh(text.str());
-            }
-    }
-
-    template <int dim>
-    void
-    StateSolver<dim>::Data::assemble(const Field             &positions,
-                                     const std::vector<bool> &moved)
-    {
-      const RunContext::Timer timer(context, "assembly");
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        if (moved[s])
-          {
-            auto &system = systems[s];
-            assemblers[s]->stiffness(positions, system.K);
-            system.f = assemblers[s]->load(positions);
-            assemblers[s]->rigid_modes(positions,
-                                       boxes[system.body].centre,
-                                       boxes[system.body].length,
-                                       system.R,
-                                       system.Z);
-            ++context.work.assembled_subdomains;
-          }
-    }
-
-    template <int dim>
-    RowCoefficients<dim>
-    StateSolver<dim>::Data::rows(const Field &positions) const
-    {
-      return {contact->rows(surface.gather(positions)),
-              held->frames(positions)};
-    }
-
-    template <int dim>
-    void
-    StateSolver<dim>::Data::check_vanished_rows(
-      const RowCoefficients<dim> &rows) const
-    {
-      double length = 0.;
-      for (const auto &box : boxes)
-        length = std::max(length, box.length);
-      for (const unsigned int i : gluing->vanished_rows())
-        if (gluing->gap(i, rows, 0) < -1e-10 * length)
-          {
-            std::ostringstream text;
-            text << "no equilibrium: contact row " << i << " overlaps by "
-                 << -gluing->gap(i, rows, 0)
-                 << " between nodes that are held in its direction";
-            throw SolveError(text.str());
-          }
-    }
-
-    template <int dim>
-    void
     StateSolver<dim>::Data::solve_to_certificate(const qp::WarmStart &start,
                                                  ContactState<dim>   &state)
     {
       qp::WarmStart        from       = start;
-      qp::SolverParameters parameters = model.solver;
+      const auto          &feti       = *problem.feti;
+      const RunContext    &context    = problem.context;
+      qp::SolverParameters parameters = problem.model.solver;
       const double         wanted     = parameters.relative_tolerance;
       parameters.relative_tolerance *= certificate_margin;
       const unsigned long mults = context.work.f_mults;
@@ -240,12 +57,12 @@ namespace snug
         {
           const auto this_solver =
             choose(qp::solver_table(), parameters.method).make(parameters);
-          state.dual = this_solver->solve(*feti, from);
+          state.dual = this_solver->solve(feti, from);
           outer += state.dual.outer_iterations;
-          state.u           = feti->recover(feti->loads(),
-                                  state.dual.lambda,
-                                  state.dual.amplitudes);
-          state.certificate = certify(*feti, state.dual.lambda, state.u);
+          state.u           = feti.recover(feti.loads(),
+                                 state.dual.lambda,
+                                 state.dual.amplitudes);
+          state.certificate = certify(feti, state.dual.lambda, state.u);
           if (state.certificate.worst() <= wanted)
             {
               solved_to                   = parameters.relative_tolerance;
@@ -270,9 +87,8 @@ namespace snug
                                   const Model<dim>          &model,
                                   const Field               &positions,
                                   RunContext                &context)
-      : data(std::make_unique<Data>(mesh, tearing, model, context))
+      : data(std::make_unique<Data>(mesh, tearing, model, positions, context))
     {
-      data->set_up(positions);
     }
 
     template <int dim>
@@ -282,34 +98,26 @@ namespace snug
     void
     StateSolver<dim>::pair(const Field &positions)
     {
-      const RunContext::Timer timer(data->context, "setup");
-      data->contact->pair(data->surface.gather(positions),
-                          data->held->directions(data->surface, positions));
-      data->glue(positions);
+      data->problem.pair(positions);
     }
 
     template <int dim>
     ContactState<dim>
-    StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start)
+    StateSolver<dim>::solve(const Field         &positions,
+                            const qp::WarmStart &start,
+                            unsigned int         load_case)
     {
-      const auto moved = data->moved_subdomains(positions);
-      everywhere(data->context.communicator(),
-                 [&]() { data->check_quality(positions, moved); });
-      const auto rows = data->rows(positions);
-      data->check_vanished_rows(rows);
-      data->last_positions.clear();
-      data->assemble(positions, moved);
-      for (unsigned int s = 0; s < data->systems.size(); ++s)
-        data->gluing->fill_B(s, rows, data->systems[s].B);
-      data->feti->update(moved, data->gluing->right_hand_side(rows, 0));
-      data->last_positions = positions;
+      auto &problem = data->problem;
+      problem.set_geometry(positions);
+      problem.set_load_case(load_case);
       ContactState<dim> state;
       state.positions = positions;
+      state.load_case = load_case;
       {
-        const RunContext::Timer timer(data->context, "solve");
+        const RunContext::Timer timer(problem.context, "solve");
         data->solve_to_certificate(start, state);
       }
-      describe(*this, rows, state);
+      describe(*this, problem.last_rows, state);
       return state;
     }
 
@@ -317,9 +125,10 @@ namespace snug
     unsigned long
     StateSolver<dim>::linear_f_mults(const ContactState<dim> &state) const
     {
-      const auto         &feti   = *data->feti;
+      data->problem.set_load_case(state.load_case);
+      const auto         &feti   = *data->problem.feti;
       const auto          face   = feti.face(state.dual.active);
-      const unsigned long before = data->context.work.f_mults;
+      const unsigned long before = data->problem.context.work.f_mults;
       qp::MultiVector     lambda(feti.n_owned());
       face->make_feasible(lambda, feti.e());
       qp::MultiVector residual = feti.d();
@@ -327,14 +136,14 @@ namespace snug
       qp::MultiVector projected = residual;
       face->project(projected);
       const double scale =
-        qp::norms(projected, data->context.communicator())[0];
+        qp::norms(projected, data->problem.context.communicator())[0];
       qp::pcpg(feti,
                *face,
                lambda,
                residual,
                {data->solved_to * scale},
-               data->model.solver.max_iterations);
-      return data->context.work.f_mults - before;
+               data->problem.model.solver.max_iterations);
+      return data->problem.context.work.f_mults - before;
     }
 
     template <int dim>
@@ -342,19 +151,22 @@ namespace snug
     StateSolver<dim>::volume(unsigned int body, const Field &positions) const
     {
       double volume = 0.;
-      for (unsigned int s = 0; s < data->systems.size(); ++s)
-        if (data->systems[s].body == body)
-          for (unsigned int i = 0; i < data->assemblers[s]->cells().size(); ++i)
-            volume += data->assemblers[s]->element().volume(
-              data->assemblers[s]->cell_field(i, positions));
-      return dealii::Utilities::MPI::sum(volume, data->context.communicator());
+      for (unsigned int s = 0; s < data->problem.systems.size(); ++s)
+        if (data->problem.systems[s].body == body)
+          for (unsigned int i = 0;
+               i < data->problem.assemblers[s]->cells().size();
+               ++i)
+            volume += data->problem.assemblers[s]->element().volume(
+              data->problem.assemblers[s]->cell_field(i, positions));
+      return dealii::Utilities::MPI::sum(volume,
+                                         data->problem.context.communicator());
     }
 
     template <int dim>
     RowCoefficients<dim>
     StateSolver<dim>::rows(const Field &positions) const
     {
-      return data->rows(positions);
+      return data->problem.rows(positions);
     }
 
     template <int dim>
@@ -362,9 +174,29 @@ namespace snug
     StateSolver<dim>::row_derivatives(const Field &positions,
                                       const Field &velocity) const
     {
-      return {data->contact->row_derivatives(data->surface.gather(positions),
-                                             data->surface.gather(velocity)),
-              data->held->frame_derivatives(positions, velocity)};
+      return {data->problem.contact->row_derivatives(
+                data->problem.surface.gather(positions),
+                data->problem.surface.gather(velocity)),
+              data->problem.held->frame_derivatives(positions, velocity)};
+    }
+
+    template <int dim>
+    feti::PrimalVectors
+    StateSolver<dim>::loads(const Field &positions,
+                            unsigned int load_case) const
+    {
+      const auto tractions = data->problem.resultants.tractions(positions);
+      feti::PrimalVectors f;
+      for (const auto &assembler : data->problem.assemblers)
+        {
+          const auto of_subdomain =
+            assembler->load(positions, load_case, tractions);
+          f.emplace_back(of_subdomain.size());
+          std::copy(of_subdomain.begin(),
+                    of_subdomain.end(),
+                    f.back().column(0));
+        }
+      return f;
     }
 
 #define SNUG_GETTER(type, name, value) \
@@ -373,19 +205,24 @@ namespace snug
   {                                    \
     return value;                      \
   }
-    SNUG_GETTER(const mesh::BodyMesh<dim> &, mesh, data->mesh)
-    SNUG_GETTER(const mesh::Tearing &, tearing, data->tearing)
-    SNUG_GETTER(const Model<dim> &, model, data->model)
-    SNUG_GETTER(const mesh::Surface<dim> &, surface, data->surface)
-    SNUG_GETTER(const contact::Contact<dim> &, contact, *data->contact)
-    SNUG_GETTER(const HeldNodes<dim> &, held, *data->held)
-    SNUG_GETTER(const elasticity::FaceLoad<dim> &, face_load, data->face_load)
+    SNUG_GETTER(const mesh::BodyMesh<dim> &, mesh, data->problem.mesh)
+    SNUG_GETTER(const mesh::Tearing &, tearing, data->problem.tearing)
+    SNUG_GETTER(const Model<dim> &, model, data->problem.model)
+    SNUG_GETTER(const mesh::Surface<dim> &, surface, data->problem.surface)
+    SNUG_GETTER(const contact::Contact<dim> &, contact, *data->problem.contact)
+    SNUG_GETTER(const HeldNodes<dim> &, held, *data->problem.held)
+    SNUG_GETTER(const elasticity::FaceLoad<dim> &,
+                face_load,
+                data->problem.face_load)
+    SNUG_GETTER(const ResultantLoads<dim> &,
+                resultants,
+                data->problem.resultants)
     SNUG_GETTER(const std::vector<std::unique_ptr<Assembler<dim>>> &,
                 assemblers,
-                data->assemblers)
-    SNUG_GETTER(const feti::TotalFeti &, feti, *data->feti)
-    SNUG_GETTER(const Gluing<dim> &, gluing, *data->gluing)
-    SNUG_GETTER(RunContext &, context, data->context)
+                data->problem.assemblers)
+    SNUG_GETTER(const feti::TotalFeti &, feti, *data->problem.feti)
+    SNUG_GETTER(const Gluing<dim> &, gluing, *data->problem.gluing)
+    SNUG_GETTER(RunContext &, context, data->problem.context)
 #undef SNUG_GETTER
 
     template class StateSolver<2>;

@@ -42,7 +42,8 @@ namespace snug
     void
     Torn::factorize()
     {
-      feti.update(all, solver.feti().g());
+      feti.update(all);
+      feti.set_loads(solver.feti().g());
     }
 
     void
@@ -125,8 +126,10 @@ namespace snug
         median_time(repeats, [&]() { face->precondition(x); });
       const Seconds project = median_time(repeats, [&]() { face->project(y); });
       const Seconds fresh   = median_time(repeats, make_face) - project;
-      const Seconds coarse =
-        median_time(repeats, [&]() { feti.update(none, solver.feti().g()); });
+      const Seconds coarse  = median_time(repeats, [&]() {
+        feti.update(none);
+        feti.set_loads(solver.feti().g());
+      });
 
       std::vector<Stage> stages = {factorization_of_inverses(),
                                    factorization_of_interiors(),

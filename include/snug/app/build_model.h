@@ -1,7 +1,7 @@
 #ifndef snug_app_build_model_h
 #define snug_app_build_model_h
 
-#include <snug/scene/scene.h>
+#include <snug/app/build_loads.h>
 #include <snug/state/state_solver.h>
 
 namespace snug
@@ -17,13 +17,6 @@ namespace snug
     template <int dim>
     state::Model<dim>
     build_model(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
-
-    /// (body, boundary) of "body.boundary".
-    template <int dim>
-    std::pair<unsigned int, unsigned int>
-    find_face(const scene::Scene        &scene,
-              const mesh::BodyMesh<dim> &mesh,
-              const std::string         &face);
   } // namespace app
 } // namespace snug
 

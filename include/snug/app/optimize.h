@@ -58,19 +58,21 @@ namespace snug
       {
         std::string                              name;
         std::unique_ptr<response::Response<dim>> response;
+        unsigned int                             load_case;
         double                                   target;
       };
 
       Workshop<dim>                         &workshop;
       bool                                   restart;
       std::vector<Constraint>                constraints;
-      qp::WarmStart                          warm_start;
+      std::vector<qp::WarmStart>             warm_starts; ///< per load case
       std::unique_ptr<optimization::Journal> journal;
       io::History                            history;
-      /// the last state solved, and the first one
-      std::unique_ptr<state::ContactState<dim>> last, first;
-      Design                                    last_design;
-      sensitivity::Gradients<dim>               last_gradients;
+      /// in all load cases: of the last design solved, and of the first one;
+      /// empty before
+      std::vector<state::ContactState<dim>> last, first;
+      Design                                last_design;
+      sensitivity::Gradients<dim>           last_gradients;
       /// of the objective at the first design, if asked for
       std::optional<typename Workshop<dim>::Field> first_shape_gradient;
       bool                                         first_drawn = false;

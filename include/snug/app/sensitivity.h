@@ -8,7 +8,7 @@ namespace snug
   namespace app
   {
     /**
-     * The objective of a scene differentiated at @p state, that of the start:
+     * The objective of a scene differentiated at @p states, those of the start:
      * by Gradient/Method or, with Gradient/Compare, by all methods side by
      * side, printed as a table. At weakly active contacts the one-sided
      * derivatives stand beside them. Leaves the solver at another design.
@@ -18,8 +18,8 @@ namespace snug
     {
     public:
       /// Collective. @throws SolveError.
-      Sensitivity(Workshop<dim>                  &workshop,
-                  const state::ContactState<dim> &state);
+      Sensitivity(Workshop<dim>                               &workshop,
+                  const std::vector<state::ContactState<dim>> &states);
 
       /// For the summary.
       io::Summary::Gradient gradient;
@@ -48,10 +48,11 @@ namespace snug
       double
       displacement_difference(const std::vector<Field> &derivatives) const;
 
-      Workshop<dim>                  &workshop;
-      const state::ContactState<dim> &state;
-      std::string                     chosen;    ///< never "auto"
-      std::vector<Field>              reference; ///< u'_j by the direct method
+      Workshop<dim>                               &workshop;
+      const std::vector<state::ContactState<dim>> &states;
+      std::string                                  chosen; ///< never "auto"
+      /// u'_j by the direct method, of one load case after the other
+      std::vector<Field> reference;
     };
   } // namespace app
 } // namespace snug

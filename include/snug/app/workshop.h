@@ -5,6 +5,7 @@
 #include <snug/io/contact_output.h>
 #include <snug/io/fields.h>
 #include <snug/io/summary.h>
+#include <snug/optimization/combination.h>
 #include <snug/sensitivity/gradient.h>
 #include <snug/sensitivity/one_sided.h>
 #include <snug/shape/shapes.h>
@@ -36,29 +37,48 @@ namespace snug
       Field
       positions(const std::vector<double> &design) const;
 
-      /// The state of a design. Collective. @throws SolveError.
-      state::ContactState<dim>
-      solve(const std::vector<double> &design, const qp::WarmStart &start);
+      unsigned int
+      n_load_cases() const;
 
-      /// Gradients of responses at a state. Collective.
+      /// The states of a design in all load cases, each from its start; no
+      /// starts: cold. Collective. @throws SolveError.
+      std::vector<state::ContactState<dim>>
+      solve(const std::vector<double>        &design,
+            const std::vector<qp::WarmStart> &starts = {});
+
+      /// The objective, combined of its values in the states of all load
+      /// cases. The scale of 'worst' is that of the first states combined.
+      /// Collective.
+      optimization::Combined
+      combined_objective(const std::vector<state::ContactState<dim>> &states);
+
+      /// A response besides the objective.
+      struct Measured
+      {
+        const response::Response<dim> *response;
+        unsigned int                   load_case; ///< it is measured in
+      };
+
+      /// The gradient of the objective, combined over the states of all load
+      /// cases, and after it those of @p others. Collective.
       sensitivity::Gradients<dim>
-      gradients(const sensitivity::Responses<dim>     &responses,
-                const state::ContactState<dim>        &state,
-                const std::vector<double>             &design,
-                const sensitivity::GradientParameters &parameters);
+      gradients(const std::vector<state::ContactState<dim>> &states,
+                const std::vector<Measured>                 &others,
+                const std::vector<double>                   &design,
+                const sensitivity::GradientParameters       &parameters);
 
-      /// One-sided derivatives of responses at a state. Collective.
-      std::vector<sensitivity::OneSided>
-      one_sided_gradients(const sensitivity::Responses<dim> &responses,
-                          const state::ContactState<dim>    &state,
-                          const std::vector<double>         &design);
+      /// One-sided derivatives of the objective, combined like gradients().
+      /// Collective.
+      sensitivity::OneSided
+      one_sided_gradients(const std::vector<state::ContactState<dim>> &states,
+                          const std::vector<double>                   &design);
 
-      /// Add a state to the pictures, with its shape gradient (this rank's
-      /// share) if there is one. Collective.
+      /// Add the states of all load cases to the pictures, with the shape
+      /// gradient (this rank's share) if there is one. Collective.
       void
-      draw(double                          time,
-           const state::ContactState<dim> &state,
-           const std::optional<Field>     &shape_gradient);
+      draw(double                                       time,
+           const std::vector<state::ContactState<dim>> &states,
+           const std::optional<Field>                  &shape_gradient = {});
 
       /// Print what was read. Collective.
       void
@@ -87,6 +107,13 @@ namespace snug
       void
       export_shape(const std::vector<double> &design);
 
+      /// The states of all load cases in a summary: the first one as its
+      /// state, all of them if there are several. @p initial may be empty.
+      void
+      summarize_states(const std::vector<state::ContactState<dim>> &initial,
+                       const std::vector<state::ContactState<dim>> &states,
+                       io::Summary &summary) const;
+
       /// File @p name of the output directory.
       std::string
       path(const std::string &name) const;
@@ -103,9 +130,20 @@ namespace snug
       std::vector<double>
       bound_widths() const;
 
-      std::vector<std::string>                warnings;
-      std::unique_ptr<io::FieldOutput<dim>>   fields;
-      std::unique_ptr<io::ContactOutput<dim>> contact_output;
+      std::vector<std::string> warnings;
+
+      /// Writers of one load case.
+      struct Pictures
+      {
+        std::unique_ptr<io::FieldOutput<dim>>   fields;
+        std::unique_ptr<io::ContactOutput<dim>> contact;
+      };
+
+      void
+      add_pictures(const std::string &directory);
+
+      std::vector<Pictures> pictures;             ///< per load case
+      double                objective_scale = 0.; ///< 0: not known yet
     };
   } // namespace app
 } // namespace snug

@@ -94,26 +94,29 @@ namespace snug
                           double          factor,
                           Nodes          &gradient) const;
 
-      /// f_a = int N_a b dV for a constant body force b.
+      /// The Gauss points of a cell with nodes X, n of them.
+      Nodes
+      quadrature_points(const Nodes &X) const;
+
+      /// f_a = int N_a b dV for a body force @p b [force / length^3] given at
+      /// the Gauss points, which goes with the material.
       void
-      body_force(const Nodes                  &X,
-                 const dealii::Tensor<1, dim> &b,
-                 Nodes                        &f) const;
+      body_force(const Nodes &X, const Nodes &b, Nodes &f) const;
 
       /// f = derivative of body_force() along V, exact.
       void
-      body_force_derivative(const Nodes                  &X,
-                            const Nodes                  &V,
-                            const dealii::Tensor<1, dim> &b,
-                            Nodes                        &f) const;
+      body_force_derivative(const Nodes &X,
+                            const Nodes &V,
+                            const Nodes &b,
+                            Nodes       &f) const;
 
       /// gradient_a += factor * d/dX_a (f(X) . u)
       void
-      add_body_force_gradient(const Nodes                  &X,
-                              const dealii::Tensor<1, dim> &b,
-                              const Nodes                  &u,
-                              double                        factor,
-                              Nodes                        &gradient) const;
+      add_body_force_gradient(const Nodes &X,
+                              const Nodes &b,
+                              const Nodes &u,
+                              double       factor,
+                              Nodes       &gradient) const;
 
       /// int dV [length^3], signed.
       double

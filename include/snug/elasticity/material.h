@@ -1,12 +1,6 @@
 #ifndef snug_elasticity_material_h
 #define snug_elasticity_material_h
 
-#include <deal.II/base/tensor.h>
-
-#include <map>
-#include <string>
-#include <vector>
-
 namespace snug
 {
   namespace elasticity
@@ -16,6 +10,7 @@ namespace snug
     {
       double youngs_modulus = 1.;  ///< [force / length^2], > 0
       double poissons_ratio = 0.3; ///< in (-1, 0.5)
+      double density        = 0.;  ///< [mass / length^3], for gravity
 
       double
       lame_lambda() const
@@ -36,17 +31,6 @@ namespace snug
       {
         return youngs_modulus / (3. * (1. - 2. * poissons_ratio));
       }
-    };
-
-    /// Dead loads of a body, in the geometry of the design.
-    struct LoadParameters
-    {
-      /// boundary -> [force / length^(dim-1)], positive pushes on the body
-      std::map<std::string, double> pressure;
-      /// boundary -> vector [force / length^(dim-1)]
-      std::map<std::string, std::vector<double>> traction;
-      /// [force / length^dim]
-      std::vector<double> body_force;
     };
   } // namespace elasticity
 } // namespace snug

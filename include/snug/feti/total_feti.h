@@ -32,13 +32,16 @@ namespace snug
                 const FetiParameters               &parameters,
                 RunContext                         &context);
 
-      /**
-       * Take new numbers from the systems. Collective.
-       * @param[in] changed subdomains of this rank whose K and R changed.
-       * @param[in] g right-hand side of the owned rows [length].
-       */
+      /// Take new matrices from the systems; set_loads() must follow.
+      /// Collective.
+      /// @param[in] changed subdomains of this rank whose K and R changed.
       void
-      update(const std::vector<bool> &changed, const qp::MultiVector &g);
+      update(const std::vector<bool> &changed);
+
+      /// Take the loads f from the systems. Collective.
+      /// @param[in] g right-hand side of the owned rows [length].
+      void
+      set_loads(const qp::MultiVector &g);
 
       RunContext &
       context() const override;

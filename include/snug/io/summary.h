@@ -98,21 +98,31 @@ namespace snug
         std::vector<double> design; ///< [length]
       };
 
+      /// One of several load cases.
+      struct LoadCase
+      {
+        std::string          name;
+        double               weight = 1.;
+        State                state; ///< of the final design
+        std::optional<State> initial_state;
+      };
+
       struct Times
       {
         double setup = 0., assembly = 0., factorization = 0., solve = 0.,
                gradient = 0., output = 0., total = 0.; ///< [s]
       };
 
-      Program                     program;
-      Mesh                        mesh;
-      State                       state; ///< of the final design
+      Program program;
+      Mesh    mesh;
+      State   state; ///< of the final design; the first load case
       std::optional<Gradient>     gradient;
       std::optional<Optimization> optimization;
       Work                        work;
       Times                       times;
       std::string                 task;
       std::optional<State>        initial_state; ///< of the first design
+      std::vector<LoadCase>       load_cases;    ///< empty if there is only one
       std::vector<std::string>    warnings;
 
       /// The JSON text; doubles read back as the same numbers.

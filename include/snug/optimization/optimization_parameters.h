@@ -13,7 +13,9 @@ namespace snug
     {
       std::string algorithm = "SLSQP";
       std::string objective = "potential energy"; ///< a response
-      /// response -> "initial" or a number it must equal
+      std::string combine   = "sum"; ///< of load cases, a combination
+      /// response, or "load case.response" -> "initial" or a number it must
+      /// equal
       std::map<std::string, std::string> constraints;
       unsigned int                       maximum_evaluations = 200;
       double objective_tolerance  = 1e-8; ///< relative, of the objective

@@ -17,7 +17,7 @@ namespace snug
                            double                               factor,
                            typename mesh::BodyMesh<dim>::Field &gradient);
 
-    /// gradient += factor * d/dX (f'w), the same way.
+    /// gradient += factor * d/dX (f'w), the same way. Collective.
     template <int dim>
     void
     add_load_gradient(const state::StateSolver<dim>       &solver,

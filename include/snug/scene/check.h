@@ -39,6 +39,8 @@ namespace snug
     void
     check_bodies(const Scene &scene, const Origins &origins);
     void
+    check_loads(const Scene &scene, const Origins &origins);
+    void
     check_contact(const Scene &scene, const Origins &origins);
     void
     check_shapes(const Scene &scene, const Origins &origins);
@@ -62,8 +64,18 @@ namespace snug
                  const std::string &value,
                  const std::string &face);
 
-    bool
-    all_finite(const std::vector<double> &values);
+    /// Throw unless @p formula, a part of the @p value of the entry @p path, is
+    /// a formula of the coordinates.
+    void
+    require_formula(unsigned int       dimension,
+                    const Origins     &origins,
+                    const std::string &path,
+                    const std::string &value,
+                    const std::string &formula);
+
+    /// "components are x, y and normal".
+    std::string
+    component_names(unsigned int dimension);
 
     /// Names of the responses an objective or a constraint may be.
     std::vector<std::string>

@@ -123,13 +123,25 @@ namespace snug
     void
     declare(Entries &entries, Scene &scene);
 
-    /// Parts of declare(): meshes; obstacles, contact and its pairs; shapes.
+    /// @name Parts of declare()
+    /// @{
     void
     declare_mesh(Entries &entries, mesh::BodyMeshParameters &mesh);
+    void
+    add_gravity(Entries &entries, std::vector<double> &gravity);
+    /// Loads on faces, each called as @p key says.
+    void
+    declare_loads(Entries           &entries,
+                  LoadParameters    &loads,
+                  const std::string &key);
+    void
+    declare_load_cases(Entries &entries, Scene &scene);
+    /// Obstacles, contact and its pairs.
     void
     declare_contact(Entries &entries, Scene &scene);
     void
     declare_shapes(Entries &entries, Scene &scene);
+    /// @}
   } // namespace scene
 } // namespace snug
 

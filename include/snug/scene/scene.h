@@ -9,6 +9,7 @@
 #include <snug/mesh/tearing.h>
 #include <snug/optimization/optimization_parameters.h>
 #include <snug/qp/solver.h>
+#include <snug/scene/load_parameters.h>
 #include <snug/sensitivity/gradient_parameters.h>
 #include <snug/shape/shape_parameters.h>
 
@@ -39,9 +40,9 @@ namespace snug
       std::string formulation = "standard"; ///< see formulation_table()
       /// boundary -> components held at zero: words made of "xyz", "normal"
       std::map<std::string, std::string> supports;
-      /// boundary, "component = formula" of the reference position [length]
-      std::vector<std::pair<std::string, std::string>> displacements;
-      elasticity::LoadParameters                       loads;
+      LoadParameters                     loads;
+      /// formulas of the components [force / length^3]; empty: none
+      std::vector<std::string> body_force;
     };
 
     /**
@@ -59,6 +60,9 @@ namespace snug
       unsigned int      degree           = 1; ///< of the elements, 1 or 2
       std::vector<Body> bodies;
       std::vector<contact::ObstacleParameters> obstacles;
+      std::vector<double> gravity; ///< [length / time^2]; empty: none
+      /// empty: one, with the loads of the bodies alone
+      std::vector<LoadCaseParameters> load_cases;
       unsigned int subdomains = 0; ///< of all ranks; 0: by size
       /// also solve the linear problem on the final active set from zero
       bool report_linear_reference = false;
@@ -93,6 +97,19 @@ namespace snug
     /// "z = -0.012" as {"z", "-0.012"}; without '=', the second is "".
     std::pair<std::string, std::string>
     split_displacement(const std::string &text);
+
+    /// The response a constraint names, and its load case: none if it holds
+    /// for a response of the geometry, or there is only one load case.
+    struct ConstraintName
+    {
+      std::string                 response;
+      std::optional<unsigned int> load_case;
+    };
+
+    /// "closing.compliance" where there is a load case closing; other names
+    /// are left as they are.
+    ConstraintName
+    constraint_name(const Scene &scene, const std::string &name);
 
     /// Position of the body called @p name; bodies.size() if there is none.
     unsigned int

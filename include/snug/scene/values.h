@@ -80,10 +80,23 @@ namespace snug
     std::string
     to_text(const VectorMap &);
     std::string
+    to_text(const std::vector<std::string> &);
+    std::string
     to_text(const TextMap &, char separator = ',');
     std::string
     to_text(const TextPairs &, char separator = ',');
     /// @}
+
+    bool
+    all_finite(const std::vector<double> &values);
+
+    /// The parts of "0 0 -5*max(x, y)": blanks within parentheses do not count.
+    std::vector<std::string>
+    components(const std::string &text);
+
+    /// Components separated by commas or, where there is none, by blanks.
+    std::vector<std::string>
+    vector_components(const std::string &text);
 
     /// @name Values from text @throws std::exception if it is malformed
     /// @{

@@ -1,39 +1,16 @@
 #ifndef snug_state_assembler_h
 #define snug_state_assembler_h
 
-#include <snug/elasticity/element.h>
 #include <snug/elasticity/face_load.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>
 #include <snug/state/node_reach.h>
-
-#include <map>
+#include <snug/state/resultant_loads.h>
 
 namespace snug
 {
   namespace state
   {
-    /// Materials and loads of one body, boundaries by index.
-    template <int dim>
-    struct BodyModel
-    {
-      struct Load
-      {
-        double                 pressure = 0.; ///< [force / length^2]
-        dealii::Tensor<1, dim> traction;      ///< [force / length^2]
-      };
-      std::vector<elasticity::Material> materials; ///< per region
-      elasticity::Formulation formulation = elasticity::Formulation::standard;
-      dealii::Tensor<1, dim>  body_force; ///< [force / length^3]
-      std::map<unsigned int, Load> loads; ///< per boundary index
-
-      const elasticity::Material &
-      material(const typename mesh::BodyMesh<dim>::Cell &) const
-      {
-        return materials.front();
-      }
-    };
-
     /**
      * Assembly of one subdomain. Its unknowns are dim per node of
      * Subdomain::nodes; cells with hanging nodes act on the masters,
@@ -43,12 +20,13 @@ namespace snug
     class Assembler
     {
     public:
-      using Field = typename mesh::BodyMesh<dim>::Field;
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+      using Field     = typename mesh::BodyMesh<dim>::Field;
+      using Nodes     = std::vector<dealii::Tensor<1, dim>>;
+      using Tractions = typename ResultantLoads<dim>::Tractions;
 
       Assembler(const mesh::BodyMesh<dim>       &mesh,
                 const mesh::Subdomain           &subdomain,
-                const BodyModel<dim>            &model,
+                const Model<dim>                &model,
                 const elasticity::Element<dim>  &element,
                 const elasticity::FaceLoad<dim> &face_load);
 
@@ -63,9 +41,12 @@ namespace snug
       void
       stiffness(const Field &positions, feti::CsrMatrix &K) const;
 
-      /// f at the given positions.
+      /// f of a load case at the given positions, with the tractions of
+      /// resultants there.
       std::vector<double>
-      load(const Field &positions) const;
+      load(const Field     &positions,
+           unsigned int     load_case,
+           const Tractions &tractions) const;
 
       /**
        * Rigid body modes at the unknowns, orthonormal: rigid_motions() about
@@ -113,10 +94,25 @@ namespace snug
                       double       factor,
                       const Nodes &r,
                       double      *u) const;
-      const typename BodyModel<dim>::Load &
-      face_model(unsigned int i) const;
-      const BodyModel<dim> &
-      body_model() const;
+      /// Its loads in a load case.
+      elasticity::FaceLoadValues<dim>
+      face_load_values(unsigned int     i,
+                       unsigned int     load_case,
+                       const Tractions &tractions) const;
+      /// The traction of its resultant among @p tractions; zero if none.
+      elasticity::LinearTraction<dim>
+      linear_traction(unsigned int     i,
+                      unsigned int     load_case,
+                      const Tractions &tractions) const;
+      /// Whether loads change in this subdomain when the rest of a face moves.
+      bool
+      has_resultants() const;
+
+      bool
+      has_body_force(unsigned int load_case) const;
+      /// Body force at the Gauss points of cell i of cells(), with gravity.
+      Nodes
+      body_force(unsigned int i, unsigned int load_case) const;
       /// Material of cell i of cells().
       const elasticity::Material &
       material(unsigned int i) const;
@@ -126,10 +122,14 @@ namespace snug
     private:
       void
       build_pattern();
+      const BodyLoads<dim> &
+      loads(unsigned int load_case) const;
+      const BoundaryLoad<dim> *
+      boundary_load(unsigned int i, unsigned int load_case) const;
 
       const mesh::BodyMesh<dim>       &mesh;
       const mesh::Subdomain           &subdomain;
-      const BodyModel<dim>            &model;
+      const Model<dim>                &model;
       const elasticity::Element<dim>  &the_element;
       const elasticity::FaceLoad<dim> &face_load;
       std::vector<unsigned int>        faces; ///< indices of boundary_faces()

@@ -73,6 +73,7 @@ namespace snug
     {
       using Field = typename mesh::BodyMesh<dim>::Field;
 
+      unsigned int                load_case = 0;
       Field                       positions;    ///< [length]
       Field                       displacement; ///< [length]
       feti::PrimalVectors         u;            ///< per subdomain

@@ -1,11 +1,8 @@
 #ifndef snug_state_state_solver_h
 #define snug_state_state_solver_h
 
-#include <snug/contact/contact.h>
-#include <snug/feti/total_feti.h>
-#include <snug/state/assembler.h>
 #include <snug/state/contact_state.h>
-#include <snug/state/gluing.h>
+#include <snug/state/state_problem.h>
 
 #include <memory>
 
@@ -13,25 +10,8 @@ namespace snug
 {
   namespace state
   {
-    /// What a state problem is made of; indices, not names.
-    template <int dim>
-    struct Model
-    {
-      std::vector<std::string>    body_names;
-      std::vector<BodyModel<dim>> bodies;
-      std::vector<Support<dim>>   supports;
-      std::vector<contact::Pair>  pairs;
-      feti::FetiParameters        feti;
-      qp::SolverParameters        solver;
-      bool                        linear_reference = false;
-    };
-
-    /**
-     * The bridge from bodies at a geometry to Total FETI and back. Topology,
-     * pairing, gluing and symbolic factorizations are made once, at the
-     * geometry given to the constructor; solve() re-assembles and factorizes
-     * only subdomains whose nodes moved since the last solve.
-     */
+    /// The bridge from bodies at a geometry to Total FETI (StateProblem) and
+    /// back.
     template <int dim>
     class StateSolver
     {
@@ -53,12 +33,15 @@ namespace snug
       pair(const Field &positions);
 
       /**
-       * The state at @p positions. Solves on until the certificate meets the
-       * tolerance. Collective.
+       * The state of a load case at @p positions. Solves on until the
+       * certificate meets the tolerance. All load cases of one geometry share
+       * its matrices and factorizations. Collective.
        * @throws TangledMesh, SolveError.
        */
       ContactState<dim>
-      solve(const Field &positions, const qp::WarmStart &start);
+      solve(const Field         &positions,
+            const qp::WarmStart &start,
+            unsigned int         load_case = 0);
 
       /// F-mults of one linear TFETI solve on the active set of @p state,
       /// the last one solved, from zero at the same tolerance. Collective.
@@ -87,12 +70,17 @@ namespace snug
       /// Its derivative along @p velocity, exact. Collective.
       RowCoefficients<dim>
       row_derivatives(const Field &positions, const Field &velocity) const;
+      const ResultantLoads<dim> &
+      resultants() const;
+      /// f of a load case at @p positions. Collective.
+      feti::PrimalVectors
+      loads(const Field &positions, unsigned int load_case) const;
       const elasticity::FaceLoad<dim> &
       face_load() const;
       /// Assemblers of this rank's subdomains.
       const std::vector<std::unique_ptr<Assembler<dim>>> &
       assemblers() const;
-      /// The dual problem of the last geometry solved.
+      /// The dual problem of the last geometry and load case solved.
       const feti::TotalFeti &
       feti() const;
       const Gluing<dim> &

@@ -98,8 +98,12 @@ namespace snug
         const auto read  = [](const std::vector<double> &list) {
           return dealii::Tensor<1, dim>(contact::to_point<dim>(list));
         };
-        for (auto &body : model.bodies)
-          body.body_force = motion.turned(body.body_force) / motion.factor;
+        for (auto &load_case : model.load_cases)
+          for (auto &body : load_case.bodies)
+            if (body.body_force)
+              body.body_force = [=, force = body.body_force](const auto &x) {
+                return motion.turned(force(x)) / motion.factor;
+              };
         for (auto &pair : model.pairs)
           if (pair.obstacle)
             {

@@ -94,8 +94,9 @@ TYPED_TEST(AutomaticDifferentiation, GivesVolumeAndBodyForceWithDerivatives)
       dealii::Tensor<1, dim> ones;
       for (unsigned int c = 0; c < dim; ++c)
         ones[c] = 1.;
-      of.element.body_force(of.X, ones, f);
-      of.element.body_force_derivative(of.X, V, ones, f_derivative);
+      const Nodes<dim> density(V.size(), ones);
+      of.element.body_force(of.X, density, f);
+      of.element.body_force_derivative(of.X, V, density, f_derivative);
       for (unsigned int i = 0; i < dim * V.size(); ++i)
         {
           EXPECT_NEAR(f[i / dim][i % dim],

@@ -314,7 +314,9 @@ namespace elasticity_cells
     Nodes<dim>          result(X.size()), f;
     for (const auto &face : all_faces<dim>(degree))
       {
-        load.force(extract<dim>(X, face), -1., dealii::Tensor<1, dim>(), f);
+        load.force(extract<dim>(X, face),
+                   {std::vector<double>(face.size(), -1.), {}, {}},
+                   f);
         for (unsigned int i = 0; i < face.size(); ++i)
           result[face[i]] += f[i];
       }

@@ -69,7 +69,8 @@ TYPED_TEST(DealIIAssembly, GivesTheSameStiffnessVolumeAndBodyForce)
   values.reinit(this->dof_handler.begin_active());
   const auto &view = values[displacement];
 
-  const auto          b = random_field<dim>(1, 5)[0];
+  // of the Gauss points in the order of QGauss
+  const auto          b = random_field<dim>(quadrature.size(), 5);
   const unsigned int  n = this->unknowns.size();
   std::vector<double> K(n * n);
   Nodes<dim>          f(this->X.size());
@@ -80,7 +81,7 @@ TYPED_TEST(DealIIAssembly, GivesTheSameStiffnessVolumeAndBodyForce)
       for (unsigned int i = 0; i < n; ++i)
         {
           const unsigned int row = this->unknowns[i];
-          f[row / dim][row % dim] += view.value(i, q) * b * values.JxW(q);
+          f[row / dim][row % dim] += view.value(i, q) * b[q] * values.JxW(q);
           for (unsigned int j = 0; j < n; ++j)
             K[row * n + this->unknowns[j]] +=
               (2. * material.lame_mu() *
@@ -139,7 +140,11 @@ TYPED_TEST(DealIIAssembly, GivesTheSameFaceLoads)
       const auto nodes =
         face_nodes<dim>(TestFixture::degree, face / 2, face % 2 == 1);
       Nodes<dim> found;
-      load.force(extract<dim>(this->X, nodes), pressure, traction, found);
+      load.force(extract<dim>(this->X, nodes),
+                 {std::vector<double>(nodes.size(), pressure),
+                  Nodes<dim>(nodes.size(), traction),
+                  {}},
+                 found);
       const auto areas_found = load.areas(extract<dim>(this->X, nodes));
       const auto expected    = extract<dim>(f, nodes);
       EXPECT_LT(distance<dim>(found, expected), 1e-13 * norm<dim>(expected));

@@ -14,8 +14,8 @@ public:
   const Nodes<dim>                    V        = random_field<dim>(n, 12);
   const Nodes<dim>                    u        = random_field<dim>(n, 13);
   const Nodes<dim>                    w        = random_field<dim>(n, 14);
-  /// a force density
-  const dealii::Tensor<1, dim> b = random_field<dim>(1, 15)[0];
+  /// a force density at the Gauss points, which are as many as the nodes
+  const Nodes<dim> b = random_field<dim>(n, 15);
 
   Nodes<dim>
   force(const Element<dim> &element,
@@ -63,7 +63,7 @@ TYPED_TEST(ElementDerivatives, TranslationChangesNothing)
       Nodes<dim> V(this->n);
       for (auto &vector : V)
         for (unsigned int c = 0; c < dim; ++c)
-          vector[c] = of.may_translate(c) ? this->b[c] : 0.;
+          vector[c] = of.may_translate(c) ? this->b[0][c] : 0.;
       EXPECT_LT(norm<dim>(this->force_derivative(of, V)),
                 1e-13 * norm<dim>(this->force_derivative(of, this->V)))
         << of.name();

@@ -4,6 +4,17 @@
 
 using namespace elasticity_cells;
 
+namespace
+{
+  /// A pressure at the Gauss points of a face with @p n nodes.
+  template <int dim>
+  FaceLoadValues<dim>
+  uniform(std::size_t n, double pressure)
+  {
+    return {std::vector<double>(n, pressure), {}, {}};
+  }
+} // namespace
+
 template <typename Case>
 class FaceLoads : public ::testing::Test
 {
@@ -11,13 +22,22 @@ public:
   static constexpr int          dim    = Case::dim;
   static constexpr unsigned int degree = Case::degree;
 
-  const FaceLoad<dim>          load{degree};
-  const Nodes<dim>             cell     = distorted<dim>(degree, 31);
-  const Nodes<dim>             X        = face(Idealization::natural(dim));
-  const Nodes<dim>             V        = random_field<dim>(X.size(), 32);
-  const Nodes<dim>             u        = random_field<dim>(X.size(), 33);
-  const dealii::Tensor<1, dim> traction = random_field<dim>(1, 34)[0];
-  const double                 pressure = 1.7;
+  const FaceLoad<dim> load{degree};
+  const Nodes<dim>    cell = distorted<dim>(degree, 31);
+  const Nodes<dim>    X    = face(Idealization::natural(dim));
+  const Nodes<dim>    V    = random_field<dim>(X.size(), 32);
+  const Nodes<dim>    u    = random_field<dim>(X.size(), 33);
+  /// at the Gauss points, which are as many as the nodes
+  const Nodes<dim>          traction = random_field<dim>(X.size(), 34);
+  const std::vector<double> pressure = varying(X.size());
+
+  static std::vector<double>
+  varying(std::size_t n)
+  {
+    std::vector<double> pressure(n, 1.7);
+    pressure[1] = 0.4;
+    return pressure;
+  }
 
   static Nodes<dim>
   face(const Idealization &idealization)
@@ -65,7 +85,7 @@ TYPED_TEST(FaceLoads, UnitFacesHaveUnitAreaAndPressurePushesInwards)
         EXPECT_NEAR(total, 1., 1e-14);
 
         Nodes<dim> f;
-        this->load.force(face, 5., dealii::Tensor<1, dim>(), f);
+        this->load.force(face, uniform<dim>(face.size(), 5.), f);
         dealii::Tensor<1, dim> sum;
         for (const auto &vector : f)
           sum += vector;
@@ -78,28 +98,29 @@ TYPED_TEST(FaceLoads, TractionActsOnTributaryAreas)
 {
   constexpr int dim = TestFixture::dim;
   Nodes<dim>    f;
-  this->load.force(this->X, 0., this->traction, f);
+  const auto    t = this->traction[0];
+  this->load.force(this->X, {{}, Nodes<dim>(this->X.size(), t), {}}, f);
   const auto areas = this->load.areas(this->X);
   for (unsigned int a = 0; a < f.size(); ++a)
-    EXPECT_LT((f[a] - areas[a] * this->traction).norm(), 1e-14);
+    EXPECT_LT((f[a] - areas[a] * t).norm(), 1e-14);
 }
 
 TYPED_TEST(FaceLoads, DerivativeAgreesWithDifferences)
 {
   constexpr int dim = TestFixture::dim;
   for (const auto &idealization : idealizations<dim>())
-    for (const double pressure : {0., this->pressure})
-      for (const double scale : {0., 1.})
+    for (const auto &pressure : {std::vector<double>(), this->pressure})
+      for (const auto &traction : {Nodes<dim>(), this->traction})
         {
-          const FaceLoad<dim> load(TestFixture::degree, idealization);
-          const auto          X        = this->face(idealization);
-          const auto          traction = scale * this->traction;
-          Nodes<dim>          found;
-          load.force_derivative(X, this->V, pressure, traction, found);
+          const FaceLoad<dim>       load(TestFixture::degree, idealization);
+          const auto                X = this->face(idealization);
+          const FaceLoadValues<dim> values{pressure, traction, {}};
+          Nodes<dim>                found;
+          load.force_derivative(X, this->V, values, {}, found);
           const auto expected = derivative<dim>(
             [&](const Nodes<dim> &X) {
               Nodes<dim> f;
-              load.force(X, pressure, traction, f);
+              load.force(X, values, f);
               return f;
             },
             X,
@@ -114,14 +135,14 @@ TYPED_TEST(FaceLoads, GradientIsTheTransposeOfTheDerivative)
   constexpr int dim = TestFixture::dim;
   for (const auto &idealization : idealizations<dim>())
     {
-      const FaceLoad<dim> load(TestFixture::degree, idealization);
-      const auto          X = this->face(idealization);
-      Nodes<dim>          f;
-      load.force_derivative(X, this->V, this->pressure, this->traction, f);
+      const FaceLoad<dim>       load(TestFixture::degree, idealization);
+      const auto                X = this->face(idealization);
+      const FaceLoadValues<dim> values{this->pressure, this->traction, {}};
+      Nodes<dim>                f;
+      load.force_derivative(X, this->V, values, {}, f);
       Nodes<dim> gradient(X.size());
       gradient[0][0] = 1.;
-      load.add_force_gradient(
-        X, this->pressure, this->traction, this->u, -3., gradient);
+      load.add_force_gradient(X, values, this->u, -3., gradient);
       gradient[0][0] -= 1.;
       EXPECT_NEAR(dot<dim>(gradient, this->V),
                   -3. * dot<dim>(f, this->u),
@@ -135,7 +156,7 @@ TEST(FaceLoadWeight, ThicknessIsAFactor)
   const auto  face = extract<2>(X, face_nodes<2>(2, 0, true));
   FaceLoad<2> thin(2, {Idealization::Kind::plane_stress, 0.25});
   Nodes<2>    f;
-  thin.force(face, 8., dealii::Tensor<1, 2>(), f);
+  thin.force(face, uniform<2>(3, 8.), f);
   double sum = 0.;
   for (const auto &force : f)
     sum += force[0];
@@ -160,7 +181,7 @@ TEST(FaceLoadWeight, ConesHaveTheirArea)
       EXPECT_NEAR(area, dealii::numbers::PI * 35., 1e-12);
 
       // axial force of a pressure: on the projected annulus
-      load.force(face, 2., dealii::Tensor<1, 2>(), f);
+      load.force(face, uniform<2>(face.size(), 2.), f);
       for (const auto &force : f)
         axial_force += force[1];
       EXPECT_NEAR(axial_force, 2. * dealii::numbers::PI * 21., 1e-12);
@@ -171,19 +192,16 @@ TYPED_TEST(FaceLoads, FollowsTranslationsAndRotations)
 {
   // translations: no change; V = W X with W skew: pressure forces turn,
   // dead tractions do not
-  constexpr int    dim = TestFixture::dim;
-  const Nodes<dim> translation(this->X.size(), this->traction);
-  Nodes<dim>       f, f_derivative;
-  this->load.force_derivative(
-    this->X, translation, this->pressure, this->traction, f_derivative);
+  constexpr int             dim = TestFixture::dim;
+  const Nodes<dim>          translation(this->X.size(), this->traction[0]);
+  const FaceLoadValues<dim> both{this->pressure, this->traction, {}};
+  Nodes<dim>                f, f_derivative;
+  this->load.force_derivative(this->X, translation, both, {}, f_derivative);
   EXPECT_LT(norm<dim>(f_derivative), 1e-13);
 
   const auto W = random_skew<dim>(35);
-  this->load.force(this->X, this->pressure, dealii::Tensor<1, dim>(), f);
-  this->load.force_derivative(this->X,
-                              times<dim>(W, this->X),
-                              this->pressure,
-                              this->traction,
-                              f_derivative);
+  this->load.force(this->X, {this->pressure, {}, {}}, f);
+  this->load.force_derivative(
+    this->X, times<dim>(W, this->X), both, {}, f_derivative);
   EXPECT_LT(distance<dim>(f_derivative, times<dim>(W, f)), 1e-13);
 }

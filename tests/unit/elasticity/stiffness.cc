@@ -143,8 +143,9 @@ TYPED_TEST(Stiffness, PatchTest)
           Nodes<dim>   force;
           Element<dim>(TestFixture::degree, {Idealization::Kind::plane_strain})
             .body_force(of.X,
-                        -2. * dealii::numbers::PI * shear *
-                          dealii::Point<dim>::unit_vector(1),
+                        Nodes<dim>(of.X.size(),
+                                   -2. * dealii::numbers::PI * shear *
+                                     dealii::Point<dim>::unit_vector(1)),
                         force);
           expected = sum<dim>(expected, 1., force);
         }

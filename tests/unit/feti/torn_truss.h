@@ -247,7 +247,8 @@ namespace snug
       qp::MultiVector gap(layout->n_owned());
       for (unsigned int i = 0; i < gap.n_rows(); ++i)
         gap(i) = layout->bounded()[i] ? 0.01 : 0.;
-      feti->update(std::vector<bool>(mine.size(), true), gap);
+      feti->update(std::vector<bool>(mine.size(), true));
+      feti->set_loads(gap);
       return feti;
     }
 

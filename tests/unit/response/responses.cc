@@ -26,6 +26,12 @@ namespace
         body.loads[face_index(0, 1)].pressure = 0.5;
       }
     scene.bodies[1].loads[face_index(0, 1)].traction[dim - 1] = -0.4;
+    auto &top = scene.bodies[0].loads[face_index(dim - 1, 1)];
+    top.resultant.force[dim - 1] = -2.;
+    top.resultant.moment[2]      = 0.1;
+    if (dim == 3)
+      top.resultant.moment[0] = 0.2;
+    top.factor = [](const dealii::Point<dim> &x) { return 1. + 0.5 * x[0]; };
     return scene;
   }
 
@@ -77,6 +83,7 @@ namespace
   {
     const auto &solver = problem.solver;
     const auto  rows   = solver.rows(positions);
+    const auto  loads  = solver.loads(positions, 0);
     const auto  lambda = solver.gluing().layout().to_local(state.dual.lambda);
     std::vector<feti::BEntry> B;
     Parts                     parts;
@@ -87,11 +94,10 @@ namespace
         qp::MultiVector Ku(state.u[s].n_rows());
         assembler.stiffness(positions, K);
         K.multiply_add(1., state.u[s], Ku);
-        const auto f = assembler.load(positions);
-        for (unsigned int i = 0; i < f.size(); ++i)
+        for (unsigned int i = 0; i < Ku.n_rows(); ++i)
           {
             parts.strain_energy += state.u[s](i) * Ku(i) / 2;
-            parts.work += state.u[s](i) * f[i];
+            parts.work += state.u[s](i) * loads[s](i);
           }
         solver.gluing().fill_B(s, rows, B);
         for (const auto &entry : B)

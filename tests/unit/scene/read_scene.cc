@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include <snug/scene/values.h>
+
 using namespace snug;
 
 using Numbers  = std::vector<double>;
@@ -40,9 +42,11 @@ TEST(ReadScene, KeepsTwoBodiesApart)
   EXPECT_EQ(punch.material.youngs_modulus, 210000.);
   EXPECT_EQ(punch.supports.at("left"), "x");
   EXPECT_EQ(punch.supports.at("front"), "y");
-  EXPECT_EQ(punch.loads.pressure.at("top"), 100.);
-  EXPECT_EQ(punch.loads.traction.at("top"), (Numbers{0, 0, -5.5}));
-  EXPECT_EQ(punch.loads.traction.at("left"), (Numbers{1, 0, 0}));
+  EXPECT_EQ(punch.loads.pressure.at("top"), "100");
+  EXPECT_EQ(scene::components(punch.loads.traction.at("top")),
+            (std::vector<std::string>{"0", "0", "-5.5"}));
+  EXPECT_EQ(scene::components(punch.loads.traction.at("left")),
+            (std::vector<std::string>{"1", "0", "0"}));
   EXPECT_EQ(foundation.mesh.cells, (Integers{2, 2, 2}));
   EXPECT_EQ(foundation.mesh.grading, (Numbers{1, 1, 0.5}));
   EXPECT_EQ(foundation.mesh.refinements, 1U);
@@ -56,7 +60,6 @@ TEST(ReadScene, FillsEmptyListsWithTheirDefaults)
   EXPECT_EQ(scene.bodies[0].mesh.size, (Numbers{1, 1, 1}));
   EXPECT_EQ(scene.bodies[0].mesh.grading, (Numbers{1, 1, 1}));
   EXPECT_EQ(scene.bodies[1].mesh.corner, (Numbers{0, 0, 0}));
-  EXPECT_EQ(scene.bodies[0].loads.body_force, (Numbers{0, 0, 0}));
 }
 
 TEST(ReadScene, NamedShapesHaveTheirOwnSubsections)
@@ -118,7 +121,15 @@ TEST(PrintScene, ReadsBackToTheSameScene)
                "Body punch/Poisson's ratio=-3.3333333333333333e-5",
                "Body punch/Refine where=0.3-x^2-y^2",
                "Body punch/Local refinements=2",
-               "Body foundation/Body force=0,0,-7.85e-5",
+               "Body foundation/Body force=0,0,-7.85e-5*max(x, y)",
+               "Body foundation/Density=7.85e-9",
+               "Gravity=0 0 -9810",
+               "Body punch/Moment=top: 0 0.1 0",
+               "Body punch/Displacement=top: z = -min(x, 0.1), top: x = 0",
+               "Load cases=closing, opening",
+               "Load case opening/Weight=0.3333333333333333",
+               "Load case opening/Force=punch.top: 0 0 -1e3, punch.left: 1 2 3",
+               "Optimization/Combine=worst",
                "Decomposition/Subdomains=7",
                "Solver/Relative tolerance=1e-9",
                "Solver/Report linear reference=true",
@@ -134,7 +145,15 @@ TEST(PrintScene, ReadsBackToTheSameScene)
   EXPECT_EQ(again.bodies[0].mesh.curved_faces,
             scene.bodies[0].mesh.curved_faces);
   EXPECT_EQ(again.bodies[0].mesh.refine_where, "0.3-x^2-y^2");
-  EXPECT_EQ(again.bodies[1].loads.body_force, scene.bodies[1].loads.body_force);
+  EXPECT_EQ(again.bodies[1].body_force,
+            (std::vector<std::string>{"0", "0", "-7.85e-5*max(x, y)"}));
+  EXPECT_EQ(again.gravity, (Numbers{0, 0, -9810}));
+  EXPECT_EQ(again.bodies[0].loads.displacements.size(), 2U);
+  EXPECT_EQ(again.bodies[0].loads.displacements,
+            scene.bodies[0].loads.displacements);
+  ASSERT_EQ(again.load_cases.size(), 2U);
+  EXPECT_EQ(again.load_cases[1].weight, 0.3333333333333333);
+  EXPECT_EQ(again.load_cases[1].loads.force, scene.load_cases[1].loads.force);
   ASSERT_EQ(again.contact.pairs.size(), scene.contact.pairs.size());
   EXPECT_EQ(again.contact.pairs[0].master, scene.contact.pairs[0].master);
   EXPECT_EQ(again.shapes[0].initial, scene.shapes[0].initial);
@@ -186,6 +205,7 @@ TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
   std::istringstream lines(printed(read_with({"Bodies=punch"},
                                              "set Dimension = 2\n"
                                              "set Obstacles = floor\n"
+                                             "set Load cases = heavy\n"
                                              "subsection Body punch\n"
                                              "set Box cells = 1, 1\n"
                                              "end\n"

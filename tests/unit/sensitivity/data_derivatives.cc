@@ -20,6 +20,11 @@ namespace
     scene.bodies[1].body_force[dim - 1]                    = -0.7;
     scene.bodies[1].loads[face_index(0, 1)].pressure       = 0.5;
     scene.bodies[1].loads[face_index(dim - 1, 1)].pressure = 0.3;
+    auto &side             = scene.bodies[1].loads[face_index(0, 0)];
+    side.traction[dim - 1] = 0.2;
+    side.factor = [](const dealii::Point<dim> &x) { return 1. + x[dim - 1]; };
+    side.resultant.force[0]  = 0.3;
+    side.resultant.moment[2] = 0.1;
     return scene;
   }
 
@@ -34,6 +39,7 @@ namespace
     const auto               &solver = problem.solver;
     const auto               &layout = solver.gluing().layout();
     const auto                rows   = solver.rows(positions);
+    const auto                loads  = solver.loads(positions, 0);
     const auto                lambda = layout.to_local(state.dual.lambda);
     qp::MultiVector           Bu(layout.n_local());
     std::vector<feti::BEntry> B;
@@ -46,9 +52,7 @@ namespace
         result.primal.emplace_back(state.u[s].n_rows());
         auto &r = result.primal.back();
         K.multiply_add(-1., state.u[s], r);
-        const auto f = assembler.load(positions);
-        for (unsigned int i = 0; i < f.size(); ++i)
-          r(i) += f[i];
+        r.add(1., loads[s]);
         solver.gluing().fill_B(s, rows, B);
         for (const auto &entry : B)
           {

@@ -25,7 +25,15 @@ namespace snug
     template <int dim>
     struct TestBody
     {
-      using Load = typename state::BodyModel<dim>::Load;
+      struct Load
+      {
+        double                     pressure = 0.;
+        dealii::Tensor<1, dim>     traction;
+        elasticity::Resultant<dim> resultant;
+        /// pressure and traction vary by this factor of the reference position
+        std::function<double(const dealii::Point<dim> &)> factor = {};
+      };
+      using Loads = std::map<unsigned int, Load>;
 
       dealii::Point<dim>        corner, size;
       std::vector<unsigned int> cells;
@@ -34,7 +42,7 @@ namespace snug
       elasticity::Material      material{1000., 0.3};
       elasticity::Formulation   formulation = elasticity::Formulation::standard;
       dealii::Tensor<1, dim>    body_force;
-      std::map<unsigned int, Load> loads;
+      Loads                     loads;
       /// boundary -> fixed components, dim: the normal
       std::map<unsigned int, std::vector<unsigned int>> supports;
       /// prescribed displacements; the scene fills in the body
@@ -60,6 +68,8 @@ namespace snug
       feti::FetiParameters       feti;
       unsigned int               subdomains = 6;
       bool punch_slides = false; ///< nothing holds it horizontally
+      /// [case][body]; empty: one case with the loads of the bodies
+      std::vector<std::vector<typename TestBody<dim>::Loads>> cases;
     };
 
     /// Height of the design at box fractions (s, t) of the top.
@@ -223,6 +233,33 @@ namespace snug
         return result;
       }
 
+      static state::BodyLoads<dim>
+      make_loads(const TestBody<dim>                 &body,
+                 const typename TestBody<dim>::Loads &loads)
+      {
+        using Point = dealii::Point<dim>;
+        state::BodyLoads<dim> result;
+        const auto            b = body.body_force;
+        if (b.norm() > 0.)
+          result.body_force = [b](const Point &) { return b; };
+        for (const auto &entry : loads)
+          {
+            const auto load   = entry.second;
+            auto      &of     = result.boundaries[entry.first];
+            const auto factor = [load](const Point &x) {
+              return load.factor ? load.factor(x) : 1.;
+            };
+            of.pressure = [=](const Point &x) {
+              return factor(x) * load.pressure;
+            };
+            of.traction = [=](const Point &x) {
+              return factor(x) * load.traction;
+            };
+            of.resultant = load.resultant;
+          }
+        return result;
+      }
+
       static state::Model<dim>
       make_model(const TestScene<dim> &scene)
       {
@@ -232,8 +269,7 @@ namespace snug
         for (unsigned int b = 0; b < scene.bodies.size(); ++b)
           {
             const auto &body = scene.bodies[b];
-            model.bodies.push_back(
-              {{body.material}, body.formulation, body.body_force, body.loads});
+            model.bodies.push_back({{body.material}, body.formulation});
             for (const auto &support : body.supports)
               for (const unsigned int component : support.second)
                 model.supports.push_back(
@@ -243,6 +279,17 @@ namespace snug
                 support.body = b;
                 model.supports.push_back(support);
               }
+          }
+        const unsigned int n_cases =
+          std::max<std::size_t>(1, scene.cases.size());
+        for (unsigned int c = 0; c < n_cases; ++c)
+          {
+            model.load_cases.push_back({"case " + std::to_string(c), {}});
+            for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+              model.load_cases.back().bodies.push_back(
+                make_loads(scene.bodies[b],
+                           scene.cases.empty() ? scene.bodies[b].loads
+                                               : scene.cases[c][b]));
           }
         model.pairs = scene.pairs;
         if (scene.pairs.empty() && scene.bodies.size() > 1)

@@ -120,7 +120,7 @@ namespace
       body.refined_below = 0.45;
     scene.bodies[0].body_force[1]                       = -3.;
     scene.bodies[1].body_force[0]                       = 2.;
-    scene.bodies[1].loads[face_index(0, 1)]             = {1.5, {}};
+    scene.bodies[1].loads[face_index(0, 1)].pressure    = 1.5;
     scene.bodies[1].loads[face_index(0, 0)].traction[0] = 0.3;
     scene.bodies[1].material                            = {300., 0.2};
     expect_same(scene);
@@ -156,10 +156,10 @@ namespace
     auto scene = two_blocks<3>(3, 4, 2.);
     narrow_punch(scene);
     set_design(scene, 3, 0.02);
-    scene.bodies[1].refined_below           = 0.45;
-    scene.bodies[1].loads[face_index(0, 1)] = {1.5, {}};
-    scene.bodies[0].body_force[2]           = -3.;
-    scene.subdomains                        = 12;
+    scene.bodies[1].refined_below                    = 0.45;
+    scene.bodies[1].loads[face_index(0, 1)].pressure = 1.5;
+    scene.bodies[0].body_force[2]                    = -3.;
+    scene.subdomains                                 = 12;
     expect_same(scene);
   }
 

@@ -1,0 +1,83 @@
+#ifndef snug_state_model_h
+#define snug_state_model_h
+
+#include <snug/contact/pair.h>
+#include <snug/elasticity/element.h>
+#include <snug/elasticity/linear_traction.h>
+#include <snug/feti/feti_parameters.h>
+#include <snug/mesh/body_mesh.h>
+#include <snug/qp/solver.h>
+#include <snug/state/support.h>
+
+#include <functional>
+#include <map>
+
+namespace snug
+{
+  namespace state
+  {
+    /// Materials of one body.
+    template <int dim>
+    struct BodyModel
+    {
+      std::vector<elasticity::Material> materials; ///< per region
+      elasticity::Formulation formulation = elasticity::Formulation::standard;
+
+      const elasticity::Material &
+      material(const typename mesh::BodyMesh<dim>::Cell &) const
+      {
+        return materials.front();
+      }
+    };
+
+    /// Dead loads on one boundary. Pressure and traction [force / length^2]
+    /// are functions of the reference position; empty: none.
+    template <int dim>
+    struct BoundaryLoad
+    {
+      std::function<double(const dealii::Point<dim> &)> pressure;
+      std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+                                 traction;
+      elasticity::Resultant<dim> resultant;
+
+      bool
+      has_resultant() const
+      {
+        return resultant.force.norm() > 0. || resultant.moment.norm() > 0.;
+      }
+    };
+
+    /// Dead loads of one body in one load case.
+    template <int dim>
+    struct BodyLoads
+    {
+      /// [force / length^3], of the reference position; empty: none
+      std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+                                                body_force;
+      dealii::Tensor<1, dim>                    gravity; ///< [length / time^2]
+      std::map<unsigned int, BoundaryLoad<dim>> boundaries; ///< by index
+    };
+
+    template <int dim>
+    struct LoadCase
+    {
+      std::string                 name; ///< may be empty if it is the only one
+      std::vector<BodyLoads<dim>> bodies; ///< as many as bodies
+    };
+
+    /// What a state problem is made of; indices, not names.
+    template <int dim>
+    struct Model
+    {
+      std::vector<std::string>    body_names;
+      std::vector<BodyModel<dim>> bodies;
+      std::vector<LoadCase<dim>>  load_cases; ///< at least one
+      std::vector<Support<dim>>   supports;
+      std::vector<contact::Pair>  pairs;
+      feti::FetiParameters        feti;
+      qp::SolverParameters        solver;
+    };
+  } // namespace state
+} // namespace snug
+
+#endif

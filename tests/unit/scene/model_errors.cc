@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include "error_checks.h"
+
+using namespace snug;
+
+TEST(Errors, LoadCases)
+{
+  const std::vector<std::string> two = {"Load cases=closing, opening"};
+  const std::string              own = "Load case closing/";
+  EXPECT_EQ(error_of(two), "");
+  expect_error({"Load cases", "a, a", "'a' must not occur twice"});
+  expect_error({"Load cases", "a/b", "letters, digits"});
+  EXPECT_TRUE(has(error_of({"Load case closing/Weight=1"}),
+                  "unknown subsection 'Load case closing'"));
+  expect_error({own + "Weight", "-1", "must not be negative"}, two);
+  expect_error({own + "Gravity", "1, 2", "must have 3 numbers"}, two);
+  expect_error({own + "Pressure", "top: 1", "'body.boundary'"}, two);
+  expect_error({own + "Pressure", "punch.topp: 1", "did you mean 'top'?"}, two);
+  expect_error({own + "Traction", "punch.top: 1 2", "3 components"}, two);
+  // what a body holds already
+  expect_error({own + "Displacement", "punch.left: x = 1", "held twice"}, two);
+  expect_error({"Optimization/Constraints",
+                "strain energy: 1",
+                "its load case: 'closing.strain energy'"},
+               two);
+  expect_error({"Optimization/Constraints",
+                "closing.beauty: 1",
+                "'beauty' is no response"},
+               two);
+  expect_error({"Optimization/Combine", "best", "sum, worst"}, two);
+  EXPECT_EQ(error_of({"Load cases=closing, opening",
+                      "Optimization/Constraints=closing.strain energy: "
+                      "initial, volume: initial"}),
+            "");
+}
+
+TEST(Errors, ModelsFitTheDimension)
+{
+  expect_error({"Model", "plane strain", "must be solid for Dimension = 3"});
+  expect_error({"Model", "2D", "one of auto, solid, plane strain"});
+  expect_error({"Thickness", "0", "must be positive"});
+  expect_error({"Thickness", "nan", "must be a number"});
+  expect_error({"Thickness", "2", "left out for Model = solid"});
+  expect_error({"Body punch/Formulation", "b-bar", "standard, B-bar"});
+}
+
+TEST(Errors, SectionsFitTheirModel)
+{
+  const std::string text    = R"(
+set Dimension = 2
+set Bodies    = disc
+subsection Body disc
+  set Box cells   = 2, 2
+  set Box corner  = -1, 0
+  set Formulation = B-bar
+end
+)";
+  const auto        message = [&text](const std::string &model) {
+    return error_of({"Model=" + model}, text);
+  };
+  EXPECT_TRUE(has(message("solid"), "Dimension = 2")) << message("solid");
+  EXPECT_TRUE(has(message("plane stress"), "'Body disc/Formulation' = 'B-bar'"))
+    << message("plane stress");
+  EXPECT_TRUE(has(message("axisymmetric"), "'Body disc/Box corner' = '-1, 0'"))
+    << message("axisymmetric");
+  EXPECT_EQ(message("plane strain"), "");
+  EXPECT_TRUE(has(error_of({"Model=axisymmetric",
+                            "Body disc/Box corner=0, 0",
+                            "Thickness=0.5"},
+                           text),
+                  "left out for Model = axisymmetric"));
+}
