@@ -77,12 +77,9 @@ namespace snug
         std::vector<unsigned int> faces;
         for (unsigned int f = 0; f < surface.faces().size(); ++f)
           faces.push_back(f);
-        const auto areas =
-          contact::tributary_areas<dim>(surface,
-                                        faces,
-                                        contact::FaceShape<dim>(mesh.degree()),
-                                        surface.gather(
-                                          mesh.reference_positions()));
+        const contact::FaceShape<dim> shape(mesh.degree());
+        const auto                    areas = contact::tributary_areas<dim>(
+          {surface, faces, shape}, surface.gather(mesh.reference_positions()));
         double sum = 0.;
         for (unsigned int node = 0; node < areas.size(); ++node)
           if (surface.masters(node).empty())

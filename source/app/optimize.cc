@@ -31,29 +31,32 @@ namespace snug
     void
     Optimize<dim>::choose_constraints()
     {
+      for (const auto &[name, limit] : workshop.scene.optimization.constraints)
+        constraints.push_back(make_constraint(name, limit));
+    }
+
+    template <int dim>
+    typename Optimize<dim>::Constraint
+    Optimize<dim>::make_constraint(const std::string &name,
+                                   const std::string &limit)
+    {
+      const auto of    = scene::constraint_name(workshop.scene, name);
+      const auto bound = optimization::read_limit(limit);
+      Constraint constraint{name,
+                            workshop.make_response(of.response),
+                            of.load_case.value_or(0),
+                            bound.value,
+                            bound.side};
+      if (!bound.of_initial)
+        return constraint;
       state::ContactState<dim> geometry;
-      geometry.positions = workshop.positions(workshop.basis->start());
-      for (const auto &entry : workshop.scene.optimization.constraints)
-        {
-          const auto name = scene::constraint_name(workshop.scene, entry.first);
-          Constraint constraint;
-          constraint.name      = entry.first;
-          constraint.load_case = name.load_case.value_or(0);
-          constraint.response =
-            choose(response::response_table<dim>(), name.response).make();
-          const bool initial  = entry.second == "initial";
-          const bool of_state = constraint.response->needs_solution();
-          if (initial && of_state && first.empty())
-            first = workshop.solve(workshop.basis->start());
-          constraint.target =
-            !initial
-              ? std::stod(entry.second)
-              : constraint.response->value(*workshop.solver,
-                                           of_state
-                                             ? first[constraint.load_case]
-                                             : geometry);
-          constraints.push_back(std::move(constraint));
-        }
+      geometry.positions  = workshop.positions(workshop.basis->start());
+      const bool of_state = constraint.response->needs_solution();
+      if (of_state && first.empty())
+        first = workshop.solve(workshop.basis->start());
+      constraint.target *= constraint.response->value(
+        *workshop.solver, of_state ? first[constraint.load_case] : geometry);
+      return constraint;
     }
 
     template <int dim>
@@ -81,8 +84,9 @@ namespace snug
         {
           const auto &state = last[constraint.load_case];
           evaluation.constraints.push_back(
-            constraint.response->value(*workshop.solver, state) -
-            constraint.target);
+            constraint.sign() *
+            (constraint.response->value(*workshop.solver, state) -
+             constraint.target));
           responses.push_back(
             {constraint.response.get(), constraint.load_case});
         }
@@ -102,7 +106,12 @@ namespace snug
         }
       note_weak_contacts();
       for (unsigned int i = 0; i < responses.size(); ++i)
-        evaluation.jacobian.push_back(last_gradients.of_response[1 + i].values);
+        {
+          evaluation.jacobian.push_back(
+            last_gradients.of_response[1 + i].values);
+          for (double &entry : evaluation.jacobian.back())
+            entry *= constraints[i].sign();
+        }
       double active = 0., f_mults = last_gradients.f_mults;
       for (const auto &state : last)
         {
@@ -243,8 +252,14 @@ namespace snug
         return evaluation;
       };
       for (const Constraint &constraint : constraints)
-        problem.constraint_scales.push_back(
-          constraint.target == 0. ? 1. : std::abs(constraint.target));
+        {
+          problem.constraint_scales.push_back(
+            constraint.target == 0. ? 1. : std::abs(constraint.target));
+          problem.relations.push_back(constraint.side ==
+                                          optimization::Limit::Side::equal
+                                        ? optimization::Relation::equal
+                                        : optimization::Relation::at_most);
+        }
       optimization::Hooks hooks;
       hooks.on_iteration = [this](const optimization::Iteration &iteration) {
         report(iteration);
@@ -262,18 +277,20 @@ namespace snug
       return result;
     }
 
-    /// Draw the first design with its own pairing, once. After a replay it has
-    /// not been solved in this run.
+    /// Draw and summarize the first design with its own pairing, once. After a
+    /// replay it has not been solved in this run.
     template <int dim>
     void
     Optimize<dim>::draw_first()
     {
-      if (first_drawn)
+      if (!first_summaries.empty())
         return;
       if (first.empty())
         first = workshop.solve(workshop.basis->start());
       workshop.draw(0., first, first_shape_gradient);
-      first_drawn = true;
+      // a pairing anew ends what else there is to know of them
+      for (const auto &state : first)
+        first_summaries.push_back(workshop.summarize(state));
     }
 
     /// Pair contact at @p design. @return false if slave nodes are where they
@@ -342,7 +359,7 @@ namespace snug
             state.linear_f_mults = workshop.solver->linear_f_mults(state);
           workshop.warn(state);
         }
-      workshop.summarize_states(first, last, summary);
+      workshop.summarize_states(first_summaries, last, summary);
       io::Summary::Gradient gradient;
       if (!last_gradients.of_response.empty())
         {

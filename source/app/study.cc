@@ -59,6 +59,8 @@ namespace snug
                 << "load case "
                 << workshop.scene.load_cases[state.load_case].name << ": ";
             print_state(workshop.context.out(), state);
+            for (const auto &[name, value] : workshop.response_values(state))
+              workshop.context.out() << name << ' ' << value << std::endl;
             workshop.warn(state);
           }
         return states;

@@ -69,11 +69,8 @@ namespace snug
                                                       names,
                                                       scene.shapes);
         });
-        objective =
-          choose(response::response_table<dim>(), scene.optimization.objective)
-            .make();
       }
-      solver = made_of(scene, [&]() {
+      solver    = made_of(scene, [&]() {
         return std::make_unique<state::StateSolver<dim>>(
           *mesh,
           tearing,
@@ -81,6 +78,9 @@ namespace snug
           positions(basis->start()),
           context);
       });
+      objective = make_response(scene.optimization.objective);
+      for (const auto &response : scene.responses)
+        responses.push_back(make_response(response.name));
       if (n_load_cases() == 1)
         add_pictures(scene.output_directory);
       else
@@ -118,6 +118,36 @@ namespace snug
     Workshop<dim>::positions(const std::vector<double> &design) const
     {
       return sensitivity::positions(*mesh, *basis, design);
+    }
+
+    template <int dim>
+    std::unique_ptr<response::Response<dim>>
+    Workshop<dim>::make_response(const std::string &name) const
+    {
+      auto response =
+        response::make_response<dim>(*scene::response_called(scene, name));
+      made_of(scene, [&]() { response->check(*solver); });
+      return response;
+    }
+
+    template <int dim>
+    std::vector<std::pair<std::string, double>>
+    Workshop<dim>::response_values(const state::ContactState<dim> &state) const
+    {
+      std::vector<std::pair<std::string, double>> result;
+      for (unsigned int i = 0; i < responses.size(); ++i)
+        result.emplace_back(scene.responses[i].name,
+                            responses[i]->value(*solver, state));
+      return result;
+    }
+
+    template <int dim>
+    io::Summary::State
+    Workshop<dim>::summarize(const state::ContactState<dim> &state) const
+    {
+      auto result      = io::summarize(state);
+      result.responses = response_values(state);
+      return result;
     }
 
     template <int dim>
@@ -211,13 +241,13 @@ namespace snug
     template <int dim>
     void
     Workshop<dim>::summarize_states(
-      const std::vector<state::ContactState<dim>> &initial,
+      const std::vector<io::Summary::State>       &initial,
       const std::vector<state::ContactState<dim>> &states,
       io::Summary                                 &summary) const
     {
-      summary.state = io::summarize(states.front());
+      summary.state = summarize(states.front());
       if (!initial.empty())
-        summary.initial_state = io::summarize(initial.front());
+        summary.initial_state = initial.front();
       if (states.size() == 1)
         return;
       for (unsigned int c = 0; c < states.size(); ++c)
@@ -225,9 +255,9 @@ namespace snug
           io::Summary::LoadCase load_case;
           load_case.name   = scene.load_cases[c].name;
           load_case.weight = scene.load_cases[c].weight;
-          load_case.state  = io::summarize(states[c]);
+          load_case.state  = summarize(states[c]);
           if (!initial.empty())
-            load_case.initial_state = io::summarize(initial[c]);
+            load_case.initial_state = initial[c];
           summary.load_cases.push_back(load_case);
         }
     }

@@ -282,6 +282,24 @@ namespace snug
     }
 
     template <int dim>
+    typename Contact<dim>::Field
+    Contact<dim>::area_gradient(const Field               &positions,
+                                const std::vector<double> &factors) const
+    {
+      AssertDimension(positions.size(), surface.n_nodes());
+      AssertDimension(factors.size(), n_rows());
+      Field gradient(surface.n_nodes());
+      auto  first = factors.begin();
+      for (const Group &group : groups)
+        {
+          const auto last = first + group.rows->slaves().size();
+          group.rows->add_area_gradient(positions, {first, last}, gradient);
+          first = last;
+        }
+      return gradient;
+    }
+
+    template <int dim>
     std::vector<double>
     Contact<dim>::slips(const Field                 &positions,
                         const std::vector<Row<dim>> &rows,

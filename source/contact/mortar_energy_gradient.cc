@@ -1,8 +1,6 @@
 #include <snug/contact/integral_gradient.h>
 #include <snug/contact/mortar_rows.h>
 
-#include <algorithm>
-
 namespace snug
 {
   namespace contact
@@ -55,6 +53,19 @@ namespace snug
         add_face_gradient(face, energy, gradient);
     }
 
+    /// The energy of rows without directions: only areas count.
+    template <int dim>
+    void
+    MortarRows<dim>::add_area_gradient(const Field               &positions,
+                                       const std::vector<double> &factors,
+                                       Field &gradient) const
+    {
+      AssertDimension(factors.size(), multipliers.nodes.size());
+      const Energy energy{positions, positions, Field(factors.size()), factors};
+      for (const SlaveFace &face : faces)
+        add_face_gradient(face, energy, gradient);
+    }
+
     template <int dim>
     void
     MortarRows<dim>::add_face_gradient(const SlaveFace &face,
@@ -72,11 +83,11 @@ namespace snug
             direction[j] += share.second * energy.directions[share.first];
             area_slope[j] += share.second * energy.area_slopes[share.first];
           }
-      if (std::all_of(direction.begin(),
-                      direction.end(),
-                      [](const dealii::Tensor<1, dim> &q) {
-                        return q.norm_square() == 0.;
-                      }))
+      bool counts = false;
+      for (unsigned int j = 0; j < n; ++j)
+        counts =
+          counts || direction[j].norm_square() > 0. || area_slope[j] != 0.;
+      if (!counts)
         return;
 
       // positions that stand in x + u, and the gradient of the integrals; as
@@ -125,9 +136,11 @@ namespace snug
         add_nodes(face.masters[f], to_nodes.masters[f]);
     }
 
-#define SNUG_INSTANTIATE(dim)                         \
-  template void MortarRows<dim>::add_energy_gradient( \
-    const Field &, const Field &, const std::vector<double> &, Field &) const;
+#define SNUG_INSTANTIATE(dim)                                                  \
+  template void MortarRows<dim>::add_energy_gradient(                          \
+    const Field &, const Field &, const std::vector<double> &, Field &) const; \
+  template void MortarRows<dim>::add_area_gradient(                            \
+    const Field &, const std::vector<double> &, Field &) const;
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

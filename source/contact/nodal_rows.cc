@@ -195,11 +195,27 @@ namespace snug
     NodalRows<dim>::areas(const Field &positions) const
     {
       const auto share =
-        tributary_areas(surface, sides.slave, shape, positions);
+        tributary_areas<dim>({surface, sides.slave, shape}, positions);
       std::vector<double> result;
       for (const unsigned int slave : slave_nodes)
         result.push_back(share[slave]);
       return result;
+    }
+
+    template <int dim>
+    void
+    NodalRows<dim>::add_area_gradient(const Field               &positions,
+                                      const std::vector<double> &factors,
+                                      Field                     &gradient) const
+    {
+      AssertDimension(factors.size(), slave_nodes.size());
+      std::vector<double> of_nodes(surface.n_nodes(), 0.);
+      for (unsigned int i = 0; i < slave_nodes.size(); ++i)
+        of_nodes[slave_nodes[i]] = factors[i];
+      add_tributary_gradient<dim>({surface, sides.slave, shape},
+                                  positions,
+                                  of_nodes,
+                                  gradient);
     }
 
     template class NodalRows<2>;

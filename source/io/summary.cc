@@ -52,6 +52,9 @@ namespace snug
         Json pairs = Json::array();
         for (const auto &pair : state.pairs)
           pairs.push_back(summary_part(pair));
+        Json responses = Json::object();
+        for (const auto &[name, value] : state.responses)
+          responses[name] = value;
         const auto &certificate = state.certificate;
         const Json  linear      = state.linear_f_mults == 0
                                     ? Json(nullptr)
@@ -70,6 +73,7 @@ namespace snug
                 {"linear_f_mults", linear},
                 {"method", state.method},
                 {"pairs", pairs},
+                {"responses", responses},
                 {"certificate",
                  {{"equilibrium", certificate.equilibrium},
                   {"continuity", certificate.continuity},

@@ -1,19 +1,47 @@
 #include <snug/optimization/minimize.h>
-#include <snug/optimization/slsqp.h>
+#include <snug/optimization/nlopt_search.h>
 
 namespace snug
 {
   namespace optimization
   {
+    namespace
+    {
+      std::function<Algorithm>
+      of_nlopt(const NloptAlgorithm algorithm)
+      {
+        return [algorithm](const DesignProblem          &problem,
+                           const OptimizationParameters &parameters,
+                           const Hooks                  &hooks) {
+          return nlopt_search(algorithm, problem, parameters, hooks);
+        };
+      }
+    } // namespace
+
     const ChoiceTable<Algorithm> &
     algorithm_table()
     {
       static const ChoiceTable<Algorithm> table = {
         {"SLSQP",
-         "sequential quadratic programming (Kraft) of the NLopt library, "
-         "with bounds and equality constraints",
-         slsqp}};
+         "sequential quadratic programming (Kraft) of the NLopt library, for "
+         "all constraints",
+         of_nlopt(NloptAlgorithm::SLSQP)},
+        {"MMA",
+         "method of moving asymptotes (Svanberg) of NLopt, for inequalities",
+         of_nlopt(NloptAlgorithm::MMA)},
+        {"CCSAQ",
+         "its relative with separable quadratic models, for inequalities",
+         of_nlopt(NloptAlgorithm::CCSAQ)},
+        {"AUGLAG",
+         "augmented Lagrangian of NLopt around its L-BFGS, for all constraints",
+         of_nlopt(NloptAlgorithm::AUGLAG)}};
       return table;
+    }
+
+    bool
+    takes_equalities(const std::string &algorithm)
+    {
+      return algorithm != "MMA" && algorithm != "CCSAQ";
     }
 
     OptimizationResult

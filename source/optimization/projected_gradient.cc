@@ -42,18 +42,22 @@ namespace snug
       /**
        * An orthonormal basis q_k of the restricted rows and, with it, the
        * combinations of the full rows: t_k = sum_j T_kj A_j agrees with q_k on
-       * the used entries. Dependent rows are left out; Gram-Schmidt twice.
+       * the used entries; T_kj follow the entries of t_k. Dependent rows are
+       * left out; Gram-Schmidt twice.
        */
       void
-      orthonormalize(const Rows              &A,
-                     const std::vector<bool> &used,
-                     Rows                    &q,
-                     Rows                    &t)
+      orthonormalize(const std::vector<Force> &forces,
+                     const std::vector<bool>  &used,
+                     Rows                     &q,
+                     Rows                     &t)
       {
-        for (const auto &row : A)
+        for (unsigned int j = 0; j < forces.size(); ++j)
           {
-            auto         v = restricted(row, used), full = row;
-            const double size = std::sqrt(dot(v, v));
+            auto v    = restricted(forces[j].gradient, used);
+            auto full = forces[j].gradient;
+            full.resize(v.size() + forces.size(), 0.);
+            full[v.size() + j] = 1.;
+            const double size  = std::sqrt(dot(v, v));
             for (unsigned int pass = 0; pass < 2; ++pass)
               for (unsigned int k = 0; k < q.size(); ++k)
                 {
@@ -64,29 +68,35 @@ namespace snug
             const double rest = std::sqrt(dot(v, v));
             if (rest <= 1e-12 * size)
               continue;
-            for (unsigned int i = 0; i < v.size(); ++i)
-              {
-                v[i] /= rest;
-                full[i] /= rest;
-              }
+            for (double &entry : v)
+              entry /= rest;
+            for (double &entry : full)
+              entry /= rest;
             q.push_back(v);
             t.push_back(full);
           }
       }
 
-      /// g + A' mu with the mu that makes its used part smallest.
-      std::vector<double>
+      /// r = g + A' mu with the mu that makes its used part smallest.
+      struct Reduced
+      {
+        std::vector<double> r, mu;
+      };
+
+      Reduced
       reduced_gradient(const std::vector<double> &g,
-                       const Rows                &A,
+                       const std::vector<Force>  &forces,
                        const std::vector<bool>   &used)
       {
         Rows q, t;
-        orthonormalize(A, used, q, t);
-        auto r = g;
+        orthonormalize(forces, used, q, t);
+        auto all = g;
+        all.resize(g.size() + forces.size(), 0.);
         for (unsigned int pass = 0; pass < 2; ++pass)
           for (unsigned int k = 0; k < q.size(); ++k)
-            add(r, -dot(r, q[k]), t[k]);
-        return r;
+            add(all, -dot(q[k], all), t[k]);
+        const auto end = all.begin() + g.size();
+        return {{all.begin(), end}, {end, all.end()}};
       }
 
       /// Whether moving against @p r leaves the objective's descent possible.
@@ -106,32 +116,59 @@ namespace snug
           }
         return false;
       }
+      /// The same with all multipliers free; returns them.
+      std::vector<double>
+      minimize_pieces(const std::vector<double> &g,
+                      const std::vector<Force>  &forces,
+                      const std::vector<Place>  &places,
+                      double                    &smallest)
+      {
+        std::vector<bool> used(g.size());
+        for (unsigned int i = 0; i < g.size(); ++i)
+          used[i] = places[i] == Place::inside;
+        smallest = std::numeric_limits<double>::max();
+        std::vector<double>    mu;
+        constexpr unsigned int max_pieces = 50;
+        for (unsigned int piece = 0; piece < max_pieces; ++piece)
+          {
+            const auto        reduced = reduced_gradient(g, forces, used);
+            std::vector<bool> next(g.size());
+            for (unsigned int i = 0; i < g.size(); ++i)
+              next[i] = counts(reduced.r[i], places[i]);
+            const auto   p    = restricted(reduced.r, next);
+            const double norm = std::sqrt(dot(p, p));
+            if (norm < smallest)
+              {
+                smallest = norm;
+                mu       = reduced.mu;
+              }
+            if (next == used)
+              break;
+            used = next;
+          }
+        return mu;
+      }
     } // namespace
 
     double
-    projected_gradient_norm(const std::vector<double>              &g,
-                            const std::vector<std::vector<double>> &A,
-                            const std::vector<Place>               &places)
+    projected_gradient_norm(const std::vector<double> &g,
+                            std::vector<Force>         forces,
+                            const std::vector<Place>  &places)
     {
       AssertDimension(g.size(), places.size());
-      std::vector<bool> used(g.size());
-      for (unsigned int i = 0; i < g.size(); ++i)
-        used[i] = places[i] == Place::inside;
-      double                 smallest   = std::numeric_limits<double>::max();
-      constexpr unsigned int max_pieces = 50;
-      for (unsigned int piece = 0; piece < max_pieces; ++piece)
+      for (;;)
         {
-          const auto        r = reduced_gradient(g, A, used);
-          std::vector<bool> next(g.size());
-          for (unsigned int i = 0; i < g.size(); ++i)
-            next[i] = counts(r[i], places[i]);
-          const auto p = restricted(r, next);
-          smallest     = std::min(smallest, std::sqrt(dot(p, p)));
-          if (next == used)
-            break;
-          used = next;
+          double       smallest = 0.;
+          const auto   mu       = minimize_pieces(g, forces, places, smallest);
+          unsigned int worst    = forces.size();
+          for (unsigned int j = 0; j < forces.size(); ++j)
+            if (forces[j].pushes && mu[j] < 0. &&
+                (worst == forces.size() || mu[j] < mu[worst]))
+              worst = j;
+          if (worst == forces.size())
+            return smallest;
+          forces.erase(forces.begin() + worst);
         }
-      return smallest;
     }
   } // namespace optimization
 } // namespace snug

@@ -20,6 +20,9 @@ namespace snug
       /// A variable closer to a bound, relative to its width, is at it.
       constexpr double at_bound = 1e-8;
 
+      /// An inequality with less left, relative to its scale, is active.
+      constexpr double at_limit = 1e-6;
+
       /// Designs closer than this, relative to the widths, are one design: in
       /// vain, SLSQP likes to ask for many that differ in their last bits.
       constexpr double resolution = 1e-13;
@@ -90,7 +93,9 @@ namespace snug
     } // namespace
 
     ScaledProblem::ScaledProblem(const DesignProblem &problem)
-      : problem(problem), scales(problem.constraint_scales)
+      : problem(problem)
+      , scales(problem.constraint_scales)
+      , constraint_relations(problem.relations)
     {
       check_bounds(problem);
       for (unsigned int i = 0; i < problem.start.size(); ++i)
@@ -154,8 +159,15 @@ namespace snug
       ++evaluations;
       point->evaluation = problem.evaluate(point->x);
       check_values(point->evaluation, y.size());
-      for (const double c : constraints(point->evaluation))
-        point->violation = std::max(point->violation, std::abs(c));
+      const auto c = constraints(point->evaluation);
+      if (constraint_relations.empty()) // the first design
+        constraint_relations.resize(c.size(), Relation::equal);
+      AssertDimension(constraint_relations.size(), c.size());
+      for (unsigned int j = 0; j < c.size(); ++j)
+        point->violation =
+          std::max(point->violation,
+                   constraint_relations[j] == Relation::equal ? std::abs(c[j])
+                                                              : c[j]);
       recent.push_front(point);
       if (recent.size() > n_remembered)
         recent.pop_back();
@@ -212,8 +224,21 @@ namespace snug
       const double size = std::max(norm(g), start_gradient_norm);
       if (size == 0.)
         return 0.;
-      return projected_gradient_norm(g, jacobian(point.evaluation), places) /
-             size;
+      const auto         c = constraints(point.evaluation);
+      const auto         A = jacobian(point.evaluation);
+      std::vector<Force> forces;
+      for (unsigned int j = 0; j < A.size(); ++j)
+        if (constraint_relations[j] == Relation::equal)
+          forces.push_back({A[j], false});
+        else if (c[j] >= -at_limit)
+          forces.push_back({A[j], true});
+      return projected_gradient_norm(g, forces, places) / size;
+    }
+
+    const std::vector<Relation> &
+    ScaledProblem::relations() const
+    {
+      return constraint_relations;
     }
 
     const std::vector<double> &

@@ -21,27 +21,7 @@ namespace snug
       }
 
       /// Add what add(s, i, values) adds to the values at the nodes of every
-      /// cell i of every subdomain s of this rank.
-      template <int dim, typename Add>
-      void
-      add_cells(const state::StateSolver<dim>       &solver,
-                const Add                           &add,
-                typename mesh::BodyMesh<dim>::Field &gradient)
-      {
-        for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
-          {
-            const auto &cells = solver.assemblers()[s]->cells();
-            for (unsigned int i = 0; i < cells.size(); ++i)
-              {
-                const auto &nodes = solver.mesh().cells()[cells[i]].nodes;
-                Nodes<dim>  values(nodes.size());
-                add(s, i, values);
-                add_to_nodes<dim>(nodes, values, gradient);
-              }
-          }
-      }
-
-      /// The same for loaded faces.
+      /// loaded face i of every subdomain s of this rank.
       template <int dim, typename Add>
       void
       add_loaded_faces(const state::StateSolver<dim>       &solver,
@@ -65,15 +45,46 @@ namespace snug
 
     template <int dim>
     void
+    for_each_cell(
+      const state::StateSolver<dim>                             &solver,
+      const std::string                                         &body,
+      const std::function<void(unsigned int s, unsigned int i)> &work)
+    {
+      const auto &names = solver.model().body_names;
+      for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
+        {
+          const auto &cells = solver.assemblers()[s]->cells();
+          for (unsigned int i = 0; i < cells.size(); ++i)
+            if (body.empty() ||
+                body == names[solver.mesh().cells()[cells[i]].body])
+              work(s, i);
+        }
+    }
+
+    template <int dim>
+    void
+    add_to_cell_nodes(const state::StateSolver<dim>       &solver,
+                      unsigned int                         s,
+                      unsigned int                         i,
+                      const Nodes<dim>                    &values,
+                      typename mesh::BodyMesh<dim>::Field &gradient)
+    {
+      const unsigned int cell = solver.assemblers()[s]->cells()[i];
+      add_to_nodes<dim>(solver.mesh().cells()[cell].nodes, values, gradient);
+    }
+
+    template <int dim>
+    void
     add_stiffness_gradient(const state::StateSolver<dim>       &solver,
                            const state::ContactState<dim>      &state,
                            const feti::PrimalVectors           &w,
                            double                               factor,
                            typename mesh::BodyMesh<dim>::Field &gradient)
     {
-      const auto add = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
+      const auto add = [&](unsigned int s, unsigned int i) {
         const auto &assembler = *solver.assemblers()[s];
         const auto  u         = assembler.cell_values(i, state.u[s].column(0));
+        Nodes<dim>  values(u.size());
         assembler.element().add_energy_gradient(
           assembler.cell_field(i, state.positions),
           assembler.material(i),
@@ -81,8 +92,9 @@ namespace snug
           assembler.cell_values(i, w[s].column(0)),
           factor,
           values);
+        add_to_cell_nodes(solver, s, i, values, gradient);
       };
-      add_cells(solver, add, gradient);
+      for_each_cell<dim>(solver, "", add);
     }
 
     template <int dim>
@@ -93,17 +105,21 @@ namespace snug
                       double                               factor,
                       typename mesh::BodyMesh<dim>::Field &gradient)
     {
-      const auto add = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
+      const auto add = [&](unsigned int s, unsigned int i) {
         const auto &assembler = *solver.assemblers()[s];
-        if (assembler.has_body_force(state.load_case))
-          assembler.element().add_body_force_gradient(
-            assembler.cell_field(i, state.positions),
-            assembler.body_force(i, state.load_case),
-            assembler.cell_values(i, w[s].column(0)),
-            factor,
-            values);
+        if (!assembler.has_body_force(state.load_case))
+          return;
+        const auto X = assembler.cell_field(i, state.positions);
+        Nodes<dim> values(X.size());
+        assembler.element().add_body_force_gradient(
+          X,
+          assembler.body_force(i, state.load_case),
+          assembler.cell_values(i, w[s].column(0)),
+          factor,
+          values);
+        add_to_cell_nodes(solver, s, i, values, gradient);
       };
-      add_cells(solver, add, gradient);
+      for_each_cell<dim>(solver, "", add);
 
       const auto tractions = solver.resultants().tractions(state.positions);
       const auto add_face =
@@ -122,20 +138,6 @@ namespace snug
                                             state::nodal_values(solver, w, 0),
                                             factor,
                                             gradient);
-    }
-
-    template <int dim>
-    void
-    add_volume_gradient(const state::StateSolver<dim>       &solver,
-                        const state::ContactState<dim>      &state,
-                        typename mesh::BodyMesh<dim>::Field &gradient)
-    {
-      const auto add = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
-        const auto &assembler = *solver.assemblers()[s];
-        assembler.element().add_volume_gradient(
-          assembler.cell_field(i, state.positions), 1., values);
-      };
-      add_cells(solver, add, gradient);
     }
 
     template <int dim>
@@ -163,6 +165,15 @@ namespace snug
     }
 
 #define SNUG_INSTANTIATE(dim)                                             \
+  template void for_each_cell(                                            \
+    const state::StateSolver<dim> &,                                      \
+    const std::string &,                                                  \
+    const std::function<void(unsigned int, unsigned int)> &);             \
+  template void add_to_cell_nodes(const state::StateSolver<dim> &,        \
+                                  unsigned int,                           \
+                                  unsigned int,                           \
+                                  const Nodes<dim> &,                     \
+                                  mesh::BodyMesh<dim>::Field &);          \
   template void add_stiffness_gradient(const state::StateSolver<dim> &,   \
                                        const state::ContactState<dim> &,  \
                                        const feti::PrimalVectors &,       \
@@ -173,9 +184,6 @@ namespace snug
                                   const feti::PrimalVectors &,            \
                                   double,                                 \
                                   mesh::BodyMesh<dim>::Field &);          \
-  template void add_volume_gradient(const state::StateSolver<dim> &,      \
-                                    const state::ContactState<dim> &,     \
-                                    mesh::BodyMesh<dim>::Field &);        \
   template void add_constraint_gradient(const state::StateSolver<dim> &,  \
                                         const state::ContactState<dim> &, \
                                         mesh::BodyMesh<dim>::Field &);

@@ -1,10 +1,22 @@
-#include <snug/response/cell_gradients.h>
+#include <snug/response/body_integral.h>
+#include <snug/response/contact_force.h>
+#include <snug/response/contact_measure.h>
+#include <snug/response/displacement.h>
 #include <snug/response/response.h>
+#include <snug/response/von_mises_norm.h>
+#include <snug/response/work.h>
 
 namespace snug
 {
   namespace response
   {
+    template <int dim>
+    std::vector<std::string>
+    Response<dim>::entries() const
+    {
+      return {};
+    }
+
     template <int dim>
     bool
     Response<dim>::needs_solution() const
@@ -19,139 +31,143 @@ namespace snug
       return false;
     }
 
+    template <int dim>
+    void
+    Response<dim>::check(const state::StateSolver<dim> &) const
+    {
+    }
+
     namespace
     {
+      using Parameters = ResponseParameters;
+
       template <int dim>
-      typename mesh::BodyMesh<dim>::Field
-      zero_field(const state::StateSolver<dim> &solver)
+      ChoiceTable<MakeResponse<dim>>
+      body_responses()
       {
-        return
-          typename mesh::BodyMesh<dim>::Field(solver.mesh().n_local_nodes());
+        using State    = state::ContactState<dim>;
+        using Integral = BodyIntegral<dim>;
+        return {
+          {"potential energy",
+           "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
+           "spreads the contact pressure evenly",
+           [](const Parameters &) {
+             return std::make_unique<Work<dim>>(&State::energy, 1., -1.);
+           }},
+          {"compliance",
+           "f'u, the work of the loads [force length]; with a body held by "
+           "contact alone it rewards lifting that body",
+           [](const Parameters &) {
+             return std::make_unique<Work<dim>>(&State::compliance, 0., 1.);
+           }},
+          {"strain energy",
+           "1/2 u'Ku [force length]",
+           [](const Parameters &) {
+             return std::make_unique<Work<dim>>(&State::strain_energy, 1., 0.);
+           }},
+          {"volume",
+           "volume of a body or all [length^3]",
+           [](const Parameters &parameters) {
+             return std::make_unique<Integral>(parameters,
+                                               Integral::Weight::one);
+           }},
+          {"mass",
+           "density times volume of a body or all [mass]",
+           [](const Parameters &parameters) {
+             return std::make_unique<Integral>(parameters,
+                                               Integral::Weight::density);
+           }},
+          {"displacement",
+           "a component of that of a point or averaged over a face [length]",
+           [](const Parameters &parameters) {
+             return std::make_unique<Displacement<dim>>(parameters);
+           }},
+          {"von Mises norm",
+           "p-norm of the von Mises stress over a body or all, divided by that "
+           "of 1 [force/length^2]",
+           [](const Parameters &parameters) {
+             return std::make_unique<VonMisesNorm<dim>>(parameters);
+           }}};
       }
 
-      /**
-       * J = s 1/2 u'Ku + l f'u. For the potential energy, s = 1 and l = -1,
-       * the derivative needs no solve, because u minimises J on the contact
-       * constraints:
-       * J' = 1/2 u'K'u - f''u + lambda'(B'u - g').
-       */
       template <int dim>
-      class Work : public Response<dim>
+      ChoiceTable<MakeResponse<dim>>
+      contact_responses()
       {
-      public:
-        using State = state::ContactState<dim>;
-
-        /// @p value: where a state holds J.
-        Work(double State::*value, double stiffness, double load)
-          : member(value), stiffness(stiffness), load(load)
-        {
-        }
-
-        double
-        value(const state::StateSolver<dim> &,
-              const State &state) const override
-        {
-          return state.*member;
-        }
-
-        bool
-        stationary() const override
-        {
-          return stiffness == 1. && load == -1.;
-        }
-
-        Partials<dim>
-        partials(const state::StateSolver<dim> &solver,
-                 const State                   &state) const override
-        {
-          Partials<dim> result{{}, {}, zero_field(solver)};
-          const auto    f = solver.loads(state.positions, state.load_case);
-          for (unsigned int s = 0; s < state.u.size(); ++s)
-            {
-              result.u.emplace_back(state.u[s].n_rows());
-              result.u.back().add(load, f[s]);
-              if (stiffness != 0.)
-                solver.feti().subdomains()[s].K.multiply_add(stiffness,
-                                                             state.u[s],
-                                                             result.u.back());
-            }
-          if (stiffness != 0.)
-            add_stiffness_gradient(
-              solver, state, state.u, stiffness / 2., result.positions);
-          if (load != 0.)
-            add_load_gradient(solver, state, state.u, load, result.positions);
-          return result;
-        }
-
-      private:
-        double State::*member;
-        double         stiffness, load; ///< s and l
-      };
-
-      /// Volume of all bodies; does not depend on u.
-      template <int dim>
-      class Volume : public Response<dim>
-      {
-      public:
-        bool
-        needs_solution() const override
-        {
-          return false;
-        }
-
-        double
-        value(const state::StateSolver<dim>  &solver,
-              const state::ContactState<dim> &state) const override
-        {
-          double volume = 0.;
-          for (unsigned int body = 0; body < solver.mesh().n_bodies(); ++body)
-            volume += solver.volume(body, state.positions);
-          return volume;
-        }
-
-        Partials<dim>
-        partials(const state::StateSolver<dim>  &solver,
-                 const state::ContactState<dim> &state) const override
-        {
-          Partials<dim> result{{}, {}, zero_field(solver)};
-          add_volume_gradient(solver, state, result.positions);
-          return result;
-        }
-      };
+        using Measure = ContactMeasure<dim>;
+        return {
+          {"contact force",
+           "of a pair or all, on the slave side; the component normal adds up "
+           "the sizes at all points [force]",
+           [](const Parameters &parameters) {
+             return std::make_unique<ContactForce<dim>>(parameters);
+           }},
+          {"contact area",
+           "area where the pressure is above the part 'Smoothing' of its mean "
+           "[length^2]",
+           [](const Parameters &parameters) {
+             const double e = parameters.smoothing;
+             return std::make_unique<Measure>(
+               parameters,
+               [e](const auto &rows) { return contact_area(rows, e); },
+               std::vector<std::string>{"Smoothing"});
+           }},
+          {"pressure norm",
+           "p-norm of the contact pressure [force/length^2 length^(2/p)]",
+           [](const Parameters &parameters) {
+             const double p = parameters.exponent;
+             return std::make_unique<Measure>(
+               parameters,
+               [p](const auto &rows) { return pressure_norm(rows, p); },
+               std::vector<std::string>{"Exponent"});
+           }},
+          {"peak pressure",
+           "p-norm of the contact pressure, each point weighing as much as the "
+           "force it carries [force/length^2]; below the largest pressure",
+           [](const Parameters &parameters) {
+             const double p = parameters.exponent;
+             return std::make_unique<Measure>(
+               parameters,
+               [p](const auto &rows) { return peak_pressure(rows, p); },
+               std::vector<std::string>{"Exponent"});
+           }},
+          {"pressure variance",
+           "mean square of the contact pressure less its mean over the slave "
+           "side [(force/length^2)^2]",
+           [](const Parameters &parameters) {
+             return std::make_unique<Measure>(parameters, pressure_variance);
+           }}};
+      }
     } // namespace
 
     template <int dim>
-    const ChoiceTable<std::unique_ptr<Response<dim>>()> &
+    const ChoiceTable<MakeResponse<dim>> &
     response_table()
     {
-      using State = state::ContactState<dim>;
-      static const ChoiceTable<std::unique_ptr<Response<dim>>()> table = {
-        {"potential energy",
-         "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
-         "spreads the contact pressure evenly",
-         []() { return std::make_unique<Work<dim>>(&State::energy, 1., -1.); }},
-        {"compliance",
-         "f'u, the work of the loads [force length]; with a body held by "
-         "contact alone it rewards lifting that body",
-         []() {
-           return std::make_unique<Work<dim>>(&State::compliance, 0., 1.);
-         }},
-        {"strain energy",
-         "1/2 u'Ku [force length]",
-         []() {
-           return std::make_unique<Work<dim>>(&State::strain_energy, 1., 0.);
-         }},
-        {"volume", "volume of all bodies [length^3]", []() {
-           return std::make_unique<Volume<dim>>();
-         }}};
+      static const auto table = []() {
+        auto       rows    = body_responses<dim>();
+        const auto contact = contact_responses<dim>();
+        rows.insert(rows.end(), contact.begin(), contact.end());
+        return rows;
+      }();
       return table;
     }
 
-    template class Response<2>;
-    template class Response<3>;
-    template const ChoiceTable<std::unique_ptr<Response<2>>()> &
-    response_table<2>();
-    template const ChoiceTable<std::unique_ptr<Response<3>>()> &
-    response_table<3>();
+    template <int dim>
+    std::unique_ptr<Response<dim>>
+    make_response(const ResponseParameters &parameters)
+    {
+      return choose(response_table<dim>(), parameters.quantity)
+        .make(parameters);
+    }
+
+#define SNUG_INSTANTIATE(dim)                                           \
+  template class Response<dim>;                                         \
+  template const ChoiceTable<MakeResponse<dim>> &response_table<dim>(); \
+  template std::unique_ptr<Response<dim>>        make_response<dim>(    \
+    const ResponseParameters &);
+    SNUG_INSTANTIATE(2)
+    SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
   } // namespace response
 } // namespace snug

@@ -37,55 +37,10 @@ namespace snug
       }
 
       void
-      require_response(const Origins     &origins,
-                       const std::string &path,
-                       const std::string &value,
-                       const std::string &response)
-      {
-        const auto known = response_names();
-        if (std::find(known.begin(), known.end(), response) == known.end())
-          throw origins.error(path,
-                              value,
-                              "'" + response + "' is no response, there are " +
-                                listed(known) + did_you_mean(response, known));
-      }
-
-      void
       check_optimization(const Scene &scene, const Origins &origins)
       {
-        const auto       &parameters  = scene.optimization;
-        const std::string section     = "Optimization/";
-        const std::string constraints = to_text(parameters.constraints);
-        require_response(origins,
-                         section + "Objective",
-                         parameters.objective,
-                         parameters.objective);
-        for (const auto &[name, target] : parameters.constraints)
-          {
-            const std::string path = section + "Constraints";
-            const auto        of   = constraint_name(scene, name);
-            require_response(origins, path, constraints, of.response);
-            if (name == parameters.objective)
-              throw origins.error(path,
-                                  constraints,
-                                  "'" + name + "' is the objective already");
-            // The same in 2D and 3D.
-            const bool of_state =
-              choose(response::response_table<3>(), of.response)
-                .make()
-                ->needs_solution();
-            if (scene.load_cases.size() > 1 && of_state && !of.load_case)
-              throw origins.error(path,
-                                  constraints,
-                                  "'" + name + "' must name its load case: '" +
-                                    scene.load_cases.front().name + "." + name +
-                                    "'");
-            if (target != "initial" && !form_of(0.).pattern->match(target))
-              throw origins.error(path,
-                                  constraints,
-                                  "the value of '" + name +
-                                    "' must be 'initial' or a number");
-          }
+        const auto       &parameters = scene.optimization;
+        const std::string section    = "Optimization/";
         require_positive(origins,
                          section + "Maximum evaluations",
                          parameters.maximum_evaluations);
@@ -103,9 +58,9 @@ namespace snug
       {
         // The same in 2D and 3D.
         const std::string &objective = scene.optimization.objective;
+        const auto         measured  = response_called(scene, objective);
         if (scene.gradient.method == "energy" &&
-            sensitivity::needs_solve(
-              *choose(response::response_table<3>(), objective).make()))
+            sensitivity::needs_solve(*response::make_response<3>(*measured)))
           throw origins.error("Gradient/Method",
                               scene.gradient.method,
                               "must be auto, adjoint, direct or finite "
@@ -180,18 +135,9 @@ namespace snug
       require_positive(origins,
                        "Solver/Maximum F-mults",
                        scene.solver.max_iterations);
+      check_responses(scene, origins);
       check_optimization(scene, origins);
       check_gradient(scene, origins);
-    }
-
-    std::vector<std::string>
-    response_names()
-    {
-      std::vector<std::string> names;
-      // The same in 2D and 3D.
-      for (const auto &choice : response::response_table<3>())
-        names.push_back(choice.name);
-      return names;
     }
 
     std::string

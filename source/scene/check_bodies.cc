@@ -147,7 +147,7 @@ namespace snug
     void
     check_names(const Scene &scene, const Origins &origins)
     {
-      std::vector<std::string> bodies, load_cases, obstacles, shapes;
+      std::vector<std::string> bodies, load_cases, obstacles, responses, shapes;
       for (const auto &body : scene.bodies)
         bodies.push_back(body.name);
       for (const auto &load_case : scene.load_cases)
@@ -157,11 +157,14 @@ namespace snug
       for (const auto &shape : scene.shapes)
         if (!shape.name.empty() || scene.shapes.size() > 1)
           shapes.push_back(shape.name);
+      for (const auto &response : scene.responses)
+        responses.push_back(response.name);
       if (bodies.empty())
         throw origins.error("Bodies", "", "must name at least one body");
       check_list_of_names("Bodies", bodies, origins);
       check_list_of_names("Load cases", load_cases, origins);
       check_list_of_names("Obstacles", obstacles, origins);
+      check_list_of_names("Responses", responses, origins);
       check_list_of_names("Shapes", shapes, origins);
     }
 

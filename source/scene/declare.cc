@@ -1,9 +1,6 @@
 #include <snug/elasticity/finite_difference.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/mesh/partition.h>
-#include <snug/optimization/combination.h>
-#include <snug/optimization/minimize.h>
-#include <snug/response/response.h>
 #include <snug/scene/check.h>
 #include <snug/scene/entries.h>
 #include <snug/sensitivity/data_derivatives.h>
@@ -86,6 +83,19 @@ namespace snug
                     "its own subsection Load case NAME with loads besides "
                     "those of the bodies. Empty: one, with the loads of the "
                     "bodies alone.");
+        entries.add("Responses",
+                    {[&scene]() {
+                       std::vector<std::string> names;
+                       for (const auto &response : scene.responses)
+                         names.push_back(response.name);
+                       return listed(names);
+                     },
+                     [](const std::string &) {}},
+                    pairs("names separated by commas"),
+                    "Names of responses, separated by commas; each has its own "
+                    "subsection Response NAME. Their values are reported, and "
+                    "they may be objective or constraints, as may quantities "
+                    "under their own names.");
         add_gravity(entries, scene.gravity);
         entries.add("Output directory",
                     scene.output_directory,
@@ -249,54 +259,6 @@ namespace snug
                     "Task = sensitivity: all methods side by side, or only "
                     "Gradient/Method.");
       }
-
-      void
-      declare_optimization(Entries &entries, Scene &scene)
-      {
-        auto &optimization = scene.optimization;
-        entries.begin_section("Optimization", "Finding the best shape.");
-        add_choice(entries,
-                   "Algorithm",
-                   optimization.algorithm,
-                   optimization::algorithm_table(),
-                   "The optimizer.");
-        add_choice(entries,
-                   "Objective",
-                   optimization.objective,
-                   response::response_table<3>(),
-                   "The response to be made least.");
-        add_choice(entries,
-                   "Combine",
-                   optimization.combine,
-                   optimization::combination_table(),
-                   "What several load cases make of the objective.");
-        entries.add("Constraints",
-                    optimization.constraints,
-                    pairs("a list 'response: initial, response: number, ...' "
-                          "of different responses"),
-                    "Responses that must keep their initial value or equal a "
-                    "number: 'volume: initial'. With several load cases, one "
-                    "that depends on the state names its load case: "
-                    "'closing.compliance: 5'.");
-        entries.add("Maximum evaluations",
-                    optimization.maximum_evaluations,
-                    "Largest number of designs that are evaluated.");
-        entries.add("Gradient tolerance",
-                    optimization.gradient_tolerance,
-                    "Stop when the projected gradient is smaller, relative to "
-                    "the first gradient.");
-        entries.add("Objective tolerance",
-                    optimization.objective_tolerance,
-                    "Stop when the objective changes by less, relative.");
-        entries.add("Design tolerance",
-                    optimization.design_tolerance,
-                    "Stop when all variables change by less, relative to the "
-                    "width of their bounds.");
-        entries.add("Constraint tolerance",
-                    optimization.constraint_tolerance,
-                    "Allowed error of the constraints, relative to their "
-                    "values.");
-      }
     } // namespace
 
     void
@@ -310,6 +272,7 @@ namespace snug
       declare_shapes(entries, scene);
       declare_solver(entries, scene);
       declare_gradient(entries, scene);
+      declare_responses(entries, scene);
       declare_optimization(entries, scene);
     }
   } // namespace scene

@@ -63,8 +63,8 @@ namespace snug
         return dealii::Utilities::split_string_list(names);
       }
 
-      /// First pass: bodies, load cases, obstacles and shapes, without what
-      /// they are made of.
+      /// First pass: bodies, load cases, obstacles, responses and shapes,
+      /// without what they are made of.
       void
       make_named(const std::vector<Statement> &statements, Scene &scene)
       {
@@ -82,6 +82,12 @@ namespace snug
           {
             scene.obstacles.emplace_back();
             scene.obstacles.back().name = name;
+          }
+        for (const auto &name : names_in(statements, "Responses"))
+          {
+            scene.responses.emplace_back();
+            scene.responses.back().name     = name;
+            scene.responses.back().quantity = "potential energy";
           }
         const auto shapes = names_in(statements, "Shapes");
         scene.shapes.resize(std::max<std::size_t>(1, shapes.size()));
@@ -197,7 +203,8 @@ namespace snug
       is_name_list(const Entries::Description &entry)
       {
         return entry.name == "Bodies" || entry.name == "Obstacles" ||
-               entry.name == "Load cases" || entry.name == "Pairs";
+               entry.name == "Load cases" || entry.name == "Pairs" ||
+               (entry.name == "Responses" && entry.section.empty());
       }
     } // namespace
 
@@ -258,6 +265,9 @@ namespace snug
       scene.obstacles.emplace_back();
       scene.obstacles.front().name = "NAME";
       scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});
+      scene.responses.emplace_back();
+      scene.responses.back().name     = "NAME";
+      scene.responses.back().quantity = "potential energy";
       Entries entries;
       declare(entries, scene);
       out << "# Parameters\n\n"

@@ -1,3 +1,4 @@
+#include <snug/response/response.h>
 #include <snug/scene/scene.h>
 
 #include <deal.II/base/utilities.h>
@@ -90,6 +91,23 @@ namespace snug
             return {name.substr(prefix.size()), c};
         }
       return {name, {}};
+    }
+
+    std::optional<response::ResponseParameters>
+    response_called(const Scene &scene, const std::string &name)
+    {
+      for (const auto &response : scene.responses)
+        if (response.name == name)
+          return response;
+      // The same in 2D and 3D.
+      for (const auto &row : response::response_table<3>())
+        if (row.name == name)
+          {
+            response::ResponseParameters parameters;
+            parameters.quantity = name;
+            return parameters;
+          }
+      return {};
     }
 
     unsigned int

@@ -4,6 +4,7 @@
 #include <snug/app/workshop.h>
 #include <snug/io/history.h>
 #include <snug/optimization/journal.h>
+#include <snug/optimization/limit.h>
 #include <snug/optimization/minimize.h>
 
 namespace snug
@@ -28,10 +29,28 @@ namespace snug
     private:
       using Design = std::vector<double>;
 
+      struct Constraint
+      {
+        std::string                              name;
+        std::unique_ptr<response::Response<dim>> response;
+        unsigned int                             load_case;
+        double                                   target;
+        optimization::Limit::Side                side;
+
+        /// c = sign (J - target), c = 0 or c <= 0.
+        double
+        sign() const
+        {
+          return side == optimization::Limit::Side::at_least ? -1. : 1.;
+        }
+      };
+
       optimization::Evaluation
       evaluate(const Design &design);
       void
       choose_constraints();
+      Constraint
+      make_constraint(const std::string &name, const std::string &limit);
       void
       note_weak_contacts();
       optimization::JournalSettings
@@ -54,14 +73,6 @@ namespace snug
       void
       finish(const optimization::OptimizationResult &result);
 
-      struct Constraint
-      {
-        std::string                              name;
-        std::unique_ptr<response::Response<dim>> response;
-        unsigned int                             load_case;
-        double                                   target;
-      };
-
       Workshop<dim>                         &workshop;
       bool                                   restart;
       std::vector<Constraint>                constraints;
@@ -75,7 +86,7 @@ namespace snug
       sensitivity::Gradients<dim>           last_gradients;
       /// of the objective at the first design, if asked for
       std::optional<typename Workshop<dim>::Field> first_shape_gradient;
-      bool                                         first_drawn = false;
+      std::vector<io::Summary::State>              first_summaries;
       bool         paired_anew     = false; ///< and not yet evaluated
       unsigned int iterations_done = 0;     ///< of earlier searches
     };

@@ -52,6 +52,11 @@ namespace snug
       optimization::Combined
       combined_objective(const std::vector<state::ContactState<dim>> &states);
 
+      /// The response called @p name. Collective. @throws InputError if the
+      /// scene has nothing it could measure.
+      std::unique_ptr<response::Response<dim>>
+      make_response(const std::string &name) const;
+
       /// A response besides the objective.
       struct Measured
       {
@@ -107,10 +112,19 @@ namespace snug
       void
       export_shape(const std::vector<double> &design);
 
+      /// Name and value of each response of the scene. Collective.
+      std::vector<std::pair<std::string, double>>
+      response_values(const state::ContactState<dim> &state) const;
+
+      /// A state and the values of the scene's responses. Collective.
+      io::Summary::State
+      summarize(const state::ContactState<dim> &state) const;
+
       /// The states of all load cases in a summary: the first one as its
-      /// state, all of them if there are several. @p initial may be empty.
+      /// state, all of them if there are several. @p initial, those of the
+      /// first design, may be empty. Collective.
       void
-      summarize_states(const std::vector<state::ContactState<dim>> &initial,
+      summarize_states(const std::vector<io::Summary::State>       &initial,
                        const std::vector<state::ContactState<dim>> &states,
                        io::Summary &summary) const;
 
@@ -125,6 +139,8 @@ namespace snug
       std::unique_ptr<shape::Shapes<dim>>      basis;
       std::unique_ptr<state::StateSolver<dim>> solver;
       std::unique_ptr<response::Response<dim>> objective;
+      /// those of the scene, in its order
+      std::vector<std::unique_ptr<response::Response<dim>>> responses;
 
     private:
       std::vector<double>

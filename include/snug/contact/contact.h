@@ -72,6 +72,10 @@ namespace snug
                       const std::vector<double> &forces) const;
       std::vector<double>
       areas(const Field &positions) const;
+      /// d/dX sum_i factors_i areas_i for factors of all rows.
+      Field
+      area_gradient(const Field               &positions,
+                    const std::vector<double> &factors) const;
 
       /// @name What the rows do not see, as parts of the slave node's largest
       /// face

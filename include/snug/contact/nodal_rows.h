@@ -41,6 +41,10 @@ namespace snug
                           Field                     &gradient) const override;
       std::vector<double>
       areas(const Field &positions) const override;
+      void
+      add_area_gradient(const Field               &positions,
+                        const std::vector<double> &factors,
+                        Field                     &gradient) const override;
 
     private:
       const mesh::Surface<dim> &surface;

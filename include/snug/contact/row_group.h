@@ -72,6 +72,12 @@ namespace snug
       /// pressure.
       virtual std::vector<double>
       areas(const Field &positions) const = 0;
+
+      /// gradient_a += d/dX_a sum_i factors_i areas_i, hanging nodes as above.
+      virtual void
+      add_area_gradient(const Field               &positions,
+                        const std::vector<double> &factors,
+                        Field                     &gradient) const = 0;
     };
   } // namespace contact
 } // namespace snug

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace snug
@@ -63,8 +64,10 @@ namespace snug
         unsigned long       f_mults = 0, linear_f_mults = 0;
         std::string         method; ///< the solver that finished
         std::vector<Pair>   pairs;
-        state::Certificate  certificate;
-        state::Assumptions  assumptions;
+        /// names and values of the scene's responses
+        std::vector<std::pair<std::string, double>> responses;
+        state::Certificate                          certificate;
+        state::Assumptions                          assumptions;
       };
 
       /// One way to compute the gradient, with what it cost.

@@ -18,13 +18,16 @@ namespace snug
      *
      * Both measures are free of units. With bound widths w, constraint scales
      * s, the scaled gradients g_i = w_i df/dx_i and A_ji = w_i dc_j/dx_i / s_j,
-     * @f[ \text{violation} = \max_j |c_j| / s_j, \qquad
+     * @f[ \text{violation} = \max_j |c_j| / s_j
+     *     \;(c_j^+ \text{ for inequalities}), \qquad
      *     \text{projected gradient} = \min_\mu \|P(g + A^T\mu)\|_2 \,/\,
      *     \max(\|g\|_2, \|g_{start}\|_2), @f]
-     * where P keeps the entries of variables between their bounds, of those at
-     * a lower bound only the negative and of those at an upper bound only the
-     * positive ones (a variable within 1e-8 of its width is at its bound). It
-     * is zero exactly at the points of Karush, Kuhn and Tucker.
+     * where A holds equalities and active inequalities (c_j / s_j above -1e-6),
+     * those with mu_j >= 0, and P keeps the entries of variables between their
+     * bounds, of those at a lower bound only the negative and of those at an
+     * upper bound only the positive ones (a variable within 1e-8 of its width
+     * is at its bound). It is zero exactly at the points of Karush, Kuhn and
+     * Tucker.
      */
     struct Iteration
     {
@@ -75,9 +78,13 @@ namespace snug
                                          const OptimizationParameters &,
                                          const Hooks &);
 
-    /// {"SLSQP"}
+    /// Rows "SLSQP", "MMA", "CCSAQ", "AUGLAG".
     const ChoiceTable<Algorithm> &
     algorithm_table();
+
+    /// Whether an algorithm can hold equality constraints.
+    bool
+    takes_equalities(const std::string &algorithm);
 
     /**
      * Minimize with the algorithm the parameters name. Every rank that shares
@@ -85,13 +92,13 @@ namespace snug
      *
      * The start is moved into the bounds. A design without a value (SolveError,
      * TangledMesh, a number that is not finite) ends the step that asked for
-     * it; see slsqp(). An Interrupted thrown by evaluate() or a hook ends the
-     * search with stop reason "interrupted"; any other exception of theirs
-     * passes through unchanged.
+     * it; see nlopt_search(). An Interrupted thrown by evaluate() or a hook
+     * ends the search with stop reason "interrupted"; any other exception of
+     * theirs passes through unchanged.
      *
      * @throws InputError if a lower bound is above its upper bound, a bound or
      *   the start is not finite, a tolerance is not positive, no evaluation is
-     *   allowed, or the algorithm is unknown.
+     *   allowed, the algorithm is unknown or cannot hold equalities.
      * @throws SolveError, TangledMesh or Interrupted if the first evaluation
      *   does: there is no design to return.
      */

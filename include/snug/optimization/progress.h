@@ -80,12 +80,17 @@ namespace snug
       OptimizationResult
       result(End end) const;
 
-    private:
+      /// Whether a design meets the constraints to their tolerance.
       bool
       is_feasible(const ScaledProblem::Point &point) const;
+
+      /// Whether @p a is lower than @p b, where both are feasible, or else
+      /// violates less.
       bool
       is_better(const ScaledProblem::Point &a,
                 const ScaledProblem::Point &b) const;
+
+    private:
       std::string
       stop_reason(End end) const;
 

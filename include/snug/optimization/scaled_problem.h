@@ -33,7 +33,7 @@ namespace snug
       {
         std::vector<double> y, x;
         Evaluation          evaluation;
-        double              violation = 0.; ///< max |c_j| / s_j
+        double violation = 0.; ///< max |c_j| / s_j, of c_j+ for inequalities
       };
 
       /**
@@ -69,6 +69,10 @@ namespace snug
       double
       projected_gradient(const Point &point) const;
 
+      /// Of each constraint.
+      const std::vector<Relation> &
+      relations() const;
+
       const std::vector<double> &
       lower() const;
 
@@ -94,6 +98,7 @@ namespace snug
       const DesignProblem                     &problem;
       std::vector<double>                      x_start, width, y_lower, y_upper;
       std::vector<double>                      scales;
+      std::vector<Relation>                    constraint_relations;
       double                                   scale               = 1.;
       double                                   start_gradient_norm = 0.;
       unsigned int                             evaluations         = 0;

@@ -2,6 +2,7 @@
 #define snug_response_response_h
 
 #include <snug/base/choice.h>
+#include <snug/response/response_parameters.h>
 #include <snug/state/state_solver.h>
 
 #include <memory>
@@ -39,6 +40,10 @@ namespace snug
     public:
       virtual ~Response() = default;
 
+      /// The entries of its subsection that it reads.
+      virtual std::vector<std::string>
+      entries() const;
+
       /// Whether J depends on the solution at all, or on the geometry alone:
       /// then only the positions of a state are read.
       virtual bool
@@ -52,6 +57,11 @@ namespace snug
       virtual bool
       stationary() const;
 
+      /// Throw an InputError unless the scene has what is measured.
+      /// Collective.
+      virtual void
+      check(const state::StateSolver<dim> &solver) const;
+
       /// J. Collective.
       virtual double
       value(const state::StateSolver<dim>  &solver,
@@ -63,10 +73,19 @@ namespace snug
                const state::ContactState<dim> &state) const = 0;
     };
 
-    /// Rows "potential energy", "compliance", "strain energy", "volume".
     template <int dim>
-    const ChoiceTable<std::unique_ptr<Response<dim>>()> &
+    using MakeResponse =
+      std::unique_ptr<Response<dim>>(const ResponseParameters &);
+
+    /// Rows of the entry Quantity. Making one throws nothing.
+    template <int dim>
+    const ChoiceTable<MakeResponse<dim>> &
     response_table();
+
+    /// The response that @p parameters describe.
+    template <int dim>
+    std::unique_ptr<Response<dim>>
+    make_response(const ResponseParameters &parameters);
   } // namespace response
 } // namespace snug
 

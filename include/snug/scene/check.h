@@ -25,7 +25,8 @@ namespace snug
      *   formulas be read;
      * - tasks that need design variables have some, with bounds that are not
      *   empty and hold the initial design;
-     * - objective and constraints are responses.
+     * - responses measure what is there; objective and constraints are
+     *   responses, with limits the algorithm can hold.
      */
     void
     check(const Scene &scene, const Origins &origins = Origins());
@@ -46,6 +47,8 @@ namespace snug
     check_shapes(const Scene &scene, const Origins &origins);
     void
     check_methods(const Scene &scene, const Origins &origins);
+    void
+    check_responses(const Scene &scene, const Origins &origins);
     /// @}
 
     /// The error of a body's mesh, which names its entries "entry 'Box cells'",
@@ -76,10 +79,6 @@ namespace snug
     /// "components are x, y and normal".
     std::string
     component_names(unsigned int dimension);
-
-    /// Names of the responses an objective or a constraint may be.
-    std::vector<std::string>
-    response_names();
 
     /// "a, b, c".
     std::string

@@ -141,6 +141,10 @@ namespace snug
     declare_contact(Entries &entries, Scene &scene);
     void
     declare_shapes(Entries &entries, Scene &scene);
+    void
+    declare_responses(Entries &entries, Scene &scene);
+    void
+    declare_optimization(Entries &entries, Scene &scene);
     /// @}
   } // namespace scene
 } // namespace snug

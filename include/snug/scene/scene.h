@@ -9,6 +9,7 @@
 #include <snug/mesh/tearing.h>
 #include <snug/optimization/optimization_parameters.h>
 #include <snug/qp/solver.h>
+#include <snug/response/response_parameters.h>
 #include <snug/scene/load_parameters.h>
 #include <snug/sensitivity/gradient_parameters.h>
 #include <snug/shape/shape_parameters.h>
@@ -67,13 +68,14 @@ namespace snug
       /// also solve the linear problem on the final active set from zero
       bool report_linear_reference = false;
 
-      mesh::TearingParameters              tearing;
-      contact::ContactParameters           contact;
-      std::vector<shape::ShapeParameters>  shapes{1}; ///< unnamed, or named
-      feti::FetiParameters                 feti;
-      qp::SolverParameters                 solver;
-      sensitivity::GradientParameters      gradient;
-      optimization::OptimizationParameters optimization;
+      mesh::TearingParameters             tearing;
+      contact::ContactParameters          contact;
+      std::vector<shape::ShapeParameters> shapes{1}; ///< unnamed, or named
+      feti::FetiParameters                feti;
+      qp::SolverParameters                solver;
+      sensitivity::GradientParameters     gradient;
+      std::vector<response::ResponseParameters> responses; ///< named ones
+      optimization::OptimizationParameters      optimization;
     };
 
     /// What the meshes of the scene stand for; the model must not be auto.
@@ -110,6 +112,11 @@ namespace snug
     /// are left as they are.
     ConstraintName
     constraint_name(const Scene &scene, const std::string &name);
+
+    /// The response called @p name: one of the scene, or a quantity with all
+    /// entries at their defaults; nothing for other names.
+    std::optional<response::ResponseParameters>
+    response_called(const Scene &scene, const std::string &name);
 
     /// Position of the body called @p name; bodies.size() if there is none.
     unsigned int

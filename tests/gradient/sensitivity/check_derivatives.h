@@ -82,7 +82,7 @@ namespace snug
     void
     check_derivatives(GradientScene<dim> &scene)
     {
-      const auto state = scene.solve(scene.problem.scene.design);
+      const auto state = scene.solve(scene.design);
       ASSERT_EQ(state.weak_contacts, 0u);
       ASSERT_GT(state.active_contacts, 1u);
       ASSERT_LT(state.active_contacts, state.contact.size());

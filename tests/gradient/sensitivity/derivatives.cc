@@ -36,9 +36,9 @@ namespace
   void
   check_shape_gradients(GradientScene<dim> &scene)
   {
-    const auto V      = waves(scene.problem.mesh);
-    auto      &solver = scene.problem.solver;
-    const auto state  = scene.solve(scene.problem.scene.design);
+    const auto                      V      = waves(scene.problem.mesh);
+    auto                           &solver = scene.problem.solver;
+    const auto                      state  = scene.solve(scene.design);
     sensitivity::GradientParameters parameters;
     parameters.method         = "adjoint";
     parameters.shape_gradient = true;
@@ -321,7 +321,7 @@ namespace
 
   TEST(Gradient, ResultantsOnABentFace3D)
   {
-    GradientScene<3> scene(resultants_on_the_bent_face<3>(3, 3),
+    GradientScene<3> scene(resultants_on_the_bent_face<3>(4, 3),
                            0.05,
                            "foundation.right",
                            0);

@@ -3,9 +3,11 @@
 
 #include <snug/sensitivity/gradient.h>
 #include <snug/sensitivity/methods.h>
+#include <snug/shape/shapes.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <gradient/sensitivity/all_responses.h>
 #include <gradient/sensitivity/probe.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +25,7 @@ namespace snug
       std::vector<bool>                   strong;
     };
 
-    /// A scene with a Bézier patch on a face, as a rule the foundation's top,
+    /// A scene with a shape, as a rule a Bézier patch on the foundation's top,
     /// that moves along an axis; solved to 1e-12.
     template <int dim>
     class GradientScene
@@ -36,12 +38,27 @@ namespace snug
                     double                bound,
                     const std::string    &face = "foundation.top",
                     unsigned int          axis = dim - 1)
-        : problem(scene)
-        , basis(make_basis(problem, bound, face, axis))
-        , widths(scene.design.size(), 2. * bound)
+        : GradientScene(scene, patch(scene, bound, face, axis))
       {
-        for (const auto &row : response::response_table<dim>())
-          responses[row.name] = row.make();
+      }
+
+      GradientScene(const TestScene<dim>         &scene,
+                    const shape::ShapeParameters &shape)
+        : problem(scene)
+        , basis(std::make_unique<shape::Shapes<dim>>(
+            problem.mesh,
+            shape::BodyNames{problem.model.body_names},
+            std::vector<shape::ShapeParameters>{shape}))
+        , design(scene.design)
+        , widths(basis->n_variables(), shape.bounds[1] - shape.bounds[0])
+      {
+        // bases have their own numbers of variables
+        if (design.size() != basis->n_variables())
+          design = random_heights(basis->n_variables(), shape.bounds[1]);
+        const auto known = all_responses<dim>();
+        for (const std::string name :
+             {"potential energy", "compliance", "strain energy", "volume"})
+          responses[name] = response::make_response<dim>(known.at(name));
         responses["probe"] = std::make_unique<Probe<dim>>();
       }
 
@@ -73,7 +90,7 @@ namespace snug
       Values<dim>
       differences(const std::vector<double> &direction, double step)
       {
-        const auto   middle   = values(problem.scene.design);
+        const auto   middle   = values(design);
         Values<dim>  result   = middle;
         const double weight[] = {1. / 12., -8. / 12., 8. / 12., -1. / 12.};
         const int    place[]  = {-2, -1, 1, 2};
@@ -83,10 +100,10 @@ namespace snug
           value = dealii::Tensor<1, dim>();
         for (unsigned int k = 0; k < 4; ++k)
           {
-            auto design = problem.scene.design;
-            for (unsigned int i = 0; i < design.size(); ++i)
-              design[i] += place[k] * step * direction[i];
-            const auto at = values(design);
+            auto moved = design;
+            for (unsigned int i = 0; i < moved.size(); ++i)
+              moved[i] += place[k] * step * direction[i];
+            const auto at = values(moved);
             EXPECT_EQ(at.strong, middle.strong);
             for (const auto &[name, value] : at.responses)
               result.responses[name] += weight[k] / step * value;
@@ -101,12 +118,7 @@ namespace snug
       at(const state::ContactState<dim>        &state,
          const sensitivity::GradientParameters &parameters)
       {
-        return {problem.solver,
-                *basis,
-                state,
-                problem.scene.design,
-                widths,
-                parameters};
+        return {problem.solver, *basis, state, design, widths, parameters};
       }
 
       sensitivity::Gradients<dim>
@@ -121,28 +133,27 @@ namespace snug
       }
 
       Problem<dim>                                                    problem;
-      std::unique_ptr<shape::ShapeBasis<dim>>                         basis;
+      std::unique_ptr<shape::Shapes<dim>>                             basis;
+      std::vector<double>                                             design;
       std::vector<double>                                             widths;
       std::map<std::string, std::unique_ptr<response::Response<dim>>> responses;
 
     private:
-      static std::unique_ptr<shape::ShapeBasis<dim>>
-      make_basis(const Problem<dim> &problem,
-                 double              bound,
-                 const std::string  &face,
-                 unsigned int        axis)
+      static shape::ShapeParameters
+      patch(const TestScene<dim> &scene,
+            double                bound,
+            const std::string    &face,
+            unsigned int          axis)
       {
         shape::ShapeParameters parameters;
         parameters.basis          = "Bezier patch";
         parameters.face           = face;
-        parameters.control_points = problem.scene.control_points;
+        parameters.control_points = scene.control_points;
         parameters.control_points.resize(dim - 1);
         parameters.direction.assign(dim, 0.);
         parameters.direction[axis] = 1.;
         parameters.bounds          = {-bound, bound};
-        const shape::BodyNames names{problem.model.body_names};
-        return choose(shape::shape_basis_table<dim>(), parameters.basis)
-          .make(problem.mesh, names, parameters);
+        return parameters;
       }
     };
 

@@ -22,9 +22,9 @@ namespace
 
   TEST(GradientCost, DirectSharesFactorizationsAndMults)
   {
-    GradientScene<3> scene(sixteen_heights(1e-6), 0.05);
-    const auto       state  = scene.solve(scene.problem.scene.design);
-    const auto       before = scene.problem.context.total_work();
+    GradientScene<3>                scene(sixteen_heights(1e-6), 0.05);
+    const auto                      state  = scene.solve(scene.design);
+    const auto                      before = scene.problem.context.total_work();
     sensitivity::GradientParameters parameters;
     parameters.method   = "direct";
     const auto gradient = scene.gradients(state, {"compliance"}, parameters);
@@ -41,9 +41,9 @@ namespace
 
   TEST(GradientCost, AdjointIsOneSolvePerResponse)
   {
-    GradientScene<3> scene(sixteen_heights(1e-6), 0.05);
-    const auto       state  = scene.solve(scene.problem.scene.design);
-    const auto       before = scene.problem.context.total_work();
+    GradientScene<3>                scene(sixteen_heights(1e-6), 0.05);
+    const auto                      state  = scene.solve(scene.design);
+    const auto                      before = scene.problem.context.total_work();
     sensitivity::GradientParameters parameters;
     parameters.method   = "adjoint";
     const auto gradient = scene.gradients(state, {"compliance"}, parameters);
@@ -57,7 +57,7 @@ namespace
   TEST(GradientCost, EnergyNeedsNoSolve)
   {
     GradientScene<3> scene(sixteen_heights(1e-6), 0.05);
-    const auto       state  = scene.solve(scene.problem.scene.design);
+    const auto       state  = scene.solve(scene.design);
     const auto       before = scene.problem.context.total_work();
     for (const std::string response : {"potential energy", "volume"})
       {
@@ -79,8 +79,8 @@ namespace
     set_design(given, 3, 0.04);
     given.bodies[1].loads[face_index(2, 1)].pressure = 0.7;
     given.bodies[1].body_force[2]                    = -2.;
-    GradientScene<3> scene(given, 0.05);
-    const auto       state = scene.solve(scene.problem.scene.design);
+    GradientScene<3>                scene(given, 0.05);
+    const auto                      state = scene.solve(scene.design);
     sensitivity::GradientParameters exact, differences;
     exact.method = differences.method = "direct";
     differences.derivatives           = "central differences";
@@ -97,8 +97,8 @@ namespace
   {
     auto given = two_blocks<2>(8, 8, 3.);
     set_design(given, 4, 0.04);
-    GradientScene<2> scene(given, 0.05);
-    const auto       state = scene.solve(scene.problem.scene.design);
+    GradientScene<2>                scene(given, 0.05);
+    const auto                      state = scene.solve(scene.design);
     sensitivity::GradientParameters direct, differences;
     direct.method      = "direct";
     differences.method = "finite differences";
@@ -118,14 +118,14 @@ namespace
     set_design(given, 3, 0.04);
     given.bodies[1].refined_below = 0.45;
     GradientScene<3> scene(given, 0.05);
-    const auto       state = scene.solve(scene.problem.scene.design);
+    const auto       state = scene.solve(scene.design);
     const auto       gradient =
       scene.gradients(state, {"volume"}, {}).of_response[0].values;
     const auto  &volume = *scene.responses["volume"];
     const double here   = volume.value(scene.problem.solver, state);
     for (unsigned int i = 0; i < gradient.size(); ++i)
       {
-        auto moved = scene.problem.scene.design;
+        auto moved = scene.design;
         moved[i] += 0.5;
         auto there      = state;
         there.positions = scene.problem.positions(moved);

@@ -53,9 +53,9 @@ namespace
   class Weak : public ::testing::Test
   {
   protected:
-    const double           pressure = weakening_pressure(10.);
-    GradientScene<2>       scene{curved_scene(pressure), 0.05};
-    state::ContactState<2> state = scene.solve(scene.problem.scene.design);
+    const double                          pressure = weakening_pressure(10.);
+    GradientScene<2>                      scene{curved_scene(pressure), 0.05};
+    state::ContactState<2>                state = scene.solve(scene.design);
     const sensitivity::GradientParameters parameters;
 
     std::vector<std::vector<double>>
@@ -104,7 +104,7 @@ namespace
       const double             weight[] = {-1.5, 2., -0.5};
       for (unsigned int k = 0; k < 3; ++k)
         {
-          auto design = scene.problem.scene.design;
+          auto design = scene.design;
           for (unsigned int i = 0; i < design.size(); ++i)
             design[i] += k * t * direction[i];
           const auto there = k == 0 ? state : scene.solve(design);
@@ -200,7 +200,7 @@ namespace
           const double        weight[] = {-1.5, 2., -0.5};
           for (unsigned int p = 0; p < 3; ++p)
             {
-              auto design = scene.problem.scene.design;
+              auto design = scene.design;
               design[j] += sign * p * t;
               const auto values = scene.values(design).responses;
               for (unsigned int i = 0; i < names.size(); ++i)
@@ -225,7 +225,7 @@ namespace
   TEST_F(Weak, AwayFromItBothSidesAgree)
   {
     GradientScene<2> regular(curved_scene(1.05 * pressure), 0.05);
-    const auto       there = regular.solve(regular.problem.scene.design);
+    const auto       there = regular.solve(regular.design);
     const auto       sides =
       sensitivity::one_sided_gradients(regular.at(there, parameters),
                                        {regular.responses["compliance"].get()});

@@ -50,14 +50,20 @@ TEST(ProjectedGradient, IsZeroAtAPointOfKarushKuhnAndTucker)
       g[i] =
         3. * row_0[i] - 2. * row_1[i] + (i == 9 ? 11. : sign * std::abs(g[i]));
     }
-  EXPECT_NEAR(projected_gradient_norm(g, {row_0, row_1}, places), 0., 1e-13);
+  EXPECT_NEAR(projected_gradient_norm(g,
+                                      {{row_0, false}, {row_1, false}},
+                                      places),
+              0.,
+              1e-13);
   // a dependent row changes nothing
-  EXPECT_NEAR(projected_gradient_norm(g, {row_0, row_1, row_0}, places),
+  EXPECT_NEAR(projected_gradient_norm(
+                g, {{row_0, false}, {row_1, false}, {row_0, false}}, places),
               0.,
               1e-13);
   // a bound multiplier of the wrong sign does
   g[2] -= 50. * std::abs(g[2]) + 50.;
-  EXPECT_GT(projected_gradient_norm(g, {row_0, row_1}, places), 1.);
+  EXPECT_GT(
+    projected_gradient_norm(g, {{row_0, false}, {row_1, false}}, places), 1.);
 }
 
 TEST(ProjectedGradient, IsTheMinimumOverTheMultiplier)
@@ -79,11 +85,29 @@ TEST(ProjectedGradient, IsTheMinimumOverTheMultiplier)
             r[i] += mu * a[i];
           scanned = std::min(scanned, projected_norm(r, places));
         }
-      const double computed = projected_gradient_norm(g, {a}, places);
+      const double computed = projected_gradient_norm(g, {{a, false}}, places);
       EXPECT_LE(computed, scanned + 1e-12);
       // the scan is off by half a step of 1e-3 at most
       EXPECT_NEAR(computed, scanned, 4e-3);
     }
+}
+
+TEST(ProjectedGradient, InequalitiesOnlyPush)
+{
+  std::mt19937             random(11);
+  const std::vector<Place> places(6, Place::inside);
+  const auto               a = random_vector(random, 6);
+  std::vector<double>      against(6), along(6);
+  for (unsigned int i = 0; i < 6; ++i)
+    {
+      against[i] = -2. * a[i];
+      along[i]   = 2. * a[i];
+    }
+  // the descent -g leads out of c <= 0, or into it
+  EXPECT_NEAR(projected_gradient_norm(against, {{a, true}}, places), 0., 1e-14);
+  EXPECT_DOUBLE_EQ(projected_gradient_norm(along, {{a, true}}, places),
+                   projected_gradient_norm(along, {}, places));
+  EXPECT_NEAR(projected_gradient_norm(along, {{a, false}}, places), 0., 1e-14);
 }
 
 TEST(ProjectedGradient, WithoutConstraintsOrBoundsIsTheNorm)

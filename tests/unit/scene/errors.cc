@@ -277,13 +277,8 @@ TEST(Errors, Shapes)
                   "--set: entry 'Shape/Modes' = 'x+(': must be a formula"));
 }
 
-TEST(Errors, MethodsAndResponses)
+TEST(Errors, Methods)
 {
-  expect_error({"Optimization/Objective", "beauty", "potential energy, "});
-  expect_error({"Optimization/Constraints", "weight: initial", "volume"});
-  expect_error({"Optimization/Constraints", "volume: same", "'initial' or"});
-  expect_error({"Optimization/Constraints", "volume: nan", "'initial' or"});
-  expect_error({"Optimization/Constraints", "potential energy: 1", "already"});
   expect_error({"Optimization/Maximum evaluations", "0", "at least 1"});
   expect_error({"Optimization/Gradient tolerance", "0", "between"});
   expect_error({"Optimization/Objective tolerance", "0", "between"});

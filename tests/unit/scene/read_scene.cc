@@ -24,7 +24,9 @@ TEST(ReadScene, FillsTheParametersOfEveryModule)
   EXPECT_EQ(scene.shapes[0].basis, "Bezier patch");
   EXPECT_EQ(scene.shapes[0].control_points, (Integers{3, 2}));
   EXPECT_EQ(scene.shapes[0].bounds, (Numbers{-0.25, 0.25}));
-  EXPECT_EQ(scene.optimization.constraints.at("volume"), "initial");
+  EXPECT_EQ(scene.optimization.constraints,
+            (std::vector<std::pair<std::string, std::string>>{
+              {"volume", "initial"}}));
   EXPECT_EQ(scene.optimization.objective, "potential energy");
 }
 
@@ -206,6 +208,10 @@ TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
                                              "set Dimension = 2\n"
                                              "set Obstacles = floor\n"
                                              "set Load cases = heavy\n"
+                                             "set Responses = tip\n"
+                                             "subsection Response tip\n"
+                                             "set Quantity = volume\n"
+                                             "end\n"
                                              "subsection Body punch\n"
                                              "set Box cells = 1, 1\n"
                                              "end\n"

@@ -47,7 +47,9 @@ namespace
       sensitivity::Responses<2>                           responses;
       for (const auto &name : names)
         {
-          made.push_back(choose(response::response_table<2>(), name).make());
+          response::ResponseParameters of_name;
+          of_name.quantity = name;
+          made.push_back(response::make_response<2>(of_name));
           responses.push_back(made.back().get());
         }
       parameters.method = method;
