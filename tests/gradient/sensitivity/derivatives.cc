@@ -321,7 +321,7 @@ namespace
 
   TEST(Gradient, ResultantsOnABentFace3D)
   {
-    GradientScene<3> scene(resultants_on_the_bent_face<3>(4, 3),
+    GradientScene<3> scene(resultants_on_the_bent_face<3>(3, 3),
                            0.05,
                            "foundation.right",
                            0);
