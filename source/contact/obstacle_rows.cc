@@ -105,12 +105,9 @@ namespace snug
     std::vector<double>
     ObstacleRows<dim>::areas(const Field &positions) const
     {
-      const auto share =
-        tributary_areas<dim>({surface, slave_faces, shape}, positions);
-      std::vector<double> result;
-      for (const unsigned int slave : slave_nodes)
-        result.push_back(share[slave]);
-      return result;
+      return tributary_areas<dim>({surface, slave_faces, shape},
+                                  slave_nodes,
+                                  positions);
     }
 
     template <int dim>
@@ -119,13 +116,10 @@ namespace snug
                                          const std::vector<double> &factors,
                                          Field &gradient) const
     {
-      AssertDimension(factors.size(), slave_nodes.size());
-      std::vector<double> of_nodes(surface.n_nodes(), 0.);
-      for (unsigned int i = 0; i < slave_nodes.size(); ++i)
-        of_nodes[slave_nodes[i]] = factors[i];
       add_tributary_gradient<dim>({surface, slave_faces, shape},
+                                  slave_nodes,
                                   positions,
-                                  of_nodes,
+                                  factors,
                                   gradient);
     }
 

@@ -70,16 +70,34 @@ namespace snug
     }
 
     template <int dim>
+    std::vector<double>
+    tributary_areas(const TributaryFaces<dim>                &of,
+                    const std::vector<unsigned int>          &nodes,
+                    const typename mesh::Surface<dim>::Field &positions)
+    {
+      const auto          share = tributary_areas(of, positions);
+      std::vector<double> result;
+      for (const unsigned int node : nodes)
+        result.push_back(share[node]);
+      return result;
+    }
+
+    template <int dim>
     void
     add_tributary_gradient(const TributaryFaces<dim>                &of,
+                           const std::vector<unsigned int>          &nodes,
                            const typename mesh::Surface<dim>::Field &positions,
                            const std::vector<double>                &factors,
                            typename mesh::Surface<dim>::Field       &gradient)
     {
-      auto share = factors; // what the integral of a node's function counts
+      AssertDimension(factors.size(), nodes.size());
+      std::vector<double> of_nodes(of.surface.n_nodes(), 0.);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        of_nodes[nodes[i]] = factors[i];
+      auto share = of_nodes; // what the integral of a node's function counts
       for (unsigned int node = 0; node < share.size(); ++node)
         for (const auto &master : of.surface.masters(node))
-          share[node] += master.second * factors[master.first];
+          share[node] += master.second * of_nodes[master.first];
       for_each_point(of, positions, [&](const AreaPoint<dim> &point) {
         double factor = 0.;
         for (unsigned int k = 0; k < point.nodes.size(); ++k)
@@ -100,7 +118,12 @@ namespace snug
 #define SNUG_INSTANTIATE(dim)                                             \
   template std::vector<double> tributary_areas(                           \
     const TributaryFaces<dim> &, const mesh::Surface<dim>::Field &);      \
+  template std::vector<double> tributary_areas(                           \
+    const TributaryFaces<dim> &,                                          \
+    const std::vector<unsigned int> &,                                    \
+    const mesh::Surface<dim>::Field &);                                   \
   template void add_tributary_gradient(const TributaryFaces<dim> &,       \
+                                       const std::vector<unsigned int> &, \
                                        const mesh::Surface<dim>::Field &, \
                                        const std::vector<double> &,       \
                                        mesh::Surface<dim>::Field &);

@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/state/body_extents.h>
+#include <snug/state/axis_checks.h>
 #include <snug/state/state_problem.h>
 #include <snug/state/subdomain_table.h>
 

@@ -28,11 +28,19 @@ namespace snug
     tributary_areas(const TributaryFaces<dim>                &of,
                     const typename mesh::Surface<dim>::Field &positions);
 
-    /// gradient_a += d/dX_a sum_i factors_i area_i over the surface nodes i,
-    /// for all surface nodes: hanging ones count as independent positions.
+    /// Those of @p nodes alone.
+    template <int dim>
+    std::vector<double>
+    tributary_areas(const TributaryFaces<dim>                &of,
+                    const std::vector<unsigned int>          &nodes,
+                    const typename mesh::Surface<dim>::Field &positions);
+
+    /// gradient_a += d/dX_a sum_i factors_i area_i over @p nodes i, for all
+    /// surface nodes a: hanging ones count as independent positions.
     template <int dim>
     void
     add_tributary_gradient(const TributaryFaces<dim>                &of,
+                           const std::vector<unsigned int>          &nodes,
                            const typename mesh::Surface<dim>::Field &positions,
                            const std::vector<double>                &factors,
                            typename mesh::Surface<dim>::Field       &gradient);

@@ -37,22 +37,6 @@ subsection Contact
 end
 )";
 
-  Motion<3>
-  some_rotation()
-  {
-    Motion<3>            motion;
-    dealii::Tensor<2, 3> a = motion.Q, b = motion.Q;
-    a[0][0] = a[1][1] = std::cos(0.7);
-    a[1][0]           = std::sin(0.7);
-    a[0][1]           = -a[1][0];
-    b[1][1] = b[2][2] = std::cos(-1.1);
-    b[2][1]           = std::sin(-1.1);
-    b[1][2]           = -b[2][1];
-    motion.Q          = a * b;
-    motion.shift      = dealii::Point<3>(3., -2., 5.);
-    return motion;
-  }
-
 } // namespace
 
 TEST(Obstacles, EqualStiffBodies)
@@ -121,7 +105,7 @@ TEST(Obstacles, DoNotDependOnPlaceAndUnits)
 {
   const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
   const SolvedScene<3>           there(corner_scene, sharp);
-  const SolvedScene<3>           here(corner_scene, sharp, some_rotation());
+  const SolvedScene<3>           here(corner_scene, sharp, some_motion());
   Motion<3>                      larger;
   larger.factor = 1000.;
   const SolvedScene<3> in_millimetres(corner_scene, sharp, larger);
@@ -141,7 +125,7 @@ TEST(Obstacles, DoNotDependOnPlaceAndUnits)
               1e-9 * std::abs(there.state.energy));
   for (unsigned int pair = 0; pair < 4; ++pair)
     EXPECT_NEAR(
-      (some_rotation().turned(there.force(pair)) - here.force(pair)).norm(),
+      (some_motion().turned(there.force(pair)) - here.force(pair)).norm(),
       0.,
       1e-9 * there.force(pair).norm());
 }

@@ -43,6 +43,23 @@ namespace snug
       }
     };
 
+    /// A turn about two axes and a shift.
+    inline Motion<3>
+    some_motion()
+    {
+      Motion<3>            motion;
+      dealii::Tensor<2, 3> a = motion.Q, b = motion.Q;
+      a[0][0] = a[1][1] = std::cos(0.7);
+      a[1][0]           = std::sin(0.7);
+      a[0][1]           = -a[1][0];
+      b[1][1] = b[2][2] = std::cos(-1.1);
+      b[2][1]           = std::sin(-1.1);
+      b[1][2]           = -b[2][1];
+      motion.Q          = a * b;
+      motion.shift      = dealii::Point<3>(3., -2., 5.);
+      return motion;
+    }
+
     /// The state of a parameter file without the program around it, with all
     /// its bodies and obstacles moved.
     template <int dim>

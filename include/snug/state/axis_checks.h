@@ -1,5 +1,5 @@
-#ifndef snug_state_body_extents_h
-#define snug_state_body_extents_h
+#ifndef snug_state_axis_checks_h
+#define snug_state_axis_checks_h
 
 #include <snug/state/body_boxes.h>
 

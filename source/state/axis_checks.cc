@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/state/body_extents.h>
+#include <snug/state/axis_checks.h>
 
 #include <deal.II/base/mpi.h>
 
