@@ -38,6 +38,10 @@ def panels(aspects, columns):
 def paint(axis, points, polygons, values, peak):
     """Draw values, linear on the triangles between the edges of the polygons
     and their centres; colours from 0 to peak."""
+    used, place = np.unique(np.concatenate(polygons), return_inverse=True)
+    points, values = points[used], values[used]
+    ends = np.cumsum([len(polygon) for polygon in polygons])[:-1]
+    polygons = [part.tolist() for part in np.split(place.ravel(), ends)]
     centres = [points[polygon].mean(axis=0) for polygon in polygons]
     means = [values[polygon].mean() for polygon in polygons]
     triangles = [(a, b, len(points) + k)

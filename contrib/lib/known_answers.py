@@ -179,3 +179,43 @@ def five_bodies(result, _):
     return [(f"force on {pair + 1}",
              math.fsum(p["force"] for p in result.points if p["pair"] == pair),
              math.fsum(range(pair + 1, 6))) for pair in range(5)]
+
+
+def crowned_punch(result, _):
+    """The even pressure 1 and the profile of a rigid punch that has it: how far the
+    half plane sinks less at x than in the middle (Johnson, 2.5)."""
+    points = sorted(result.points, key=lambda p: p["x"])
+
+    def sinking(x):
+        return .91 / (1000 * math.pi) * sum(
+            s * math.log(s * s) for s in (1 + x, 1 - x) if s > 0)
+    return [(f"p, {which.__name__}", which(result.pressures()), 1.)
+            for which in (min, max)] + [
+        (f"profile at {p['x']:.5g}", p["y"] - points[0]["y"], sinking(p["x"]))
+        for p in (points[len(points) // 2], points[-1])]
+
+
+def shrunk_hub(result, _):
+    """The force it started with; no peak is below that over the area."""
+    force = result.summary["initial_state"]["responses"]["hold"]
+    found = result.state["responses"]
+    return [("force", found["hold"], force),
+            ("peak", found["peak"], force / (2 * math.pi * 20 * 15))]
+
+
+def bush(result, _):
+    """A largest pressure q over half of the bore carries q times the radius 10 of
+    the pin: at least 50 for the push of 500."""
+    push = result.summary["load_cases"][0]["state"]
+    return [("peak", push["responses"]["peak"], 50.),
+            ("largest p", push["max_pressure"], 50.)]
+
+
+def leaf_spring(result, _):
+    """Masses as they were; the stress of 40 cells along the upper leaf and 2
+    across."""
+    start = result.summary["initial_state"]["responses"]
+    found = result.state["responses"]
+    return [(name, found[name], start[name])
+            for name in ("upper mass", "lower mass")] + [
+        ("von Mises norm", found["stress"], 109.5)]

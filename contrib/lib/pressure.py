@@ -39,11 +39,13 @@ class Side:
     def curve(self):
         """Where to draw the two ends of the faces of a 2D side, and what the
         place is called: the coordinate along it, or its arc length where the
-        side turns back."""
+        side turns away from that by more than 45 degrees."""
         along = 1 - self.normal()
-        ends = self.points[self.faces][:, :, along]
-        if np.all(ends[:, 0] < ends[:, 1]) or np.all(ends[:, 0] > ends[:, 1]):
-            return ends, f"{'xyz'[along]} (scene's length)"
+        ends = self.points[self.faces]
+        steps = ends[:, 1, :2] - ends[:, 0, :2]
+        forward = steps[:, along] * np.sign(steps[:, along].sum())
+        if np.all(forward > np.abs(steps[:, 1 - along])):
+            return ends[:, :, along], f"{'xyz'[along]} (scene's length)"
         return self.arc_lengths(), "length along the face (scene's length)"
 
     def arc_lengths(self):
