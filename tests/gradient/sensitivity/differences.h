@@ -69,7 +69,8 @@ namespace snug
         return problem.solver.solve(sensitivity::positions(problem.mesh,
                                                            *basis,
                                                            design),
-                                    qp::WarmStart());
+                                    qp::WarmStart(),
+                                    load_case);
       }
 
       Values<dim>
@@ -132,10 +133,11 @@ namespace snug
         return sensitivity::gradients(at(state, parameters), chosen);
       }
 
-      Problem<dim>                                                    problem;
-      std::unique_ptr<shape::Shapes<dim>>                             basis;
-      std::vector<double>                                             design;
-      std::vector<double>                                             widths;
+      Problem<dim>                        problem;
+      std::unique_ptr<shape::Shapes<dim>> basis;
+      std::vector<double>                 design;
+      std::vector<double>                 widths;
+      unsigned int                        load_case = 0;
       std::map<std::string, std::unique_ptr<response::Response<dim>>> responses;
 
     private:

@@ -1,15 +1,9 @@
-#include <gradient/sensitivity/differences.h>
+#include <gradient/sensitivity/check_responses.h>
 
 namespace
 {
   using namespace snug;
   using namespace snug::test;
-
-  /// Between the methods, which solve the same system or its transpose.
-  const double method_tolerance = 1e-10;
-  /// Of differences of fourth order between states solved to 1e-12.
-  const double difference_tolerance = 1e-7;
-  const double difference_step      = 2e-4;
 
   /// The shape of a basis in the foundation of test scenes, small enough that
   /// no contact opens or closes.
@@ -68,34 +62,7 @@ namespace
     if (method == "mortar")
       narrow_punch(given);
     GradientScene<dim> scene(given, shape_in_foundation<dim>(basis));
-    for (const auto &[name, parameters] : all_responses<dim>())
-      scene.responses[name] = response::make_response<dim>(parameters);
-    const auto state = scene.solve(scene.design);
-    ASSERT_EQ(state.weak_contacts, 0u);
-    ASSERT_GT(state.active_contacts, 1u);
-
-    std::vector<std::string> names;
-    for (const auto &[name, response] : scene.responses)
-      names.push_back(name);
-    sensitivity::GradientParameters parameters;
-    parameters.method  = "adjoint";
-    const auto adjoint = scene.gradients(state, names, parameters).of_response;
-    parameters.method  = "direct";
-    const auto direct  = scene.gradients(state, names, parameters).of_response;
-
-    const auto direction = test_directions(scene.basis->n_variables()).front();
-    const auto exact     = scene.differences(direction, difference_step);
-    for (unsigned int i = 0; i < names.size(); ++i)
-      {
-        const auto &gradient = adjoint[i].values;
-        EXPECT_LT(relative_error(gradient, direct[i].values), method_tolerance)
-          << names[i];
-        EXPECT_LT(std::abs(dot(gradient, direction) -
-                           exact.responses.at(names[i])) /
-                    (norm(gradient) * norm(direction)),
-                  difference_tolerance)
-          << names[i];
-      }
+    check_responses(scene);
   }
 
   class EveryResponse : public testing::TestWithParam<std::string>
