@@ -101,8 +101,7 @@ namespace snug
       pictures.back().contact = std::make_unique<io::ContactOutput<dim>>(
         typename io::ContactOutput<dim>::Sources{*mesh,
                                                  solver->surface(),
-                                                 solver->contact().pairs(),
-                                                 solver->contact().places()},
+                                                 solver->contact()},
         directory);
     }
 

@@ -14,8 +14,9 @@ namespace snug
     namespace
     {
       /// A side is finer if its faces are smaller by more than this part:
-      /// equal meshes must not be decided by round-off.
-      const double finer_by = 0.01;
+      /// equal meshes must be decided neither by round-off nor by a curvature
+      /// that makes one side a few percent longer.
+      const double finer_by = 0.1;
 
       /// Part of the slave faces' size over which gap formulas are
       /// differentiated by differences.
@@ -195,6 +196,25 @@ namespace snug
     Contact<dim>::places() const
     {
       return row_places;
+    }
+
+    template <int dim>
+    std::vector<SharedNode>
+    Contact<dim>::shared_nodes() const
+    {
+      std::vector<SharedNode> result;
+      unsigned int            first = 0;
+      for (const Group &group : groups)
+        {
+          for (SharedNode &shared : group.rows->shared_nodes())
+            {
+              for (auto &row : shared.rows)
+                row.first += first;
+              result.push_back(std::move(shared));
+            }
+          first += group.rows->slaves().size();
+        }
+      return result;
     }
 
     template <int dim>

@@ -29,8 +29,8 @@ namespace snug
                                          const std::vector<double> &forces,
                                          Field &gradient) const
     {
-      const NodalNormals<dim>     nodal(surface, sides.slave, shape, positions);
-      const SupportedNormals<dim> normals(nodal, held);
+      const SupportedNormals<dim> normals(
+        surface, sides.slave, shape, positions, held);
       const auto sums = row_sums<double>(node_arrays<dim>(positions));
       Energy     energy{positions, deformed(positions, displacement), {}, {}};
       Field      normal_gradient(surface.n_nodes());

@@ -256,11 +256,26 @@ namespace snug
     }
 
     template <int dim>
+    std::vector<SharedNode>
+    MortarRows<dim>::shared_nodes() const
+    {
+      std::vector<bool> own(surface.n_nodes(), false);
+      for (const unsigned int node : multipliers.nodes)
+        own[node] = true;
+      std::vector<SharedNode> result;
+      for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+        if (!own[node] && surface.masters(node).empty() &&
+            !multipliers.shares[node].empty())
+          result.push_back({node, multipliers.shares[node]});
+      return result;
+    }
+
+    template <int dim>
     std::vector<Row<dim>>
     MortarRows<dim>::rows(const Field &positions) const
     {
-      const NodalNormals<dim>     nodal(surface, sides.slave, shape, positions);
-      const SupportedNormals<dim> normals(nodal, held);
+      const SupportedNormals<dim> normals(
+        surface, sides.slave, shape, positions, held);
       const auto sums = row_sums<double>(node_arrays<dim>(positions));
       std::vector<Row<dim>> result(sums.size());
       for (unsigned int i = 0; i < sums.size(); ++i)
@@ -282,10 +297,10 @@ namespace snug
     MortarRows<dim>::row_derivatives(const Field &positions,
                                      const Field &velocity) const
     {
-      const NodalNormals<dim>     nodal(surface, sides.slave, shape, positions);
-      const SupportedNormals<dim> normals(nodal, held);
-      const Field                 normal_slopes = normals.derivative(velocity);
-      const auto                  sums =
+      const SupportedNormals<dim> normals(
+        surface, sides.slave, shape, positions, held);
+      const Field normal_slopes = normals.derivative(velocity);
+      const auto  sums =
         row_sums<Differential<1>>(node_arrays<dim>(positions, velocity));
       std::vector<Row<dim>> result(sums.size());
       for (unsigned int i = 0; i < sums.size(); ++i)

@@ -64,7 +64,10 @@ namespace snug
 
     template <int dim>
     NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
-      : surface(pair.surface), shape(pair.shape), sides(pair.sides)
+      : surface(pair.surface)
+      , shape(pair.shape)
+      , sides(pair.sides)
+      , held(pair.held)
     {
       const Opposition<dim> opposition(pair);
       const auto            normals = master_normals(pair.positions);
@@ -112,10 +115,10 @@ namespace snug
     }
 
     template <int dim>
-    NodalNormals<dim>
+    SupportedNormals<dim>
     NodalRows<dim>::master_normals(const Field &positions) const
     {
-      return {surface, sides.master, shape, positions};
+      return {surface, sides.master, shape, positions, held};
     }
 
     template <int dim>

@@ -11,9 +11,16 @@ namespace snug
     } // namespace
 
     template <int dim>
-    SupportedNormals<dim>::SupportedNormals(const NodalNormals<dim>   &nodal,
-                                            const HeldDirections<dim> &held)
-      : nodal(nodal), held(held), unit(nodal.normals()), length(unit.size(), 0.)
+    SupportedNormals<dim>::SupportedNormals(
+      const mesh::Surface<dim>        &surface,
+      const std::vector<unsigned int> &faces,
+      const FaceShape<dim>            &shape,
+      const Field                     &positions,
+      const HeldDirections<dim>       &held)
+      : nodal(surface, faces, shape, positions)
+      , held(held)
+      , unit(nodal.normals())
+      , length(unit.size(), 0.)
     {
       for (unsigned int node = 0; node < unit.size(); ++node)
         {

@@ -20,37 +20,53 @@ namespace snug
     {
     }
 
+    namespace
+    {
+      /// Pressure and gap by the shares of others, flags where all have them.
+      template <typename Shares, typename Point>
+      state::ContactPoint
+      shared_point(const Shares &shares, const Point &point)
+      {
+        state::ContactPoint result;
+        result.active = result.weak = true;
+        for (const auto &[index, share] : shares)
+          {
+            const state::ContactPoint &other = point(index);
+            result.pressure += share * other.pressure;
+            result.gap += share * other.gap;
+            result.active = result.active && other.active;
+            result.weak   = result.weak && other.weak;
+          }
+        return result;
+      }
+    } // namespace
+
     template <int dim>
     std::vector<state::ContactPoint>
     ContactOutput<dim>::nodal_points(
       const std::vector<state::ContactPoint> &rows) const
     {
-      AssertDimension(rows.size(), sources.places.size());
+      const auto &places = sources.contact.places();
+      AssertDimension(rows.size(), places.size());
       std::vector<state::ContactPoint> points(sources.surface.n_nodes());
       std::vector<bool>                seen(points.size(), false);
       for (unsigned int i = 0; i < rows.size(); ++i)
         {
-          const unsigned int node = sources.places[i].slave;
+          const unsigned int node = places[i].slave;
           if (!seen[node] || rows[i].force > points[node].force)
             points[node] = rows[i];
           seen[node] = true;
         }
+      for (const auto &shared : sources.contact.shared_nodes())
+        if (!seen[shared.node])
+          points[shared.node] =
+            shared_point(shared.rows,
+                         [&](unsigned int row) { return rows[row]; });
       for (unsigned int node = 0; node < points.size(); ++node)
-        {
-          const auto &masters = sources.surface.masters(node);
-          if (masters.empty())
-            continue;
-          points[node]        = state::ContactPoint();
-          points[node].active = points[node].weak = true;
-          for (const auto &master : masters)
-            {
-              const auto &point = points[master.first];
-              points[node].pressure += master.second * point.pressure;
-              points[node].gap += master.second * point.gap;
-              points[node].active = points[node].active && point.active;
-              points[node].weak   = points[node].weak && point.weak;
-            }
-        }
+        if (!sources.surface.masters(node).empty())
+          points[node] =
+            shared_point(sources.surface.masters(node),
+                         [&](unsigned int master) { return points[master]; });
       return points;
     }
 
@@ -61,8 +77,9 @@ namespace snug
                                    const Field &displacement) const
     {
       const auto        points = nodal_points(state.contact);
+      const auto       &pairs  = sources.contact.pairs();
       std::vector<bool> candidate(sources.surface.n_nodes(), false);
-      for (const auto &row : sources.places)
+      for (const auto &row : sources.contact.places())
         candidate[row.slave] = true;
       PatchList<dim - 1, dim> patches({{"pressure", 1},
                                        {"gap", 1},
@@ -78,17 +95,13 @@ namespace snug
                                        {"design_displacement", dim}});
       for (const auto &face : sources.surface.faces())
         {
-          const auto pair =
-            std::find_if(sources.pairs.begin(),
-                         sources.pairs.end(),
-                         [&](const contact::Pair &pair) {
-                           return pair.slave ==
-                                  std::make_pair(face.body, face.boundary);
-                         });
-          const bool   slave = pair != sources.pairs.end();
-          const double number =
-            slave ? double(pair - sources.pairs.begin()) : -1.;
-          Field                            corners;
+          const auto pair = std::find_if(
+            pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
+              return pair.slave == std::make_pair(face.body, face.boundary);
+            });
+          const bool   slave  = pair != pairs.end();
+          const double number = slave ? double(pair - pairs.begin()) : -1.;
+          Field        corners;
           std::vector<std::vector<double>> values;
           for (const unsigned int node : face.nodes)
             {
@@ -125,7 +138,7 @@ namespace snug
                          "force,pressure,gap,area,active,weak\n";
       for (unsigned int i = 0; i < state.contact.size(); ++i)
         {
-          const auto &row   = sources.places[i];
+          const auto &row   = sources.contact.places()[i];
           const auto &point = state.contact[i];
           text += std::to_string(row.pair);
           for (unsigned int c = 0; c < dim; ++c)

@@ -58,7 +58,7 @@ namespace snug
                     choice("finer|first"),
                     "Whose nodes must not penetrate the other face. finer: "
                     "that of the smaller faces on average; first: the one that "
-                    "is named first, as also for equal meshes.");
+                    "is named first, as also for meshes within a tenth.");
         entries.add("Search distance",
                     pair.search_distance,
                     "Slave nodes farther from the master at the first design "

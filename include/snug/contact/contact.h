@@ -60,6 +60,9 @@ namespace snug
       n_rows() const;
       const std::vector<RowPlace> &
       places() const;
+      /// Of all groups; rows count through.
+      std::vector<SharedNode>
+      shared_nodes() const;
 
       std::vector<Row<dim>>
       rows(const Field &positions) const;

@@ -39,6 +39,8 @@ namespace snug
 
       const std::vector<unsigned int> &
       slaves() const override;
+      std::vector<SharedNode>
+      shared_nodes() const override;
       std::vector<Row<dim>>
       rows(const Field &positions) const override;
       std::vector<Row<dim>>

@@ -1,9 +1,9 @@
 #ifndef snug_contact_nodal_rows_h
 #define snug_contact_nodal_rows_h
 
-#include <snug/contact/nodal_normals.h>
 #include <snug/contact/projection.h>
 #include <snug/contact/row_group.h>
+#include <snug/contact/supported_normals.h>
 
 namespace snug
 {
@@ -12,7 +12,8 @@ namespace snug
     /**
      * Nodal (node to face) contact of one pair. The row of slave node s with
      * the weights w_k of its closest point (see Projection) is
-     * c_s = n, c_k = -w_k n, gap = n . (sum_k w_k x_k - x_s);
+     * c_s = n, c_k = -w_k n, gap = n . (sum_k w_k x_k - x_s),
+     * n = -v/|v|, v = sum_k w_k n_k by the SupportedNormals n_k of the master;
      * hanging master nodes are replaced by their masters. Faces and weights
      * stay, normals and gaps follow the positions. Slave nodes that hang, or
      * whose closest point lies beyond the edge of the master side
@@ -50,6 +51,7 @@ namespace snug
       const mesh::Surface<dim> &surface;
       const FaceShape<dim>     &shape;
       PairFaces                 sides;
+      HeldDirections<dim>       held;
       std::vector<Projection>   found;
       std::vector<unsigned int> slave_nodes;
       /// of each row: surface nodes, ascending, and their factors of n in the
@@ -58,7 +60,7 @@ namespace snug
 
       void
       resolve_hanging();
-      NodalNormals<dim>
+      SupportedNormals<dim>
       master_normals(const Field &positions) const;
     };
   } // namespace contact

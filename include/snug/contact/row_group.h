@@ -25,6 +25,14 @@ namespace snug
       dealii::Tensor<1, dim> normal;
     };
 
+    /// A slave node without a row of its own: the rows that act for it, and
+    /// their shares, which sum to 1, less where rows are out of reach.
+    struct SharedNode
+    {
+      unsigned int                                 node; ///< of the surface
+      std::vector<std::pair<unsigned int, double>> rows;
+    };
+
     /**
      * The rows of one contact pair as functions of the positions of the
      * surface nodes (hanging ones included). Which nodes a row reaches is
@@ -48,6 +56,13 @@ namespace snug
       /// are shown. None hangs; their order does not depend on the ranks.
       virtual const std::vector<unsigned int> &
       slaves() const = 0;
+
+      /// Nodes that others' rows act for; none hangs.
+      virtual std::vector<SharedNode>
+      shared_nodes() const
+      {
+        return {};
+      }
 
       virtual std::vector<Row<dim>>
       rows(const Field &positions) const = 0;

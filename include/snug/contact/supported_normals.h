@@ -22,9 +22,13 @@ namespace snug
     public:
       using Field = typename mesh::Surface<dim>::Field;
 
-      /// The references must outlive this. @throws TangledMesh.
-      SupportedNormals(const NodalNormals<dim>   &nodal,
-                       const HeldDirections<dim> &held);
+      /// Arguments as of NodalNormals. The references must outlive this.
+      /// @throws TangledMesh.
+      SupportedNormals(const mesh::Surface<dim>        &surface,
+                       const std::vector<unsigned int> &faces,
+                       const FaceShape<dim>            &shape,
+                       const Field                     &positions,
+                       const HeldDirections<dim>       &held);
 
       const Field &
       normals() const;
@@ -38,7 +42,7 @@ namespace snug
       add_transpose(const Field &normal_gradient, Field &gradient) const;
 
     private:
-      const NodalNormals<dim>   &nodal;
+      NodalNormals<dim>          nodal;
       const HeldDirections<dim> &held;
       Field                      unit;
       std::vector<double>        length; ///< |v|; 0 where n is not changed

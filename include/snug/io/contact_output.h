@@ -35,8 +35,9 @@ namespace snug
      * (*) length in 2D, where forces are per unit thickness.
      *
      * Pressure, gap and flags stand at slave nodes; hanging ones interpolate
-     * pressure and gap and are active or weak where all their masters are.
-     * Elsewhere they are 0. A node of several pairs shows its largest force.
+     * pressure and gap and are active or weak where all their masters are; so
+     * do nodes that the rows of others act for (mortar). Elsewhere they are 0.
+     * A node of several pairs shows its largest force.
      */
     template <int dim>
     class ContactOutput
@@ -45,10 +46,9 @@ namespace snug
       /// What it draws on; all must outlive the ContactOutput.
       struct Sources
       {
-        const mesh::BodyMesh<dim>            &mesh;
-        const mesh::Surface<dim>             &surface;
-        const std::vector<contact::Pair>     &pairs;
-        const std::vector<contact::RowPlace> &places;
+        const mesh::BodyMesh<dim>   &mesh;
+        const mesh::Surface<dim>    &surface;
+        const contact::Contact<dim> &contact;
       };
 
       /// Files go to @p directory, which must exist. Collective.

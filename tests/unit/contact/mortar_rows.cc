@@ -32,18 +32,6 @@ namespace
             this->positions[node][d] += distance * (1. + 0.6 * d);
     }
 
-    /// Rollers on the slave side at x = 0.
-    void
-    hold_left()
-    {
-      for (unsigned int node = 0; node < this->positions.size(); ++node)
-        if (!this->is_master(node) && this->positions[node][0] == 0.)
-          {
-            this->held[node].emplace_back();
-            this->held[node].back()[0] = 1.;
-          }
-    }
-
     void
     rotate(const dealii::Tensor<2, dim> &q)
     {
@@ -240,6 +228,15 @@ TEST(MortarRows, HeldNodesGiveTheirMultipliersAway)
       total += contact.areas(scene.positions)[i];
     }
   EXPECT_NEAR(total, 1., 1e-14);
+  const auto shared = contact.shared_nodes();
+  ASSERT_EQ(shared.size(), 1u);
+  EXPECT_EQ(scene.positions[shared[0].node][0], 0.);
+  ASSERT_EQ(shared[0].rows.size(), 1u);
+  EXPECT_EQ(shared[0].rows[0].second, 1.);
+  // to the next of the four faces
+  EXPECT_EQ(
+    scene.positions[contact.places()[shared[0].rows[0].first].slave][0],
+    0.25);
   const auto got = scene.nodal_forces(contact.areas(scene.positions));
   const auto wanted =
     scene.consistent_forces([](const dealii::Tensor<1, 2> &) { return 1.; });

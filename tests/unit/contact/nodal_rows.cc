@@ -12,6 +12,7 @@ namespace
   expect_exact_derivatives(unsigned int degree)
   {
     TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
+    scene.hold_left();
     scene.bend();
     const auto contact = scene.contact();
     // the step is 2e-4 of a Q2 node distance: truncation ~ (2e-4)^4, round-off
@@ -73,6 +74,26 @@ TEST(NodalRows, GapOfPlaneOverCurvedMasterConverges)
   EXPECT_LT(errors[1], errors[0] / 3.);
   EXPECT_LT(errors[2], errors[1] / 3.);
   EXPECT_LT(errors[2], 1e-3);
+}
+
+TEST(NodalRows, NormalsStayInSymmetryPlanes)
+{
+  // one-sided means of the faces at x = 0 lean by half the angle between faces
+  auto bodies            = TwoBoxes<3>::boxes(4, 3);
+  bodies[1].curved_faces = {{"top", "-(x^2+y^2)/4"}};
+  TwoBoxes<3> scene(bodies, 1);
+  scene.hold_left();
+  const auto   contact = scene.contact();
+  const auto   rows    = contact.rows(scene.positions);
+  unsigned int n_held  = 0;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    if (scene.positions[contact.places()[i].slave][0] == 0.)
+      {
+        ++n_held;
+        EXPECT_EQ(rows[i].normal[0], 0.);
+        EXPECT_NEAR(rows[i].normal.norm(), 1., 1e-15);
+      }
+  EXPECT_GT(n_held, 3u);
 }
 
 TEST(NodalRows, HangingNodesAreReplacedAndLinearFieldsReproduced)

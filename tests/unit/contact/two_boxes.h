@@ -109,6 +109,18 @@ struct TwoBoxes
         }
   }
 
+  /// Rollers at x = 0.
+  void
+  hold_left()
+  {
+    for (unsigned int node = 0; node < positions.size(); ++node)
+      if (positions[node][0] == 0.)
+        {
+          held[node].emplace_back();
+          held[node].back()[0] = 1.;
+        }
+  }
+
   Field
   random_field(unsigned int seed) const
   {
