@@ -99,9 +99,12 @@ namespace snug
       pictures.back().fields = std::make_unique<io::FieldOutput<dim>>(
         *mesh, tearing, solver->model().bodies, directory);
       pictures.back().contact = std::make_unique<io::ContactOutput<dim>>(
-        typename io::ContactOutput<dim>::Sources{*mesh,
-                                                 solver->surface(),
-                                                 solver->contact()},
+        typename io::ContactOutput<dim>::Sources{
+          *mesh,
+          solver->surface(),
+          solver->contact().pairs(),
+          solver->contact().places(),
+          solver->contact().shared_nodes()},
         directory);
     }
 

@@ -141,7 +141,26 @@ namespace snug
               "': no slave node lies opposite to the master within the search "
               "distance and angle");
         }
+      collect_shared_nodes();
       measure_pairing(positions);
+    }
+
+    template <int dim>
+    void
+    Contact<dim>::collect_shared_nodes()
+    {
+      shared.clear();
+      unsigned int first = 0;
+      for (const Group &group : groups)
+        {
+          for (SharedNode &node : group.rows->shared_nodes())
+            {
+              for (auto &row : node.rows)
+                row.first += first;
+              shared.push_back(std::move(node));
+            }
+          first += group.rows->slaves().size();
+        }
     }
 
     template <int dim>
@@ -199,22 +218,10 @@ namespace snug
     }
 
     template <int dim>
-    std::vector<SharedNode>
+    const std::vector<SharedNode> &
     Contact<dim>::shared_nodes() const
     {
-      std::vector<SharedNode> result;
-      unsigned int            first = 0;
-      for (const Group &group : groups)
-        {
-          for (SharedNode &shared : group.rows->shared_nodes())
-            {
-              for (auto &row : shared.rows)
-                row.first += first;
-              result.push_back(std::move(shared));
-            }
-          first += group.rows->slaves().size();
-        }
-      return result;
+      return shared;
     }
 
     template <int dim>

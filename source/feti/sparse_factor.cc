@@ -77,7 +77,12 @@ namespace snug
       petsc::check(MatAssemblyEnd(wrapped, MAT_FINAL_ASSEMBLY));
       MatFactorInfo info;
       petsc::check(MatFactorInfoInitialize(&info));
-      if (MatCholeskyFactorNumeric(factor, wrapped, &info) != 0)
+      if (matrix.n_rows > 0 && std::isnormal(matrix.diagonal(0)))
+        unit = std::ldexp(1., std::ilogb(matrix.diagonal(0)));
+      petsc::check(MatScale(wrapped, 1. / unit));
+      const bool failed = MatCholeskyFactorNumeric(factor, wrapped, &info) != 0;
+      petsc::check(MatScale(wrapped, unit));
+      if (failed)
         throw SolveError(what + " is not positive definite: look for "
                                 "degenerate cells and unconnected parts");
       check(what);
@@ -133,6 +138,7 @@ namespace snug
           petsc::check(VecPlaceArray(solution, x.column(0)));
           petsc::check(MatSolve(factor, right_hand_side, solution));
           petsc::check(VecResetArray(right_hand_side));
+          petsc::check(VecScale(solution, 1. / unit));
           petsc::check(VecResetArray(solution));
           return;
         }
@@ -142,6 +148,7 @@ namespace snug
       petsc::check(
         MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), X.put()));
       petsc::check(MatMatSolve(factor, B, X));
+      petsc::check(MatScale(X, 1. / unit));
     }
   } // namespace feti
 } // namespace snug

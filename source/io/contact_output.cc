@@ -46,18 +46,17 @@ namespace snug
     ContactOutput<dim>::nodal_points(
       const std::vector<state::ContactPoint> &rows) const
     {
-      const auto &places = sources.contact.places();
-      AssertDimension(rows.size(), places.size());
+      AssertDimension(rows.size(), sources.places.size());
       std::vector<state::ContactPoint> points(sources.surface.n_nodes());
       std::vector<bool>                seen(points.size(), false);
       for (unsigned int i = 0; i < rows.size(); ++i)
         {
-          const unsigned int node = places[i].slave;
+          const unsigned int node = sources.places[i].slave;
           if (!seen[node] || rows[i].force > points[node].force)
             points[node] = rows[i];
           seen[node] = true;
         }
-      for (const auto &shared : sources.contact.shared_nodes())
+      for (const auto &shared : sources.shared_nodes)
         if (!seen[shared.node])
           points[shared.node] =
             shared_point(shared.rows,
@@ -77,9 +76,9 @@ namespace snug
                                    const Field &displacement) const
     {
       const auto        points = nodal_points(state.contact);
-      const auto       &pairs  = sources.contact.pairs();
+      const auto       &pairs  = sources.pairs;
       std::vector<bool> candidate(sources.surface.n_nodes(), false);
-      for (const auto &row : sources.contact.places())
+      for (const auto &row : sources.places)
         candidate[row.slave] = true;
       PatchList<dim - 1, dim> patches({{"pressure", 1},
                                        {"gap", 1},
@@ -138,7 +137,7 @@ namespace snug
                          "force,pressure,gap,area,active,weak\n";
       for (unsigned int i = 0; i < state.contact.size(); ++i)
         {
-          const auto &row   = sources.contact.places()[i];
+          const auto &row   = sources.places[i];
           const auto &point = state.contact[i];
           text += std::to_string(row.pair);
           for (unsigned int c = 0; c < dim; ++c)

@@ -91,7 +91,7 @@ namespace snug
       MPI_Allreduce(
         MPI_IN_PLACE, on_rows.column(0), total * n, MPI_DOUBLE, MPI_SUM, comm);
       const MultiVector N      = null_space(on_rows);
-      DirectionBasis    result = {times(P, N), times(FP, N)};
+      DirectionBasis    result = {times(P, N), times(FP, N), unit};
       for (unsigned int j = 0; j < result.P.n_columns(); ++j)
         for (const unsigned int i : mine)
           result.P(i, j) = 0.;

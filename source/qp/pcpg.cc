@@ -89,9 +89,9 @@ namespace snug
       if (basis.P.n_columns() == 0)
         basis = {MultiVector(problem.n_owned(), 0),
                  MultiVector(problem.n_owned(), 0)};
-      for (const double length : norms(basis.P, comm)) // p'Fp = 1
+      for (const double length : norms(basis.P, comm))
         largest_rayleigh_quotient =
-          std::max(largest_rayleigh_quotient, 1. / (length * length));
+          std::max(largest_rayleigh_quotient, basis.unit / (length * length));
     }
 
     void
@@ -100,8 +100,8 @@ namespace snug
       if (basis.P.n_columns() == 0)
         return;
       const MultiVector a = inner_products(basis.P, residual, comm);
-      lambda.add_product(1., basis.P, a);
-      residual.add_product(-1., basis.FP, a);
+      lambda.add_product(1. / basis.unit, basis.P, a);
+      residual.add_product(-1. / basis.unit, basis.FP, a);
     }
 
     std::vector<double>
@@ -111,10 +111,10 @@ namespace snug
       if (basis.P.n_columns() == 0)
         return removed;
       const MultiVector parts = inner_products(basis.FP, x, comm);
-      x.add_product(-1., basis.P, parts);
+      x.add_product(-1. / basis.unit, basis.P, parts);
       for (unsigned int j = 0; j < parts.n_columns(); ++j)
         for (unsigned int i = 0; i < parts.n_rows(); ++i)
-          removed[j] += parts(i, j) * parts(i, j);
+          removed[j] += parts(i, j) * parts(i, j) / basis.unit;
       return removed;
     }
 
@@ -167,17 +167,21 @@ namespace snug
                                    largest_rayleigh_quotient * ZZ,
                                  noise * removed[j]);
         }
+      if (basis.P.n_columns() == 0 && largest_rayleigh_quotient > 0.)
+        basis.unit = std::ldexp(1., std::ilogb(largest_rayleigh_quotient));
+      MultiVector ZFZ(n, n);
+      ZFZ.add(1. / basis.unit, products.columns_from(0, n));
+      for (double &least : smallest)
+        least /= basis.unit;
       const MultiVector C =
-        orthonormal_combinations(products.columns_from(0, n),
-                                 smallest,
-                                 dependence_cut);
+        orthonormal_combinations(ZFZ, smallest, dependence_cut);
       if (C.n_columns() == 0)
         return false;
       const MultiVector a =
         inner_products(C, products.columns_from(2 * n, k), MPI_COMM_SELF);
       const MultiVector new_P = times(Z, C), new_FP = times(FZ, C);
-      lambda.add_product(1., new_P, a);
-      residual.add_product(-1., new_FP, a);
+      lambda.add_product(1. / basis.unit, new_P, a);
+      residual.add_product(-1. / basis.unit, new_FP, a);
       basis.P.append(new_P);
       basis.FP.append(new_FP);
       return true;

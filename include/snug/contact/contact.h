@@ -61,7 +61,7 @@ namespace snug
       const std::vector<RowPlace> &
       places() const;
       /// Of all groups; rows count through.
-      std::vector<SharedNode>
+      const std::vector<SharedNode> &
       shared_nodes() const;
 
       std::vector<Row<dim>>
@@ -112,9 +112,12 @@ namespace snug
       std::vector<Pair>         chosen;
       std::vector<Group>        groups; ///< one per pair
       std::vector<RowPlace>     row_places;
+      std::vector<SharedNode>   shared;
       Field                     paired_offsets; ///< of each row, when paired
       std::vector<double>       deepest;        ///< of each pair, when paired
 
+      void
+      collect_shared_nodes();
       void
       measure_pairing(const Field &positions);
       Group

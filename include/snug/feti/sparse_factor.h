@@ -13,7 +13,9 @@ namespace snug
     /**
      * Cholesky factorization of a sparse symmetric positive definite matrix
      * on one process, by a package of PETSc. The symbolic part is done once
-     * for the pattern.
+     * for the pattern. Scaling the matrix by a power of two changes no digit:
+     * the package factorizes it divided by one, so that no square root of its
+     * units is taken.
      */
     class SparseFactor
     {
@@ -46,6 +48,7 @@ namespace snug
       petsc::Matrix    wrapped;
       petsc::Matrix    factor;
       petsc::Vector    right_hand_side, solution;
+      double           unit = 1.; ///< power of two; the factor is of A / unit
     };
   } // namespace feti
 } // namespace snug

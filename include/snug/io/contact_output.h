@@ -46,9 +46,11 @@ namespace snug
       /// What it draws on; all must outlive the ContactOutput.
       struct Sources
       {
-        const mesh::BodyMesh<dim>   &mesh;
-        const mesh::Surface<dim>    &surface;
-        const contact::Contact<dim> &contact;
+        const mesh::BodyMesh<dim>              &mesh;
+        const mesh::Surface<dim>               &surface;
+        const std::vector<contact::Pair>       &pairs;
+        const std::vector<contact::RowPlace>   &places;
+        const std::vector<contact::SharedNode> &shared_nodes;
       };
 
       /// Files go to @p directory, which must exist. Collective.

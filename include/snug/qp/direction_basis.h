@@ -7,13 +7,16 @@ namespace snug
 {
   namespace qp
   {
-    /// Directions P with P' F P = I, and F P (n_owned x n each).
+    /// Directions P with P' F P = unit I, and F P (n_owned x n each). The unit
+    /// is a power of two of F's size: nothing takes a square root of F's units,
+    /// so that scaling F by a power of two changes no digit.
     struct DirectionBasis
     {
       MultiVector P{0, 0}, FP{0, 0};
+      double      unit = 1.;
 
       /**
-       * An F-orthonormal basis of the directions' span that vanishes on
+       * Such a basis of the directions' span that vanishes on
        * @p rows; without F-mults. Empty if there are as many of these rows
        * with nonzeros as directions. Collective.
        */

@@ -71,7 +71,8 @@ namespace snug
       void
       correct(MultiVector &lambda, MultiVector &residual) const;
 
-      /// x <- (I - P (F P)') x; squares of the F-norms of what was removed.
+      /// x <- (I - P (F P)' / unit) x; squares of the F-norms of what was
+      /// removed.
       std::vector<double>
       orthogonalise(MultiVector &x) const;
 

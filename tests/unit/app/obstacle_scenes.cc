@@ -133,7 +133,7 @@ TEST(Obstacles, DoNotDependOnPlaceAndUnits)
 TEST(Obstacles, PowersOfTwoTakeTheSameIterations)
 {
   Motion<3> larger;
-  larger.factor = 1024.;
+  larger.factor = 32.;
   const SolvedScene<3> small(corner_scene, exact);
   const SolvedScene<3> large(corner_scene, exact, larger);
   EXPECT_EQ(small.state.f_mults, large.state.f_mults);

@@ -58,6 +58,7 @@ namespace snug
       mesh::Surface<dim>                    surface;
       std::vector<contact::Pair>            pairs;
       std::vector<contact::RowPlace>        places;
+      std::vector<contact::SharedNode>      shared;
       state::ContactState<dim>              state;
     };
 
@@ -68,7 +69,8 @@ namespace snug
       const test::ScratchDirectory scratch;
       const ContactScene<dim>      scene(degree);
       io::ContactOutput<dim>       output(
-        {scene.mesh, scene.surface, scene.pairs, scene.places}, scratch.path);
+        {scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
+        scratch.path);
       output.write(0., scene.state);
       if (!scratch.is_first())
         return;
@@ -115,12 +117,44 @@ namespace snug
         }
     }
 
+    TEST(ContactOutput, NodesWithoutARowShowTheMeanOfThoseThatActForThem)
+    {
+      const test::ScratchDirectory scratch;
+      ContactScene<2>              scene(1);
+      const unsigned int           node = scene.places.back().slave;
+      scene.places.pop_back();
+      scene.state.contact.pop_back();
+      scene.shared.push_back({node, {{0, 0.25}, {1, 0.75}}});
+      io::ContactOutput<2> output(
+        {scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
+        scratch.path);
+      output.write(0., scene.state);
+      const auto x = scene.surface.gather(scene.state.positions)[node];
+      if (!scratch.is_first())
+        return;
+      const auto vtu =
+        test::read_vtu(test::read_file(scratch.file("contact-0000.vtu")));
+      const double mean = 0.25 * scene.state.contact[0].pressure +
+                          0.75 * scene.state.contact[1].pressure;
+      unsigned int found = 0;
+      for (unsigned int p = 0; p < vtu.n_points; ++p)
+        if (std::abs(vtu.arrays.at("")[3 * p] - x[0]) < 1e-6 &&
+            vtu.arrays.at("slave")[p] == 1.f)
+          {
+            ++found;
+            EXPECT_NEAR(vtu.arrays.at("pressure")[p], mean, 1e-6);
+            EXPECT_EQ(vtu.arrays.at("candidate")[p], 0.f);
+          }
+      EXPECT_GT(found, 0u);
+    }
+
     TEST(ContactOutput, TableReadsBackBitForBit)
     {
       const test::ScratchDirectory scratch;
       const ContactScene<3>        scene(1);
       io::ContactOutput<3>         output(
-        {scene.mesh, scene.surface, scene.pairs, scene.places}, scratch.path);
+        {scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
+        scratch.path);
       output.write(0., scene.state);
       output.write(5., scene.state);
       const auto x = scene.surface.gather(scene.state.positions);
@@ -161,14 +195,16 @@ namespace snug
 
     TEST(ContactOutput, WithoutPairsIsEmptyButValid)
     {
-      const test::ScratchDirectory         scratch;
-      const mesh::BodyMesh<2>              mesh(MPI_COMM_WORLD,
+      const test::ScratchDirectory           scratch;
+      const mesh::BodyMesh<2>                mesh(MPI_COMM_WORLD,
                                    test::two_boxes<2>(false),
                                    1);
-      const mesh::Surface<2>               surface(mesh, {});
-      const std::vector<contact::Pair>     pairs;
-      const std::vector<contact::RowPlace> places;
-      io::ContactOutput<2> output({mesh, surface, pairs, places}, scratch.path);
+      const mesh::Surface<2>                 surface(mesh, {});
+      const std::vector<contact::Pair>       pairs;
+      const std::vector<contact::RowPlace>   places;
+      const std::vector<contact::SharedNode> shared;
+      io::ContactOutput<2>   output({mesh, surface, pairs, places, shared},
+                                  scratch.path);
       state::ContactState<2> state;
       state.positions    = mesh.reference_positions();
       state.displacement = mesh.reference_positions();

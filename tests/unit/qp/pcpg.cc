@@ -239,7 +239,7 @@ TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
   dense::Matrix identity(P.n_columns(), P.n_columns());
   for (unsigned int j = 0; j < P.n_columns(); ++j)
     {
-      identity(j, j) = 1.;
+      identity(j, j) = known.unit;
       for (unsigned int i = 0; i < 40; ++i)
         if (leaving[i])
           {
