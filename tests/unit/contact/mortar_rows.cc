@@ -234,9 +234,8 @@ TEST(MortarRows, HeldNodesGiveTheirMultipliersAway)
   ASSERT_EQ(shared[0].rows.size(), 1u);
   EXPECT_EQ(shared[0].rows[0].second, 1.);
   // to the next of the four faces
-  EXPECT_EQ(
-    scene.positions[contact.places()[shared[0].rows[0].first].slave][0],
-    0.25);
+  EXPECT_EQ(scene.positions[contact.places()[shared[0].rows[0].first].slave][0],
+            0.25);
   const auto got = scene.nodal_forces(contact.areas(scene.positions));
   const auto wanted =
     scene.consistent_forces([](const dealii::Tensor<1, 2> &) { return 1.; });
