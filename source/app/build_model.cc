@@ -42,11 +42,13 @@ namespace snug
       state::Model<dim> model;
       model.feti   = scene.feti;
       model.solver = scene.solver;
-      for (const auto &body : scene.bodies)
+      for (unsigned int b = 0; b < scene.bodies.size(); ++b)
         {
+          const auto &body = scene.bodies[b];
           model.body_names.push_back(body.name);
           model.bodies.emplace_back();
-          model.bodies.back().materials = {body.material};
+          model.bodies.back().materials =
+            materials_of(scene, body, mesh.geometry(b).region_names());
           model.bodies.back().formulation =
             choose(elasticity::formulation_table(), body.formulation).make();
         }

@@ -1,6 +1,7 @@
 #include <snug/app/build_model.h>
 #include <snug/app/inventory.h>
 #include <snug/contact/tributary.h>
+#include <snug/elasticity/element.h>
 #include <snug/mesh/imported_mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -88,6 +89,32 @@ namespace snug
       }
 
       template <int dim>
+      std::vector<typename Inventory<dim>::Region>
+      regions_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
+      {
+        const auto          names = mesh.geometry(body).region_names();
+        std::vector<double> n_cells(names.size()), volume = n_cells;
+        const elasticity::Element<dim> element(mesh.degree(),
+                                               mesh.idealization());
+        for (const auto &cell : mesh.cells())
+          if (cell.body == body)
+            {
+              std::vector<dealii::Tensor<1, dim>> X;
+              for (const unsigned int node : cell.nodes)
+                X.push_back(mesh.reference_positions()[node]);
+              n_cells[cell.region] += 1.;
+              volume[cell.region] += element.volume(X);
+            }
+        dealii::Utilities::MPI::sum(n_cells, mesh.communicator(), n_cells);
+        dealii::Utilities::MPI::sum(volume, mesh.communicator(), volume);
+        std::vector<typename Inventory<dim>::Region> regions;
+        for (unsigned int r = 0; r < names.size(); ++r)
+          regions.push_back(
+            {names[r], static_cast<unsigned long>(n_cells[r]), volume[r]});
+        return regions;
+      }
+
+      template <int dim>
       typename Inventory<dim>::Body
       inventory_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
       {
@@ -96,6 +123,7 @@ namespace snug
           entry.n_cells += cell.body == body;
         entry.n_cells =
           dealii::Utilities::MPI::sum(entry.n_cells, mesh.communicator());
+        entry.regions     = regions_of_body(mesh, body);
         entry.box         = box_of_body(mesh, body);
         const auto &names = mesh.geometry(body).boundary_names();
         for (unsigned int b = 0; b < names.size(); ++b)
@@ -179,6 +207,16 @@ namespace snug
           const double size = body.box.lower.distance(body.box.upper);
           out << "body " << body.name << ": " << body.n_cells << " cells, "
               << to_text<dim>(body.box, size) << '\n';
+          if (body.regions.size() > 1)
+            for (const auto &region : body.regions)
+              {
+                out << "  region " << region.name << ": ";
+                if (region.n_cells == 0)
+                  out << "its cells are in others too\n";
+                else
+                  out << region.n_cells << " cells, volume " << region.volume
+                      << '\n';
+              }
           std::size_t width = 0;
           for (const auto &boundary : body.boundaries)
             width = std::max(width, boundary.name.size());

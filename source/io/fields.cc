@@ -82,10 +82,12 @@ namespace snug
       const auto gradient = summed(mesh, shape_gradient);
       const auto stress =
         nodal_stress(mesh, bodies, state.positions, state.displacement);
+      const unsigned int    n_regions = n_stress_regions(mesh);
       std::vector<Quantity> quantities{{"displacement", dim},
                                        {"stress", 9},
                                        {"von_mises", 1},
                                        {"body", 1},
+                                       {"region", 1},
                                        {"subdomain", 1},
                                        {"design_displacement", dim}};
       if (shape_gradient != nullptr)
@@ -99,12 +101,15 @@ namespace snug
           for (const unsigned int node : cell.nodes)
             {
               points.push_back(state.positions[node]);
-              values.push_back(field_values(
-                state,
-                stress[node],
-                state.positions[node] - mesh.reference_positions()[node],
-                node,
-                {double(cell.body), double(subdomain_of_cell[k])}));
+              values.push_back(
+                field_values(state,
+                             stress[node * n_regions + cell.region],
+                             state.positions[node] -
+                               mesh.reference_positions()[node],
+                             node,
+                             {double(cell.body),
+                              double(cell.region),
+                              double(subdomain_of_cell[k])}));
               if (shape_gradient != nullptr)
                 values.back().insert(values.back().end(),
                                      gradient.begin() + dim * node,

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace snug
@@ -73,8 +74,8 @@ namespace snug
       constexpr unsigned int n_stress =
         dealii::SymmetricTensor<2, 3>::n_independent_components;
 
-      /// Per local node: weighted sums of the components of stress and the sum
-      /// of weights, over this rank's cells.
+      /// Per local node and region: weighted sums of the components of stress
+      /// and the sum of weights, over this rank's cells.
       template <int dim>
       std::vector<double>
       stress_sums(const mesh::BodyMesh<dim>                 &mesh,
@@ -88,8 +89,9 @@ namespace snug
                                 mesh.idealization(),
                                 body.formulation);
         const elasticity::Element<dim> flat(mesh.degree());
-        const auto          sampling = stress_sampling<dim>(mesh.degree());
-        std::vector<double> sums(std::size_t(n_stress + 1) *
+        const auto          sampling  = stress_sampling<dim>(mesh.degree());
+        const unsigned int  n_regions = n_stress_regions(mesh);
+        std::vector<double> sums(std::size_t(n_stress + 1) * n_regions *
                                  mesh.n_local_nodes());
         for (const auto &cell : mesh.cells())
           {
@@ -109,7 +111,8 @@ namespace snug
                   {
                     const double factor = weight * sampling.weights[a][q];
                     double      *sum =
-                      &sums[std::size_t(n_stress + 1) * cell.nodes[a]];
+                      &sums[std::size_t(n_stress + 1) *
+                            (cell.nodes[a] * n_regions + cell.region)];
                     for (unsigned int c = 0; c < n_stress; ++c)
                       sum[c] += factor * stress.access_raw_entry(c);
                     sum[n_stress] += factor;
@@ -121,6 +124,16 @@ namespace snug
     } // namespace
 
     template <int dim>
+    unsigned int
+    n_stress_regions(const mesh::BodyMesh<dim> &mesh)
+    {
+      std::size_t n = 1;
+      for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+        n = std::max(n, mesh.geometry(body).region_names().size());
+      return n;
+    }
+
+    template <int dim>
     std::vector<dealii::SymmetricTensor<2, 3>>
     nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
                  const std::vector<state::BodyModel<dim>>  &bodies,
@@ -129,32 +142,41 @@ namespace snug
     {
       AssertDimension(bodies.size(), mesh.n_bodies());
       auto sums = stress_sums(mesh, bodies, positions, displacement);
-      sum_at_shared_nodes(mesh, n_stress + 1, sums);
+      const unsigned int n_regions = n_stress_regions(mesh);
+      sum_at_shared_nodes(mesh, (n_stress + 1) * n_regions, sums);
 
-      std::vector<dealii::SymmetricTensor<2, 3>> stress(mesh.n_local_nodes());
-      for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-        {
-          const double *sum    = &sums[std::size_t(n_stress + 1) * node];
-          const double  weight = sum[n_stress];
-          Assert(weight > 0., dealii::ExcInternalError());
+      std::vector<dealii::SymmetricTensor<2, 3>> stress(n_regions *
+                                                        mesh.n_local_nodes());
+      const auto                                 weight = [&](unsigned int i) {
+        return sums[std::size_t(n_stress + 1) * i + n_stress];
+      };
+      for (unsigned int i = 0; i < stress.size(); ++i)
+        if (weight(i) > 0.)
           for (unsigned int c = 0; c < n_stress; ++c)
-            stress[node].access_raw_entry(c) = sum[c] / weight;
-        }
+            stress[i].access_raw_entry(c) =
+              sums[std::size_t(n_stress + 1) * i + c] / weight(i);
       for (const auto &hanging : mesh.hanging())
-        {
-          dealii::SymmetricTensor<2, 3> sum;
-          for (const auto &master : hanging.masters)
-            sum += master.second * stress[master.first];
-          stress[hanging.node] = sum;
-        }
+        for (unsigned int r = 0; r < n_regions; ++r)
+          {
+            dealii::SymmetricTensor<2, 3> sum;
+            bool                          inside = true;
+            for (const auto &[master, factor] : hanging.masters)
+              {
+                sum += factor * stress[master * n_regions + r];
+                inside = inside && weight(master * n_regions + r) > 0.;
+              }
+            if (inside)
+              stress[hanging.node * n_regions + r] = sum;
+          }
       return stress;
     }
 
-#define SNUG_INSTANTIATE(dim)                                       \
-  template std::vector<dealii::SymmetricTensor<2, 3>> nodal_stress( \
-    const mesh::BodyMesh<dim> &,                                    \
-    const std::vector<state::BodyModel<dim>> &,                     \
-    const mesh::BodyMesh<dim>::Field &,                             \
+#define SNUG_INSTANTIATE(dim)                                          \
+  template unsigned int n_stress_regions(const mesh::BodyMesh<dim> &); \
+  template std::vector<dealii::SymmetricTensor<2, 3>> nodal_stress(    \
+    const mesh::BodyMesh<dim> &,                                       \
+    const std::vector<state::BodyModel<dim>> &,                        \
+    const mesh::BodyMesh<dim>::Field &,                                \
     const mesh::BodyMesh<dim>::Field &);
     SNUG_INSTANTIATE(2)
     SNUG_INSTANTIATE(3)

@@ -1,6 +1,7 @@
 #include <snug/mesh/body_sources.h>
 #include <snug/mesh/entry_values.h>
 #include <snug/mesh/placement.h>
+#include <snug/mesh/regions.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -116,9 +117,9 @@ namespace snug
     std::unique_ptr<BodyGeometry<dim>>
     make_geometry(const BodyMeshParameters &parameters)
     {
-      return placed(
-        choose(body_geometry_table<dim>(), parameters.source).make(parameters),
-        parameters);
+      auto geometry =
+        choose(body_geometry_table<dim>(), parameters.source).make(parameters);
+      return with_regions(placed(std::move(geometry), parameters), parameters);
     }
 
     template <int dim>

@@ -79,21 +79,50 @@ namespace snug
           return {cell_vertices(element)};
         }
 
+        /// Index of @p name in @p names, to which it is added.
+        static unsigned int
+        index_in(std::vector<std::string> &names, const std::string &name)
+        {
+          const auto found = std::find(names.begin(), names.end(), name);
+          if (found != names.end())
+            return found - names.begin();
+          names.push_back(name);
+          return names.size() - 1;
+        }
+
+        /// The group that says what region a cell belongs to.
+        std::string
+        region_of(const Element &cell) const
+        {
+          const auto &named = parameters.named_regions;
+          std::string found;
+          for (const auto &group : cell.groups)
+            if (std::find(named.begin(), named.end(), group) != named.end())
+              {
+                if (!found.empty() && found != group)
+                  throw element_error(cell,
+                                      "is in the regions '" + found +
+                                        "' and '" + group +
+                                        "', which both have a material");
+                found = group;
+              }
+          if (!found.empty())
+            return found;
+          return cell.groups.empty() ? "body" : cell.groups.back();
+        }
+
         void
         add_blocks()
         {
-          std::map<std::string, unsigned int> regions;
           for (const auto &cell : cells)
             {
-              const std::string name =
-                cell.groups.empty() ? "body" : cell.groups.back();
-              const auto region = regions.emplace(name, regions.size());
-              if (region.second)
-                mesh.region_names.push_back(name);
+              for (const auto &group : cell.groups)
+                index_in(mesh.region_names, group);
+              const auto region = index_in(mesh.region_names, region_of(cell));
               for (const auto &part : parts(cell))
                 {
                   mesh.blocks.push_back(part);
-                  mesh.regions.push_back(region.first->second);
+                  mesh.regions.push_back(region);
                 }
             }
           if (split)
@@ -130,17 +159,6 @@ namespace snug
                                       b / parts_each, cells.size() - 1)],
                                     "or one near it shares a face with two "
                                     "others");
-        }
-
-        unsigned int
-        boundary_called(const std::string &name)
-        {
-          auto      &names = mesh.boundary_names;
-          const auto found = std::find(names.begin(), names.end(), name);
-          if (found != names.end())
-            return found - names.begin();
-          names.push_back(name);
-          return names.size() - 1;
         }
 
         /// Name of the boundary an element is part of.
@@ -182,7 +200,7 @@ namespace snug
                   if (found->second == 2)
                     continue; // between regions
                   const unsigned int boundary =
-                    boundary_called(name_of(element));
+                    index_in(mesh.boundary_names, name_of(element));
                   const auto entry = mesh.boundaries.emplace(key, boundary);
                   if (!entry.second && entry.first->second != boundary)
                     throw element_error(
@@ -193,7 +211,8 @@ namespace snug
                 }
           for (const auto &entry : n_cells_of_face)
             if (entry.second == 1 && mesh.boundaries.count(entry.first) == 0)
-              mesh.boundaries[entry.first] = boundary_called("free");
+              mesh.boundaries[entry.first] =
+                index_in(mesh.boundary_names, "free");
         }
 
         static dealii::Point<dim>

@@ -1,6 +1,7 @@
 #include <snug/mesh/entry_values.h>
 #include <snug/mesh/formula.h>
 #include <snug/mesh/placement.h>
+#include <snug/mesh/wrapped_geometry.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/tensor.h>
@@ -62,14 +63,14 @@ namespace snug
       }
 
       template <int dim>
-      class PlacedGeometry : public BodyGeometry<dim>
+      class PlacedGeometry : public WrappedGeometry<dim>
       {
       public:
         using Point = dealii::Point<dim>;
 
         PlacedGeometry(std::unique_ptr<BodyGeometry<dim>> body,
                        const BodyMeshParameters          &parameters)
-          : body(std::move(body)), scale(parameters.scale)
+          : WrappedGeometry<dim>(std::move(body)), scale(parameters.scale)
         {
           if (!(std::isfinite(scale) && scale > 0.))
             throw bad_entry("Scale",
@@ -89,84 +90,23 @@ namespace snug
             warp.emplace_back("Warp", text);
         }
 
-        typename BodyGeometry<dim>::CoarseMesh
-        coarse_mesh() const override
-        {
-          return body->coarse_mesh();
-        }
-
-        double
-        n_coarse_cells() const override
-        {
-          return body->n_coarse_cells();
-        }
-
-        const std::vector<std::string> &
-        boundary_names() const override
-        {
-          return body->boundary_names();
-        }
-
-        std::vector<std::string>
-        region_names() const override
-        {
-          return body->region_names();
-        }
-
-        unsigned int
-        region(unsigned int coarse_cell) const override
-        {
-          return body->region(coarse_cell);
-        }
-
         Point
         position(const MeshPoint<dim> &point) const override
         {
-          return place(body->position(point));
-        }
-
-        Point
-        logical(const MeshPoint<dim> &point) const override
-        {
-          return body->logical(point);
-        }
-
-        dealii::Tensor<1, dim>
-        extent() const override
-        {
-          return body->extent();
-        }
-
-        bool
-        has_grid() const override
-        {
-          return body->has_grid();
-        }
-
-        bool
-        has_frame() const override
-        {
-          return body->has_frame();
-        }
-
-        Point
-        box_fraction(const Point &logical) const override
-        {
-          return body->box_fraction(logical);
+          return place(this->body->position(point));
         }
 
         Point
         box_position(const Point &fraction) const override
         {
-          return place(body->box_position(fraction));
+          return place(this->body->box_position(fraction));
         }
 
       private:
-        std::unique_ptr<BodyGeometry<dim>> body;
-        std::vector<Formula<dim>>          warp;
-        double                             scale;
-        dealii::Tensor<2, dim>             turned;
-        dealii::Tensor<1, dim>             shift;
+        std::vector<Formula<dim>> warp;
+        double                    scale;
+        dealii::Tensor<2, dim>    turned;
+        dealii::Tensor<1, dim>    shift;
 
         Point
         place(const Point &position) const

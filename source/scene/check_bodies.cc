@@ -1,4 +1,5 @@
 #include <snug/scene/check.h>
+#include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
@@ -13,36 +14,19 @@ namespace snug
     namespace
     {
       /// Checks the entries of one body.
-      class BodyCheck
+      class BodyCheck : public SectionCheck
       {
       public:
         BodyCheck(const Scene &scene, const Body &body, const Origins &origins)
-          : dimension(scene.dimension)
-          , model(scene.model)
-          , body(body)
-          , origins(origins)
+          : SectionCheck(body.section(), origins), scene(scene), body(body)
         {
         }
 
         void
-        check_material() const
+        check_formulation() const
         {
-          const double E  = body.material.youngs_modulus;
-          const double nu = body.material.poissons_ratio;
-          require(std::isfinite(E) && E > 0.,
-                  "Young's modulus",
-                  to_text(E),
-                  "must be positive");
-          require(nu > -1. && nu < 0.5,
-                  "Poisson's ratio",
-                  to_text(nu),
-                  "must be above -1 and below 0.5");
-          const double density = body.material.density;
-          require(std::isfinite(density) && density >= 0.,
-                  "Density",
-                  to_text(density),
-                  "must not be negative");
-          require(model != "plane stress" || body.formulation == "standard",
+          require(scene.model != "plane stress" ||
+                    body.formulation == "standard",
                   "Formulation",
                   body.formulation,
                   "must be standard for Model = plane stress, which does not "
@@ -52,7 +36,7 @@ namespace snug
         void
         check_boundaries() const
         {
-          const auto known = boundary_names(body, dimension);
+          const auto known = boundary_names(body, scene.dimension);
           require_known(known, "Supports", body.supports);
         }
 
@@ -62,7 +46,7 @@ namespace snug
           for (const auto &item : body.supports)
             try
               {
-                require(!component_list(item.second, dimension).empty(),
+                require(!component_list(item.second, scene.dimension).empty(),
                         "Supports",
                         to_text(body.supports),
                         "'" + item.first + "' must hold some components");
@@ -72,27 +56,11 @@ namespace snug
                 throw origins.error(path("Supports"),
                                     to_text(body.supports),
                                     error.what() + std::string("; ") +
-                                      component_names(dimension));
+                                      component_names(scene.dimension));
               }
         }
 
       private:
-        std::string
-        path(const std::string &entry) const
-        {
-          return "Body " + body.name + "/" + entry;
-        }
-
-        void
-        require(const bool         good,
-                const std::string &entry,
-                const std::string &value,
-                const std::string &allowed) const
-        {
-          if (!good)
-            throw origins.error(path(entry), value, allowed);
-        }
-
         template <typename Map>
         void
         require_known(const std::vector<std::string> &known,
@@ -109,10 +77,8 @@ namespace snug
                       did_you_mean(item.first, known));
         }
 
-        unsigned int       dimension;
-        const std::string &model;
-        const Body        &body;
-        const Origins     &origins;
+        const Scene &scene;
+        const Body  &body;
       };
 
       bool
@@ -147,11 +113,14 @@ namespace snug
     void
     check_names(const Scene &scene, const Origins &origins)
     {
-      std::vector<std::string> bodies, load_cases, obstacles, responses, shapes;
+      std::vector<std::string> bodies, load_cases, materials, obstacles,
+        responses, shapes;
       for (const auto &body : scene.bodies)
         bodies.push_back(body.name);
       for (const auto &load_case : scene.load_cases)
         load_cases.push_back(load_case.name);
+      for (const auto &material : scene.materials)
+        materials.push_back(material.name);
       for (const auto &obstacle : scene.obstacles)
         obstacles.push_back(obstacle.name);
       for (const auto &shape : scene.shapes)
@@ -163,6 +132,7 @@ namespace snug
         throw origins.error("Bodies", "", "must name at least one body");
       check_list_of_names("Bodies", bodies, origins);
       check_list_of_names("Load cases", load_cases, origins);
+      check_list_of_names("Materials", materials, origins);
       check_list_of_names("Obstacles", obstacles, origins);
       check_list_of_names("Responses", responses, origins);
       check_list_of_names("Shapes", shapes, origins);
@@ -171,11 +141,13 @@ namespace snug
     void
     check_bodies(const Scene &scene, const Origins &origins)
     {
+      check_materials(scene, origins);
       for (const auto &body : scene.bodies)
         {
           check_mesh(scene, body, origins);
           const BodyCheck check(scene, body, origins);
-          check.check_material();
+          check_regions(scene, body, origins);
+          check.check_formulation();
           check.check_boundaries();
           check.check_supports();
         }

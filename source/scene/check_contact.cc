@@ -1,5 +1,6 @@
 #include <snug/mesh/formula.h>
 #include <snug/scene/check.h>
+#include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
@@ -12,25 +13,14 @@ namespace snug
     namespace
     {
       /// The entries of one subsection.
-      class Section
+      class Section : public SectionCheck
       {
       public:
         Section(const Scene       &scene,
                 const Origins     &origins,
                 const std::string &name)
-          : scene(scene), origins(origins), name(name)
+          : SectionCheck(name, origins), scene(scene)
         {
-        }
-
-        template <typename T>
-        void
-        require(bool               good,
-                const std::string &entry,
-                const T           &value,
-                const std::string &allowed) const
-        {
-          if (!good)
-            throw origins.error(name + "/" + entry, to_text(value), allowed);
         }
 
         void
@@ -42,7 +32,7 @@ namespace snug
             finite = finite && std::isfinite(value);
           require(values.size() == scene.dimension && finite,
                   entry,
-                  values,
+                  to_text(values),
                   "must have " + to_text(scene.dimension) +
                     " finite numbers separated by commas, one per dimension");
         }
@@ -56,7 +46,7 @@ namespace snug
                               values.end(),
                               [](double value) { return value != 0.; }),
                   entry,
-                  values,
+                  to_text(values),
                   "must not be all zero");
         }
 
@@ -74,16 +64,14 @@ namespace snug
           catch (const InputError &error)
             {
               const std::string message = error.what();
-              throw origins.error(name + "/" + entry,
+              throw origins.error(path(entry),
                                   text,
                                   message.substr(message.find("must be")));
             }
         }
 
       private:
-        const Scene      &scene;
-        const Origins    &origins;
-        const std::string name;
+        const Scene &scene;
       };
 
       void
@@ -98,7 +86,7 @@ namespace snug
         section.require_direction("Axis", obstacle.axis);
         section.require(std::isfinite(obstacle.radius) && obstacle.radius > 0.,
                         "Radius",
-                        obstacle.radius,
+                        to_text(obstacle.radius),
                         "must be above 0");
         section.require_vector("Displacement", obstacle.displacement);
         if (obstacle.shape == "formula")
@@ -112,12 +100,12 @@ namespace snug
         section.require(std::isfinite(parameters.search_distance) &&
                           parameters.search_distance >= 0.,
                         "Search distance",
-                        parameters.search_distance,
+                        to_text(parameters.search_distance),
                         "must be 0 or above");
         section.require(parameters.largest_angle > 0. &&
                           parameters.largest_angle <= 180.,
                         "Largest angle",
-                        parameters.largest_angle,
+                        to_text(parameters.largest_angle),
                         "must be above 0 and at most 180");
         section.require_formula("Gap", parameters.gap);
       }

@@ -1,5 +1,6 @@
 #include <snug/mesh/formula.h>
 #include <snug/scene/check.h>
+#include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
@@ -22,16 +23,15 @@ namespace snug
                                             const std::string &key)>;
 
       /// Checks the loads of one section.
-      class LoadCheck
+      class LoadCheck : public SectionCheck
       {
       public:
         LoadCheck(const Scene          &scene,
                   const Origins        &origins,
                   const std::string    &section,
                   const LoadParameters &loads)
-          : dimension(scene.dimension)
-          , origins(origins)
-          , section(section)
+          : SectionCheck(section, origins)
+          , dimension(scene.dimension)
           , loads(loads)
         {
         }
@@ -115,16 +115,6 @@ namespace snug
 
       private:
         void
-        require(const bool         good,
-                const std::string &entry,
-                const std::string &value,
-                const std::string &allowed) const
-        {
-          if (!good)
-            throw origins.error(section + "/" + entry, value, allowed);
-        }
-
-        void
         require_count(const std::string &entry,
                       const std::string &value,
                       const std::string &key,
@@ -143,7 +133,7 @@ namespace snug
                         const std::string &formula) const
         {
           scene::require_formula(
-            dimension, origins, section + "/" + entry, value, formula);
+            dimension, origins, path(entry), value, formula);
         }
 
         template <typename Map>
@@ -153,12 +143,10 @@ namespace snug
                    const RequireKey  &require_key) const
         {
           for (const auto &item : map)
-            require_key(section + "/" + entry, to_text(map), item.first);
+            require_key(path(entry), to_text(map), item.first);
         }
 
         unsigned int          dimension;
-        const Origins        &origins;
-        std::string           section;
         const LoadParameters &loads;
       };
 

@@ -1,5 +1,6 @@
 #include <snug/mesh/formula.h>
 #include <snug/scene/check.h>
+#include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
@@ -12,15 +13,15 @@ namespace snug
     namespace
     {
       /// Checks the mesh entries of one body.
-      class MeshCheck
+      class MeshCheck : public SectionCheck
       {
       public:
         MeshCheck(const Scene &scene, const Body &body, const Origins &origins)
-          : dimension(scene.dimension)
+          : SectionCheck(body.section(), origins)
+          , dimension(scene.dimension)
           , model(scene.model)
           , body(body)
           , mesh(body.mesh)
-          , origins(origins)
         {
         }
 
@@ -119,7 +120,8 @@ namespace snug
                   "must give at most 1e9 cells");
         }
 
-        /// x, the radius, must not be negative.
+        /// x, the radius, must not be negative at the vertices. The nodes
+        /// between them, of curved faces, are checked once there is a mesh.
         template <int dim>
         void
         check_radii(const mesh::BodyGeometry<dim> &geometry) const
@@ -142,22 +144,6 @@ namespace snug
                   box ? to_text(mesh.corner) : mesh.source,
                   "must not have a negative x, the radius of axisymmetric "
                   "models");
-        }
-
-        std::string
-        path(const std::string &entry) const
-        {
-          return "Body " + body.name + "/" + entry;
-        }
-
-        void
-        require(const bool         good,
-                const std::string &entry,
-                const std::string &value,
-                const std::string &allowed) const
-        {
-          if (!good)
-            throw origins.error(path(entry), value, allowed);
         }
 
         template <typename T>
@@ -189,7 +175,6 @@ namespace snug
         const std::string              &model;
         const Body                     &body;
         const mesh::BodyMeshParameters &mesh;
-        const Origins                  &origins;
       };
     } // namespace
 
@@ -198,7 +183,7 @@ namespace snug
                const Origins     &origins,
                const std::string &message)
     {
-      const std::string section = "Body " + body.name + "/";
+      const std::string section = body.section() + "/";
       const std::string begin   = "entry '";
       const auto        quote   = message.find('\'', begin.size());
       if (message.rfind(begin, 0) != 0 || quote == std::string::npos)

@@ -2,6 +2,7 @@
 #include <snug/optimization/minimize.h>
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
+#include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
 
 #include <algorithm>
@@ -29,15 +30,15 @@ namespace snug
       }
 
       /// Checks the entries of one response, as far as no mesh is needed.
-      class ResponseCheck
+      class ResponseCheck : public SectionCheck
       {
       public:
         ResponseCheck(const Scene      &scene,
                       const Parameters &response,
                       const Origins    &origins)
-          : scene(scene)
+          : SectionCheck(response.section(), origins)
+          , scene(scene)
           , response(response)
-          , origins(origins)
           , entries(response::make_response<3>(response)->entries())
         {
         }
@@ -59,16 +60,6 @@ namespace snug
         }
 
       private:
-        void
-        require(const bool         good,
-                const std::string &entry,
-                const std::string &value,
-                const std::string &allowed) const
-        {
-          if (!good)
-            throw origins.error(response.path(entry), value, allowed);
-        }
-
         bool
         reads(const std::string &entry) const
         {
@@ -111,11 +102,8 @@ namespace snug
                     response.body,
                     "there is no body '" + quotable(response.body) + "'");
           if (!response.face.empty())
-            require_face(scene,
-                         origins,
-                         response.path("Face"),
-                         response.face,
-                         response.face);
+            require_face(
+              scene, origins, path("Face"), response.face, response.face);
           const auto &point = response.point;
           require(point.empty() ||
                     (point.size() == scene.dimension && all_finite(point)),
@@ -169,7 +157,6 @@ namespace snug
 
         const Scene                   &scene;
         const Parameters              &response;
-        const Origins                 &origins;
         const std::vector<std::string> entries;
       };
 

@@ -1,4 +1,5 @@
 #include <snug/scene/check.h>
+#include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
 #include <snug/shape/formula_modes.h>
 
@@ -11,13 +12,13 @@ namespace snug
     namespace
     {
       /// Checks the entries of one shape, as far as no mesh is needed.
-      class ShapeCheck
+      class ShapeCheck : public SectionCheck
       {
       public:
         ShapeCheck(const Scene                  &scene,
                    const shape::ShapeParameters &shape,
                    const Origins                &origins)
-          : scene(scene), shape(shape), origins(origins)
+          : SectionCheck(shape.section(), origins), scene(scene), shape(shape)
         {
         }
 
@@ -47,16 +48,6 @@ namespace snug
         }
 
       private:
-        void
-        require(const bool         good,
-                const std::string &entry,
-                const std::string &value,
-                const std::string &allowed) const
-        {
-          if (!good)
-            throw origins.error(shape.path(entry), value, allowed);
-        }
-
         /// Whether the name of the basis holds @p word.
         bool
         names(const std::string &word) const
@@ -67,8 +58,7 @@ namespace snug
         void
         check_face() const
         {
-          require_face(
-            scene, origins, shape.path("Face"), shape.face, shape.face);
+          require_face(scene, origins, path("Face"), shape.face, shape.face);
           const unsigned int body =
             body_index(scene, split_face(shape.face).first);
           require(shape.interior != "linear blending" ||
@@ -144,7 +134,7 @@ namespace snug
             }
           catch (const InputError &error)
             {
-              throw InputError(origins.of(shape.path("Modes")) + error.what());
+              throw InputError(origins.of(path("Modes")) + error.what());
             }
         }
 
@@ -216,7 +206,6 @@ namespace snug
 
         const Scene                  &scene;
         const shape::ShapeParameters &shape;
-        const Origins                &origins;
       };
     } // namespace
 

@@ -12,6 +12,26 @@ namespace snug
   {
     namespace
     {
+      /// The names of what has subsections of its own.
+      template <typename Named>
+      void
+      add_names(Entries                  &entries,
+                const std::string        &entry,
+                const std::vector<Named> &list,
+                const std::string        &meaning)
+      {
+        entries.add(entry,
+                    {[&list]() {
+                       std::vector<std::string> names;
+                       for (const auto &item : list)
+                         names.push_back(item.name);
+                       return listed(names);
+                     },
+                     [](const std::string &) {}},
+                    pairs("names separated by commas"),
+                    meaning);
+      }
+
       void
       declare_general(Entries &entries, Scene &scene)
       {
@@ -36,66 +56,42 @@ namespace snug
                     "Thickness of plane strain and plane stress models "
                     "[length]; forces, energies and volumes are those of this "
                     "thickness.");
-        entries.add("Bodies",
-                    {[&scene]() {
-                       std::vector<std::string> names;
-                       for (const auto &body : scene.bodies)
-                         names.push_back(body.name);
-                       return listed(names);
-                     },
-                     [](const std::string &) {}},
-                    pairs("names separated by commas"),
-                    "Names of the bodies, separated by commas; each has its "
-                    "own subsection Body NAME.");
-        entries.add("Obstacles",
-                    {[&scene]() {
-                       std::vector<std::string> names;
-                       for (const auto &obstacle : scene.obstacles)
-                         names.push_back(obstacle.name);
-                       return listed(names);
-                     },
-                     [](const std::string &) {}},
-                    pairs("names separated by commas"),
-                    "Names of rigid obstacles, separated by commas; each has "
-                    "its own subsection Obstacle NAME.");
-        entries.add("Shapes",
-                    {[&scene]() {
-                       std::vector<std::string> names;
-                       for (const auto &shape : scene.shapes)
-                         names.push_back(shape.name);
-                       return listed(names);
-                     },
-                     [](const std::string &) {}},
-                    pairs("names separated by commas"),
-                    "Names of the shapes, separated by commas; each has its "
-                    "own subsection Shape NAME. Empty: one shape without a "
-                    "name, in subsection Shape.");
-        entries.add("Load cases",
-                    {[&scene]() {
-                       std::vector<std::string> names;
-                       for (const auto &load_case : scene.load_cases)
-                         names.push_back(load_case.name);
-                       return listed(names);
-                     },
-                     [](const std::string &) {}},
-                    pairs("names separated by commas"),
-                    "Names of the load cases, separated by commas; each has "
-                    "its own subsection Load case NAME with loads besides "
-                    "those of the bodies. Empty: one, with the loads of the "
-                    "bodies alone.");
-        entries.add("Responses",
-                    {[&scene]() {
-                       std::vector<std::string> names;
-                       for (const auto &response : scene.responses)
-                         names.push_back(response.name);
-                       return listed(names);
-                     },
-                     [](const std::string &) {}},
-                    pairs("names separated by commas"),
-                    "Names of responses, separated by commas; each has its own "
-                    "subsection Response NAME. Their values are reported, and "
-                    "they may be objective or constraints, as may quantities "
-                    "under their own names.");
+        add_names(entries,
+                  "Bodies",
+                  scene.bodies,
+                  "Names of the bodies, separated by commas; each has its "
+                  "own subsection Body NAME.");
+        add_names(entries,
+                  "Materials",
+                  scene.materials,
+                  "Names of materials, separated by commas; each has its own "
+                  "subsection Material NAME, and bodies name those they are "
+                  "made of.");
+        add_names(entries,
+                  "Obstacles",
+                  scene.obstacles,
+                  "Names of rigid obstacles, separated by commas; each has "
+                  "its own subsection Obstacle NAME.");
+        add_names(entries,
+                  "Shapes",
+                  scene.shapes,
+                  "Names of the shapes, separated by commas; each has its "
+                  "own subsection Shape NAME. Empty: one shape without a "
+                  "name, in subsection Shape.");
+        add_names(entries,
+                  "Load cases",
+                  scene.load_cases,
+                  "Names of the load cases, separated by commas; each has "
+                  "its own subsection Load case NAME with loads besides "
+                  "those of the bodies. Empty: one, with the loads of the "
+                  "bodies alone.");
+        add_names(entries,
+                  "Responses",
+                  scene.responses,
+                  "Names of responses, separated by commas; each has its own "
+                  "subsection Response NAME. Their values are reported, and "
+                  "they may be objective or constraints, as may quantities "
+                  "under their own names.");
         add_gravity(entries, scene.gravity);
         entries.add("Output directory",
                     scene.output_directory,
@@ -109,18 +105,50 @@ namespace snug
       }
 
       void
+      declare_material(Entries &entries, elasticity::Material &material)
+      {
+        entries.add("Young's modulus",
+                    material.youngs_modulus,
+                    "Young's modulus [force/length^2], positive.");
+        entries.add("Poisson's ratio",
+                    material.poissons_ratio,
+                    "Poisson's ratio, above -1 and below 0.5.");
+        entries.add("Density",
+                    material.density,
+                    "Mass per volume [mass/length^3], for gravity and mass.");
+      }
+
+      TextMap
+      materials_from(const std::string &text)
+      {
+        TextMap materials;
+        if (text.find(':') != std::string::npos)
+          from_text(text, materials);
+        else if (!text.empty())
+          materials[""] = text;
+        return materials;
+      }
+
+      void
       declare_body(Entries &entries, Body &body)
       {
         entries.begin_section("Body " + body.name,
                               "One body: its mesh, material, supports and "
                               "loads.");
         declare_mesh(entries, body.mesh);
-        entries.add("Young's modulus",
-                    body.material.youngs_modulus,
-                    "Young's modulus [force/length^2], positive.");
-        entries.add("Poisson's ratio",
-                    body.material.poissons_ratio,
-                    "Poisson's ratio, above -1 and below 0.5.");
+        declare_material(entries, body.material);
+        entries.add("Materials",
+                    {[&body]() { return text_of_materials(body.materials); },
+                     [&body](const std::string &text) {
+                       body.materials = materials_from(text);
+                     }},
+                    pairs("the name of a material, or a list 'region: "
+                          "material, ...' of different regions"),
+                    "Materials of the scene the body is made of, instead of "
+                    "its own modulus, ratio and density: 'steel' for all of "
+                    "it, or one per region, 'core: steel, coat: rubber'. "
+                    "Regions are the groups of cells of a mesh file and those "
+                    "of 'Region formulas'; cells in none are the region body.");
         add_choice(entries,
                    "Formulation",
                    body.formulation,
@@ -135,9 +163,6 @@ namespace snug
                     "along the outward normal of any face, flat, oblique or "
                     "curved (symmetry planes, rollers): 'side: normal, end: "
                     "normal z'.");
-        entries.add("Density",
-                    body.material.density,
-                    "Mass per volume [mass/length^3], for gravity.");
         declare_loads(entries, body.loads, "boundary");
         entries.add("Body force",
                     {[&body]() { return to_text(body.body_force); },
@@ -265,6 +290,12 @@ namespace snug
     declare(Entries &entries, Scene &scene)
     {
       declare_general(entries, scene);
+      for (auto &material : scene.materials)
+        {
+          entries.begin_section("Material " + material.name,
+                                "One isotropic, linear elastic material.");
+          declare_material(entries, material.material);
+        }
       for (auto &body : scene.bodies)
         declare_body(entries, body);
       declare_load_cases(entries, scene);

@@ -109,6 +109,23 @@ namespace snug
       }
 
       void
+      declare_regions(Entries &entries, mesh::BodyMeshParameters &mesh)
+      {
+        entries.add("Region formulas",
+                    {[&mesh]() { return to_text(mesh.region_formulas, ';'); },
+                     [&mesh](const std::string &text) {
+                       from_text(text, mesh.region_formulas, ';');
+                     }},
+                    pairs("a list 'region: FORMULA; ...' of different regions, "
+                          "separated by semicolons",
+                          ';'),
+                    "Regions for 'Materials' besides those of a mesh file: a "
+                    "cell, before refinement, belongs to the first whose "
+                    "formula of x, y, z is positive at its centre: 'core: 1 - "
+                    "x^2 - y^2; coat: z > 0.9'.");
+      }
+
+      void
       declare_placement(Entries &entries, mesh::BodyMeshParameters &mesh)
       {
         entries.add("Warp",
@@ -177,6 +194,7 @@ namespace snug
       declare_round(entries, mesh);
       declare_file(entries, mesh);
       declare_placement(entries, mesh);
+      declare_regions(entries, mesh);
       declare_refinement(entries, mesh);
     }
   } // namespace scene

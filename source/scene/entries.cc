@@ -86,8 +86,8 @@ namespace snug
         throw InputError(origin + "unknown subsection '" +
                          quotable(statement.section) + "'" +
                          did_you_mean(statement.section, section_names) +
-                         " (bodies and shapes need a name in 'Bodies' or "
-                         "'Shapes')");
+                         " (bodies, materials and shapes need a name in "
+                         "'Bodies', 'Materials' or 'Shapes')");
       if (statement.name.empty())
         return;
       throw InputError(

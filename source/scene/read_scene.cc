@@ -63,8 +63,8 @@ namespace snug
         return dealii::Utilities::split_string_list(names);
       }
 
-      /// First pass: bodies, load cases, obstacles, responses and shapes,
-      /// without what they are made of.
+      /// First pass: bodies, load cases, materials, obstacles, responses and
+      /// shapes, without what they are made of.
       void
       make_named(const std::vector<Statement> &statements, Scene &scene)
       {
@@ -78,6 +78,8 @@ namespace snug
             scene.load_cases.emplace_back();
             scene.load_cases.back().name = name;
           }
+        for (const auto &name : names_in(statements, "Materials"))
+          scene.materials.push_back({name, {}});
         for (const auto &name : names_in(statements, "Obstacles"))
           {
             scene.obstacles.emplace_back();
@@ -168,6 +170,8 @@ namespace snug
             auto &mesh = body.mesh;
             if (mesh.source != "file")
               continue;
+            for (const auto &[region, material] : body.materials)
+              mesh.named_regions.push_back(region);
             const std::string path = "Body " + body.name + "/Mesh file";
             if (mesh.file.empty() || !source.read_file)
               throw origins.error(path, mesh.file, "must be a mesh file");
@@ -204,6 +208,7 @@ namespace snug
       {
         return entry.name == "Bodies" || entry.name == "Obstacles" ||
                entry.name == "Load cases" || entry.name == "Pairs" ||
+               (entry.name == "Materials" && entry.section.empty()) ||
                (entry.name == "Responses" && entry.section.empty());
       }
     } // namespace
@@ -260,6 +265,7 @@ namespace snug
       Scene scene;
       scene.bodies.emplace_back();
       scene.bodies.front().name = "NAME";
+      scene.materials.push_back({"NAME", {}});
       scene.load_cases.emplace_back();
       scene.load_cases.front().name = "NAME";
       scene.obstacles.emplace_back();

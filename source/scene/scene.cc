@@ -1,5 +1,5 @@
 #include <snug/response/response.h>
-#include <snug/scene/scene.h>
+#include <snug/scene/values.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -117,6 +117,30 @@ namespace snug
       while (i < scene.bodies.size() && scene.bodies[i].name != name)
         ++i;
       return i;
+    }
+
+    std::string
+    text_of_materials(const std::map<std::string, std::string> &materials)
+    {
+      const auto whole = materials.find("");
+      return whole != materials.end() ? whole->second : to_text(materials);
+    }
+
+    std::vector<elasticity::Material>
+    materials_of(const Scene                    &scene,
+                 const Body                     &body,
+                 const std::vector<std::string> &regions)
+    {
+      std::vector<elasticity::Material> result;
+      for (const auto &region : regions)
+        {
+          result.push_back(body.material);
+          for (const auto &[name, material] : body.materials)
+            for (const auto &known : scene.materials)
+              if ((name.empty() || name == region) && known.name == material)
+                result.back() = known.material;
+        }
+      return result;
     }
 
     std::vector<std::string>

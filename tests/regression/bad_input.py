@@ -43,6 +43,8 @@ def input_cases(body, slave, master):
     tip = {"Responses": "tip", "Response tip/Quantity": "displacement",
            "Response tip/Component": "x"}
     peak = {"Responses": "peak", "Response peak/Quantity": "peak pressure"}
+    core = {"Materials": "steel", own + "Region formulas": "core: x - 0.5",
+            own + "Young's modulus": "1"}
     return [
         wrong("unknown entry", own + "Yuong's modulus", "1"),
         Case("unknown subsection", {"Elastcity/Degree": "1"}, ["Elastcity"], []),
@@ -70,6 +72,18 @@ def input_cases(body, slave, master):
         wrong("pressure not a number", own + "Pressure", "top: nan"),
         wrong("Poisson's ratio of a fluid", own + "Poisson's ratio", "0.5"),
         wrong("Poisson's ratio too small", own + "Poisson's ratio", "-1"),
+        wrong("unknown material", own + "Materials", "stele", ["steel"],
+              {"Materials": "steel", own + "Young's modulus": "1"}),
+        wrong("region without a material", own + "Materials", "core: steel",
+              ["'body' has no material"], core),
+        wrong("unknown region", own + "Materials", "body: steel, cor: steel",
+              ["did you mean 'core'"], core),
+        wrong("region twice", own + "Materials", "core: steel, core: steel",
+              ["different regions"], core),
+        wrong("modulus beside materials", own + "Young's modulus", "2",
+              ["left out"], {"Materials": "steel", own + "Materials": "steel"}),
+        wrong("material of no modulus", "Material steel/Young's modulus", "0",
+              others={"Materials": "steel"}),
         wrong("pair of the same face", "Contact/Pairs", f"{slave}: {slave}"),
         wrong("model of another dimension", "Model", "axisymmetric", ["solid"]),
         wrong("thickness of a solid", "Thickness", "2", ["solid"]),
@@ -267,6 +281,9 @@ def check_mesh_files(runner):
          ["line 15", "group 2"]),
         ("boundary not in the file", good, {"Supports": "left: x"},
          ["left", "bottom, top, free"]),
+        ("cells of a region without a material", good.replace(
+            "6 1 hex", "6 9 hex"), {"Materials": "1: steel"},
+         ["the region '9' has no material"]),
         ("units that put bodies far apart", good, {"Shift": "0, 0, 1000"},
          ["part.bottom", "999 apart", "Scale"]),
         ("face that is not round", good, {"Curved faces": "top: sphere"},
@@ -290,7 +307,8 @@ def mesh_scene(runner, title, entries):
     part = {"Mesh": "file", "Boundary names": "2: bottom, 3: top",
             "Shift": "0, 0, 1", "Pressure": "top: 1", **entries}
     return runner.write_text(title, "\n".join(
-        ["set Bodies = part, base", "subsection Body part",
+        ["set Bodies = part, base", "set Materials = steel",
+         "subsection Body part",
          *(f"set {name} = {value}" for name, value in part.items()), "end",
          "subsection Body base", "set Box cells = 2, 2, 2",
          "set Box size = 2, 1, 1", "set Supports = bottom: xyz", "end",

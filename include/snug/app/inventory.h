@@ -27,10 +27,19 @@ namespace snug
         Box         box;
       };
 
+      /// What a material can be given to.
+      struct Region
+      {
+        std::string   name;
+        unsigned long n_cells;
+        double        volume; ///< [length^3], per revolution, of the thickness
+      };
+
       struct Body
       {
         std::string           name;
         unsigned long         n_cells = 0;
+        std::vector<Region>   regions; ///< may be empty, see BodyGeometry
         Box                   box;
         std::vector<Boundary> boundaries;
       };
@@ -43,7 +52,7 @@ namespace snug
     Inventory<dim>
     take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
-    /// One line per body and boundary.
+    /// One line per body, region and boundary.
     template <int dim>
     void
     print(const Inventory<dim> &inventory, std::ostream &out);

@@ -27,6 +27,7 @@ namespace snug
      * | stress              | 9          | force / length^2 |
      * | von_mises           | 1          | force / length^2 |
      * | body                | 1          | index of `Bodies`|
+     * | region              | 1          | index in the body |
      * | subdomain           | 1          | global id        |
      * | design_displacement | 3          | length           |
      * | shape_gradient      | 3          | objective / length |

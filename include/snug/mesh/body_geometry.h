@@ -61,6 +61,15 @@ namespace snug
       std::shared_ptr<const ImportedMesh> imported; ///< what is in the file
       /// @}
 
+      /// @name Regions, to which materials may refer
+      /// @{
+      /// {region, formula of x, y, z}, see with_regions()
+      std::vector<std::pair<std::string, std::string>> region_formulas;
+      /// cells of a file that are in several groups belong to the one of
+      /// these
+      std::vector<std::string> named_regions;
+      /// @}
+
       /// @name Placement, in this order
       /// @{
       /// formulas of x, y, z: components of a displacement [length]
@@ -124,7 +133,7 @@ namespace snug
       virtual const std::vector<std::string> &
       boundary_names() const = 0;
 
-      /// Names of the regions, to which materials may refer; at least one.
+      /// Names of the regions; at least one. A region may be empty.
       virtual std::vector<std::string>
       region_names() const;
 
@@ -173,7 +182,7 @@ namespace snug
       std::unique_ptr<BodyGeometry<dim>>(const BodyMeshParameters &)> &
     body_geometry_table();
 
-    /// The geometry of a body, placed as its parameters say.
+    /// The geometry of a body, placed and with the regions its parameters say.
     template <int dim>
     std::unique_ptr<BodyGeometry<dim>>
     make_geometry(const BodyMeshParameters &parameters);

@@ -23,11 +23,17 @@ namespace snug
       double              exponent  = 8.;
       double              smoothing = 0.1; ///< of contact areas
 
+      std::string
+      section() const
+      {
+        return "Response " + name;
+      }
+
       /// Path of an entry, for messages.
       std::string
       path(const std::string &entry) const
       {
-        return "Response " + name + "/" + entry;
+        return section() + "/" + entry;
       }
     };
   } // namespace response

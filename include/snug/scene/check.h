@@ -17,6 +17,7 @@ namespace snug
      *
      * - numbers are finite, lists have as many entries as the scene has
      *   dimensions, moduli, sizes, cells and tolerances lie in their ranges;
+     * - every region of a body has one material;
      * - bodies are there and have different names; boundaries that supports,
      *   loads, pairs and shapes name exist; meshes can be made;
      * - the model fits the dimension, and thickness, formulation and bodies fit
@@ -39,6 +40,12 @@ namespace snug
     check_mesh(const Scene &scene, const Body &body, const Origins &origins);
     void
     check_bodies(const Scene &scene, const Origins &origins);
+    /// Materials of the scene.
+    void
+    check_materials(const Scene &scene, const Origins &origins);
+    /// Materials of a body, whose mesh can be made.
+    void
+    check_regions(const Scene &scene, const Body &body, const Origins &origins);
     void
     check_loads(const Scene &scene, const Origins &origins);
     void

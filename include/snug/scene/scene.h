@@ -32,18 +32,34 @@ namespace snug
       optimize     ///< the best shape
     };
 
+    /// `subsection Material NAME`.
+    struct NamedMaterial
+    {
+      std::string          name;
+      elasticity::Material material;
+    };
+
     /// Entries of `subsection Body NAME`.
     struct Body
     {
       std::string              name;
       mesh::BodyMeshParameters mesh;
-      elasticity::Material     material;
+      /// of the whole body, if the next is empty
+      elasticity::Material material;
+      /// region -> name of its material; "" is the whole body
+      std::map<std::string, std::string> materials;
       std::string formulation = "standard"; ///< see formulation_table()
       /// boundary -> components held at zero: words made of "xyz", "normal"
       std::map<std::string, std::string> supports;
       LoadParameters                     loads;
       /// formulas of the components [force / length^3]; empty: none
       std::vector<std::string> body_force;
+
+      std::string
+      section() const
+      {
+        return "Body " + name;
+      }
     };
 
     /**
@@ -52,14 +68,15 @@ namespace snug
      */
     struct Scene
     {
-      std::string       file; ///< it was read from, for messages
-      Task              task      = Task::state;
-      unsigned int      dimension = 3;      ///< of the meshes
-      std::string       model     = "auto"; ///< auto or of idealization_table()
-      double            thickness = 1.;     ///< of plane models [length]
-      std::string       output_directory = "output";
-      unsigned int      degree           = 1; ///< of the elements, 1 or 2
-      std::vector<Body> bodies;
+      std::string  file; ///< it was read from, for messages
+      Task         task      = Task::state;
+      unsigned int dimension = 3;      ///< of the meshes
+      std::string  model     = "auto"; ///< auto or of idealization_table()
+      double       thickness = 1.;     ///< of plane models [length]
+      std::string  output_directory = "output";
+      unsigned int degree           = 1; ///< of the elements, 1 or 2
+      std::vector<NamedMaterial>               materials;
+      std::vector<Body>                        bodies;
       std::vector<contact::ObstacleParameters> obstacles;
       std::vector<double> gravity; ///< [length / time^2]; empty: none
       /// empty: one, with the loads of the bodies alone
@@ -121,6 +138,17 @@ namespace snug
     /// Position of the body called @p name; bodies.size() if there is none.
     unsigned int
     body_index(const Scene &scene, const std::string &name);
+
+    /// The entry Materials of a body: "steel" or "core: steel, coat: rubber".
+    std::string
+    text_of_materials(const std::map<std::string, std::string> &materials);
+
+    /// The materials of the regions called @p regions, in their order.
+    /// Regions without one get that of the body.
+    std::vector<elasticity::Material>
+    materials_of(const Scene                    &scene,
+                 const Body                     &body,
+                 const std::vector<std::string> &regions);
 
     /// Names of a body's boundaries, e.g. left, right, bottom, top.
     /// @throws InputError if the body has no mesh (entries without section).

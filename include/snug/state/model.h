@@ -9,6 +9,8 @@
 #include <snug/qp/solver.h>
 #include <snug/state/support.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <functional>
 #include <map>
 
@@ -24,9 +26,10 @@ namespace snug
       elasticity::Formulation formulation = elasticity::Formulation::standard;
 
       const elasticity::Material &
-      material(const typename mesh::BodyMesh<dim>::Cell &) const
+      material(const typename mesh::BodyMesh<dim>::Cell &cell) const
       {
-        return materials.front();
+        AssertIndexRange(cell.region, materials.size());
+        return materials[cell.region];
       }
     };
 

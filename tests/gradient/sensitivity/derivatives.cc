@@ -97,6 +97,21 @@ namespace
     check_shape_gradients(scene);
   }
 
+  /// Two materials in both bodies, in one a nearly incompressible one; they
+  /// meet on the shaped face.
+  TEST(Gradient, TwoMaterialsInEachBody)
+  {
+    auto given                    = curved_scene<2>(6, 4, 0.04);
+    given.bodies[0].core_from     = 0.5;
+    given.bodies[1].core_from     = 0.3;
+    given.bodies[1].core          = {300., 0.48, 5.};
+    given.bodies[1].formulation   = elasticity::Formulation::B_bar;
+    given.bodies[1].refined_below = 0.45;
+    GradientScene<2> scene(given, 0.05);
+    check_derivatives(scene);
+    check_shape_gradients(scene);
+  }
+
   TEST(Gradient, Quadratic2D)
   {
     auto given                    = curved_scene<2>(3, 4, 0.04);

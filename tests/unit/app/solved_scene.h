@@ -69,7 +69,7 @@ namespace snug
       SolvedScene(const std::string              &text,
                   const std::vector<std::string> &sets   = {},
                   const Motion<dim>              &motion = {})
-        : scene(scene::read_scene({"scene.prm", text, sets, ""}))
+        : scene(scene::read_scene({"scene.prm", text, sets, "", contents}))
         , context(MPI_COMM_WORLD, log)
         , mesh(MPI_COMM_WORLD,
                app::mesh_parameters(scene),
@@ -102,6 +102,12 @@ namespace snug
       state::ContactState<dim>            state;
 
     private:
+      static std::string
+      contents(const std::string &file)
+      {
+        return scene::read_text(file, MPI_COMM_WORLD);
+      }
+
       static std::vector<double>
       to_list(const dealii::Tensor<1, dim> &v)
       {

@@ -56,6 +56,53 @@ namespace snug
         }
     }
 
+    /// Two materials in one body, each under its own constant strain.
+    template <int dim>
+    void
+    expect_jump_of_stress(unsigned int degree)
+    {
+      auto bodies = test::two_boxes<dim>(true);
+      bodies.erase(bodies.begin());
+      bodies[0].region_formulas = {{"core", "x - 0.5"}};
+      state::BodyModel<dim> model;
+      model.materials = test::two_materials();
+      const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, bodies, degree);
+      auto                      u       = mesh.reference_positions();
+      const double              slope[] = {0.01, -0.03};
+      for (auto &value : u)
+        {
+          const double x = value[0] - 0.5;
+          value          = 0.;
+          value[dim - 1] = slope[x > 0.] * x;
+        }
+      const auto stress =
+        io::nodal_stress<dim>(mesh, {model}, mesh.reference_positions(), u);
+      EXPECT_EQ(io::n_stress_regions(mesh), 2u);
+      for (const auto &cell : mesh.cells())
+        for (const unsigned int node : cell.nodes)
+          {
+            dealii::Tensor<2, dim> gradient;
+            gradient[dim - 1][0] = slope[cell.region];
+            EXPECT_LT((dealii::Tensor<2, 3>(stress[2 * node + cell.region]) -
+                       test::hooke(model.materials[cell.region], gradient))
+                        .norm(),
+                      1e-11)
+              << "DBG deg " << degree << " dim " << dim << " x "
+              << mesh.reference_positions()[node] << " r " << cell.region
+              << " hang " << mesh.is_hanging(node) << " s "
+              << dealii::Tensor<2, 3>(stress[2 * node + cell.region]);
+          }
+    }
+
+    TEST(NodalStress, JumpsBetweenRegions)
+    {
+      for (const unsigned int degree : {1, 2})
+        {
+          expect_jump_of_stress<2>(degree);
+          expect_jump_of_stress<3>(degree);
+        }
+    }
+
     TEST(NodalStress, HasTheHoopStressOfBodiesOfRevolution)
     {
       // u = (a r, c z): radial and hoop strain a, axial strain c

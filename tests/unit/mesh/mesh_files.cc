@@ -348,6 +348,25 @@ TEST(MeshFiles, CurvedBoundariesStayOnTheirCircles)
             std::string::npos);
 }
 
+TEST(MeshFiles, NamedRegionsGoBeforeOthers)
+{
+  auto       body = file_body();
+  const auto text = contents("bar.inp");
+  // every element is in the set all, which is the last
+  EXPECT_EQ(mesh::import_mesh(text, body, 2)->flat->regions,
+            (std::vector<unsigned int>{1, 1, 1}));
+  body.named_regions = {"core", "coat"};
+  const auto mesh    = mesh::import_mesh(text, body, 2)->flat;
+  EXPECT_EQ(mesh->region_names,
+            (std::vector<std::string>{"core", "all", "coat"}));
+  EXPECT_EQ(mesh->regions, (std::vector<unsigned int>{0, 2, 2}));
+  body.named_regions = {"core", "all"};
+  EXPECT_NE(complaint(text, body, 2)
+              .find("line 13: element 1 is in the "
+                    "regions 'core' and 'all'"),
+            std::string::npos);
+}
+
 TEST(MeshFiles, RegionsAreBodiesOrMaterials)
 {
   auto text = contents("block.ucd");

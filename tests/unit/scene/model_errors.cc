@@ -35,6 +35,64 @@ TEST(Errors, LoadCases)
             "");
 }
 
+namespace
+{
+  /// A box of two regions, each with its material.
+  const std::string two_regions = R"(
+set Dimension = 2
+set Bodies    = bar
+set Materials = steel, rubber
+subsection Body bar
+  set Box cells       = 2, 1
+  set Region formulas = core: x - 0.5
+  set Materials       = core: rubber, body: steel
+end
+)";
+
+} // namespace
+
+TEST(Errors, MaterialsAreInTheirRanges)
+{
+  const auto says = [&](const std::string &set, const std::string &part) {
+    const auto message = error_of({set}, two_regions);
+    EXPECT_TRUE(has(message, "--set: entry '" + set.substr(0, set.find('='))))
+      << message;
+    EXPECT_TRUE(has(message, part)) << message;
+  };
+  EXPECT_EQ(error_of({}, two_regions), "");
+  expect_error({"Materials", "a, a", "'a' must not occur twice"});
+  says("Material steel/Young's modulus=0", "must be positive");
+  says("Material rubber/Poisson's ratio=0.5", "below 0.5");
+  says("Material rubber/Density=-1", "must not be negative");
+  EXPECT_TRUE(has(error_of({"Material tin/Density=1"}, two_regions),
+                  "unknown subsection"));
+}
+
+TEST(Errors, RegionsHaveOneMaterial)
+{
+  const auto says = [&](const std::string &materials, const std::string &part) {
+    const auto message =
+      error_of({"Body bar/Materials=" + materials}, two_regions);
+    EXPECT_TRUE(has(message, "--set: entry 'Body bar/Materials'")) << message;
+    EXPECT_TRUE(has(message, part)) << message;
+  };
+  says("stele", "none of the 'Materials' of the scene, steel, rubber; did you");
+  says("core: steel", "the region 'body' has no material");
+  says("core: steel, boddy: steel", "did you mean 'body'?");
+  says("core: steel, core: rubber", "different regions");
+  EXPECT_EQ(error_of({"Body bar/Materials=steel"}, two_regions), "");
+  EXPECT_TRUE(
+    has(error_of({"Body bar/Region formulas=core: x - 50"}, two_regions),
+        "the region 'core' has no cells"));
+  EXPECT_TRUE(has(error_of({"Body bar/Region formulas=core: t"}, two_regions),
+                  "'Body bar/Region formulas'"));
+  for (const std::string set :
+       {"Density=1", "Young's modulus=2", "Poisson's ratio=0.2"})
+    EXPECT_TRUE(
+      has(error_of({"Body bar/" + set}, two_regions), "must be left out"))
+      << set;
+}
+
 TEST(Errors, ModelsFitTheDimension)
 {
   expect_error({"Model", "plane strain", "must be solid for Dimension = 3"});

@@ -208,6 +208,7 @@ TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
                                              "set Dimension = 2\n"
                                              "set Obstacles = floor\n"
                                              "set Load cases = heavy\n"
+                                             "set Materials = steel\n"
                                              "set Responses = tip\n"
                                              "subsection Response tip\n"
                                              "set Quantity = volume\n"

@@ -21,7 +21,7 @@ namespace snug
 
     /// A box, its bottom a sphere (2D: circle) of a radius that touches the
     /// flat bottom at its centre, refined once where x of the flat box is
-    /// below a value.
+    /// below a value, of another material where x is above another.
     template <int dim>
     struct TestBody
     {
@@ -40,6 +40,8 @@ namespace snug
       double                    radius        = 0.; ///< 0: flat
       double                    refined_below = 0.;
       elasticity::Material      material{1000., 0.3};
+      elasticity::Material      core{50., 0.4}; ///< of coarse cells beyond
+      double                    core_from = std::numeric_limits<double>::max();
       elasticity::Formulation   formulation = elasticity::Formulation::standard;
       dealii::Tensor<1, dim>    body_force;
       Loads                     loads;
@@ -228,6 +230,9 @@ namespace snug
                   std::to_string(body.refined_below) + "-x";
                 parameters.local_refinements = 1;
               }
+            if (body.core_from < 1e10)
+              parameters.region_formulas = {
+                {"core", "x - " + std::to_string(body.core_from)}};
             result.push_back(parameters);
           }
         return result;
@@ -269,7 +274,8 @@ namespace snug
         for (unsigned int b = 0; b < scene.bodies.size(); ++b)
           {
             const auto &body = scene.bodies[b];
-            model.bodies.push_back({{body.material}, body.formulation});
+            model.bodies.push_back(
+              {{body.material, body.core}, body.formulation});
             for (const auto &support : body.supports)
               for (const unsigned int component : support.second)
                 model.supports.push_back(

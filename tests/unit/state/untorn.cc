@@ -110,6 +110,19 @@ namespace
     expect_same(scene);
   }
 
+  TEST(Untorn, TwoMaterialsInEachBody)
+  {
+    auto flat = two_blocks<2>(6, 7, 3.);
+    set_design(flat, 3, 0.03);
+    auto solid = two_blocks<3>(3, 4, 3.);
+    set_design(solid, 2, 0.03);
+    flat.bodies[1].refined_below = 0.45;
+    flat.bodies[0].core_from = solid.bodies[0].core_from = 0.5;
+    flat.bodies[1].core_from = solid.bodies[1].core_from = 0.3;
+    expect_same(flat);
+    expect_same(solid);
+  }
+
   TEST(Untorn, OtherMeshes2D)
   {
     // hanging nodes inside both bodies, body force, side pressure

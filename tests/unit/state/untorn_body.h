@@ -94,6 +94,14 @@ namespace snug
       std::vector<unsigned int>                  node_of_dof;
 
     private:
+      const elasticity::Material &
+      material(typename dealii::Triangulation<dim>::cell_iterator cell) const
+      {
+        while (cell->level() > 0)
+          cell = cell->parent();
+        return cell->center()[0] > body.core_from ? body.core : body.material;
+      }
+
       void
       make_mesh();
       void
@@ -242,10 +250,6 @@ namespace snug
     void
     UntornBody<dim>::assemble(dealii::SparseMatrix<double> &K, Vector &f) const
     {
-      const double E  = body.material.youngs_modulus;
-      const double nu = body.material.poissons_ratio;
-      const double mu = E / (2. * (1. + nu)),
-                   la = 2. * mu * nu / (1. - 2. * nu);
       const dealii::MappingFEField<dim>            mapping(handler, positions);
       const dealii::QGauss<dim>                    quadrature(fe.degree + 1);
       dealii::FEValues<dim>                        values(mapping,
@@ -263,6 +267,10 @@ namespace snug
       f.reinit(n_dofs());
       for (const auto &cell : handler.active_cell_iterators())
         {
+          const double E  = material(cell).youngs_modulus;
+          const double nu = material(cell).poissons_ratio;
+          const double mu = E / (2. * (1. + nu)),
+                       la = 2. * mu * nu / (1. - 2. * nu);
           values.reinit(cell);
           cell_matrix = 0.;
           cell_load   = 0.;
