@@ -213,6 +213,8 @@ namespace snug
       line.f_mults              = iteration.evaluation.notes[1];
       line.seconds              = iteration.evaluation.notes[2];
       line.design               = iteration.x;
+      if (line.iteration == 0)
+        workshop.context.out() << io::log_header() << std::endl;
       workshop.context.out() << io::log_line(line) << std::endl;
       everywhere(workshop.context.communicator(), [&]() {
         if (workshop.context.rank() == 0)
@@ -319,7 +321,6 @@ namespace snug
     Optimize<dim>::run()
     {
       open_journal();
-      workshop.context.out() << io::log_header() << std::endl;
       auto result = search(workshop.basis->start(), {});
       for (unsigned int round = 0;
            round < workshop.scene.contact.update_pairing && result.success &&
