@@ -90,7 +90,11 @@ namespace snug
       create_coarse_mesh(geometries, refined);
       coarse = CoarseCells<dim>(refined);
       refine(bodies, geometries, coarse, refined);
-      parts = distribute(geometries, tearing, degree, refined, triangulation);
+      parts = distribute(geometries,
+                         tearing,
+                         cells_per_subdomain(dim, degree, idealization),
+                         refined,
+                         triangulation);
     }
 
     template <int dim>

@@ -98,16 +98,6 @@ namespace snug
         return set;
       }
 
-      /// Cells of a subdomain that keep factorizations and coarse problem in
-      /// balance: 5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
-      /// degree, by their nodes.
-      template <int dim>
-      double
-      cells_per_subdomain(unsigned int degree)
-      {
-        return std::pow((dim == 3 ? 5. : 12.) / degree, dim);
-      }
-
       /// Numbers of cells of the parts, of all ranks. Collective.
       std::vector<unsigned long>
       cells_of_parts(const Partition &partition, MPI_Comm communicator)
@@ -138,7 +128,7 @@ namespace snug
       Parts
       decide_parts(const std::vector<CellSet<dim>> &sets,
                    const TearingParameters         &parameters,
-                   unsigned int                     degree)
+                   double                           cells_by_size)
       {
         const MPI_Comm communicator = sets.front().communicator;
         unsigned long  n_cells      = 0;
@@ -147,7 +137,7 @@ namespace snug
         const auto &partition =
           choose(partition_table<dim>(), parameters.method).make;
         double              cells_each = parameters.subdomains == 0
-                                           ? cells_per_subdomain<dim>(degree)
+                                           ? cells_by_size
                                            : double(n_cells) / parameters.subdomains;
         const unsigned long least      = std::min<unsigned long>(
           n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
@@ -245,11 +235,21 @@ namespace snug
       return ranks;
     }
 
+    double
+    cells_per_subdomain(const unsigned int  dim,
+                        const unsigned int  degree,
+                        const Idealization &idealization)
+    {
+      const double edge =
+        dim == 3 ? 5. : (idealization.is_axisymmetric() ? 64. : 12.);
+      return std::pow(edge / degree, dim);
+    }
+
     template <int dim>
     std::vector<unsigned int>
     distribute(const Geometries<dim>   &geometries,
                const TearingParameters &parameters,
-               unsigned int             degree,
+               double                   cells_by_size,
                const Refined<dim>      &refined,
                dealii::parallel::fullydistributed::Triangulation<dim> &result)
     {
@@ -257,8 +257,8 @@ namespace snug
       std::vector<CellSet<dim>> sets;
       for (unsigned int body = 0; body < geometries.size(); ++body)
         sets.push_back(cell_set(*geometries[body], body, coarse, refined));
-      const Parts               parts = decide_parts(sets, parameters, degree);
-      const auto                ranks = ranks_of_parts(parts.cells,
+      const Parts parts = decide_parts(sets, parameters, cells_by_size);
+      const auto  ranks = ranks_of_parts(parts.cells,
                                         dealii::Utilities::MPI::n_mpi_processes(
                                           refined.get_communicator()));
       std::vector<unsigned int> next(geometries.size(), 0);
@@ -285,7 +285,7 @@ namespace snug
   template std::vector<unsigned int> distribute(               \
     const Geometries<dim> &,                                   \
     const TearingParameters &,                                 \
-    unsigned int,                                              \
+    double,                                                    \
     const dealii::parallel::distributed::Triangulation<dim> &, \
     dealii::parallel::fullydistributed::Triangulation<dim> &);
     SNUG_INSTANTIATE(2)

@@ -1,6 +1,7 @@
 #ifndef snug_mesh_distribute_h
 #define snug_mesh_distribute_h
 
+#include <snug/mesh/idealization.h>
 #include <snug/mesh/partition.h>
 #include <snug/mesh/triangulate.h>
 
@@ -11,11 +12,24 @@ namespace snug
   namespace mesh
   {
     /**
+     * Cells of a subdomain that keep factorizations and coarse problem in
+     * balance: 5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
+     * degree, by their nodes. Axisymmetric subdomains can all but turn and move
+     * along the radius, which the coarse space does not know, the motion along
+     * the axis being their only rigid one: the more there are, the more
+     * iterations, so they have 64 cells per edge.
+     */
+    double
+    cells_per_subdomain(unsigned int        dim,
+                        unsigned int        degree,
+                        const Idealization &idealization);
+
+    /**
      * Decide the parts into which the bodies are torn and give whole parts to
      * the ranks, so that subdomains do not depend on the number of ranks.
      *
-     * A part by size has 5 Q1 cells per edge in 3D, 12 in 2D; there are
-     * as many parts as ranks where there are cells enough. Every body is
+     * A part by size has @p cells_by_size cells; there are as many parts as
+     * ranks where there are cells enough. Every body is
      * spread over all ranks in runs of consecutive parts; ranks differ by at
      * most about two parts in their numbers of cells.
      *
@@ -29,7 +43,7 @@ namespace snug
     std::vector<unsigned int>
     distribute(const Geometries<dim>   &geometries,
                const TearingParameters &parameters,
-               unsigned int             degree,
+               double                   cells_by_size,
                const dealii::parallel::distributed::Triangulation<dim> &refined,
                dealii::parallel::fullydistributed::Triangulation<dim>  &result);
 
