@@ -104,25 +104,27 @@ namespace snug
         return product;
       }
 
-      /// w_i <- 0 where it is round-off of (B u)_i - g_i; rows of B have
-      /// lengths of about one.
+      /// w_i <- 0 where it is round-off of B u - g; rows of B have lengths of
+      /// about one, and the coarse problem spreads round-off over all of them.
       void
       set_round_off_to_zero(const feti::TotalFeti     &feti,
                             const feti::PrimalVectors &u,
                             qp::MultiVector           &w)
       {
-        double largest = 0.;
+        double largest[2] = {0., 0.}; // |u|, |g|
         for (const auto &part : u)
           for (unsigned int i = 0; i < part.n_rows(); ++i)
-            largest = std::max(largest, std::abs(part(i)));
+            largest[0] = std::max(largest[0], std::abs(part(i)));
+        for (unsigned int i = 0; i < w.n_rows(); ++i)
+          largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
         MPI_Allreduce(MPI_IN_PLACE,
-                      &largest,
-                      1,
+                      largest,
+                      2,
                       MPI_DOUBLE,
                       MPI_MAX,
                       feti.context().communicator());
         for (unsigned int i = 0; i < w.n_rows(); ++i)
-          if (std::abs(w(i)) <= round_off * (largest + std::abs(feti.g()(i))))
+          if (std::abs(w(i)) <= round_off * (largest[0] + largest[1]))
             w(i) = 0.;
       }
     } // namespace
@@ -186,6 +188,26 @@ namespace snug
       certificate.complementarity =
         relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
       return certificate;
+    }
+
+    bool
+    is_nearly_unloaded(const feti::TotalFeti &feti,
+                       const qp::MultiVector &lambda)
+    {
+      double largest[2] = {0., 0.};
+      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+        {
+          largest[0] =
+            std::max(largest[0], feti.diagonal()[i] * std::abs(lambda(i)));
+          largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
+        }
+      MPI_Allreduce(MPI_IN_PLACE,
+                    largest,
+                    2,
+                    MPI_DOUBLE,
+                    MPI_MAX,
+                    feti.context().communicator());
+      return largest[0] < 1e-3 * largest[1];
     }
   } // namespace state
 } // namespace snug

@@ -18,6 +18,9 @@ namespace snug
       /// The KKT residual is a norm over all rows, the certificate a maximum:
       /// solving this much below the tolerance meets it at once, as a rule.
       const double certificate_margin = 0.25;
+
+      /// The tolerance is not lowered by more than this at once.
+      const double largest_step = 1e-4;
     } // namespace
 
     template <int dim>
@@ -72,7 +75,12 @@ namespace snug
             }
           from.lambda = state.dual.lambda;
           from.active = state.dual.active;
-          parameters.relative_tolerance *= certificate_margin;
+          if (is_nearly_unloaded(feti, from.lambda))
+            from.lambda = qp::MultiVector(feti.n_owned());
+          parameters.relative_tolerance *=
+            certificate_margin *
+            std::max(largest_step,
+                     std::min(1., wanted / state.certificate.worst()));
         }
       std::ostringstream text;
       text << "the certificate of the contact state stays at "

@@ -13,6 +13,16 @@ namespace snug
     certify(const feti::TotalFeti     &feti,
             const qp::MultiVector     &lambda,
             const feti::PrimalVectors &u);
+
+    /**
+     * Whether the forces move the bodies by less than a thousandth of what gaps
+     * and supports prescribe, max_i(F_ii |lambda_i|) < 1e-3 max_i |g_i|. They
+     * may then be what an iteration left of forces that are not there:
+     * starting from none finds an unloaded state exactly. Collective.
+     */
+    bool
+    is_nearly_unloaded(const feti::TotalFeti &feti,
+                       const qp::MultiVector &lambda);
   } // namespace state
 } // namespace snug
 

@@ -37,13 +37,8 @@ subsection Contact
 end
 )";
 
-} // namespace
-
-TEST(Obstacles, EqualStiffBodies)
-{
-  // The block's nodes are slaves of both; those of the meshed ball lie
-  // opposite, so that its faces are exact but for terms of fourth order.
-  const std::string    punch = R"(
+  /// A quarter of a block under a ball that comes down by 0.004.
+  const std::string punched_block = R"(
 set Dimension = 3
 set Bodies = block
 set Obstacles = ball
@@ -64,6 +59,12 @@ subsection Contact
   set Pairs = block.top: ball
 end
 )";
+} // namespace
+
+TEST(Obstacles, EqualStiffBodies)
+{
+  // The block's nodes are slaves of both; those of the meshed ball lie
+  // opposite, so that its faces are exact but for terms of fourth order.
   const std::string    stiff = R"(
 set Dimension = 3
 set Bodies = ball, block
@@ -89,7 +90,8 @@ subsection Contact
   set Gap = -0.004
 end
 )";
-  const SolvedScene<3> obstacle(punch, {"Solver/Relative tolerance=1e-8"});
+  const SolvedScene<3> obstacle(punched_block,
+                                {"Solver/Relative tolerance=1e-8"});
   const SolvedScene<3> body(stiff, {"Solver/Relative tolerance=1e-8"});
   EXPECT_GT(body.state.active_contacts, 8u);
   EXPECT_EQ(obstacle.state.active_contacts, body.state.active_contacts);
@@ -99,6 +101,27 @@ end
   EXPECT_NEAR(obstacle.state.max_pressure,
               body.state.max_pressure,
               1e-3 * body.state.max_pressure);
+}
+
+TEST(Obstacles, TouchBarelyOrNotAtAll)
+{
+  const auto moved = [](const std::string &distance) {
+    return SolvedScene<3>(punched_block,
+                          {"Obstacle ball/Displacement=0, 0, " + distance});
+  };
+  for (const std::string distance : {"0", "0.01"})
+    {
+      const auto solved = moved(distance);
+      EXPECT_EQ(solved.state.contact_force.norm(), 0.);
+      EXPECT_EQ(solved.state.certificate.worst(), 0.);
+    }
+  // one node alone carries forces, in proportion, at gaps elsewhere up to 0.03
+  const auto light = moved("-1e-9"), heavy = moved("-1e-6");
+  EXPECT_EQ(heavy.state.active_contacts, 1u);
+  EXPECT_GT(heavy.state.contact_force.norm(), 0.);
+  EXPECT_NEAR(1e3 * light.state.contact_force.norm(),
+              heavy.state.contact_force.norm(),
+              1e-5 * heavy.state.contact_force.norm());
 }
 
 TEST(Obstacles, DoNotDependOnPlaceAndUnits)
