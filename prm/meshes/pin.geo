@@ -1,4 +1,4 @@
-// A quarter of a pin: shank of radius 1 from z = 0.3 to 1.5, its end a sphere of
+// A quarter of a pin: shank of radius 1 from z = 0.268 to 1.2, its end a sphere of
 // radius 2 that touches z = 0. Lengths in mm.
 SetFactory("OpenCASCADE");
 Sphere(1) = {0, 0, 2, 2};
