@@ -1,8 +1,8 @@
 #include <snug/qp/active_set.h>
-#include <snug/qp/cycle_detector.h>
 #include <snug/qp/kkt.h>
 #include <snug/qp/pcpg.h>
 #include <snug/qp/row_set.h>
+#include <snug/qp/set_history.h>
 #include <snug/qp/smalse.h>
 
 #include <deal.II/base/exceptions.h>
@@ -36,15 +36,23 @@ namespace snug
           , context(problem.context())
           , parameters(parameters)
           , options(options)
-          , cycles(options)
+          , history(options)
           , f_mults_before(context.work.f_mults)
           , inner_tolerance(options.forcing)
         {
         }
 
-        /// False if the set cycles: go on with another solver from start().
+        /// False if the set does not settle: go on with another solver from
+        /// start().
         bool
         run(const WarmStart &from);
+
+        /// Why it does not.
+        const std::string &
+        reason() const
+        {
+          return history.reason();
+        }
 
         WarmStart
         start() const
@@ -85,8 +93,8 @@ namespace snug
         RunContext            &context;
         const SolverParameters parameters;
         const ActiveSetOptions options;
-        CycleDetector          cycles;
-        CycleDetector::Care    care = CycleDetector::none;
+        SetHistory             history;
+        SetHistory::Care       care = SetHistory::none;
         const unsigned long    f_mults_before;
 
         MultiVector           lambda, residual;
@@ -130,7 +138,8 @@ namespace snug
             face     = std::move(equality.face);
           }
         krylov = std::make_unique<Pcpg>(problem, *face);
-        cycles.enter(fingerprint(mask, comm));
+        history.enter(fingerprint(mask, comm),
+                      std::numeric_limits<double>::max());
       }
 
       /// Make lambda feasible on the set; let the set grow until it is.
@@ -184,7 +193,7 @@ namespace snug
                               kkt.relative,
                               parameters.relative_tolerance,
                               f_mults());
-        const double least = (care == CycleDetector::none ? 0.5 : 0.005) *
+        const double least = (care == SetHistory::none ? 0.5 : 0.005) *
                              parameters.relative_tolerance;
         const auto inner =
           krylov->solve(lambda,
@@ -232,10 +241,10 @@ namespace snug
         const bool only_drop = kkt.relative <= parameters.relative_tolerance;
         for (unsigned int i = 0; i < next.size(); ++i)
           if (problem.bounded()[i])
-            next[i] = only_drop
-                        ? mask[i] && lambda(i) >= 0.
-                        : lambda(i) * problem.diagonal()[i] + kkt.w(i) > 0.;
-        if (care == CycleDetector::single && !only_drop)
+            next[i] = only_drop         ? mask[i] && lambda(i) >= 0.
+                      : lambda(i) != 0. ? lambda(i) > 0.
+                                        : kkt.w(i) > 0.;
+        if (care == SetHistory::single && !only_drop)
           return with_one_change(mask, next, context.communicator());
         return next;
       }
@@ -267,7 +276,7 @@ namespace snug
         last_kkt = kkt.relative;
       }
 
-      /// False if the sets cycle.
+      /// False if the set does not settle.
       bool
       ActiveSetRun::change_set(const RowSet &next)
       {
@@ -300,10 +309,10 @@ namespace snug
           stalls = 0;
         else
           count_stall();
-        care = cycles.enter(fingerprint(mask, comm));
-        if (care != CycleDetector::none)
+        care = history.enter(fingerprint(mask, comm), kkt.relative);
+        if (care != SetHistory::none)
           inner_tolerance *= 0.01;
-        return care != CycleDetector::give_up;
+        return care != SetHistory::give_up;
       }
 
       bool
@@ -353,7 +362,7 @@ namespace snug
       if (run.run(start))
         return run.solution();
       problem.context().out()
-        << "The active set cycles after " << run.f_mults()
+        << "The active set " << run.reason() << " after " << run.f_mults()
         << " F-mults; going on with SMALSE-M." << std::endl;
       SolverParameters remaining = parameters;
       remaining.max_iterations -=

@@ -14,7 +14,8 @@ namespace snug
     namespace
     {
       /// Projected residuals below this part of the residual are rounding.
-      const double rounding = 16. * std::numeric_limits<double>::epsilon();
+      const double residual_rounding =
+        16. * std::numeric_limits<double>::epsilon();
 
       /// Directions depend on each other if a pivot of their Gram matrix,
       /// scaled to unit diagonal, is below this.
@@ -214,7 +215,8 @@ namespace snug
             first = sizes;
           for (unsigned int j = 0; j < k; ++j)
             {
-              goals[j] = std::max(tolerances[j], rounding * sizes[k + j]);
+              goals[j] =
+                std::max(tolerances[j], residual_rounding * sizes[k + j]);
               if (sizes[j] <= goals[j])
                 continue;
               remaining.push_back(j);

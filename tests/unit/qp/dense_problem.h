@@ -36,6 +36,14 @@ public:
       my_diagonal.push_back(data.F(i, i));
   }
 
+  /// Estimate F_ii by @p factor F_ii.
+  void
+  scale_diagonal(double factor)
+  {
+    for (double &entry : my_diagonal)
+      entry *= factor;
+  }
+
   /// This rank's rows of a vector all ranks have.
   MultiVector
   slice(const MultiVector &x) const

@@ -1,0 +1,63 @@
+#include <snug/qp/set_history.h>
+
+#include <sstream>
+
+namespace snug
+{
+  namespace qp
+  {
+    SetHistory::SetHistory(const ActiveSetOptions &options) : options(options)
+    {
+    }
+
+    SetHistory::Care
+    SetHistory::enter(const std::uint64_t set, const double kkt_residual)
+    {
+      count_visits(set);
+      watch_residual(kkt_residual);
+      return care;
+    }
+
+    void
+    SetHistory::count_visits(const std::uint64_t set)
+    {
+      const unsigned int n = ++visits[set];
+      if (care == single &&
+          (++single_steps > options.single_steps || n >= options.visits))
+        {
+          care = give_up;
+          why  = "cycles";
+        }
+      else if (care < single && n >= options.visits)
+        {
+          care = n == options.visits ? exact : single;
+          if (care == single)
+            visits.clear();
+        }
+    }
+
+    void
+    SetHistory::watch_residual(const double kkt_residual)
+    {
+      if (kkt_residual < 0.9 * least_residual)
+        {
+          least_residual = kkt_residual;
+          idle_steps     = 0;
+        }
+      else if (care < single && ++idle_steps >= options.patience)
+        {
+          care = give_up;
+          std::ostringstream text;
+          text << "makes no progress (KKT residual " << least_residual
+               << " at best)";
+          why = text.str();
+        }
+    }
+
+    const std::string &
+    SetHistory::reason() const
+    {
+      return why;
+    }
+  } // namespace qp
+} // namespace snug
