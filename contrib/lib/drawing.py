@@ -21,13 +21,21 @@ def titles(states):
 
 def panels(aspects, columns):
     """A figure and its axes: one row per aspect (height over width of what is
-    drawn), so many columns; the panels of a row share their coordinates."""
-    heights = [float(np.clip(5.5 * aspect, 2. if len(aspects) > 1 else 3., 9.))
-               for aspect in aspects]
+    drawn), so many columns; the panels of a row share their coordinates. A
+    single row of wide panels is drawn as a column of them."""
+    stacked = len(aspects) == 1 and aspects[0] < 0.4
+    width = 9. if stacked else float(np.clip(9. / min(aspects), 3., 5.5))
+    least = 2. if stacked or len(aspects) > 1 else 3.
+    heights = [float(np.clip(width * aspect, least, 9.)) for aspect in aspects]
+    if stacked:
+        heights, columns = columns * heights, 1
     figure, axes = plt.subplots(
-        len(aspects), columns, layout="constrained", squeeze=False,
-        sharex="row", sharey="row", height_ratios=heights,
-        figsize=(5.5 * columns + 1.5, sum(heights) + len(aspects)))
+        len(heights), columns, layout="constrained", squeeze=False,
+        sharex="all" if stacked else "row", sharey="all" if stacked else "row",
+        height_ratios=heights,
+        figsize=(width * columns + 1.5, sum(heights) + len(heights)))
+    if stacked:
+        axes = axes.T
     for axis in axes.ravel():
         axis.use_sticky_edges = False
         axis.margins(0.03)

@@ -86,8 +86,9 @@ def names_of(directory, sides):
     return [pairs[pair]["name"].split(":")[0] for pair in sides]
 
 
-def draw_pressure(directory, states):
-    """Into contact-pressure.png: the first and the last state."""
+def draw_pressure(directory, states, peak):
+    """Into contact-pressure.png: the first and the last state; colours go up to
+    the largest pressure, or to peak if that is larger."""
     sides = slave_sides(states)
     if not sides:
         print(f"plot: no contact faces in '{directory}', "
@@ -97,11 +98,11 @@ def draw_pressure(directory, states):
     if next(iter(sides.values()))[0].flat:
         draw_curves(directory, states, list(sides.values()), names)
     else:
-        draw_faces(directory, states, list(sides.values()), names)
+        draw_faces(directory, states, list(sides.values()), names, peak)
 
 
-def draw_faces(directory, states, sides, names):
-    peak = max(side.peak() for row in sides for side in row)
+def draw_faces(directory, states, sides, names, peak):
+    peak = max(peak, *(side.peak() for row in sides for side in row))
     planes = [[k for k in range(3) if k != row[0].normal()] for row in sides]
     extents = [np.ptp(row[0].points[row[0].nodes], axis=0) for row in sides]
     figure, axes = panels([extent[up] / extent[across] for extent, (across, up)
@@ -122,13 +123,24 @@ def draw_faces(directory, states, sides, names):
     save(figure, directory, "contact-pressure.png")
 
 
+def show_small_contact(axis, places, loaded):
+    """Where less than a tenth of a side is loaded, that part and its
+    surroundings."""
+    width = np.ptp(loaded) if loaded else 0.
+    if 0. < width < np.ptp(places) / 10.:
+        axis.set_xlim(max(places.min(), min(loaded) - width),
+                      min(places.max(), max(loaded) + width))
+
+
 def draw_curves(directory, states, sides, names):
     figure, axes = plt.subplots(
         len(sides), 1, figsize=(8., 2. + 3. * len(sides)),
         layout="constrained", squeeze=False)
     for row, name, axis in zip(sides, names, axes[:, 0]):
+        loaded = []
         for side, title in zip(row, titles(states)):
             places, label = side.curve()
+            loaded += list(places[side.pressure[side.faces] > 0.])
             order = np.argsort(places.ravel(), kind="stable")
             axis.plot(places.ravel()[order],
                       side.pressure[side.faces.ravel()[order]], ".-",
@@ -136,6 +148,7 @@ def draw_curves(directory, states, sides, names):
         axis.set_xlabel(label)
         axis.set_ylabel("pressure\n(scene's force / length²)")
         axis.set_ylim(bottom=0.)
+        show_small_contact(axis, places, loaded)
         axis.set_title(name)
         axis.grid(True, alpha=0.3)
         if len(states) > 1:
