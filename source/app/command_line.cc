@@ -127,8 +127,9 @@ Finds the shape of elastic bodies that makes their contact best.
     --help, --version
 
 Exit status: 0 done; 2 the input is wrong; 3 the problem has no solution or was
-not solved to its tolerance; 1 anything else. Options of PETSc are taken from
-the environment variable PETSC_OPTIONS.
+not solved to its tolerance; 1 anything else. An optimization that is interrupted
+or runs out of evaluations ends with 0 if its design meets the constraints, else
+with 3. Options of PETSc are taken from the environment variable PETSC_OPTIONS.
 )";
     }
   } // namespace app

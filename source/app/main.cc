@@ -59,10 +59,13 @@ namespace
                          [](const std::string &file) {
                            return scene::read_text(file, MPI_COMM_WORLD);
                          }});
-    if (!options.validate)
-      return app::run_study(context, scene, options);
-    app::print_meshes(scene, context.communicator(), context.out());
-    context.out() << options.file << " is valid" << std::endl;
+    if (options.validate)
+      {
+        app::print_meshes(scene, context.communicator(), context.out());
+        context.out() << options.file << " is valid" << std::endl;
+      }
+    else
+      app::run_study(context, scene, options);
     return 0;
   }
 } // namespace

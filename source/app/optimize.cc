@@ -63,7 +63,6 @@ namespace snug
     optimization::Evaluation
     Optimize<dim>::evaluate(const Design &design)
     {
-      check_interrupts(workshop.context.communicator());
       if (paired_anew)
         warm_starts.clear();
       workshop.context.progress("solving the contact problem ...");
@@ -234,7 +233,10 @@ namespace snug
         load_warm_start(path);
       };
       journal = std::make_unique<optimization::Journal>(
-        settings, [this](const Design &x) { return evaluate(x); });
+        settings, [this](const Design &x) {
+          check_interrupts(workshop.context.communicator());
+          return evaluate(x);
+        });
     }
 
     /// One run of the optimizer; counts and the first objective go on from
@@ -317,7 +319,7 @@ namespace snug
     }
 
     template <int dim>
-    int
+    std::string
     Optimize<dim>::run()
     {
       open_journal();
@@ -333,10 +335,7 @@ namespace snug
           result          = search(result.x, result);
         }
       finish(result);
-      return result.success || result.stop_reason == "interrupted" ||
-                 result.stop_reason == "maximum evaluations"
-               ? 0
-               : 3;
+      return optimization::complaint(result, workshop.scene.optimization);
     }
 
     template <int dim>
@@ -344,12 +343,11 @@ namespace snug
     Optimize<dim>::finish(const optimization::OptimizationResult &result)
     {
       draw_first();
-      std::optional<typename Workshop<dim>::Field> last_shape_gradient;
+      // the last one evaluated may be another, or all were replayed
       if (last.empty() || last_design != result.x)
-        last = workshop.solve(result.x, warm_starts);
-      else if (!last_gradients.of_response.empty())
-        last_shape_gradient = last_gradients.of_response.front().shape;
-      workshop.draw(result.iterations, last, last_shape_gradient);
+        evaluate(result.x);
+      const auto &of_objective = last_gradients.of_response.front();
+      workshop.draw(result.iterations, last, of_objective.shape);
       workshop.export_shape(result.x);
 
       io::Summary summary;
@@ -362,17 +360,13 @@ namespace snug
         }
       workshop.summarize_states(first_summaries, last, summary);
       io::Summary::Gradient gradient;
-      if (!last_gradients.of_response.empty())
-        {
-          gradient.method = last_gradients.of_response[0].method;
-          gradient.reason = last_gradients.of_response[0].reason;
-          gradient.differentiable =
-            last_gradients.of_response[0].differentiable;
-        }
-      gradient.f_mults = last_gradients.f_mults;
-      gradient.seconds = last_gradients.seconds;
-      gradient.values  = result.evaluation.gradient;
-      summary.gradient = gradient;
+      gradient.method         = of_objective.method;
+      gradient.reason         = of_objective.reason;
+      gradient.differentiable = of_objective.differentiable;
+      gradient.f_mults        = last_gradients.f_mults;
+      gradient.seconds        = last_gradients.seconds;
+      gradient.values         = result.evaluation.gradient;
+      summary.gradient        = gradient;
       summary.optimization =
         io::summarize(result, workshop.scene.optimization.algorithm);
       workshop.write_summary(summary);

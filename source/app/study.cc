@@ -2,6 +2,7 @@
 #include <snug/app/optimize.h>
 #include <snug/app/sensitivity.h>
 #include <snug/app/study.h>
+#include <snug/base/errors.h>
 
 #include <ostream>
 
@@ -67,7 +68,7 @@ namespace snug
       }
 
       template <int dim>
-      int
+      void
       run_state(Workshop<dim> &workshop)
       {
         const auto states = solve_start(workshop);
@@ -76,11 +77,10 @@ namespace snug
         summary.task = "state";
         workshop.summarize_states({}, states, summary);
         workshop.write_summary(summary);
-        return 0;
       }
 
       template <int dim>
-      int
+      void
       run_sensitivity(Workshop<dim> &workshop)
       {
         const auto  states = solve_start(workshop);
@@ -91,44 +91,46 @@ namespace snug
         workshop.draw(0., states, sensitivity.shape_gradient);
         summary.gradient = sensitivity.gradient;
         workshop.write_summary(summary);
-        return 0;
       }
 
       template <int dim>
-      int
+      void
       run_task(RunContext         &context,
                const scene::Scene &scene,
                const Options      &options)
       {
         Workshop<dim> workshop(context, scene);
         workshop.print_header();
-        int status = 0;
+        std::string complaint;
         switch (scene.task)
           {
             case scene::Task::state:
-              status = run_state(workshop);
+              run_state(workshop);
               break;
             case scene::Task::sensitivity:
-              status = run_sensitivity(workshop);
+              run_sensitivity(workshop);
               break;
             case scene::Task::optimize:
               catch_interrupts();
-              status = Optimize<dim>(workshop, options.restart).run();
+              complaint = Optimize<dim>(workshop, options.restart).run();
               break;
           }
         context.out() << "results in " << scene.output_directory << ", "
                       << context.seconds() << " s" << std::endl;
-        return status;
+        if (!complaint.empty())
+          throw SolveError(complaint);
       }
     } // namespace
 
-    int
+    void
     run_study(RunContext         &context,
               const scene::Scene &scene,
               const Options      &options)
     {
-      return scene.dimension == 2 ? run_task<2>(context, scene, options)
-                                  : run_task<3>(context, scene, options);
+      if (scene.dimension == 2)
+        run_task<2>(context, scene, options);
+      else
+        run_task<3>(context, scene, options);
     }
   } // namespace app
 } // namespace snug

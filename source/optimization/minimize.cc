@@ -1,6 +1,8 @@
 #include <snug/optimization/minimize.h>
 #include <snug/optimization/nlopt_search.h>
 
+#include <sstream>
+
 namespace snug
 {
   namespace optimization
@@ -17,6 +19,25 @@ namespace snug
         };
       }
     } // namespace
+
+    std::string
+    complaint(const OptimizationResult     &result,
+              const OptimizationParameters &parameters)
+    {
+      const bool is_feasible =
+        result.constraint_violation <= parameters.constraint_tolerance;
+      const bool is_cut_short = result.stop_reason == "interrupted" ||
+                                result.stop_reason == "maximum evaluations";
+      if (result.success || (is_feasible && is_cut_short))
+        return "";
+      std::ostringstream text;
+      text << "the optimization is not solved to its tolerance: it stopped by "
+           << result.stop_reason;
+      if (!is_feasible)
+        text << "; the design found violates a constraint by "
+             << result.constraint_violation << " of its limit";
+      return text.str();
+    }
 
     const ChoiceTable<Algorithm> &
     algorithm_table()

@@ -88,13 +88,13 @@ namespace snug
           }
         catch (const Interrupted &)
           {
-            return progress.result(End::interrupted);
+            return progress.result(End::interrupted, "");
           }
         if (!centre.empty())
           do
             descend();
           while (begins_again());
-        return progress.result(answers->end);
+        return progress.result(answers->end, answers->failure);
       }
 
       nlopt::opt

@@ -122,7 +122,7 @@ namespace snug
     }
 
     std::string
-    Progress::stop_reason(const End end) const
+    Progress::stop_reason(const End end, const std::string &failure) const
     {
       switch (end)
         {
@@ -138,7 +138,7 @@ namespace snug
           case End::round_off:
             return is_feasible(*best) ? "round-off" : "constraints violated";
           case End::no_value:
-            return "restarts exhausted (tangled meshes)";
+            return "restarts exhausted (" + failure + ")";
           case End::interrupted:
             return "interrupted";
         }
@@ -146,7 +146,7 @@ namespace snug
     }
 
     OptimizationResult
-    Progress::result(const End end) const
+    Progress::result(const End end, const std::string &failure) const
     {
       const bool by_tolerance =
         end == End::gradient || end == End::objective || end == End::design;
@@ -160,7 +160,7 @@ namespace snug
       result.objective_final      = point->evaluation.objective;
       result.constraint_violation = point->violation;
       result.projected_gradient   = problem.projected_gradient(*point);
-      result.stop_reason          = stop_reason(end);
+      result.stop_reason          = stop_reason(end, failure);
       const bool by_round_off =
         end == End::round_off &&
         result.projected_gradient <= std::sqrt(parameters.objective_tolerance);

@@ -315,6 +315,18 @@ def mesh_scene(runner, title, entries):
          "subsection Contact", "set Pairs = part.bottom: base.top", "end", ""]))
 
 
+def check_unsolved(runner, scene):
+    """Only a design that meets its constraints ends with 0."""
+    settings = ["Task=optimize", "Optimization/Maximum evaluations=1",
+                "Optimization/Constraints=volume: = 1.5 initial"]
+    run = [scene, *(word for entry in settings for word in ("--set", entry))]
+    for ranks in 1, 3:
+        runner.expect_error("constraints violated", run,
+                            ["maximum evaluations", "violates"], 3, ranks)
+    runner.expect_success("constraints met", [
+        *run, "--set", "Optimization/Constraints=volume: = initial"])
+
+
 def check_good(runner, scene):
     """What is right ends with 0 and says nothing on standard error."""
     runner.expect_success("--help", ["--help"], "--validate")
@@ -359,6 +371,7 @@ def main():
         floating = {f"Body {body}/Supports": "" for body in bodies}
         runner.expect_error("no supports at all",
                             [runner.write("floating", floating)], [], status=3)
+        check_unsolved(runner, scene)
         for path in options.unsolvable:
             runner.expect_error(path.name, [path.resolve()], [], status=3)
     print(f"{runner.checked} runs, {runner.failed} wrong")

@@ -22,8 +22,9 @@ namespace snug
     public:
       Optimize(Workshop<dim> &workshop, bool restart);
 
-      /// Collective. @return the exit status.
-      int
+      /// Collective. @return what is wrong with the result; see
+      /// optimization::complaint().
+      std::string
       run();
 
     private:

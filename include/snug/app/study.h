@@ -12,10 +12,9 @@ namespace snug
     /**
      * Do the task of a scene and leave its results in the output directory.
      * Collective.
-     * @return the exit status: 0 done, 3 not solved to its tolerance.
      * @throws InputError, SolveError.
      */
-    int
+    void
     run_study(RunContext         &context,
               const scene::Scene &scene,
               const Options      &options);

@@ -65,7 +65,8 @@ namespace snug
       double              projected_gradient   = 0.; ///< as in Iteration
       /// "gradient tolerance", "objective tolerance", "design tolerance",
       /// "maximum evaluations", "round-off", "constraints violated",
-      /// "interrupted" or "restarts exhausted (tangled meshes)"
+      /// "interrupted" or "restarts exhausted (...)" with what the last design
+      /// without a value lacked
       std::string stop_reason;
       /// Stopped by a tolerance at a design that meets the constraints, or by
       /// round-off where the projected gradient is at most the square root of
@@ -73,6 +74,12 @@ namespace snug
       /// tolerance of its minimum). No other end sets it.
       bool success = false;
     };
+
+    /// What is wrong with @p result: no word if it is a success, or met the
+    /// constraints when the evaluations ran out or it was interrupted.
+    std::string
+    complaint(const OptimizationResult     &result,
+              const OptimizationParameters &parameters);
 
     using Algorithm = OptimizationResult(const DesignProblem &,
                                          const OptimizationParameters &,

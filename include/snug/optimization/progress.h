@@ -76,9 +76,10 @@ namespace snug
 
       /// The result of a search that ended by @p end: the best design, or the
       /// last one if a tolerance ended it (an earlier one may be lower only by
-      /// using up the constraints' tolerance).
+      /// using up the constraints' tolerance). @p failure says why the design
+      /// of End::no_value has none.
       OptimizationResult
-      result(End end) const;
+      result(End end, const std::string &failure) const;
 
       /// Whether a design meets the constraints to their tolerance.
       bool
@@ -92,7 +93,7 @@ namespace snug
 
     private:
       std::string
-      stop_reason(End end) const;
+      stop_reason(End end, const std::string &failure) const;
 
       const ScaledProblem          &problem;
       const OptimizationParameters &parameters;

@@ -102,9 +102,6 @@ namespace snug
       };
 
       void
-      make_sides(const std::vector<Support<dim>> &supports,
-                 const SurfaceField              &positions);
-      void
       collect_holds(const std::vector<Support<dim>> &supports,
                     const SurfaceField              &reference);
       void

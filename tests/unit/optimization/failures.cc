@@ -52,12 +52,36 @@ TEST(SlsqpFailures, StopsAtTheBestDesignIfTheMinimumIsTangled)
       };
       const auto result = minimize(problem, tight(), hooks);
       EXPECT_FALSE(result.success);
-      EXPECT_EQ(result.stop_reason, "restarts exhausted (tangled meshes)");
+      EXPECT_EQ(result.stop_reason.rfind("restarts exhausted (", 0), 0u);
+      EXPECT_EQ(result.stop_reason.find("is tangled") == std::string::npos,
+                as_nan)
+        << result.stop_reason;
       EXPECT_EQ(restarts, 5u);
       EXPECT_LE(result.x[0], 0.6);
       EXPECT_TRUE(std::isfinite(result.objective_final));
       EXPECT_LE(result.evaluations, 200u);
     }
+}
+
+TEST(SlsqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
+{
+  auto parameters                = tight();
+  parameters.maximum_evaluations = 1;
+  const auto result              = minimize(rosenbrock_on_circle(), parameters);
+  EXPECT_EQ(result.stop_reason, "maximum evaluations");
+  for (const double violation : {0., 0.9, 1.1, 1e5})
+    for (const std::string reason :
+         {"interrupted", "maximum evaluations", "round-off"})
+      {
+        auto other        = result;
+        other.stop_reason = reason;
+        other.constraint_violation =
+          violation * parameters.constraint_tolerance;
+        const auto text = complaint(other, parameters);
+        EXPECT_EQ(text.empty(), violation < 1. && reason != "round-off");
+        EXPECT_EQ(text.find("violates") != std::string::npos, violation > 1.);
+      }
+  EXPECT_EQ(complaint(minimize(rosenbrock_on_circle(), tight()), tight()), "");
 }
 
 TEST(SlsqpFailures, AStartWithoutValueIsTheCallersError)
