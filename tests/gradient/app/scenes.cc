@@ -23,7 +23,7 @@ namespace
 
   /// Between the methods, which solve the same system or its transpose.
   const double method_tolerance = 1e-10;
-  /// Of differences of fourth order between states solved to 1e-12.
+  /// Of differences of fourth order between states.
   const double difference_tolerance = 1e-7;
   const double energy_tolerance     = 1e-8;
   /// of differences and of designs from the first one, relative to the width
@@ -84,10 +84,12 @@ namespace
     auto       scene =
       scene::read_scene({given.file,
                          contents(given.file),
-                         {"Solver/Relative tolerance=1e-11"},
+                         {},
                          "gradient.app.np" + std::to_string(ranks) + "/" +
                            std::filesystem::path(given.file).stem().string()});
     coarsen(scene);
+    // those of degree 2 are slender: round-off does not let them reach 1e-11
+    scene.solver.relative_tolerance = scene.degree == 1 ? 1e-11 : 1e-10;
     for (auto &pair : scene.contact.pairs)
       pair.parameters.method = given.method;
     return scene;
