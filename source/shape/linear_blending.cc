@@ -181,10 +181,9 @@ namespace snug
         const double       depth =
           face.boundary() % 2 == 1 ? 1. - fraction : fraction;
         dealii::Point<dim> far;
-        far[axis] = 1.;
-        const double height =
-          (geometry.box_position(far) -
-           geometry.box_position(dealii::Point<dim>()))[axis];
+        far[axis]           = 1.;
+        const double height = geometry.box_position(far).distance(
+          geometry.box_position(dealii::Point<dim>()));
         if (reach == 0.)
           return 1. - depth;
         return std::max(0., 1. - depth * height / reach);

@@ -119,6 +119,54 @@ namespace snug
         }
     }
 
+    /// What a shape does to a body does not depend on how the body lies, but
+    /// for rounding: moves turn with it.
+    template <int dim>
+    void
+    expect_turned_moves(double reach)
+    {
+      auto       bodies = shape_bodies<dim>();
+      const auto moves  = [&]() {
+        const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, bodies, 1);
+        auto                      parameters = on_top<dim>("Bezier patch");
+        parameters.reach                     = reach;
+        const shape::Shapes<dim> shapes(mesh, body_names(), {parameters});
+        return shapes.apply(random_numbers(shapes.n_variables(), 9));
+      };
+      bodies[1].refine_where = "1";
+      const auto straight    = moves();
+      bodies[1].shift        = std::vector<double>(dim, 0.7);
+      bodies[1].rotate       = {{"z", "30"}};
+      if (dim == 3)
+        bodies[1].rotate = {{"x", "90"}, {"z", "30"}};
+      const auto turned = moves();
+      // about x by 90 degrees first in 3D, then about z by 30
+      const double           c = std::sqrt(0.75), s = 0.5;
+      dealii::Tensor<2, dim> Q;
+      Q[0][0]       = c;
+      Q[1][0]       = s;
+      Q[0][dim - 1] = dim == 2 ? -s : s;
+      Q[1][dim - 1] = dim == 2 ? c : -c;
+      if (dim == 3)
+        Q[dim - 1][1] = 1.;
+      double largest = 0.;
+      for (unsigned int node = 0; node < turned.size(); ++node)
+        {
+          EXPECT_LT((turned[node] - Q * straight[node]).norm(), 1e-12);
+          largest = std::max(largest, turned[node].norm());
+        }
+      EXPECT_GT(dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD), 0.1);
+    }
+
+    TEST(Interior, BlendsRotatedBoxesToo)
+    {
+      for (const double reach : {0., 1.1})
+        {
+          expect_turned_moves<2>(reach);
+          expect_turned_moves<3>(reach);
+        }
+    }
+
     template <int dim>
     void
     expect_reach(const std::string &interior)
