@@ -1,6 +1,10 @@
 #include <snug/mesh/mesh_formats.h>
 #include <snug/mesh/mesh_text.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
 namespace snug
 {
   namespace mesh
@@ -50,9 +54,13 @@ namespace snug
         {
           in.rest_of_line(); // version
           in.rest_of_line(); // title
-          if (in.word("ASCII") != "ASCII")
-            in.fail("the file is not in ASCII");
+          const std::string form = in.word("ASCII or BINARY");
+          binary                 = form == "BINARY";
+          if (form != "ASCII" && !binary)
+            in.fail("ASCII or BINARY is expected");
           in.rest_of_line();
+          if (binary)
+            in.be_binary();
           while (!in.at_end())
             read_section();
           if (types.size() != nodes.size())
@@ -65,10 +73,52 @@ namespace snug
 
       private:
         MeshText                                in;
+        bool                                    binary = false;
         std::vector<std::vector<unsigned long>> nodes;
         std::vector<unsigned long>              lines, types;
         std::vector<std::string>                groups;
         MeshFile                                mesh;
+
+        /// A number as it lies in the file, most significant byte first.
+        template <typename T>
+        T
+        big_endian(const std::string &what)
+        {
+          const auto bytes = in.raw<std::array<unsigned char, sizeof(T)>>(what);
+          std::array<unsigned char, sizeof(T)> own = bytes;
+          const std::uint16_t                  one = 1;
+          unsigned char                        first;
+          std::memcpy(&first, &one, 1);
+          if (first == 1)
+            std::reverse(own.begin(), own.end());
+          T value;
+          std::memcpy(&value, own.data(), sizeof(T));
+          return value;
+        }
+
+        double
+        number(const std::string &type, const std::string &what)
+        {
+          if (!binary)
+            return in.number(what);
+          if (type == "float")
+            return big_endian<float>(what);
+          if (type == "double")
+            return big_endian<double>(what);
+          in.fail("points of type '" + type + "', not float or double");
+        }
+
+        unsigned long
+        whole(const std::string &type, const std::string &what)
+        {
+          if (!binary)
+            return in.whole(what);
+          if (type == "int" || type == "unsigned_int")
+            return big_endian<std::int32_t>(what);
+          if (type == "long" || type == "vtktypeint64" || type == "vtkIdType")
+            return big_endian<std::int64_t>(what);
+          in.fail("whole numbers of type '" + type + "', not int or long");
+        }
 
         void
         read_section()
@@ -83,15 +133,16 @@ namespace snug
               : 0;
           const bool named_data =
             keyword == "SCALARS" && is_group(in.word("a name"));
-          in.rest_of_line();
+          const std::string rest = in.rest_of_line();
+          const std::string type = rest.substr(0, rest.find(' '));
           if (keyword == "POINTS")
-            read_points(n);
+            read_points(n, type);
           else if (keyword == "CELLS")
             read_cells(n);
           else if (keyword == "CELL_TYPES")
             read_types(n);
           else if (named_data)
-            read_groups();
+            read_groups(type);
         }
 
         static bool
@@ -101,14 +152,14 @@ namespace snug
         }
 
         void
-        read_points(unsigned long n)
+        read_points(unsigned long n, const std::string &type)
         {
           for (unsigned long i = 0; i < n; ++i)
             {
               dealii::Point<3> point;
               for (unsigned int d = 0; d < 3; ++d)
                 point[d] =
-                  in.number("a coordinate of point " + std::to_string(i));
+                  number(type, "a coordinate of point " + std::to_string(i));
               mesh.points.push_back(point);
             }
         }
@@ -116,43 +167,49 @@ namespace snug
         void
         read_cells(unsigned long n)
         {
+          if (in.is_next("OFFSETS"))
+            return read_connectivity(n);
           for (unsigned long i = 0; i < n; ++i)
             {
               const std::string name = "cell " + std::to_string(i);
-              if (i == 0)
-                {
-                  const std::string first = in.word(name);
-                  if (first == "OFFSETS")
-                    return read_connectivity(n);
-                  nodes.emplace_back(to_whole(first, in.line()));
-                }
-              else
-                nodes.emplace_back(in.whole(name));
+              nodes.emplace_back(count("int", name));
               lines.push_back(in.line());
               for (auto &node : nodes.back())
-                node = in.whole("a point of " + name);
+                node = whole("int", "a point of " + name);
             }
+        }
+
+        /// Points of a cell; more than any has are a broken file.
+        unsigned long
+        count(const std::string &type, const std::string &name)
+        {
+          const unsigned long n = whole(type, name);
+          if (n > 1000)
+            in.fail(name + " has too many points");
+          return n;
         }
 
         /// Files of version 5 have offsets, one more than cells.
         void
         read_connectivity(unsigned long n_offsets)
         {
-          in.rest_of_line();
+          in.word("OFFSETS");
+          const std::string          offset_type = in.rest_of_line();
           std::vector<unsigned long> offsets;
           for (unsigned long i = 0; i < n_offsets; ++i)
-            offsets.push_back(in.whole("an offset"));
+            offsets.push_back(whole(offset_type, "an offset"));
           if (in.word("CONNECTIVITY") != "CONNECTIVITY")
             in.fail("CONNECTIVITY is expected");
-          in.rest_of_line();
+          const std::string type = in.rest_of_line();
           for (unsigned long i = 0; i + 1 < n_offsets; ++i)
             {
-              if (offsets[i + 1] < offsets[i])
-                in.fail("offsets must not fall");
+              if (offsets[i + 1] < offsets[i] ||
+                  offsets[i + 1] - offsets[i] > 1000)
+                in.fail("offsets must not fall, nor cells be that large");
               nodes.emplace_back(offsets[i + 1] - offsets[i]);
               lines.push_back(in.line());
               for (auto &node : nodes.back())
-                node = in.whole("a point of cell " + std::to_string(i));
+                node = whole(type, "a point of cell " + std::to_string(i));
             }
         }
 
@@ -160,19 +217,24 @@ namespace snug
         read_types(unsigned long n)
         {
           for (unsigned long i = 0; i < n; ++i)
-            types.push_back(in.whole("the type of a cell"));
+            types.push_back(whole("int", "the type of a cell"));
         }
 
         void
-        read_groups()
+        read_groups(const std::string &type)
         {
           if (in.word("LOOKUP_TABLE") != "LOOKUP_TABLE")
             in.fail("LOOKUP_TABLE is expected");
           in.rest_of_line();
           groups.clear();
           for (unsigned int i = 0; i < nodes.size(); ++i)
-            groups.push_back(
-              in.word("the number of cell " + std::to_string(i)));
+            {
+              const std::string what =
+                "the number of cell " + std::to_string(i);
+              groups.push_back(
+                binary ? std::to_string(static_cast<long>(whole(type, what)))
+                       : in.word(what));
+            }
         }
 
         void

@@ -85,7 +85,7 @@ namespace snug
         entries.add("Mesh file",
                     mesh.file,
                     anything("the path of a file"),
-                    "Gmsh .msh 2 or 4.1, Abaqus .inp, or VTK legacy or UCD in "
+                    "Gmsh .msh 2 or 4.1, Abaqus .inp, VTK legacy, or UCD in "
                     "ASCII; relative to the parameter file. Triangles, "
                     "tetrahedra and prisms are split into quadrilaterals and "
                     "hexahedra; of quadratic elements the corners count.");

@@ -58,7 +58,7 @@ namespace snug
 
     /**
      * Read the contents of a mesh file: Gmsh .msh 2 and 4.1 (ASCII, binary),
-     * Abaqus .inp, VTK legacy (ASCII, unstructured grid) or UCD (ASCII), told
+     * Abaqus .inp, VTK legacy (unstructured grid) or UCD (ASCII), told
      * by how they begin.
      * @throws InputError: "line 17: what is wrong".
      */

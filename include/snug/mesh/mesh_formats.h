@@ -23,8 +23,9 @@ namespace snug
     MeshFile
     read_abaqus(const std::string &text);
 
-    /// VTK legacy file of an unstructured grid in ASCII; groups are the numbers
-    /// of the cell data MaterialID or CellEntityIds. Source: VTK file formats.
+    /// VTK legacy file of an unstructured grid, ASCII or binary; groups are the
+    /// numbers of the cell data MaterialID or CellEntityIds. Source: VTK file
+    /// formats.
     MeshFile
     read_vtk(const std::string &text);
 

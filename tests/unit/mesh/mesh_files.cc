@@ -148,6 +148,8 @@ namespace
       {"tets-4-binary.msh", file_body(), 3, 48},
       {"block.inp", file_body(), 3, 2},
       {"block.vtk", numbered_body(), 3, 2},
+      {"block-binary.vtk", numbered_body(), 3, 2},
+      {"block-5-binary.vtk", numbered_body(), 3, 2},
       {"block.ucd", numbered_body(), 3, 2},
       {"square.msh", file_body(), 2, 10}};
     return rows;
@@ -211,7 +213,7 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
     {msh.substr(0, msh.find("$Elements")), "the file has no elements"},
     {replaced(inp, "type=C3D8", "type=B31H"), "elements of the type 'B31H'"},
     {replaced(inp, "5, 6, \n", "5, 66, \n"), "the element 66"},
-    {replaced(vtk, "ASCII", "BINARY"), "line 3: the file is not in ASCII"},
+    {replaced(vtk, "ASCII", "XML"), "line 3: ASCII or BINARY is expected"},
     {replaced(vtk, "8 8 1 3", "8 8 1 33"), "has the point 33"},
     {"solid part\n", "no mesh file of Gmsh"},
     {"", "the file ends"}};
