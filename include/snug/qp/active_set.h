@@ -12,8 +12,8 @@ namespace snug
     {
       /// The inner residual is this part of the KKT residual. Rough solutions
       /// tell which rows leave as well as exact ones do, and directions found
-      /// on the way are kept: 0.7 takes half the F-mults of 0.1 on contact
-      /// problems, and values up to 0.9 as many.
+      /// on the way are kept: 0.7 takes up to a third fewer F-mults than 0.1 on
+      /// contact problems.
       double forcing = 0.7;
       /// Visits of one set after which the inner problems are solved more
       /// exactly; one more, and only one row changes per step.
