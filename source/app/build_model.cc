@@ -40,8 +40,9 @@ namespace snug
     build_model(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
     {
       state::Model<dim> model;
-      model.feti   = scene.feti;
-      model.solver = scene.solver;
+      model.least_scaled_jacobian = scene.least_scaled_jacobian;
+      model.feti                  = scene.feti;
+      model.solver                = scene.solver;
       for (unsigned int b = 0; b < scene.bodies.size(); ++b)
         {
           const auto &body = scene.bodies[b];

@@ -26,13 +26,14 @@ namespace snug
       void
       print_state(std::ostream &out, const state::ContactState<dim> &state)
       {
-        out << "energy " << state.energy << ", compliance " << state.compliance
-            << ", strain energy " << state.strain_energy << "\ncontact force ("
-            << state.contact_force << "), area " << state.contact_area
-            << ", peak pressure " << state.max_pressure << ", "
-            << state.active_contacts << " active and " << state.weak_contacts
-            << " weakly active of " << state.contact.size()
-            << " contact rows, distance to degeneracy "
+        out << "least scaled Jacobian of a cell " << state.least_scaled_jacobian
+            << "\nenergy " << state.energy << ", compliance "
+            << state.compliance << ", strain energy " << state.strain_energy
+            << "\ncontact force (" << state.contact_force << "), area "
+            << state.contact_area << ", peak pressure " << state.max_pressure
+            << ", " << state.active_contacts << " active and "
+            << state.weak_contacts << " weakly active of "
+            << state.contact.size() << " contact rows, distance to degeneracy "
             << state.degeneracy_distance << '\n';
         if (state.pairs.size() > 1)
           for (const auto &pair : state.pairs)

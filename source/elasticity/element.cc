@@ -186,6 +186,25 @@ namespace snug
       return mean > 0. ? smallest / mean : 0.;
     }
 
+    template <int dim>
+    double
+    Element<dim>::scaled_jacobian(const Nodes &X) const
+    {
+      double smallest = 1.;
+      for (const auto *points : {&gauss, &nodes})
+        for (const auto &shape : *points)
+          {
+            const auto J      = jacobian(shape, X);
+            double     volume = 1.; // of the box with these edges
+            for (int d = 0; d < dim; ++d)
+              volume *= (transpose(J)[d]).norm();
+            const double ratio = determinant(J) / volume;
+            if (!(ratio > smallest))
+              smallest = std::isnan(ratio) ? 0. : ratio;
+          }
+      return smallest;
+    }
+
     template class Element<2>;
     template class Element<3>;
   } // namespace elasticity

@@ -13,7 +13,7 @@ namespace snug
     log_header()
     {
       return "  it                   J        |g|  constraint  active  F-mults"
-             "          s";
+             "  jacobian          s";
     }
 
     std::string
@@ -22,13 +22,14 @@ namespace snug
       char text[160];
       std::snprintf(text,
                     sizeof(text),
-                    "%4u %19.12e %10.3e %11.3e %7u %8lu %10.2f",
+                    "%4u %19.12e %10.3e %11.3e %7u %8lu %9.3f %10.2f",
                     line.iteration,
                     line.objective,
                     line.projected_gradient,
                     line.constraint_violation,
                     line.active_contacts,
                     line.f_mults,
+                    line.scaled_jacobian,
                     line.seconds);
       return text;
     }
@@ -36,7 +37,7 @@ namespace snug
     History::History(const std::string &path, unsigned int n_variables)
       : path(path)
       , text("iteration,objective,constraint_violation,projected_gradient,"
-             "active_contacts,f_mults,seconds")
+             "active_contacts,f_mults,scaled_jacobian,seconds")
       , n_variables(n_variables)
     {
       for (unsigned int i = 0; i < n_variables; ++i)
@@ -52,7 +53,8 @@ namespace snug
               ',' + exact(line.constraint_violation) + ',' +
               exact(line.projected_gradient) + ',' +
               std::to_string(line.active_contacts) + ',' +
-              std::to_string(line.f_mults) + ',' + exact(line.seconds);
+              std::to_string(line.f_mults) + ',' + exact(line.scaled_jacobian) +
+              ',' + exact(line.seconds);
       for (const double value : line.design)
         text += ',' + exact(value);
       text += '\n';

@@ -24,9 +24,10 @@ namespace snug
     summarize(const state::ContactState<dim> &state)
     {
       Summary::State result;
-      result.energy        = state.energy;
-      result.compliance    = state.compliance;
-      result.strain_energy = state.strain_energy;
+      result.least_scaled_jacobian = state.least_scaled_jacobian;
+      result.energy                = state.energy;
+      result.compliance            = state.compliance;
+      result.strain_energy         = state.strain_energy;
       for (unsigned int c = 0; c < dim; ++c)
         result.contact_force.push_back(state.contact_force[c]);
       result.contact_area        = state.contact_area;

@@ -59,7 +59,8 @@ namespace snug
         const Json  linear      = state.linear_f_mults == 0
                                     ? Json(nullptr)
                                     : Json(state.linear_f_mults);
-        return {{"energy", state.energy},
+        return {{"least_scaled_jacobian", state.least_scaled_jacobian},
+                {"energy", state.energy},
                 {"compliance", state.compliance},
                 {"strain_energy", state.strain_energy},
                 {"contact_force", state.contact_force},

@@ -117,6 +117,11 @@ namespace snug
         throw origins.error("Output directory", "", "must not be empty");
       check_model(scene, origins);
       check_names(scene, origins);
+      require_range(origins,
+                    "Least scaled Jacobian",
+                    scene.least_scaled_jacobian,
+                    0.,
+                    0.99);
       check_bodies(scene, origins);
       check_loads(scene, origins);
       check_contact(scene, origins);

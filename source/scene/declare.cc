@@ -102,6 +102,12 @@ namespace snug
                     choice("1|2"),
                     "Polynomial degree of the elements: 1 (bilinear, "
                     "trilinear) or 2.");
+        entries.add("Least scaled Jacobian",
+                    scene.least_scaled_jacobian,
+                    "Meshes with a cell of less are refused, designs as if "
+                    "they were tangled: det J over the product of the edges' "
+                    "lengths, 1 for right angles, 0 for tangled cells; 0: none "
+                    "but tangled ones.");
       }
 
       void

@@ -112,25 +112,39 @@ namespace snug
     template <int dim>
     void
     StateProblem<dim>::check_quality(const Field             &positions,
-                                     const std::vector<bool> &moved) const
+                                     const std::vector<bool> &moved)
     {
       if (mesh.idealization().is_axisymmetric())
         check_axis(mesh, positions, boxes);
+      scaled_jacobians.resize(systems.size());
       for (unsigned int s = 0; s < systems.size(); ++s)
         if (moved[s])
-          for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
-            {
-              const auto   X       = assemblers[s]->cell_field(i, positions);
-              const double quality = assemblers[s]->element().quality(X);
-              if (quality >= least_quality)
-                continue;
-              std::ostringstream text;
-              text << "the mesh of body " << model.body_names[systems[s].body]
-                   << " is tangled near (" << X.front() << "): cell quality "
-                   << quality << " is below " << least_quality
-                   << "; tighten the bounds of the shape";
-              throw TangledMesh(text.str());
-            }
+          {
+            const auto &element = assemblers[s]->element();
+            double      quality = 1., jacobian = 1.;
+            for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
+              {
+                const auto X = assemblers[s]->cell_field(i, positions);
+                quality      = std::min(quality, element.quality(X));
+                jacobian     = std::min(jacobian, element.scaled_jacobian(X));
+                if (quality >= least_quality &&
+                    jacobian >= model.least_scaled_jacobian)
+                  continue;
+                std::ostringstream text;
+                text << "the mesh of body " << model.body_names[systems[s].body]
+                     << " is tangled near (" << X.front() << "): ";
+                if (quality < least_quality)
+                  text << "cell quality " << quality << " is below "
+                       << least_quality;
+                else
+                  text << "scaled Jacobian " << jacobian
+                       << " is below 'Least scaled Jacobian' = "
+                       << model.least_scaled_jacobian;
+                text << "; tighten the bounds of the shape";
+                throw TangledMesh(text.str());
+              }
+            scaled_jacobians[s] = jacobian;
+          }
     }
 
     template <int dim>
@@ -195,6 +209,11 @@ namespace snug
       const auto moved = moved_subdomains(positions);
       everywhere(context.communicator(),
                  [&]() { check_quality(positions, moved); });
+      least_scaled_jacobian = dealii::Utilities::MPI::min(
+        scaled_jacobians.empty()
+          ? 1.
+          : *std::min_element(scaled_jacobians.begin(), scaled_jacobians.end()),
+        context.communicator());
       const int any_moved =
         std::find(moved.begin(), moved.end(), true) != moved.end();
       if (dealii::Utilities::MPI::max(any_moved, context.communicator()) != 0)

@@ -119,8 +119,9 @@ namespace snug
       problem.set_geometry(positions);
       problem.set_load_case(load_case);
       ContactState<dim> state;
-      state.positions = positions;
-      state.load_case = load_case;
+      state.positions             = positions;
+      state.load_case             = load_case;
+      state.least_scaled_jacobian = problem.least_scaled_jacobian;
       {
         const RunContext::Timer timer(problem.context, "solve");
         data->solve_to_certificate(start, state);

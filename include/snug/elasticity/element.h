@@ -142,6 +142,16 @@ namespace snug
       double
       quality(const Nodes &X) const;
 
+      /**
+       * The smallest det J / prod_d |J e_d| over Gauss points and nodes: 1
+       * where the coordinate lines of the cell meet at right angles, whatever
+       * its lengths, <= 0 tangled, 0 for a cell without volume or with NaN
+       * positions.
+       * Source: Knupp, SIAM J. Sci. Comput. 23 (2001).
+       */
+      double
+      scaled_jacobian(const Nodes &X) const;
+
     private:
       /// What a displacement makes at a point.
       struct PointState

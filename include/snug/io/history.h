@@ -17,6 +17,7 @@ namespace snug
       double              projected_gradient   = 0.; ///< free of units
       unsigned int        active_contacts      = 0;
       unsigned long       f_mults              = 0;
+      double              scaled_jacobian      = 0.; ///< least of all cells
       double              seconds              = 0.; ///< since the run began
       std::vector<double> design;                    ///< [length]
     };
@@ -32,9 +33,9 @@ namespace snug
     /**
      * The file history.csv: one line per design iteration with the columns
      * iteration, objective, constraint_violation, projected_gradient,
-     * active_contacts, f_mults, seconds, design_0, design_1, .. and 17
-     * significant digits. The file on disk is complete after every add().
-     * For one rank.
+     * active_contacts, f_mults, scaled_jacobian, seconds, design_0, design_1,
+     * .. and 17 significant digits. The file on disk is complete after every
+     * add(). For one rank.
      */
     class History
     {

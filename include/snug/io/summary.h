@@ -54,6 +54,7 @@ namespace snug
       /// Members as in state::ContactState; linear_f_mults 0 becomes null.
       struct State
       {
+        double              least_scaled_jacobian = none;
         double              energy = none, compliance = none;
         double              strain_energy = none;
         std::vector<double> contact_force;

@@ -73,8 +73,9 @@ namespace snug
       unsigned int dimension = 3;      ///< of the meshes
       std::string  model     = "auto"; ///< auto or of idealization_table()
       double       thickness = 1.;     ///< of plane models [length]
-      std::string  output_directory = "output";
-      unsigned int degree           = 1; ///< of the elements, 1 or 2
+      std::string  output_directory      = "output";
+      unsigned int degree                = 1;  ///< of the elements, 1 or 2
+      double       least_scaled_jacobian = 0.; ///< that a cell may have
       std::vector<NamedMaterial>               materials;
       std::vector<Body>                        bodies;
       std::vector<contact::ObstacleParameters> obstacles;

@@ -81,10 +81,11 @@ namespace snug
       std::vector<ContactPoint>   contact;
       std::vector<PairState<dim>> pairs;
 
-      double                 energy        = 0.; ///< 1/2 u'Ku - f'u
-      double                 compliance    = 0.; ///< f'u
-      double                 strain_energy = 0.; ///< 1/2 u'Ku
-      dealii::Tensor<1, dim> contact_force;      ///< on the slave sides [force]
+      double                 least_scaled_jacobian = 1.; ///< of all cells
+      double                 energy                = 0.; ///< 1/2 u'Ku - f'u
+      double                 compliance            = 0.; ///< f'u
+      double                 strain_energy         = 0.; ///< 1/2 u'Ku
+      dealii::Tensor<1, dim> contact_force; ///< on the slave sides [force]
       double                 contact_area    = 0.; ///< of active rows
       double                 max_pressure    = 0.;
       unsigned int           active_contacts = 0;

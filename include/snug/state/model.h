@@ -77,8 +77,10 @@ namespace snug
       std::vector<LoadCase<dim>>  load_cases; ///< at least one
       std::vector<Support<dim>>   supports;
       std::vector<contact::Pair>  pairs;
-      feti::FetiParameters        feti;
-      qp::SolverParameters        solver;
+      /// meshes and designs with a cell of less are refused
+      double               least_scaled_jacobian = 0.;
+      feti::FetiParameters feti;
+      qp::SolverParameters solver;
     };
   } // namespace state
 } // namespace snug

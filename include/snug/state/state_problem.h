@@ -67,6 +67,7 @@ namespace snug
       std::vector<feti::SubdomainSystem>           systems;
       std::unique_ptr<feti::TotalFeti>             feti;
       RowCoefficients<dim> last_rows; ///< at the geometry set last
+      double               least_scaled_jacobian = 1.; ///< of all cells there
 
     private:
       void
@@ -74,8 +75,7 @@ namespace snug
       std::vector<bool>
       moved_subdomains(const Field &positions) const;
       void
-      check_quality(const Field             &positions,
-                    const std::vector<bool> &moved) const;
+      check_quality(const Field &positions, const std::vector<bool> &moved);
       void
       assemble(const Field &positions, const std::vector<bool> &moved);
       void
@@ -84,6 +84,7 @@ namespace snug
       check_vanished_rows(unsigned int load_case) const;
 
       std::vector<BodyBox<dim>> boxes;
+      std::vector<double>       scaled_jacobians; ///< least, per subdomain
       Field                     last_positions;
       /// f per load case and subdomain
       std::vector<std::vector<std::vector<double>>> loads;

@@ -49,6 +49,23 @@ TYPED_TEST(Quality, DoesNotDependOnUnitsOrAffineMaps)
               1e-13);
 }
 
+TYPED_TEST(Quality, ScaledJacobianIsTheSineOfParallelograms)
+{
+  constexpr int          dim = TestFixture::dim;
+  dealii::Tensor<2, dim> A;
+  for (unsigned int d = 0; d < dim; ++d)
+    A[d][d] = 1. + 7. * d;
+  EXPECT_NEAR(this->element.scaled_jacobian(times<dim>(A, this->cube)),
+              1.,
+              1e-14);
+  // the first edge turned by 60 degrees towards the second
+  A[0][0] = 3. * std::cos(dealii::numbers::PI / 3.);
+  A[1][0] = 3. * std::sin(dealii::numbers::PI / 3.);
+  EXPECT_NEAR(this->element.scaled_jacobian(times<dim>(A, this->cube)),
+              std::cos(dealii::numbers::PI / 3.),
+              1e-14);
+}
+
 TYPED_TEST(Quality, FindsTangledCells)
 {
   constexpr int dim      = TestFixture::dim;
@@ -62,6 +79,7 @@ TYPED_TEST(Quality, FindsTangledCells)
   for (unsigned int d = 0; d < dim; ++d)
     folded[0][d] = 0.8;
   EXPECT_LT(this->element.quality(folded), 0.);
+  EXPECT_LT(this->element.scaled_jacobian(folded), 0.);
 
   auto twisted = this->cube;
   std::swap(twisted[0], twisted[TestFixture::degree]);
@@ -75,10 +93,12 @@ TYPED_TEST(Quality, IsZeroWithoutVolume)
   for (auto &x : flat)
     x[dim - 1] = 0.;
   EXPECT_EQ(this->element.quality(flat), 0.);
+  EXPECT_EQ(this->element.scaled_jacobian(flat), 0.);
 
   auto invalid  = this->cube;
   invalid[0][0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(this->element.quality(invalid), 0.);
+  EXPECT_EQ(this->element.scaled_jacobian(invalid), 0.);
 }
 
 TEST(QuarterPoint, MidNodesMayNotReachTheQuarterPoint)

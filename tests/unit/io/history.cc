@@ -23,6 +23,7 @@ namespace snug
       line.projected_gradient   = 0.1 * iteration;
       line.active_contacts      = 21 + iteration;
       line.f_mults              = 1234;
+      line.scaled_jacobian      = 2. / 3.;
       line.seconds              = 12.345;
       line.design               = {0.1, -0.2 / 3.};
       return line;
@@ -47,6 +48,7 @@ namespace snug
                                               "projected_gradient",
                                               "active_contacts",
                                               "f_mults",
+                                              "scaled_jacobian",
                                               "seconds",
                                               "design_0",
                                               "design_1"}));
@@ -59,9 +61,10 @@ namespace snug
           EXPECT_EQ(std::stod(fields[3]), line.projected_gradient);
           EXPECT_EQ(std::stoul(fields[4]), line.active_contacts);
           EXPECT_EQ(std::stoul(fields[5]), line.f_mults);
-          EXPECT_EQ(std::stod(fields[6]), line.seconds);
-          EXPECT_EQ(std::stod(fields[7]), line.design[0]);
-          EXPECT_EQ(std::stod(fields[8]), line.design[1]);
+          EXPECT_EQ(std::stod(fields[6]), line.scaled_jacobian);
+          EXPECT_EQ(std::stod(fields[7]), line.seconds);
+          EXPECT_EQ(std::stod(fields[8]), line.design[0]);
+          EXPECT_EQ(std::stod(fields[9]), line.design[1]);
         }
     }
 
@@ -88,8 +91,14 @@ namespace snug
             }
         }
       EXPECT_EQ(columns,
-                (std::vector<std::string>{
-                  "it", "J", "|g|", "constraint", "active", "F-mults", "s"}));
+                (std::vector<std::string>{"it",
+                                          "J",
+                                          "|g|",
+                                          "constraint",
+                                          "active",
+                                          "F-mults",
+                                          "jacobian",
+                                          "s"}));
     }
 
     TEST(TextFile, ExactNumbersReadBack)

@@ -21,7 +21,8 @@ namespace snug
        "bodies cells dofs subdomains ranks dual_rows contact_rows "
        "kernel_dimension"},
       {"state",
-       "energy compliance strain_energy contact_force contact_area "
+       "least_scaled_jacobian energy compliance strain_energy contact_force "
+       "contact_area "
        "max_pressure active_contacts outer_iterations f_mults linear_f_mults "
        "certificate"},
       {"gradient", "method f_mults values"},
