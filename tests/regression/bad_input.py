@@ -102,6 +102,7 @@ def input_cases(body, slave, master):
               others={own + "Mesh": "file"}),
         wrong("flat box", own + "Box size", "1, 1, 0"),
         wrong("no tolerance", "Solver/Relative tolerance", "0"),
+        wrong("a scaled Jacobian no mesh has", "Least scaled Jacobian", "1.5"),
         wrong("empty bounds", "Shape/Bounds", "0.1, -0.1", others=shape),
         wrong("initial design outside the bounds", "Shape/Initial", "0.2",
               others=shape),
