@@ -36,6 +36,19 @@ namespace snug
     }
 
     template <int dim>
+    std::unique_ptr<mesh::BodyMesh<dim>>
+    build_mesh(const scene::Scene &scene, MPI_Comm communicator)
+    {
+      return made_of(scene, [&]() {
+        return std::make_unique<mesh::BodyMesh<dim>>(communicator,
+                                                     mesh_parameters(scene),
+                                                     scene.degree,
+                                                     idealization(scene),
+                                                     scene.tearing);
+      });
+    }
+
+    template <int dim>
     state::Model<dim>
     build_model(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
     {
@@ -60,6 +73,10 @@ namespace snug
       return model;
     }
 
+    template std::unique_ptr<mesh::BodyMesh<2>>
+    build_mesh(const scene::Scene &, MPI_Comm);
+    template std::unique_ptr<mesh::BodyMesh<3>>
+    build_mesh(const scene::Scene &, MPI_Comm);
     template state::Model<2>
     build_model(const scene::Scene &, const mesh::BodyMesh<2> &);
     template state::Model<3>

@@ -167,22 +167,6 @@ namespace snug
             std::max({0., a.lower[d] - b.upper[d], b.lower[d] - a.upper[d]});
         return gap.norm();
       }
-
-      template <int dim>
-      void
-      print_meshes_in(const scene::Scene &scene,
-                      MPI_Comm            communicator,
-                      std::ostream       &out)
-      {
-        const mesh::BodyMesh<dim> mesh(communicator,
-                                       mesh_parameters(scene),
-                                       scene.degree,
-                                       idealization(scene),
-                                       scene.tearing);
-        print_import_notes(scene, out);
-        print(take_inventory(scene, mesh), out);
-        check_distances(scene, mesh);
-      }
     } // namespace
 
     template <int dim>
@@ -267,17 +251,6 @@ namespace snug
           for (const auto &note : body.mesh.imported->notes)
             out << "body " << body.name << ", " << body.mesh.file << ": "
                 << note << '\n';
-    }
-
-    void
-    print_meshes(const scene::Scene &scene,
-                 MPI_Comm            communicator,
-                 std::ostream       &out)
-    {
-      if (scene.dimension == 2)
-        print_meshes_in<2>(scene, communicator, out);
-      else
-        print_meshes_in<3>(scene, communicator, out);
     }
 
 #define SNUG_INSTANTIATE(dim)                                            \

@@ -1,6 +1,5 @@
 #include <snug/app/command_line.h>
 #include <snug/app/failure.h>
-#include <snug/app/inventory.h>
 #include <snug/app/study.h>
 #include <snug/base/version.h>
 #include <snug/scene/read_scene.h>
@@ -61,7 +60,7 @@ namespace
                          }});
     if (options.validate)
       {
-        app::print_meshes(scene, context.communicator(), context.out());
+        app::validate(context, scene);
         context.out() << options.file << " is valid" << std::endl;
       }
     else

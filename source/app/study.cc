@@ -1,10 +1,15 @@
 #include <snug/app/interrupt.h>
+#include <snug/app/inventory.h>
 #include <snug/app/optimize.h>
 #include <snug/app/sensitivity.h>
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
+#include <snug/io/text_file.h>
+#include <snug/scene/read_scene.h>
+#include <snug/scene/values.h>
 
 #include <ostream>
+#include <sstream>
 
 namespace snug
 {
@@ -94,13 +99,50 @@ namespace snug
         workshop.write_summary(summary);
       }
 
+      void
+      prepare_output(const RunContext &context, const scene::Scene &scene)
+      {
+        const std::string &directory = scene.output_directory;
+        io::make_output_directory(context, directory);
+        if (scene.load_cases.size() > 1)
+          for (const auto &load_case : scene.load_cases)
+            io::make_output_directory(context,
+                                      directory + "/" + load_case.name);
+        everywhere(context.communicator(), [&]() {
+          std::ostringstream text;
+          scene::print(scene, text);
+          if (context.rank() == 0)
+            io::write_text_file(directory + "/parameters.prm", text.str());
+        });
+      }
+
+      /// The meshes of a scene, on the books of its setup.
+      template <int dim>
+      std::unique_ptr<mesh::BodyMesh<dim>>
+      timed_mesh(RunContext &context, const scene::Scene &scene)
+      {
+        const RunContext::Timer timer(context, "setup");
+        return build_mesh<dim>(scene, context.communicator());
+      }
+
+      template <int dim>
+      void
+      validate_in(RunContext &context, const scene::Scene &scene)
+      {
+        auto mesh = timed_mesh<dim>(context, scene);
+        print_import_notes(scene, context.out());
+        print(take_inventory(scene, *mesh), context.out());
+        Workshop<dim>(context, scene, std::move(mesh));
+      }
+
       template <int dim>
       void
       run_task(RunContext         &context,
                const scene::Scene &scene,
                const Options      &options)
       {
-        Workshop<dim> workshop(context, scene);
+        prepare_output(context, scene);
+        Workshop<dim> workshop(context, scene, timed_mesh<dim>(context, scene));
         workshop.print_header();
         std::string complaint;
         switch (scene.task)
@@ -128,10 +170,23 @@ namespace snug
               const scene::Scene &scene,
               const Options      &options)
     {
+      if (options.restart && scene.task != scene::Task::optimize)
+        throw InputError(
+          scene.file + ": option '--restart' goes on with an " +
+          "optimization, but 'Task' = " + scene::to_text(scene.task));
       if (scene.dimension == 2)
         run_task<2>(context, scene, options);
       else
         run_task<3>(context, scene, options);
+    }
+
+    void
+    validate(RunContext &context, const scene::Scene &scene)
+    {
+      if (scene.dimension == 2)
+        validate_in<2>(context, scene);
+      else
+        validate_in<3>(context, scene);
     }
   } // namespace app
 } // namespace snug

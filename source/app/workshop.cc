@@ -1,38 +1,16 @@
 #include <snug/app/inventory.h>
 #include <snug/app/workshop.h>
 #include <snug/io/shape_export.h>
-#include <snug/io/text_file.h>
-#include <snug/scene/read_scene.h>
 #include <snug/state/assumptions.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ostream>
-#include <sstream>
 
 namespace snug
 {
   namespace app
   {
-    namespace
-    {
-      /// What @p make makes of a scene; errors begin with its file, as all of
-      /// the input do.
-      template <typename Make>
-      auto
-      made_of(const scene::Scene &scene, const Make &make)
-      {
-        try
-          {
-            return make();
-          }
-        catch (const InputError &error)
-          {
-            throw InputError(scene.file + ": " + error.what());
-          }
-      }
-    } // namespace
-
     std::string
     one_sided_warning(const unsigned int weak_contacts)
     {
@@ -42,23 +20,13 @@ namespace snug
     }
 
     template <int dim>
-    Workshop<dim>::Workshop(RunContext &context, const scene::Scene &scene)
-      : context(context), scene(scene)
+    Workshop<dim>::Workshop(RunContext                          &context,
+                            const scene::Scene                  &scene,
+                            std::unique_ptr<mesh::BodyMesh<dim>> the_mesh)
+      : context(context), scene(scene), mesh(std::move(the_mesh))
     {
       {
         const RunContext::Timer timer(context, "setup");
-        io::make_output_directory(context, scene.output_directory);
-        everywhere(context.communicator(), [&]() {
-          std::ostringstream text;
-          scene::print(scene, text);
-          if (context.rank() == 0)
-            io::write_text_file(path("parameters.prm"), text.str());
-        });
-        mesh = std::make_unique<mesh::BodyMesh<dim>>(context.communicator(),
-                                                     mesh_parameters(scene),
-                                                     scene.degree,
-                                                     idealization(scene),
-                                                     scene.tearing);
         check_distances(scene, *mesh);
         tearing = mesh::tear(*mesh);
         shape::BodyNames names;
@@ -70,13 +38,17 @@ namespace snug
                                                       scene.shapes);
         });
       }
-      solver    = made_of(scene, [&]() {
+      solver = made_of(scene, [&]() {
         return std::make_unique<state::StateSolver<dim>>(
           *mesh,
           tearing,
           build_model(scene, *mesh),
           positions(basis->start()),
           context);
+      });
+      made_of(scene, [&]() {
+        state::check_overlaps(solver->contact().pairs(),
+                              solver->contact().overlaps());
       });
       objective = make_response(scene.optimization.objective);
       for (const auto &response : scene.responses)
@@ -85,10 +57,7 @@ namespace snug
         add_pictures(scene.output_directory);
       else
         for (const auto &load_case : scene.load_cases)
-          {
-            io::make_output_directory(context, path(load_case.name));
-            add_pictures(path(load_case.name));
-          }
+          add_pictures(path(load_case.name));
     }
 
     template <int dim>
@@ -160,8 +129,11 @@ namespace snug
       std::vector<state::ContactState<dim>> states;
       const auto                            x = positions(design);
       for (unsigned int c = 0; c < n_load_cases(); ++c)
-        states.push_back(
-          solver->solve(x, starts.empty() ? qp::WarmStart() : starts[c], c));
+        states.push_back(made_of(scene, [&]() {
+          return solver->solve(x,
+                               starts.empty() ? qp::WarmStart() : starts[c],
+                               c);
+        }));
       return states;
     }
 

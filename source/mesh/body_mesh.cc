@@ -1,3 +1,4 @@
+#include <snug/base/run_context.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/mesh/cell_graph.h>
 #include <snug/mesh/distribute.h>
@@ -230,7 +231,7 @@ namespace snug
     {
       data->triangulate(bodies, tearing);
       data->number_nodes();
-      data->collect_nodes();
+      everywhere(communicator, [&]() { data->collect_nodes(); });
       data->collect_hanging();
       data->collect_cells();
       if (idealization.is_axisymmetric())

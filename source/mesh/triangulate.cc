@@ -1,3 +1,4 @@
+#include <snug/base/run_context.h>
 #include <snug/mesh/formula.h>
 #include <snug/mesh/triangulate.h>
 
@@ -65,10 +66,12 @@ namespace snug
         const std::function<
           bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
       {
-        for (const auto &cell : triangulation.active_cell_iterators())
-          if (cell->is_locally_owned() &&
-              wanted(cell->material_id(), cell->id(), cell->level()))
-            cell->set_refine_flag();
+        everywhere(triangulation.get_communicator(), [&]() {
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (cell->is_locally_owned() &&
+                wanted(cell->material_id(), cell->id(), cell->level()))
+              cell->set_refine_flag();
+        });
         triangulation.execute_coarsening_and_refinement();
       }
     } // namespace

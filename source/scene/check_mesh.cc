@@ -71,6 +71,10 @@ namespace snug
                   mesh.refine_where,
                   "must be a formula of x, y, z when there are local "
                   "refinements");
+          require(mesh.local_refinements > 0 || mesh.refine_where.empty(),
+                  "Local refinements",
+                  to_text(mesh.local_refinements),
+                  "must be at least 1 when there is 'Refine where'");
         }
 
       private:
@@ -78,14 +82,25 @@ namespace snug
         void
         check_geometry_in() const
         {
+          const auto geometry = made([&]() {
+            if (!mesh.refine_where.empty())
+              mesh::Formula<dim>("Refine where", mesh.refine_where);
+            return mesh::make_geometry<dim>(mesh);
+          });
+          made([&]() { evaluate_ends(*geometry); });
+          check_size(geometry->n_coarse_cells());
+          if (model == "axisymmetric")
+            check_radius(made([&]() { return least_radius(*geometry); }));
+        }
+
+        /// What @p make makes of the entries, of which its errors are.
+        template <typename Make>
+        auto
+        made(const Make &make) const
+        {
           try
             {
-              if (!mesh.refine_where.empty())
-                mesh::Formula<dim>("Refine where", mesh.refine_where);
-              const auto geometry = mesh::make_geometry<dim>(mesh);
-              check_size(geometry->n_coarse_cells());
-              if (model == "axisymmetric")
-                check_radii(*geometry);
+              return make();
             }
           catch (const InputError &error)
             {
@@ -120,11 +135,28 @@ namespace snug
                   "must give at most 1e9 cells");
         }
 
-        /// x, the radius, must not be negative at the vertices. The nodes
-        /// between them, of curved faces, are checked once there is a mesh.
+        /// Formulas of positions are finite at two vertices of each cell, which
+        /// are most; they are evaluated at all nodes once there is a mesh.
         template <int dim>
         void
-        check_radii(const mesh::BodyGeometry<dim> &geometry) const
+        evaluate_ends(const mesh::BodyGeometry<dim> &geometry) const
+        {
+          if (mesh.warp.empty() && mesh.curved_faces.empty())
+            return;
+          dealii::Point<dim> ends[2];
+          for (unsigned int d = 0; d < dim; ++d)
+            ends[1][d] = 1.;
+          for (unsigned int cell = 0; cell < geometry.n_coarse_cells(); ++cell)
+            for (const auto &end : ends)
+              geometry.position({cell, end});
+        }
+
+        /// The least x, the radius, of the vertices; 0 if only round-off is
+        /// below. The nodes between them, of curved faces, are checked once
+        /// there is a mesh.
+        template <int dim>
+        static double
+        least_radius(const mesh::BodyGeometry<dim> &geometry)
         {
           double least = 0., largest = 0.;
           for (unsigned int cell = 0; cell < geometry.n_coarse_cells(); ++cell)
@@ -138,12 +170,24 @@ namespace snug
                 largest        = std::max(largest, x);
               }
           const double round_off = 1e-10;
-          const bool   box       = mesh.source == "box";
-          require(least >= -round_off * largest,
-                  box ? "Box corner" : "Mesh",
-                  box ? to_text(mesh.corner) : mesh.source,
-                  "must not have a negative x, the radius of axisymmetric "
-                  "models");
+          return least < -round_off * largest ? least : 0.;
+        }
+
+        void
+        check_radius(const double least) const
+        {
+          const std::string allowed =
+            "must not lead to a negative x, the radius of axisymmetric models, "
+            "but does to " +
+            to_text(least);
+          const bool moved = !mesh.shift.empty() && mesh.shift[0] < 0.;
+          const bool box   = mesh.source == "box" && mesh.corner[0] < 0.;
+          require(least >= 0. || !moved, "Shift", to_text(mesh.shift), allowed);
+          require(least >= 0. || !box,
+                  "Box corner",
+                  to_text(mesh.corner),
+                  allowed);
+          require(least >= 0., "Mesh", mesh.source, allowed);
         }
 
         template <typename T>

@@ -75,7 +75,8 @@ namespace snug
         entries.add("Interference",
                     pair.interference,
                     "true: the sides may overlap at first, as in a shrink fit. "
-                    "false: a deep overlap gives a warning.");
+                    "false: a deep overlap gives a warning, one of more than "
+                    "two faces an error.");
       }
     } // namespace
 

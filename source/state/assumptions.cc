@@ -1,3 +1,4 @@
+#include <snug/base/errors.h>
 #include <snug/state/assumptions.h>
 
 #include <deal.II/base/mpi.h>
@@ -111,6 +112,21 @@ namespace snug
                " of a face",
                ": see 'Contact/Update pairing'"));
       return lines;
+    }
+
+    void
+    check_overlaps(const std::vector<contact::Pair> &pairs,
+                   const std::vector<double>        &overlaps)
+    {
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        if (overlaps[p] > absurd_overlap && !pairs[p].parameters.interference)
+          throw bad_entry("Contact/Pairs",
+                          pairs[p].name(),
+                          line("the sides overlap at first by",
+                               overlaps[p],
+                               " faces",
+                               ": if they are the right ones, set the pair's "
+                               "'Interference'"));
     }
 
     std::vector<std::string>

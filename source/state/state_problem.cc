@@ -16,6 +16,53 @@ namespace snug
     {
       /// Cells below this quality are not solved (see Element::quality).
       const double least_quality = 0.02;
+
+      /// What is wrong with a cell at @p x of these numbers; empty: nothing.
+      template <int dim>
+      std::string
+      flaw(const std::string            &body,
+           const dealii::Tensor<1, dim> &x,
+           const double                  quality,
+           const double                  jacobian,
+           const double                  least_jacobian)
+      {
+        if (quality >= least_quality && jacobian >= least_jacobian)
+          return "";
+        std::ostringstream text;
+        text << "the mesh of body " << body << " is tangled near (" << x
+             << "): ";
+        if (quality < least_quality)
+          text << "cell quality " << quality << " is below " << least_quality;
+        else
+          text << "scaled Jacobian " << jacobian
+               << " is below 'Least scaled Jacobian' = " << least_jacobian;
+        return text.str();
+      }
+
+      /// What no design has moved is the input's fault.
+      template <int dim>
+      void
+      check_reference(const StateProblem<dim> &problem)
+      {
+        const auto &mesh  = problem.mesh;
+        const auto &model = problem.model;
+        for (const auto &cell : mesh.cells())
+          {
+            std::vector<dealii::Tensor<1, dim>> X;
+            for (const unsigned int node : cell.nodes)
+              X.push_back(mesh.reference_positions()[node]);
+            const auto &element = problem.elements[cell.body];
+            const auto  found   = flaw(model.body_names[cell.body],
+                                    X.front(),
+                                    element.quality(X),
+                                    element.scaled_jacobian(X),
+                                    model.least_scaled_jacobian);
+            if (!found.empty())
+              throw InputError(
+                found +
+                " before any design; see its 'Warp' and 'Curved faces'");
+          }
+      }
     } // namespace
 
     template <int dim>
@@ -40,6 +87,7 @@ namespace snug
       boxes = body_boxes(mesh);
       if (mesh.idealization().is_axisymmetric())
         check_radii(mesh, model.body_names);
+      everywhere(context.communicator(), [&]() { check_reference(*this); });
       held = std::make_unique<HeldNodes<dim>>(mesh,
                                               model.supports,
                                               model.load_cases.size(),
@@ -127,21 +175,14 @@ namespace snug
                 const auto X = assemblers[s]->cell_field(i, positions);
                 quality      = std::min(quality, element.quality(X));
                 jacobian     = std::min(jacobian, element.scaled_jacobian(X));
-                if (quality >= least_quality &&
-                    jacobian >= model.least_scaled_jacobian)
-                  continue;
-                std::ostringstream text;
-                text << "the mesh of body " << model.body_names[systems[s].body]
-                     << " is tangled near (" << X.front() << "): ";
-                if (quality < least_quality)
-                  text << "cell quality " << quality << " is below "
-                       << least_quality;
-                else
-                  text << "scaled Jacobian " << jacobian
-                       << " is below 'Least scaled Jacobian' = "
-                       << model.least_scaled_jacobian;
-                text << "; tighten the bounds of the shape";
-                throw TangledMesh(text.str());
+                const auto found = flaw(model.body_names[systems[s].body],
+                                        X.front(),
+                                        quality,
+                                        jacobian,
+                                        model.least_scaled_jacobian);
+                if (!found.empty())
+                  throw TangledMesh(found +
+                                    "; tighten the bounds of the shape");
               }
             scaled_jacobians[s] = jacobian;
           }
@@ -155,26 +196,29 @@ namespace snug
       const RunContext::Timer timer(context, "assembly");
       const auto              tractions = resultants.tractions(positions);
       loads.resize(model.load_cases.size());
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        {
-          auto &system = systems[s];
-          if (moved[s])
+      const auto assemble_subdomain = [&](const unsigned int s) {
+        auto &system = systems[s];
+        if (moved[s])
+          {
+            assemblers[s]->stiffness(positions, system.K);
+            assemblers[s]->rigid_modes(positions,
+                                       boxes[system.body].centre,
+                                       boxes[system.body].length,
+                                       system.R,
+                                       system.Z);
+            ++context.work.assembled_subdomains;
+          }
+        if (moved[s] || assemblers[s]->has_resultants())
+          for (unsigned int c = 0; c < loads.size(); ++c)
             {
-              assemblers[s]->stiffness(positions, system.K);
-              assemblers[s]->rigid_modes(positions,
-                                         boxes[system.body].centre,
-                                         boxes[system.body].length,
-                                         system.R,
-                                         system.Z);
-              ++context.work.assembled_subdomains;
+              loads[c].resize(systems.size());
+              loads[c][s] = assemblers[s]->load(positions, c, tractions);
             }
-          if (moved[s] || assemblers[s]->has_resultants())
-            for (unsigned int c = 0; c < loads.size(); ++c)
-              {
-                loads[c].resize(systems.size());
-                loads[c][s] = assemblers[s]->load(positions, c, tractions);
-              }
-        }
+      };
+      everywhere(context.communicator(), [&]() {
+        for (unsigned int s = 0; s < systems.size(); ++s)
+          assemble_subdomain(s);
+      });
     }
 
     /// Matrices, rows and factorizations of a geometry, and all loads.

@@ -6,7 +6,6 @@ standard error that names the file, the entry and the value; a problem without a
 solution ends with 3. On several ranks the line is printed once."""
 
 import argparse
-import collections
 import pathlib
 import re
 import resource
@@ -14,152 +13,12 @@ import subprocess
 import sys
 import tempfile
 
+from wrong_entries import (input_cases, option_cases, partial_cases,
+                           setup_cases)
+
 # CPU seconds, so that a busy machine fails nothing; the program itself starts
 # in about half of one.
 MAX_SECONDS = 2.
-
-# entries: {"Section/Entry": value} set at the end of the scene; names: what the
-# message must hold.
-Case = collections.namedtuple("Case", "title entries names options")
-
-
-def wrong(title, path, value, names=(), others=()):
-    """One wrong entry, after some others; the message names it and its value."""
-    entries = {**{key: good for key, good in dict(others).items()
-                  if key != path}, path: value}
-    return Case(title, entries, [path.split("/")[-1], value, *names], [])
-
-
-def input_cases(body, slave, master):
-    """Wrong values of entries. @p body and the faces are the scene's."""
-    shape = {"Task": "optimize", "Optimization/Objective": "potential energy",
-             "Shape/Basis": "Bezier patch", "Shape/Face": master,
-             "Shape/Control points": "2, 2", "Shape/Direction": "0, 0, 1",
-             "Shape/Bounds": "-0.1, 0.1"}
-    box = {**shape, "Shape/Basis": "Bezier box",
-           "Shape/Box corner": "0, 0, 0", "Shape/Box size": "1, 1, 1",
-           "Shape/Control points": "2, 2, 2"}
-    own = f"Body {body}/"
-    tip = {"Responses": "tip", "Response tip/Quantity": "displacement",
-           "Response tip/Component": "x"}
-    peak = {"Responses": "peak", "Response peak/Quantity": "peak pressure"}
-    core = {"Materials": "steel", own + "Region formulas": "core: x - 0.5",
-            own + "Young's modulus": "1"}
-    return [
-        wrong("unknown entry", own + "Yuong's modulus", "1"),
-        Case("unknown subsection", {"Elastcity/Degree": "1"}, ["Elastcity"], []),
-        wrong("misspelled choice", "Solver/Method", "active sett",
-              ["active set", "SMALSE-M"]),
-        wrong("wrong task", "Task", "optimise", ["optimize"]),
-        wrong("wrong type", own + "Young's modulus", "stiff"),
-        wrong("wrong type in a list", own + "Box cells", "2, two, 2"),
-        wrong("half a number", "Decomposition/Subdomains", "2.5"),
-        wrong("unknown body", "Contact/Pairs", f"{slave}: foundaton.top"),
-        wrong("unknown boundary of a pair", "Contact/Pairs",
-              f"{slave}: {master}_side"),
-        wrong("unknown boundary of a support", own + "Supports", "topp: z"),
-        wrong("unknown direction of a support", own + "Supports", "top: w"),
-        wrong("displacement without a value", own + "Displacement", "top: z"),
-        wrong("displacement of a held component", own + "Displacement",
-              "left: x = 0.1", ["Supports"]),
-        wrong("force without components", own + "Force", "top: 1"),
-        wrong("load case without a body", "Load case a/Pressure", "x.top: 1",
-              others={"Load cases": "a"}),
-        wrong("body twice", "Bodies", f"{body}, {body}"),
-        wrong("negative modulus", own + "Young's modulus", "-1"),
-        wrong("modulus not a number", own + "Young's modulus", "nan"),
-        wrong("infinite modulus", own + "Young's modulus", "inf"),
-        wrong("pressure not a number", own + "Pressure", "top: nan"),
-        wrong("Poisson's ratio of a fluid", own + "Poisson's ratio", "0.5"),
-        wrong("Poisson's ratio too small", own + "Poisson's ratio", "-1"),
-        wrong("unknown material", own + "Materials", "stele", ["steel"],
-              {"Materials": "steel", own + "Young's modulus": "1"}),
-        wrong("region without a material", own + "Materials", "core: steel",
-              ["'body' has no material"], core),
-        wrong("unknown region", own + "Materials", "body: steel, cor: steel",
-              ["did you mean 'core'"], core),
-        wrong("region twice", own + "Materials", "core: steel, core: steel",
-              ["different regions"], core),
-        wrong("modulus beside materials", own + "Young's modulus", "2",
-              ["left out"], {"Materials": "steel", own + "Materials": "steel"}),
-        wrong("material of no modulus", "Material steel/Young's modulus", "0",
-              others={"Materials": "steel"}),
-        wrong("pair of the same face", "Contact/Pairs", f"{slave}: {slave}"),
-        wrong("model of another dimension", "Model", "axisymmetric", ["solid"]),
-        wrong("thickness of a solid", "Thickness", "2", ["solid"]),
-        wrong("unknown formulation", own + "Formulation", "b-bar", ["B-bar"]),
-        wrong("obstacle that is not there", "Contact/Pairs",
-              f"{slave}: floor", ["body.boundary"]),
-        wrong("plane without normal", "Obstacle floor/Normal", "0, 0, 0",
-              others={"Obstacles": "floor"}),
-        wrong("gap that is no formula", "Contact/Gap", "2 * t",
-              ["formula of x,y,z"]),
-        wrong("zero cells", own + "Box cells", "0, 2, 2"),
-        wrong("disc in 3D", own + "Mesh", "disc", ["Dimension = 2"]),
-        wrong("hole larger than the ring", own + "Inner radius", "2",
-              others={own + "Mesh": "ring", own + "Supports": ""}),
-        wrong("no mesh file", own + "Mesh file", "",
-              others={own + "Mesh": "file"}),
-        wrong("flat box", own + "Box size", "1, 1, 0"),
-        wrong("no tolerance", "Solver/Relative tolerance", "0"),
-        wrong("a scaled Jacobian no mesh has", "Least scaled Jacobian", "1.5"),
-        wrong("empty bounds", "Shape/Bounds", "0.1, -0.1", others=shape),
-        wrong("initial design outside the bounds", "Shape/Initial", "0.2",
-              others=shape),
-        wrong("unknown objective", "Optimization/Objective", "beauty",
-              ["potential energy"], shape),
-        wrong("unknown response in a constraint", "Optimization/Constraints",
-              "weight: initial", ["volume"], shape),
-        wrong("unknown quantity", "Response tip/Quantity", "displacment",
-              ["displacement"], tip),
-        wrong("response without its place", "Optimization/Objective",
-              "displacement", ["needs a subsection Response"], shape),
-        wrong("point outside the bodies", "Response tip/Point", "0, 0, 99",
-              ["outside the bodies"], tip),
-        wrong("point in two bodies", "Response tip/Point", "0.5, 0.5, 1",
-              ["name one"], tip),
-        wrong("unknown body of a response", "Response weight/Body", "hammer",
-              others={"Responses": "weight",
-                      "Response weight/Quantity": "mass"}),
-        wrong("unknown face of a response", "Response tip/Face", f"{body}.x",
-              others=tip),
-        wrong("constraint on a missing pair", "Response peak/Pair",
-              f"{slave}: {slave}", ["no such pair"],
-              {**shape, **peak, "Optimization/Constraints": "peak: <= 1"}),
-        wrong("p below 1", "Response peak/Exponent", "0.5", others=peak),
-        wrong("entry a response does not read", "Response peak/Body", body,
-              ["left out"], peak),
-        wrong("limit that is none", "Optimization/Constraints", "volume: < 1",
-              ["<= 120"], shape),
-        wrong("equality where there can be none", "Optimization/Constraints",
-              "volume: initial", ["MMA"],
-              {**shape, "Optimization/Algorithm": "MMA"}),
-        wrong("unknown face to shape", "Shape/Face", f"{body}.x", others=shape),
-        wrong("box without a size", "Shape/Box size", "1, 0, 1", others=box),
-        wrong("box beside the bodies", "Shape/Box size", "1, 1, 2",
-              ["no node"], {**box, "Shape/Box corner": "90, 0, 0"}),
-        wrong("all control points fixed", "Shape/Fixed", "border",
-              ["nothing is left"], shape),
-        wrong("filter without a radius", "Shape/Filter radius", "0",
-              others={**shape, "Shape/Basis": "node-wise",
-                      "Shape/Control points": ""}),
-        wrong("mirror plane off the middle", "Shape/Symmetry", "x: 0.123",
-              ["no image"], shape),
-    ]
-
-
-def option_cases():
-    """Wrong command lines; the message has the wrong word."""
-    return [
-        Case("unknown option", {}, ["--outptu"], ["--outptu", "x"]),
-        Case("option without its value", {}, ["--output"], ["--output"]),
-        Case("malformed setting", {}, ["Task"], ["--set", "Task"]),
-        Case("unknown entry in a setting", {}, ["--set", "Yuong"],
-             ["--set", "Yuong=4711"]),
-        Case("wrong value in a setting", {}, ["Task", "optimise"],
-             ["--set", "Task=optimise"]),
-    ]
-
 
 MESHES = pathlib.Path(__file__).resolve().parents[1] / "meshes"
 
@@ -366,6 +225,10 @@ def main():
         for case in cases + option_cases():
             check_case(runner, case)
         for case in cases[:3] + cases[-5:-3]:
+            check_case(runner, case, ranks=3)
+        for case in setup_cases(bodies[0], slave):
+            check_case(runner, case._replace(options=["--validate"]))
+        for case in partial_cases(bodies[0]):
             check_case(runner, case, ranks=3)
         check_files(runner, scene)
         check_mesh_files(runner)

@@ -2,12 +2,35 @@
 #define snug_app_build_model_h
 
 #include <snug/app/build_loads.h>
+#include <snug/base/errors.h>
 #include <snug/state/state_solver.h>
 
 namespace snug
 {
   namespace app
   {
+    /// What @p make makes of a scene; errors begin with its file, as all of
+    /// the input do.
+    template <typename Make>
+    auto
+    made_of(const scene::Scene &scene, const Make &make)
+    {
+      try
+        {
+          return make();
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(scene.file + ": " + error.what());
+        }
+    }
+
+    /// The meshes of all bodies. Collective. @throws InputError naming the
+    /// file.
+    template <int dim>
+    std::unique_ptr<mesh::BodyMesh<dim>>
+    build_mesh(const scene::Scene &scene, MPI_Comm communicator);
+
     /// Mesh entries of all bodies, in their order.
     std::vector<mesh::BodyMeshParameters>
     mesh_parameters(const scene::Scene &scene);

@@ -68,12 +68,6 @@ namespace snug
     /// One line for each body whose mesh file was changed on reading.
     void
     print_import_notes(const scene::Scene &scene, std::ostream &out);
-
-    /// Make the meshes of a scene, check and print them. Collective.
-    void
-    print_meshes(const scene::Scene &scene,
-                 MPI_Comm            communicator,
-                 std::ostream       &out);
   } // namespace app
 } // namespace snug
 

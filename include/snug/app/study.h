@@ -18,6 +18,12 @@ namespace snug
     run_study(RunContext         &context,
               const scene::Scene &scene,
               const Options      &options);
+
+    /// Print what the meshes of a scene look like and make all that its task
+    /// needs, but solve nothing and leave no files. Collective.
+    /// @throws InputError.
+    void
+    validate(RunContext &context, const scene::Scene &scene);
   } // namespace app
 } // namespace snug
 

@@ -30,8 +30,11 @@ namespace snug
     public:
       using Field = typename mesh::BodyMesh<dim>::Field;
 
-      /// Collective. @throws InputError.
-      Workshop(RunContext &context, const scene::Scene &scene);
+      /// Makes all but the mesh and leaves no files. Collective.
+      /// @throws InputError naming the file.
+      Workshop(RunContext                          &context,
+               const scene::Scene                  &scene,
+               std::unique_ptr<mesh::BodyMesh<dim>> mesh);
 
       /// Node positions of a design.
       Field

@@ -16,6 +16,9 @@ namespace snug
     constexpr double large_overlap  = 0.1; ///< of a face
     /// @}
 
+    /// An overlap of more faces is not a rough mesh but a wrong pair.
+    constexpr double absurd_overlap = 2.;
+
     /**
      * What a state does to the assumptions it rests on. Rotation and strain
      * are Frobenius norms over sqrt(2) and 1 of the two parts of the
@@ -31,6 +34,12 @@ namespace snug
     /// One line for each number that is doubtful.
     std::vector<std::string>
     warnings(const Assumptions &assumptions);
+
+    /// @throws InputError if slave nodes of a pair overlap the master by more
+    /// than absurd_overlap where they were paired and that is not wanted.
+    void
+    check_overlaps(const std::vector<contact::Pair> &pairs,
+                   const std::vector<double>        &overlaps);
 
     /// One line for each pair whose slave nodes overlap the master by more
     /// than large_overlap where they were paired, if that is not wanted.

@@ -112,7 +112,9 @@ namespace
 
     SceneGradients(const scene::Scene &scene)
       : context(MPI_COMM_WORLD, log)
-      , workshop(context, scene)
+      , workshop(context,
+                 scene,
+                 app::build_mesh<dim>(scene, context.communicator()))
       , generator(7)
       , design(workshop.basis->start())
     {

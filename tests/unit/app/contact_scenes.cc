@@ -272,6 +272,9 @@ TEST(Warnings, OfOverlapUnlessItIsWanted)
   auto                 pairs    = solved.solver.contact().pairs();
   EXPECT_NEAR(overlaps[0], 0.4, 1e-12);
   EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 1u);
+  EXPECT_NO_THROW(state::check_overlaps(pairs, overlaps));
+  EXPECT_THROW(state::check_overlaps(pairs, {2.1}), InputError);
   pairs[0].parameters.interference = true;
   EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 0u);
+  EXPECT_NO_THROW(state::check_overlaps(pairs, {2.1}));
 }
