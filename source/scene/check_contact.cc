@@ -107,6 +107,13 @@ namespace snug
                         "Largest angle",
                         to_text(parameters.largest_angle),
                         "must be above 0 and at most 180");
+        section.require(parameters.method != "mortar" ||
+                          parameters.largest_angle <= 60. ||
+                          parameters.largest_angle ==
+                            contact::PairParameters().largest_angle,
+                        "Largest angle",
+                        to_text(parameters.largest_angle),
+                        "must be at most 60 for mortar");
         section.require_formula("Gap", parameters.gap);
       }
 

@@ -235,6 +235,15 @@ namespace snug
           Held held_here = held;
           check.check_displacements("", held_here);
         }
+      const bool no_weight =
+        std::all_of(scene.load_cases.begin(),
+                    scene.load_cases.end(),
+                    [](const auto &of) { return of.weight == 0.; });
+      if (!scene.load_cases.empty() && no_weight)
+        throw origins.error("Load case " + scene.load_cases.front().name +
+                              "/Weight",
+                            "0",
+                            "must be above 0 for at least one load case");
     }
 
     void

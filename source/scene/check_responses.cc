@@ -160,6 +160,29 @@ namespace snug
         const std::vector<std::string> entries;
       };
 
+      bool
+      has_density(const Scene &scene, const Body &body)
+      {
+        if (body.materials.empty())
+          return body.material.density > 0.;
+        for (const auto &[region, name] : body.materials)
+          for (const auto &material : scene.materials)
+            if (material.name == name && material.material.density > 0.)
+              return true;
+        return false;
+      }
+
+      /// Whether what @p response measures is there, not zero in all designs.
+      bool
+      has_mass(const Scene &scene, const Parameters &response)
+      {
+        for (const auto &body : scene.bodies)
+          if ((response.body.empty() || response.body == body.name) &&
+              has_density(scene, body))
+            return true;
+        return false;
+      }
+
       /// The response that @p value, the entry @p path, calls @p name.
       Parameters
       require_response(const Scene       &scene,
@@ -191,6 +214,11 @@ namespace snug
                               value,
                               "'" + name +
                                 "' has no contact to measure in the scene");
+        if (response->quantity == "mass" && !has_mass(scene, *response))
+          throw origins.error(path,
+                              value,
+                              "'" + name +
+                                "' is zero: what it measures has no 'Density'");
         return *response;
       }
 

@@ -3,6 +3,7 @@
 #include <snug/scene/values.h>
 #include <snug/shape/formula_modes.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace snug
@@ -27,16 +28,12 @@ namespace snug
         {
           if (shape.basis == "none")
             return;
+          check_unread();
           const bool box     = names("box");
           const bool formula = names("formula");
           if (!box && !(formula && shape.face.empty()))
             check_face();
-          if (!box && !names("patch"))
-            require(shape.control_points.empty(),
-                    "Control points",
-                    to_text(shape.control_points),
-                    "must be empty for " + shape.basis);
-          else
+          if (box || names("patch"))
             check_control_points(box ? scene.dimension : scene.dimension - 1);
           if (box)
             check_box();
@@ -53,6 +50,71 @@ namespace snug
         names(const std::string &word) const
         {
           return shape.basis.find(word) != std::string::npos;
+        }
+
+        /// Entries the basis is made from.
+        std::vector<std::string>
+        read_entries() const
+        {
+          if (names("formula"))
+            return shape.face.empty()
+                     ? std::vector<std::string>{"Modes", "Bodies"}
+                     : std::vector<std::string>{"Modes",
+                                                "Face",
+                                                "Interior",
+                                                "Reach"};
+          std::vector<std::string> entries = {"Direction", "Symmetry", "Fixed"};
+          const auto add = [&entries](const std::vector<std::string> &more) {
+            entries.insert(entries.end(), more.begin(), more.end());
+          };
+          if (names("box"))
+            add({"Bodies", "Box corner", "Box size"});
+          else
+            add({"Face", "Interior", "Reach"});
+          if (names("node-wise"))
+            add({"Filter radius"});
+          else
+            add({"Control points"});
+          if (names("B-spline"))
+            add({"Degree"});
+          return entries;
+        }
+
+        /// Entries that are set must be read.
+        void
+        check_unread() const
+        {
+          const shape::ShapeParameters initial;
+          const auto                   read   = read_entries();
+          const auto                   unless = [&](const bool         is_initial,
+                                  const std::string &entry,
+                                  const std::string &value) {
+            require(is_initial ||
+                      std::find(read.begin(), read.end(), entry) != read.end(),
+                    entry,
+                    value,
+                    "must be left out for Basis = " + shape.basis);
+          };
+          const auto &s = shape;
+          unless(s.face.empty(), "Face", s.face);
+          unless(s.bodies.empty(), "Bodies", listed(s.bodies));
+          unless(s.control_points.empty(),
+                 "Control points",
+                 to_text(s.control_points));
+          unless(s.degree == initial.degree, "Degree", to_text(s.degree));
+          unless(s.direction.empty(), "Direction", to_text(s.direction));
+          unless(s.box_corner.empty(), "Box corner", to_text(s.box_corner));
+          unless(s.box_size.empty(), "Box size", to_text(s.box_size));
+          unless(s.modes.empty(),
+                 "Modes",
+                 s.modes.empty() ? "" : listed(s.modes.front()));
+          unless(s.filter_radius == initial.filter_radius,
+                 "Filter radius",
+                 to_text(s.filter_radius));
+          unless(s.symmetry.empty(), "Symmetry", to_text(s.symmetry));
+          unless(s.fixed.empty(), "Fixed", listed(s.fixed));
+          unless(s.interior == initial.interior, "Interior", s.interior);
+          unless(s.reach == initial.reach, "Reach", to_text(s.reach));
         }
 
         void

@@ -25,7 +25,7 @@ namespace snug
      * - no face is paired with itself or twice; obstacles can be made, and
      *   formulas be read;
      * - tasks that need design variables have some, with bounds that are not
-     *   empty and hold the initial design;
+     *   empty and hold the initial design; shape bases read what is set;
      * - responses measure what is there; objective and constraints are
      *   responses, with limits the algorithm can hold.
      */

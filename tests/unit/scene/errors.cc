@@ -211,6 +211,10 @@ TEST(Errors, PropertiesAndMeshes)
   expect_error({"Body punch/Box grading", "1, 1, -2", "must be positive"});
   expect_error({"Body punch/Box cells", "9999, 9999, 9999", "4e6 cells"});
   expect_error({"Body punch/Refinements", "29", "1e9 cells"});
+  const auto twice = error_of({"Body punch/Refinements=40"});
+  EXPECT_EQ(twice.find("entry '"), twice.rfind("entry '")) << twice;
+  expect_error({"Body punch/Local refinements", "0", "Refine where"},
+               {"Body punch/Refine where=x-1"});
   expect_error({"Body punch/Local refinements", "16", "at most 15"});
   expect_error({"Body punch/Refine where", "x+(", "formula"});
   EXPECT_TRUE(has(error_of({"Body punch/Local refinements=1"}),
@@ -239,6 +243,7 @@ TEST(Errors, Designs)
 TEST(Errors, Shapes)
 {
   const std::vector<std::string> box = {"Shape/Basis=Bezier box",
+                                        "Shape/Face=",
                                         "Shape/Box corner=0, 0, 0",
                                         "Shape/Box size=1, 1, 1",
                                         "Shape/Control points=3, 3, 3"};
@@ -248,6 +253,12 @@ TEST(Errors, Shapes)
   expect_error({"Shape/Box corner", "", "3 numbers"}, box);
   expect_error({"Shape/Bodies", "punch, anvil", "no body 'anvil'"}, box);
   expect_error({"Shape/Control points", "3, 3", "3 numbers"}, box);
+  expect_error({"Shape/Face", "foundation.top", "left out"}, box);
+  expect_error({"Shape/Reach", "1", "left out"}, box);
+  expect_error({"Shape/Degree", "4", "left out for Basis = Bezier box"}, box);
+  expect_error({"Shape/Box size", "1, 1, 1", "left out"});
+  expect_error({"Shape/Filter radius", "0.1", "left out"});
+  expect_error({"Shape/Modes", "0, 0, 1", "left out"});
   const std::vector<std::string> splines = {"Shape/Basis=B-spline patch",
                                             "Shape/Control points=4, 5"};
   EXPECT_EQ(error_of(splines), "");
@@ -263,16 +274,20 @@ TEST(Errors, Shapes)
   EXPECT_EQ(error_of(nodes), "");
   expect_error({"Shape/Filter radius", "0", "positive"}, nodes);
   expect_error({"Shape/Filter radius", "-0.1", "positive"}, nodes);
-  expect_error({"Shape/Control points", "3, 3", "must be empty"}, nodes);
+  expect_error({"Shape/Control points", "3, 3", "must be left out"}, nodes);
 
   const std::vector<std::string> modes = {"Shape/Basis=formula modes",
                                           "Shape/Control points=",
+                                          "Shape/Direction=",
                                           "Shape/Modes=0,0,max(x,y); 1,0,z"};
   EXPECT_EQ(error_of(modes), "");
   EXPECT_EQ(read_with(modes).shapes[0].modes[0][2], "max(x,y)");
   expect_error({"Shape/Modes", "0, x", "3 formulas"}, modes);
+  expect_error({"Shape/Fixed", "border", "left out"}, modes);
+  expect_error({"Shape/Bodies", "punch", "left out"}, modes);
   EXPECT_TRUE(has(error_of({"Shape/Basis=formula modes",
                             "Shape/Control points=",
+                            "Shape/Direction=",
                             "Shape/Modes=0, 0, x+("}),
                   "--set: entry 'Shape/Modes' = 'x+(': must be a formula"));
 }
@@ -290,6 +305,19 @@ TEST(Errors, Methods)
   expect_error({"Gradient/Semi-analytic step", "1", "at most 0.1"});
   expect_error({"Gradient/Method", "energy", "objective 'compliance'"},
                {"Optimization/Objective=compliance"});
+}
+
+TEST(Errors, RequestsThatCannotMeanAnything)
+{
+  expect_error({"Load case a/Weight", "0", "at least one"}, {"Load cases=a"});
+  expect_error({"Contact/Largest angle", "80", "at most 60 for mortar"},
+               {"Contact/Method=mortar"});
+  EXPECT_EQ(error_of({"Contact/Method=mortar"}), "");
+  expect_error({"Optimization/Objective", "mass", "no 'Density'"});
+  expect_error({"Optimization/Constraints", "mass: initial", "no 'Density'"});
+  EXPECT_EQ(error_of({"Optimization/Constraints=mass: initial",
+                      "Body punch/Density=1"}),
+            "");
 }
 
 TEST(Errors, LongValuesAreCutAndStayOneLine)

@@ -123,6 +123,12 @@ end
   EXPECT_TRUE(has(message("axisymmetric"), "'Body disc/Box corner' = '-1, 0'"))
     << message("axisymmetric");
   EXPECT_EQ(message("plane strain"), "");
+  const auto shifted = error_of({"Model=axisymmetric",
+                                 "Body disc/Box corner=0, 0",
+                                 "Body disc/Shift=-1, 0"},
+                                text);
+  EXPECT_TRUE(has(shifted, "entry 'Body disc/Shift' = '-1, 0'")) << shifted;
+  EXPECT_EQ(shifted.find("entry '"), shifted.rfind("entry '")) << shifted;
   EXPECT_TRUE(has(error_of({"Model=axisymmetric",
                             "Body disc/Box corner=0, 0",
                             "Thickness=0.5"},

@@ -76,7 +76,8 @@ TEST(ResponseErrors, Constraints)
 {
   const std::string path = "Optimization/Constraints";
   EXPECT_EQ(error_of({path + "=volume: = initial, mass: <= 0.9 initial, peak "
-                             "pressure: <= 200, volume: >= 3"}),
+                             "pressure: <= 200, volume: >= 3",
+                      "Body punch/Density=1"}),
             "");
   expect_error({path, "weight: initial", "volume"});
   expect_error({path, "volume: same", "<= 120"});
