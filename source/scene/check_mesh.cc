@@ -71,10 +71,6 @@ namespace snug
                   mesh.refine_where,
                   "must be a formula of x, y, z when there are local "
                   "refinements");
-          require(mesh.local_refinements > 0 || mesh.refine_where.empty(),
-                  "Local refinements",
-                  to_text(mesh.local_refinements),
-                  "must be at least 1 when there is 'Refine where'");
         }
 
       private:
