@@ -193,18 +193,19 @@ namespace snug
     {
       const unsigned int m = table.n_modes;
       qp::MultiVector    c(n_kernel(), x.n_columns());
-      for (unsigned int k = 0; k < x.n_columns(); ++k)
-        for (unsigned int row = 0; row < layout.n_owned(); ++row)
-          if (free == nullptr || (*free)[row])
-            for (unsigned int b = block_start[row]; b < block_start[row + 1];
-                 ++b)
-              {
-                const double *G     = &blocks[std::size_t(b) * m];
-                double       *c_s   = c.column(k) + block_subdomain[b] * m;
-                const double  x_row = x(row, k);
-                for (unsigned int i = 0; i < m; ++i)
-                  c_s[i] += G[i] * x_row;
-              }
+      for (unsigned int row = 0; row < layout.n_owned(); ++row)
+        if (free == nullptr || (*free)[row])
+          for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
+            {
+              const double *G = &blocks[std::size_t(b) * m];
+              for (unsigned int k = 0; k < x.n_columns(); ++k)
+                {
+                  double      *c_s   = c.column(k) + block_subdomain[b] * m;
+                  const double x_row = x(row, k);
+                  for (unsigned int i = 0; i < m; ++i)
+                    c_s[i] += G[i] * x_row;
+                }
+            }
       MPI_Allreduce(MPI_IN_PLACE,
                     c.column(0),
                     c.n_rows() * c.n_columns(),
@@ -220,9 +221,9 @@ namespace snug
     {
       const unsigned int m = table.n_modes;
       qp::MultiVector    y(layout.n_owned(), alpha.n_columns());
-      for (unsigned int k = 0; k < alpha.n_columns(); ++k)
-        for (unsigned int row = 0; row < layout.n_owned(); ++row)
-          if (free == nullptr || (*free)[row])
+      for (unsigned int row = 0; row < layout.n_owned(); ++row)
+        if (free == nullptr || (*free)[row])
+          for (unsigned int k = 0; k < alpha.n_columns(); ++k)
             {
               double sum = 0.;
               for (unsigned int b = block_start[row]; b < block_start[row + 1];
