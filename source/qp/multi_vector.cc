@@ -75,6 +75,12 @@ namespace snug
       columns += x.columns;
     }
 
+    void
+    MultiVector::reserve(unsigned int n)
+    {
+      values.reserve(std::size_t(n) * rows);
+    }
+
     MultiVector
     MultiVector::columns_from(unsigned int first, unsigned int n) const
     {

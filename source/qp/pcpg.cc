@@ -33,6 +33,9 @@ namespace snug
       /// the directions of the others may do.
       const double minor = 0.3;
 
+      /// Room is made for the directions of so many beforehand.
+      const unsigned int usual_iterations = 32;
+
       /// Iterations without a smaller residual that mean it is at its floor.
       const unsigned int patience = 40;
 
@@ -201,6 +204,9 @@ namespace snug
       StagnationTest      test;
       std::vector<double> first;
       correct(lambda, residual);
+      for (MultiVector *directions : {&basis.P, &basis.FP})
+        if (directions->n_columns() == 0 || k > 1)
+          directions->reserve(directions->n_columns() + usual_iterations * k);
       while (true)
         {
           MultiVector r = residual;

@@ -67,6 +67,11 @@ namespace snug
       void
       append(const MultiVector &x);
 
+      /// Room for @p n columns: until then append() copies no earlier ones, and
+      /// memory that is not used is not touched.
+      void
+      reserve(unsigned int n);
+
       /// Columns [first, first + n).
       MultiVector
       columns_from(unsigned int first, unsigned int n) const;
