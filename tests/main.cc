@@ -4,8 +4,7 @@
 
 /// Every rank runs every test; the program fails if any rank does. Only rank 0
 /// prints, so that the log reads as one program's.
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   ::testing::InitGoogleTest(&argc, argv);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);

@@ -3,293 +3,243 @@
 #include <snug/mesh/formula.h>
 #include <snug/scene/values.h>
 
-namespace snug
+namespace snug::app {
+namespace {
+template <int dim>
+using ScalarFunction = std::function<double(const dealii::Point<dim> &)>;
+template <int dim>
+using VectorFunction = std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>;
+
+template <int dim>
+dealii::Tensor<1, dim> to_tensor(const std::vector<double> &values)
 {
-  namespace app
-  {
-    namespace
-    {
-      template <int dim>
-      using ScalarFunction = std::function<double(const dealii::Point<dim> &)>;
-      template <int dim>
-      using VectorFunction =
-        std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>;
+  dealii::Tensor<1, dim> tensor;
+  for (unsigned int c = 0; c < dim && c < values.size(); ++c)
+    tensor[c] = values[c];
+  return tensor;
+}
 
-      template <int dim>
-      dealii::Tensor<1, dim>
-      to_tensor(const std::vector<double> &values)
-      {
-        dealii::Tensor<1, dim> tensor;
-        for (unsigned int c = 0; c < dim && c < values.size(); ++c)
-          tensor[c] = values[c];
-        return tensor;
-      }
+/// A formula of the reference position as a function.
+template <int dim>
+ScalarFunction<dim> function_of(const std::string &entry, const std::string &text)
+{
+  const auto formula = std::make_shared<mesh::Formula<dim>>(entry, text);
+  return [formula](const dealii::Point<dim> &x) { return formula->value(x); };
+}
 
-      /// A formula of the reference position as a function.
-      template <int dim>
-      ScalarFunction<dim>
-      function_of(const std::string &entry, const std::string &text)
-      {
-        const auto formula = std::make_shared<mesh::Formula<dim>>(entry, text);
-        return
-          [formula](const dealii::Point<dim> &x) { return formula->value(x); };
-      }
+template <int dim>
+VectorFunction<dim> function_of(const std::string              &entry,
+                                const std::vector<std::string> &components)
+{
+  std::vector<ScalarFunction<dim>> of_component;
+  for (const auto &text : components)
+    of_component.push_back(function_of<dim>(entry, text));
+  return [of_component](const dealii::Point<dim> &x) {
+    dealii::Tensor<1, dim> value;
+    for (unsigned int c = 0; c < dim; ++c)
+      value[c] = of_component[c](x);
+    return value;
+  };
+}
 
-      template <int dim>
-      VectorFunction<dim>
-      function_of(const std::string              &entry,
-                  const std::vector<std::string> &components)
-      {
-        std::vector<ScalarFunction<dim>> of_component;
-        for (const auto &text : components)
-          of_component.push_back(function_of<dim>(entry, text));
-        return [of_component](const dealii::Point<dim> &x) {
-          dealii::Tensor<1, dim> value;
-          for (unsigned int c = 0; c < dim; ++c)
-            value[c] = of_component[c](x);
-          return value;
-        };
-      }
+/// a + b; an empty function is zero.
+template <typename Function>
+Function sum(const Function &a, const Function &b)
+{
+  if (!a)
+    return b;
+  return [a, b](const auto &x) { return a(x) + b(x); };
+}
 
-      /// a + b; an empty function is zero.
-      template <typename Function>
-      Function
-      sum(const Function &a, const Function &b)
-      {
-        if (!a)
-          return b;
-        return [a, b](const auto &x) { return a(x) + b(x); };
-      }
+/// A moment has one number in the plane: that about the normal axis.
+template <int dim>
+elasticity::Resultant<dim> resultant_moment(const std::vector<double> &numbers)
+{
+  elasticity::Resultant<dim> resultant;
+  for (unsigned int c = 0; c < numbers.size(); ++c)
+    resultant.moment[dim == 2 ? 2 : c] = numbers[c];
+  return resultant;
+}
 
-      /// A moment has one number in the plane: that about the normal axis.
-      template <int dim>
-      elasticity::Resultant<dim>
-      resultant_moment(const std::vector<double> &numbers)
-      {
-        elasticity::Resultant<dim> resultant;
-        for (unsigned int c = 0; c < numbers.size(); ++c)
-          resultant.moment[dim == 2 ? 2 : c] = numbers[c];
-        return resultant;
-      }
+/// Bodies of revolution carry forces along their axis alone.
+template <int dim>
+void require_axial(const mesh::BodyMesh<dim>        &mesh,
+                   const std::string                &entry,
+                   const std::string                &face,
+                   const elasticity::Resultant<dim> &resultant)
+{
+  if (mesh.idealization().is_axisymmetric() &&
+      (resultant.force[0] != 0. || resultant.moment.norm() > 0.))
+    throw bad_entry(entry, face,
+                    "a body of revolution can carry a total force along "
+                    "its axis y only, and no moment");
+}
 
-      /// Bodies of revolution carry forces along their axis alone.
-      template <int dim>
-      void
-      require_axial(const mesh::BodyMesh<dim>        &mesh,
-                    const std::string                &entry,
-                    const std::string                &face,
-                    const elasticity::Resultant<dim> &resultant)
-      {
-        if (mesh.idealization().is_axisymmetric() &&
-            (resultant.force[0] != 0. || resultant.moment.norm() > 0.))
-          throw bad_entry(entry,
-                          face,
-                          "a body of revolution can carry a total force along "
-                          "its axis y only, and no moment");
-      }
-
-      /// Adds the loads of one section to a load case.
-      template <int dim>
-      class LoadBuilder
-      {
-      public:
-        /// Keys of the loads, after @p prefix, are "body.boundary".
-        LoadBuilder(const scene::Scene        &scene,
-                    const mesh::BodyMesh<dim> &mesh,
-                    const std::string         &section,
-                    const std::string         &prefix)
-          : scene(scene), mesh(mesh), section(section + "/"), prefix(prefix)
-        {
-        }
-
-        void
-        add(const scene::LoadParameters &loads, state::LoadCase<dim> &to) const
-        {
-          for (const auto &item : loads.pressure)
-            {
-              auto &load = boundary(item.first, to);
-              load.pressure =
-                sum(load.pressure,
-                    function_of<dim>(section + "Pressure", item.second));
-            }
-          for (const auto &item : loads.traction)
-            {
-              auto &load = boundary(item.first, to);
-              load.traction =
-                sum(load.traction,
-                    function_of<dim>(section + "Traction",
-                                     scene::components(item.second)));
-            }
-          for (const auto &item : loads.force)
-            add_resultant("Force",
-                          item.first,
-                          {to_tensor<dim>(item.second), {}},
-                          to);
-          for (const auto &item : loads.moment)
-            add_resultant("Moment",
-                          item.first,
-                          resultant_moment<dim>(item.second),
-                          to);
-        }
-
-      private:
-        state::BoundaryLoad<dim> &
-        boundary(const std::string &key, state::LoadCase<dim> &to) const
-        {
-          const auto face = find_face(scene, mesh, prefix + key);
-          return to.bodies[face.first].boundaries[face.second];
-        }
-
-        void
-        add_resultant(const std::string                &entry,
-                      const std::string                &key,
-                      const elasticity::Resultant<dim> &resultant,
-                      state::LoadCase<dim>             &to) const
-        {
-          require_axial(mesh, section + entry, key, resultant);
-          auto &load = boundary(key, to);
-          load.resultant.force += resultant.force;
-          load.resultant.moment += resultant.moment;
-        }
-
-        const scene::Scene        &scene;
-        const mesh::BodyMesh<dim> &mesh;
-        const std::string          section, prefix;
-      };
-
-      /// What bodies and scene load, whatever the load case.
-      template <int dim>
-      state::LoadCase<dim>
-      common_loads(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
-      {
-        state::LoadCase<dim> common;
-        common.bodies.resize(scene.bodies.size());
-        for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-          {
-            const auto       &body    = scene.bodies[b];
-            const std::string section = "Body " + body.name;
-            if (!body.body_force.empty())
-              common.bodies[b].body_force =
-                function_of<dim>(section + "/Body force", body.body_force);
-            common.bodies[b].gravity = to_tensor<dim>(scene.gravity);
-            LoadBuilder<dim>(scene, mesh, section, body.name + ".")
-              .add(body.loads, common);
-          }
-        return common;
-      }
-
-      /// The index of a held component among @p supports, added if it is new.
-      template <int dim>
-      unsigned int
-      index_of(const state::Support<dim>        &wanted,
-               std::vector<state::Support<dim>> &supports)
-      {
-        for (unsigned int i = 0; i < supports.size(); ++i)
-          if (supports[i].body == wanted.body &&
-              supports[i].boundary == wanted.boundary &&
-              supports[i].component == wanted.component)
-            return i;
-        supports.push_back(wanted);
-        return supports.size() - 1;
-      }
-    } // namespace
-
-    template <int dim>
-    std::pair<unsigned int, unsigned int>
-    find_face(const scene::Scene        &scene,
+/// Adds the loads of one section to a load case.
+template <int dim>
+class LoadBuilder
+{
+public:
+  /// Keys of the loads, after @p prefix, are "body.boundary".
+  LoadBuilder(const scene::Scene        &scene,
               const mesh::BodyMesh<dim> &mesh,
-              const std::string         &face)
-    {
-      const auto         names = scene::split_face(face);
-      const unsigned int body  = scene::body_index(scene, names.first);
-      if (body == scene.bodies.size())
-        throw InputError("there is no body '" + names.first + "'");
-      return {body, mesh::boundary_index(mesh.geometry(body), names.second)};
-    }
+              const std::string         &section,
+              const std::string         &prefix)
+    : scene(scene), mesh(mesh), section(section + "/"), prefix(prefix)
+  {}
 
-    template <int dim>
-    std::vector<state::LoadCase<dim>>
-    build_load_cases(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
-    {
-      const auto common = common_loads(scene, mesh);
-      if (scene.load_cases.empty())
-        return {common};
-      std::vector<state::LoadCase<dim>> cases;
-      for (const auto &of : scene.load_cases)
-        {
-          cases.push_back(common);
-          cases.back().name = of.name;
-          for (auto &body : cases.back().bodies)
-            body.gravity += to_tensor<dim>(of.gravity);
-          LoadBuilder<dim>(scene, mesh, "Load case " + of.name, "")
-            .add(of.loads, cases.back());
-        }
-      return cases;
-    }
+  void add(const scene::LoadParameters &loads, state::LoadCase<dim> &to) const
+  {
+    for (const auto &item : loads.pressure)
+      {
+        auto &load    = boundary(item.first, to);
+        load.pressure = sum(load.pressure, function_of<dim>(section + "Pressure", item.second));
+      }
+    for (const auto &item : loads.traction)
+      {
+        auto &load    = boundary(item.first, to);
+        load.traction = sum(load.traction,
+                            function_of<dim>(section + "Traction", scene::components(item.second)));
+      }
+    for (const auto &item : loads.force)
+      add_resultant("Force", item.first, {to_tensor<dim>(item.second), {}}, to);
+    for (const auto &item : loads.moment)
+      add_resultant("Moment", item.first, resultant_moment<dim>(item.second), to);
+  }
 
-    template <int dim>
-    std::vector<state::Support<dim>>
-    build_supports(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
-    {
-      const unsigned int n_cases =
-        std::max<std::size_t>(1, scene.load_cases.size());
-      std::vector<state::Support<dim>> supports;
-      const auto                       support = [&](const std::string &entry,
-                               const std::string &face,
-                               unsigned int       component) {
-        const auto where = find_face(scene, mesh, face);
-        return state::Support<dim>{where.first,
-                                   where.second,
-                                   component,
-                                   std::vector<ScalarFunction<dim>>(n_cases),
-                                   "'" + entry + "' of '" + face + "'"};
-      };
-      const auto prescribe = [&](const std::string           &section,
-                                 const std::string           &prefix,
-                                 const scene::LoadParameters &loads,
-                                 const auto                  &is_in_case) {
-        const std::string entry = section + "/Displacement";
-        for (const auto &item : loads.displacements)
-          {
-            const auto parts = scene::split_displacement(item.second);
-            const auto c     = *scene::component_number(parts.first, dim);
-            auto      &held =
-              supports[index_of(support(entry, prefix + item.first, c),
-                                supports)];
-            for (unsigned int load_case = 0; load_case < n_cases; ++load_case)
-              if (is_in_case(load_case))
-                held.values[load_case] = function_of<dim>(entry, parts.second);
-          }
-      };
-      for (const auto &body : scene.bodies)
-        {
-          const std::string section = "Body " + body.name;
-          for (const auto &item : body.supports)
-            for (const unsigned int c : scene::component_list(item.second, dim))
-              supports.push_back(support(section + "/Supports",
-                                         body.name + "." + item.first,
-                                         c));
-          prescribe(section, body.name + ".", body.loads, [](unsigned int) {
-            return true;
-          });
-        }
-      for (unsigned int i = 0; i < scene.load_cases.size(); ++i)
-        prescribe("Load case " + scene.load_cases[i].name,
-                  "",
-                  scene.load_cases[i].loads,
-                  [i](unsigned int load_case) { return load_case == i; });
-      return supports;
-    }
+private:
+  state::BoundaryLoad<dim> &boundary(const std::string &key, state::LoadCase<dim> &to) const
+  {
+    const auto face = find_face(scene, mesh, prefix + key);
+    return to.bodies[face.first].boundaries[face.second];
+  }
 
-#define SNUG_INSTANTIATE(dim)                                                \
-  template std::pair<unsigned int, unsigned int> find_face(                  \
-    const scene::Scene &, const mesh::BodyMesh<dim> &, const std::string &); \
-  template std::vector<state::LoadCase<dim>> build_load_cases(               \
-    const scene::Scene &, const mesh::BodyMesh<dim> &);                      \
-  template std::vector<state::Support<dim>> build_supports(                  \
-    const scene::Scene &, const mesh::BodyMesh<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+  void add_resultant(const std::string                &entry,
+                     const std::string                &key,
+                     const elasticity::Resultant<dim> &resultant,
+                     state::LoadCase<dim>             &to) const
+  {
+    require_axial(mesh, section + entry, key, resultant);
+    auto &load = boundary(key, to);
+    load.resultant.force += resultant.force;
+    load.resultant.moment += resultant.moment;
+  }
+
+  const scene::Scene        &scene;
+  const mesh::BodyMesh<dim> &mesh;
+  const std::string          section, prefix;
+};
+
+/// What bodies and scene load, whatever the load case.
+template <int dim>
+state::LoadCase<dim> common_loads(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+{
+  state::LoadCase<dim> common;
+  common.bodies.resize(scene.bodies.size());
+  for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+    {
+      const auto       &body    = scene.bodies[b];
+      const std::string section = "Body " + body.name;
+      if (!body.body_force.empty())
+        common.bodies[b].body_force = function_of<dim>(section + "/Body force", body.body_force);
+      common.bodies[b].gravity = to_tensor<dim>(scene.gravity);
+      LoadBuilder<dim>(scene, mesh, section, body.name + ".").add(body.loads, common);
+    }
+  return common;
+}
+
+/// The index of a held component among @p supports, added if it is new.
+template <int dim>
+unsigned int index_of(const state::Support<dim> &wanted, std::vector<state::Support<dim>> &supports)
+{
+  for (unsigned int i = 0; i < supports.size(); ++i)
+    if (supports[i].body == wanted.body && supports[i].boundary == wanted.boundary &&
+        supports[i].component == wanted.component)
+      return i;
+  supports.push_back(wanted);
+  return supports.size() - 1;
+}
+} // namespace
+
+template <int dim>
+std::pair<unsigned int, unsigned int>
+find_face(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &face)
+{
+  const auto         names = scene::split_face(face);
+  const unsigned int body  = scene::body_index(scene, names.first);
+  if (body == scene.bodies.size())
+    throw InputError("there is no body '" + names.first + "'");
+  return {body, mesh::boundary_index(mesh.geometry(body), names.second)};
+}
+
+template <int dim>
+std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &scene,
+                                                   const mesh::BodyMesh<dim> &mesh)
+{
+  const auto common = common_loads(scene, mesh);
+  if (scene.load_cases.empty())
+    return {common};
+  std::vector<state::LoadCase<dim>> cases;
+  for (const auto &of : scene.load_cases)
+    {
+      cases.push_back(common);
+      cases.back().name = of.name;
+      for (auto &body : cases.back().bodies)
+        body.gravity += to_tensor<dim>(of.gravity);
+      LoadBuilder<dim>(scene, mesh, "Load case " + of.name, "").add(of.loads, cases.back());
+    }
+  return cases;
+}
+
+template <int dim>
+std::vector<state::Support<dim>> build_supports(const scene::Scene        &scene,
+                                                const mesh::BodyMesh<dim> &mesh)
+{
+  const unsigned int               n_cases = std::max<std::size_t>(1, scene.load_cases.size());
+  std::vector<state::Support<dim>> supports;
+  const auto                       support = [&](const std::string &entry, const std::string &face,
+                           unsigned int component) {
+    const auto where = find_face(scene, mesh, face);
+    return state::Support<dim>{where.first, where.second, component,
+                               std::vector<ScalarFunction<dim>>(n_cases),
+                               "'" + entry + "' of '" + face + "'"};
+  };
+  const auto prescribe = [&](const std::string &section, const std::string &prefix,
+                             const scene::LoadParameters &loads, const auto &is_in_case) {
+    const std::string entry = section + "/Displacement";
+    for (const auto &item : loads.displacements)
+      {
+        const auto parts = scene::split_displacement(item.second);
+        const auto c     = *scene::component_number(parts.first, dim);
+        auto      &held  = supports[index_of(support(entry, prefix + item.first, c), supports)];
+        for (unsigned int load_case = 0; load_case < n_cases; ++load_case)
+          if (is_in_case(load_case))
+            held.values[load_case] = function_of<dim>(entry, parts.second);
+      }
+  };
+  for (const auto &body : scene.bodies)
+    {
+      const std::string section = "Body " + body.name;
+      for (const auto &item : body.supports)
+        for (const unsigned int c : scene::component_list(item.second, dim))
+          supports.push_back(support(section + "/Supports", body.name + "." + item.first, c));
+      prescribe(section, body.name + ".", body.loads, [](unsigned int) { return true; });
+    }
+  for (unsigned int i = 0; i < scene.load_cases.size(); ++i)
+    prescribe("Load case " + scene.load_cases[i].name, "", scene.load_cases[i].loads,
+              [i](unsigned int load_case) { return load_case == i; });
+  return supports;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,                \
+                                                           const mesh::BodyMesh<dim> &,         \
+                                                           const std::string &);                \
+  template std::vector<state::LoadCase<dim>>     build_load_cases(const scene::Scene &,         \
+                                                                  const mesh::BodyMesh<dim> &); \
+  template std::vector<state::Support<dim>>      build_supports(const scene::Scene &,           \
+                                                                const mesh::BodyMesh<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace app
-} // namespace snug
+} // namespace snug::app

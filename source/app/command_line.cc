@@ -1,115 +1,98 @@
 #include <snug/app/command_line.h>
 #include <snug/base/errors.h>
 
-namespace snug
+namespace snug::app {
+namespace {
+/// Reads the arguments one by one.
+class ArgumentReader
 {
-  namespace app
+public:
+  ArgumentReader(int argc, const char *const *argv)
   {
-    namespace
-    {
-      /// Reads the arguments one by one.
-      class ArgumentReader
+    for (int i = 1; i < argc; ++i)
+      arguments.emplace_back(argv[i]);
+  }
+
+  Options read()
+  {
+    while (next < arguments.size())
       {
-      public:
-        ArgumentReader(int argc, const char *const *argv)
-        {
-          for (int i = 1; i < argc; ++i)
-            arguments.emplace_back(argv[i]);
-        }
+        const std::string &argument = arguments[next++];
+        if (argument.size() > 1 && argument[0] == '-')
+          read_option(argument);
+        else if (options.file.empty() && !argument.empty())
+          options.file = argument;
+        else
+          throw InputError("unexpected argument '" + argument + "', one parameter file is allowed" +
+                           hint());
+      }
+    const bool needs_no_file = options.print_parameters || options.help || options.version;
+    if (options.file.empty() && !needs_no_file)
+      throw InputError("no parameter file" + hint());
+    return options;
+  }
 
-        Options
-        read()
-        {
-          while (next < arguments.size())
-            {
-              const std::string &argument = arguments[next++];
-              if (argument.size() > 1 && argument[0] == '-')
-                read_option(argument);
-              else if (options.file.empty() && !argument.empty())
-                options.file = argument;
-              else
-                throw InputError("unexpected argument '" + argument +
-                                 "', one parameter file is allowed" + hint());
-            }
-          const bool needs_no_file =
-            options.print_parameters || options.help || options.version;
-          if (options.file.empty() && !needs_no_file)
-            throw InputError("no parameter file" + hint());
-          return options;
-        }
+private:
+  static std::string hint() { return " (snug --help)"; }
 
-      private:
-        static std::string
-        hint()
-        {
-          return " (snug --help)";
-        }
+  void read_option(const std::string &argument)
+  {
+    const auto        equals = argument.find('=');
+    const std::string name   = argument.substr(0, equals);
+    if (name == "--set")
+      options.sets.push_back(value_of(argument, equals));
+    else if (name == "--output")
+      options.output = value_of(argument, equals);
+    else if (bool *flag = flag_called(name))
+      {
+        if (equals != std::string::npos)
+          throw InputError("option '" + name + "' takes no value" + hint());
+        *flag = true;
+      }
+    else
+      throw InputError("unknown option '" + argument + "'" + hint());
+  }
 
-        void
-        read_option(const std::string &argument)
-        {
-          const auto        equals = argument.find('=');
-          const std::string name   = argument.substr(0, equals);
-          if (name == "--set")
-            options.sets.push_back(value_of(argument, equals));
-          else if (name == "--output")
-            options.output = value_of(argument, equals);
-          else if (bool *flag = flag_called(name))
-            {
-              if (equals != std::string::npos)
-                throw InputError("option '" + name + "' takes no value" +
-                                 hint());
-              *flag = true;
-            }
-          else
-            throw InputError("unknown option '" + argument + "'" + hint());
-        }
+  bool *flag_called(const std::string &name)
+  {
+    if (name == "--restart")
+      return &options.restart;
+    if (name == "--validate")
+      return &options.validate;
+    if (name == "--print-parameters")
+      return &options.print_parameters;
+    if (name == "--help" || name == "-h")
+      return &options.help;
+    return name == "--version" ? &options.version : nullptr;
+  }
 
-        bool *
-        flag_called(const std::string &name)
-        {
-          if (name == "--restart")
-            return &options.restart;
-          if (name == "--validate")
-            return &options.validate;
-          if (name == "--print-parameters")
-            return &options.print_parameters;
-          if (name == "--help" || name == "-h")
-            return &options.help;
-          return name == "--version" ? &options.version : nullptr;
-        }
+  /// What follows the equals sign, or the next argument.
+  std::string value_of(const std::string &argument, const std::size_t equals)
+  {
+    std::string value;
+    if (equals != std::string::npos)
+      value = argument.substr(equals + 1);
+    else if (next < arguments.size())
+      value = arguments[next++];
+    if (value.empty())
+      throw InputError("option '" + argument.substr(0, equals) + "' needs a value" + hint());
+    return value;
+  }
 
-        /// What follows the equals sign, or the next argument.
-        std::string
-        value_of(const std::string &argument, const std::size_t equals)
-        {
-          std::string value;
-          if (equals != std::string::npos)
-            value = argument.substr(equals + 1);
-          else if (next < arguments.size())
-            value = arguments[next++];
-          if (value.empty())
-            throw InputError("option '" + argument.substr(0, equals) +
-                             "' needs a value" + hint());
-          return value;
-        }
+  std::vector<std::string> arguments;
+  std::size_t              next = 0;
+  Options                  options;
+};
+} // namespace
 
-        std::vector<std::string> arguments;
-        std::size_t              next = 0;
-        Options                  options;
-      };
-    } // namespace
+Options parse(const int argc, const char *const *argv)
+{
+  return ArgumentReader(argc, argv).read();
+}
 
-    Options
-    parse(const int argc, const char *const *argv)
-    {
-      return ArgumentReader(argc, argv).read();
-    }
-
-    std::string
-    usage()
-    {
-      return R"(usage:
+std::string usage()
+{
+  return R"(usage:
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
     snug --validate FILE.prm | --print-parameters | --help | --version
 
@@ -131,6 +114,5 @@ not solved to its tolerance; 1 anything else. An optimization that is interrupte
 or runs out of evaluations ends with 0 if its design meets the constraints, else
 with 3. Options of PETSc are taken from the environment variable PETSC_OPTIONS.
 )";
-    }
-  } // namespace app
-} // namespace snug
+}
+} // namespace snug::app

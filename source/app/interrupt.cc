@@ -3,35 +3,27 @@
 
 #include <csignal>
 
-namespace snug
+namespace snug::app {
+namespace {
+volatile std::sig_atomic_t signal_received = 0;
+
+void note_signal(int number)
 {
-  namespace app
-  {
-    namespace
-    {
-      volatile std::sig_atomic_t signal_received = 0;
+  signal_received = number;
+}
+} // namespace
 
-      void
-      note_signal(int number)
-      {
-        signal_received = number;
-      }
-    } // namespace
+void catch_interrupts()
+{
+  std::signal(SIGTERM, note_signal);
+  std::signal(SIGINT, note_signal);
+}
 
-    void
-    catch_interrupts()
-    {
-      std::signal(SIGTERM, note_signal);
-      std::signal(SIGINT, note_signal);
-    }
-
-    void
-    check_interrupts(MPI_Comm communicator)
-    {
-      int received = signal_received;
-      MPI_Allreduce(MPI_IN_PLACE, &received, 1, MPI_INT, MPI_MAX, communicator);
-      if (received != 0)
-        throw Interrupted("ended by signal " + std::to_string(received));
-    }
-  } // namespace app
-} // namespace snug
+void check_interrupts(MPI_Comm communicator)
+{
+  int received = signal_received;
+  MPI_Allreduce(MPI_IN_PLACE, &received, 1, MPI_INT, MPI_MAX, communicator);
+  if (received != 0)
+    throw Interrupted("ended by signal " + std::to_string(received));
+}
+} // namespace snug::app

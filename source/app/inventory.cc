@@ -13,254 +13,219 @@
 #include <ostream>
 #include <sstream>
 
-namespace snug
+namespace snug::app {
+namespace {
+template <int dim>
+using Box = typename Inventory<dim>::Box;
+
+/// The box of @p points of all ranks. Collective.
+template <int dim>
+Box<dim> box_of(const std::vector<dealii::Tensor<1, dim>> &points, MPI_Comm communicator)
 {
-  namespace app
-  {
-    namespace
-    {
-      template <int dim>
-      using Box = typename Inventory<dim>::Box;
-
-      /// The box of @p points of all ranks. Collective.
-      template <int dim>
-      Box<dim>
-      box_of(const std::vector<dealii::Tensor<1, dim>> &points,
-             MPI_Comm                                   communicator)
+  std::vector<double> ends(2 * dim, -std::numeric_limits<double>::max());
+  for (const auto &x : points)
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        std::vector<double> ends(2 * dim, -std::numeric_limits<double>::max());
-        for (const auto &x : points)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              ends[d]       = std::max(ends[d], x[d]);
-              ends[dim + d] = std::max(ends[dim + d], -x[d]);
-            }
-        dealii::Utilities::MPI::max(ends, communicator, ends);
-        Box<dim> box;
-        for (unsigned int d = 0; d < dim; ++d)
+        ends[d]       = std::max(ends[d], x[d]);
+        ends[dim + d] = std::max(ends[dim + d], -x[d]);
+      }
+  dealii::Utilities::MPI::max(ends, communicator, ends);
+  Box<dim> box;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      box.upper[d] = ends[d] + 0.; // no -0
+      box.lower[d] = 0. - ends[dim + d];
+    }
+  return box;
+}
+
+template <int dim>
+Box<dim> box_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
+{
+  std::vector<dealii::Tensor<1, dim>> points;
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    if (mesh.body_of_node(node) == body)
+      points.push_back(mesh.reference_positions()[node]);
+  return box_of<dim>(points, mesh.communicator());
+}
+
+template <int dim>
+Box<dim> box_of_boundary(const mesh::BodyMesh<dim> &mesh, unsigned int body, unsigned int boundary)
+{
+  std::vector<dealii::Tensor<1, dim>> points;
+  for (const auto &face : mesh.boundary_faces())
+    if (face.body == body && face.boundary == boundary)
+      for (const unsigned int node : face.nodes)
+        points.push_back(mesh.reference_positions()[node]);
+  return box_of<dim>(points, mesh.communicator());
+}
+
+template <int dim>
+double area_of(const mesh::BodyMesh<dim> &mesh, const mesh::Surface<dim> &surface)
+{
+  std::vector<unsigned int> faces;
+  for (unsigned int f = 0; f < surface.faces().size(); ++f)
+    faces.push_back(f);
+  const contact::FaceShape<dim> shape(mesh.degree());
+  const auto                    areas = contact::tributary_areas<dim>({surface, faces, shape},
+                                                   surface.gather(mesh.reference_positions()));
+  double                        sum   = 0.;
+  for (unsigned int node = 0; node < areas.size(); ++node)
+    if (surface.masters(node).empty())
+      sum += areas[node];
+  return sum;
+}
+
+template <int dim>
+std::vector<typename Inventory<dim>::Region> regions_of_body(const mesh::BodyMesh<dim> &mesh,
+                                                             unsigned int               body)
+{
+  const auto                     names = mesh.geometry(body).region_names();
+  std::vector<double>            n_cells(names.size()), volume = n_cells;
+  const elasticity::Element<dim> element(mesh.degree(), mesh.idealization());
+  for (const auto &cell : mesh.cells())
+    if (cell.body == body)
+      {
+        std::vector<dealii::Tensor<1, dim>> X;
+        for (const unsigned int node : cell.nodes)
+          X.push_back(mesh.reference_positions()[node]);
+        n_cells[cell.region] += 1.;
+        volume[cell.region] += element.volume(X);
+      }
+  dealii::Utilities::MPI::sum(n_cells, mesh.communicator(), n_cells);
+  dealii::Utilities::MPI::sum(volume, mesh.communicator(), volume);
+  std::vector<typename Inventory<dim>::Region> regions;
+  for (unsigned int r = 0; r < names.size(); ++r)
+    regions.push_back({names[r], static_cast<unsigned long>(n_cells[r]), volume[r]});
+  return regions;
+}
+
+template <int dim>
+typename Inventory<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
+{
+  typename Inventory<dim>::Body entry;
+  for (const auto &cell : mesh.cells())
+    entry.n_cells += cell.body == body;
+  entry.n_cells     = dealii::Utilities::MPI::sum(entry.n_cells, mesh.communicator());
+  entry.regions     = regions_of_body(mesh, body);
+  entry.box         = box_of_body(mesh, body);
+  const auto &names = mesh.geometry(body).boundary_names();
+  for (unsigned int b = 0; b < names.size(); ++b)
+    {
+      const mesh::Surface<dim> surface(mesh, {{body, b}});
+      entry.boundaries.push_back(
+        {names[b], area_of(mesh, surface), box_of_boundary(mesh, body, b)});
+    }
+  return entry;
+}
+
+/// @p size: of the body, against which round-off does not show.
+template <int dim>
+std::string to_text(const Box<dim> &box, double size)
+{
+  const double       least = 1e-9 * size;
+  std::ostringstream text;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const auto shown = [&](const double x) { return std::abs(x) < least ? 0. : x; };
+      text << (d == 0 ? "" : ", ") << "xyz"[d] << ' ' << shown(box.lower[d]);
+      if (box.upper[d] - box.lower[d] > least)
+        text << " to " << shown(box.upper[d]);
+    }
+  return text.str();
+}
+
+/// Zero where boxes overlap.
+template <int dim>
+double distance(const Box<dim> &a, const Box<dim> &b)
+{
+  dealii::Tensor<1, dim> gap;
+  for (unsigned int d = 0; d < dim; ++d)
+    gap[d] = std::max({0., a.lower[d] - b.upper[d], b.lower[d] - a.upper[d]});
+  return gap.norm();
+}
+} // namespace
+
+template <int dim>
+Inventory<dim> take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+{
+  Inventory<dim> inventory;
+  for (unsigned int body = 0; body < scene.bodies.size(); ++body)
+    {
+      inventory.bodies.push_back(inventory_of_body(mesh, body));
+      inventory.bodies.back().name = scene.bodies[body].name;
+    }
+  return inventory;
+}
+
+template <int dim>
+void print(const Inventory<dim> &inventory, std::ostream &out)
+{
+  for (const auto &body : inventory.bodies)
+    {
+      const double size = body.box.lower.distance(body.box.upper);
+      out << "body " << body.name << ": " << body.n_cells << " cells, "
+          << to_text<dim>(body.box, size) << '\n';
+      if (body.regions.size() > 1)
+        for (const auto &region : body.regions)
           {
-            box.upper[d] = ends[d] + 0.; // no -0
-            box.lower[d] = 0. - ends[dim + d];
+            out << "  region " << region.name << ": ";
+            if (region.n_cells == 0)
+              out << "its cells are in others too\n";
+            else
+              out << region.n_cells << " cells, volume " << region.volume << '\n';
           }
-        return box;
-      }
+      std::size_t width = 0;
+      for (const auto &boundary : body.boundaries)
+        width = std::max(width, boundary.name.size());
+      for (const auto &boundary : body.boundaries)
+        out << "  " << std::left << std::setw(width) << boundary.name << "  area " << std::setw(10)
+            << boundary.area << "  " << to_text<dim>(boundary.box, size) << '\n';
+    }
+}
 
-      template <int dim>
-      Box<dim>
-      box_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
-      {
-        std::vector<dealii::Tensor<1, dim>> points;
-        for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-          if (mesh.body_of_node(node) == body)
-            points.push_back(mesh.reference_positions()[node]);
-        return box_of<dim>(points, mesh.communicator());
-      }
-
-      template <int dim>
-      Box<dim>
-      box_of_boundary(const mesh::BodyMesh<dim> &mesh,
-                      unsigned int               body,
-                      unsigned int               boundary)
-      {
-        std::vector<dealii::Tensor<1, dim>> points;
-        for (const auto &face : mesh.boundary_faces())
-          if (face.body == body && face.boundary == boundary)
-            for (const unsigned int node : face.nodes)
-              points.push_back(mesh.reference_positions()[node]);
-        return box_of<dim>(points, mesh.communicator());
-      }
-
-      template <int dim>
-      double
-      area_of(const mesh::BodyMesh<dim> &mesh,
-              const mesh::Surface<dim>  &surface)
-      {
-        std::vector<unsigned int> faces;
-        for (unsigned int f = 0; f < surface.faces().size(); ++f)
-          faces.push_back(f);
-        const contact::FaceShape<dim> shape(mesh.degree());
-        const auto                    areas = contact::tributary_areas<dim>(
-          {surface, faces, shape}, surface.gather(mesh.reference_positions()));
-        double sum = 0.;
-        for (unsigned int node = 0; node < areas.size(); ++node)
-          if (surface.masters(node).empty())
-            sum += areas[node];
-        return sum;
-      }
-
-      template <int dim>
-      std::vector<typename Inventory<dim>::Region>
-      regions_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
-      {
-        const auto          names = mesh.geometry(body).region_names();
-        std::vector<double> n_cells(names.size()), volume = n_cells;
-        const elasticity::Element<dim> element(mesh.degree(),
-                                               mesh.idealization());
-        for (const auto &cell : mesh.cells())
-          if (cell.body == body)
-            {
-              std::vector<dealii::Tensor<1, dim>> X;
-              for (const unsigned int node : cell.nodes)
-                X.push_back(mesh.reference_positions()[node]);
-              n_cells[cell.region] += 1.;
-              volume[cell.region] += element.volume(X);
-            }
-        dealii::Utilities::MPI::sum(n_cells, mesh.communicator(), n_cells);
-        dealii::Utilities::MPI::sum(volume, mesh.communicator(), volume);
-        std::vector<typename Inventory<dim>::Region> regions;
-        for (unsigned int r = 0; r < names.size(); ++r)
-          regions.push_back(
-            {names[r], static_cast<unsigned long>(n_cells[r]), volume[r]});
-        return regions;
-      }
-
-      template <int dim>
-      typename Inventory<dim>::Body
-      inventory_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
-      {
-        typename Inventory<dim>::Body entry;
-        for (const auto &cell : mesh.cells())
-          entry.n_cells += cell.body == body;
-        entry.n_cells =
-          dealii::Utilities::MPI::sum(entry.n_cells, mesh.communicator());
-        entry.regions     = regions_of_body(mesh, body);
-        entry.box         = box_of_body(mesh, body);
-        const auto &names = mesh.geometry(body).boundary_names();
-        for (unsigned int b = 0; b < names.size(); ++b)
-          {
-            const mesh::Surface<dim> surface(mesh, {{body, b}});
-            entry.boundaries.push_back({names[b],
-                                        area_of(mesh, surface),
-                                        box_of_boundary(mesh, body, b)});
-          }
-        return entry;
-      }
-
-      /// @p size: of the body, against which round-off does not show.
-      template <int dim>
-      std::string
-      to_text(const Box<dim> &box, double size)
-      {
-        const double       least = 1e-9 * size;
-        std::ostringstream text;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const auto shown = [&](const double x) {
-              return std::abs(x) < least ? 0. : x;
-            };
-            text << (d == 0 ? "" : ", ") << "xyz"[d] << ' '
-                 << shown(box.lower[d]);
-            if (box.upper[d] - box.lower[d] > least)
-              text << " to " << shown(box.upper[d]);
-          }
-        return text.str();
-      }
-
-      /// Zero where boxes overlap.
-      template <int dim>
-      double
-      distance(const Box<dim> &a, const Box<dim> &b)
-      {
-        dealii::Tensor<1, dim> gap;
-        for (unsigned int d = 0; d < dim; ++d)
-          gap[d] =
-            std::max({0., a.lower[d] - b.upper[d], b.lower[d] - a.upper[d]});
-        return gap.norm();
-      }
-    } // namespace
-
-    template <int dim>
-    Inventory<dim>
-    take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+template <int dim>
+void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+{
+  const double too_far = 10.;
+  for (const auto &pair : scene.contact.pairs)
     {
-      Inventory<dim> inventory;
-      for (unsigned int body = 0; body < scene.bodies.size(); ++body)
+      if (scene::split_face(pair.master).second.empty())
+        continue; // an obstacle
+      double   size = 0.;
+      Box<dim> boxes[2];
+      for (const unsigned int side : {0, 1})
         {
-          inventory.bodies.push_back(inventory_of_body(mesh, body));
-          inventory.bodies.back().name = scene.bodies[body].name;
+          const auto face = find_face(scene, mesh, side == 0 ? pair.slave : pair.master);
+          const auto body = box_of_body(mesh, face.first);
+          boxes[side]     = box_of_boundary(mesh, face.first, face.second);
+          size            = std::max(size, body.lower.distance(body.upper));
         }
-      return inventory;
+      const double gap = distance<dim>(boxes[0], boxes[1]);
+      if (gap <= too_far * size)
+        continue;
+      std::ostringstream text;
+      text << "are " << gap << " apart, but the larger body is only " << size
+           << " long; have the meshes the same units? See 'Scale' "
+           << "and 'Shift'";
+      throw InputError(scene.file + ": entry 'Contact/Pairs': '" + pair.slave + "' and '" +
+                       pair.master + "' " + text.str());
     }
+}
 
-    template <int dim>
-    void
-    print(const Inventory<dim> &inventory, std::ostream &out)
-    {
-      for (const auto &body : inventory.bodies)
-        {
-          const double size = body.box.lower.distance(body.box.upper);
-          out << "body " << body.name << ": " << body.n_cells << " cells, "
-              << to_text<dim>(body.box, size) << '\n';
-          if (body.regions.size() > 1)
-            for (const auto &region : body.regions)
-              {
-                out << "  region " << region.name << ": ";
-                if (region.n_cells == 0)
-                  out << "its cells are in others too\n";
-                else
-                  out << region.n_cells << " cells, volume " << region.volume
-                      << '\n';
-              }
-          std::size_t width = 0;
-          for (const auto &boundary : body.boundaries)
-            width = std::max(width, boundary.name.size());
-          for (const auto &boundary : body.boundaries)
-            out << "  " << std::left << std::setw(width) << boundary.name
-                << "  area " << std::setw(10) << boundary.area << "  "
-                << to_text<dim>(boundary.box, size) << '\n';
-        }
-    }
+void print_import_notes(const scene::Scene &scene, std::ostream &out)
+{
+  for (const auto &body : scene.bodies)
+    if (body.mesh.imported)
+      for (const auto &note : body.mesh.imported->notes)
+        out << "body " << body.name << ", " << body.mesh.file << ": " << note << '\n';
+}
 
-    template <int dim>
-    void
-    check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
-    {
-      const double too_far = 10.;
-      for (const auto &pair : scene.contact.pairs)
-        {
-          if (scene::split_face(pair.master).second.empty())
-            continue; // an obstacle
-          double   size = 0.;
-          Box<dim> boxes[2];
-          for (const unsigned int side : {0, 1})
-            {
-              const auto face =
-                find_face(scene, mesh, side == 0 ? pair.slave : pair.master);
-              const auto body = box_of_body(mesh, face.first);
-              boxes[side]     = box_of_boundary(mesh, face.first, face.second);
-              size            = std::max(size, body.lower.distance(body.upper));
-            }
-          const double gap = distance<dim>(boxes[0], boxes[1]);
-          if (gap <= too_far * size)
-            continue;
-          std::ostringstream text;
-          text << "are " << gap << " apart, but the larger body is only "
-               << size << " long; have the meshes the same units? See 'Scale' "
-               << "and 'Shift'";
-          throw InputError(scene.file + ": entry 'Contact/Pairs': '" +
-                           pair.slave + "' and '" + pair.master + "' " +
-                           text.str());
-        }
-    }
-
-    void
-    print_import_notes(const scene::Scene &scene, std::ostream &out)
-    {
-      for (const auto &body : scene.bodies)
-        if (body.mesh.imported)
-          for (const auto &note : body.mesh.imported->notes)
-            out << "body " << body.name << ", " << body.mesh.file << ": "
-                << note << '\n';
-    }
-
-#define SNUG_INSTANTIATE(dim)                                            \
-  template Inventory<dim> take_inventory(const scene::Scene &,           \
-                                         const mesh::BodyMesh<dim> &);   \
-  template void           print(const Inventory<dim> &, std::ostream &); \
-  template void           check_distances(const scene::Scene &,          \
-                                          const mesh::BodyMesh<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+#define SNUG_INSTANTIATE(dim)                                                                \
+  template Inventory<dim> take_inventory(const scene::Scene &, const mesh::BodyMesh<dim> &); \
+  template void           print(const Inventory<dim> &, std::ostream &);                     \
+  template void           check_distances(const scene::Scene &, const mesh::BodyMesh<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace app
-} // namespace snug
+} // namespace snug::app

@@ -11,66 +11,54 @@
 #include <cstdlib>
 #include <iostream>
 
-namespace
+namespace {
+using namespace snug;
+
+/// Rank of this process as its launcher (Open MPI, MPICH, Slurm) says, to
+/// print what needs no MPI only once under mpirun.
+bool is_first_process()
 {
-  using namespace snug;
+  for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
+    if (const char *rank = std::getenv(name))
+      return std::string(rank) == "0";
+  return true;
+}
 
-  /// Rank of this process as its launcher (Open MPI, MPICH, Slurm) says, to
-  /// print what needs no MPI only once under mpirun.
-  bool
-  is_first_process()
-  {
-    for (const char *name :
-         {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
-      if (const char *rank = std::getenv(name))
-        return std::string(rank) == "0";
-    return true;
-  }
+/// Print what --help, --version and --print-parameters ask for.
+bool answer(const app::Options &options, std::ostream &out)
+{
+  if (options.help)
+    out << app::usage();
+  else if (options.version)
+    out << "snug " SNUG_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ", PETSc "
+        << PETSC_VERSION_MAJOR << '.' << PETSC_VERSION_MINOR << '.' << PETSC_VERSION_SUBMINOR
+        << ")\n";
+  else if (options.print_parameters)
+    scene::print_reference(out);
+  else
+    return false;
+  out << std::flush;
+  return true;
+}
 
-  /// Print what --help, --version and --print-parameters ask for.
-  bool
-  answer(const app::Options &options, std::ostream &out)
-  {
-    if (options.help)
-      out << app::usage();
-    else if (options.version)
-      out << "snug " SNUG_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION
-             ", PETSc "
-          << PETSC_VERSION_MAJOR << '.' << PETSC_VERSION_MINOR << '.'
-          << PETSC_VERSION_SUBMINOR << ")\n";
-    else if (options.print_parameters)
-      scene::print_reference(out);
-    else
-      return false;
-    out << std::flush;
-    return true;
-  }
-
-  int
-  run(const app::Options &options)
-  {
-    RunContext         context(MPI_COMM_WORLD, std::cout);
-    const scene::Scene scene =
-      scene::read_scene({options.file,
-                         scene::read_text(options.file, MPI_COMM_WORLD),
-                         options.sets,
-                         options.output,
-                         [](const std::string &file) {
-                           return scene::read_text(file, MPI_COMM_WORLD);
-                         }});
-    if (options.validate)
-      {
-        app::validate(context, scene);
-        context.out() << options.file << " is valid" << std::endl;
-      }
-    else
-      app::run_study(context, scene, options);
-    return 0;
-  }
+int run(const app::Options &options)
+{
+  RunContext         context(MPI_COMM_WORLD, std::cout);
+  const scene::Scene scene = scene::read_scene(
+    {options.file, scene::read_text(options.file, MPI_COMM_WORLD), options.sets, options.output,
+     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
+  if (options.validate)
+    {
+      app::validate(context, scene);
+      context.out() << options.file << " is valid" << std::endl;
+    }
+  else
+    app::run_study(context, scene, options);
+  return 0;
+}
 } // namespace
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
   app::Options options;

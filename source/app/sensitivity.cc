@@ -5,205 +5,170 @@
 #include <iomanip>
 #include <ostream>
 
-namespace snug
+namespace snug::app {
+namespace {
+void print_table(std::ostream &out, const std::vector<io::Summary::GradientRow> &rows)
 {
-  namespace app
-  {
-    namespace
-    {
-      void
-      print_table(std::ostream                                &out,
-                  const std::vector<io::Summary::GradientRow> &rows)
-      {
-        const int name_width = 20, width = 17;
-        out << std::left << std::setw(name_width) << "method" << std::right;
-        for (const auto &row : rows)
-          out << std::setw(width + 2) << row.method;
-        const auto line = [&](const std::string &name, const auto &value) {
-          out << '\n'
-              << std::left << std::setw(name_width) << name << std::right;
-          for (const auto &row : rows)
-            if (const auto number = value(row); std::isnan(1. * number))
-              out << "  " << std::setw(width) << "";
-            else
-              out << "  " << std::setw(width) << number;
-        };
-        const auto precision = out.precision(9);
-        for (unsigned int j = 0; j < rows.front().values.size(); ++j)
-          line("dJ/dalpha_" + std::to_string(j),
-               [&](const auto &row) { return row.values[j]; });
-        out.precision(3);
-        line("u' against direct",
-             [](const auto &row) { return row.displacement_difference; });
-        line("relative step", [](const auto &row) { return row.step; });
-        line("F-mults", [](const auto &row) { return row.f_mults; });
-        line("factorizations",
-             [](const auto &row) { return row.numeric_factorizations; });
-        line("seconds", [](const auto &row) { return row.seconds; });
-        out << std::endl;
-        out.precision(precision);
-      }
-    } // namespace
+  const int name_width = 20, width = 17;
+  out << std::left << std::setw(name_width) << "method" << std::right;
+  for (const auto &row : rows)
+    out << std::setw(width + 2) << row.method;
+  const auto line = [&](const std::string &name, const auto &value) {
+    out << '\n' << std::left << std::setw(name_width) << name << std::right;
+    for (const auto &row : rows)
+      if (const auto number = value(row); std::isnan(1. * number))
+        out << "  " << std::setw(width) << "";
+      else
+        out << "  " << std::setw(width) << number;
+  };
+  const auto precision = out.precision(9);
+  for (unsigned int j = 0; j < rows.front().values.size(); ++j)
+    line("dJ/dalpha_" + std::to_string(j), [&](const auto &row) { return row.values[j]; });
+  out.precision(3);
+  line("u' against direct", [](const auto &row) { return row.displacement_difference; });
+  line("relative step", [](const auto &row) { return row.step; });
+  line("F-mults", [](const auto &row) { return row.f_mults; });
+  line("factorizations", [](const auto &row) { return row.numeric_factorizations; });
+  line("seconds", [](const auto &row) { return row.seconds; });
+  out << std::endl;
+  out.precision(precision);
+}
+} // namespace
 
-    template <int dim>
-    Sensitivity<dim>::Sensitivity(
-      Workshop<dim>                               &workshop,
-      const std::vector<state::ContactState<dim>> &states)
-      : workshop(workshop), states(states)
+template <int dim>
+Sensitivity<dim>::Sensitivity(Workshop<dim>                               &workshop,
+                              const std::vector<state::ContactState<dim>> &states)
+  : workshop(workshop), states(states)
+{
+  choose_method();
+  unsigned int weak_contacts = 0;
+  for (const auto &state : states)
+    weak_contacts += state.weak_contacts;
+  bool one_sided = weak_contacts > 0 && sensitivity::needs_solve(*workshop.objective);
+  if (one_sided)
+    workshop.warn({one_sided_warning(weak_contacts)});
+  for (const Method &method : methods())
     {
-      choose_method();
-      unsigned int weak_contacts = 0;
-      for (const auto &state : states)
-        weak_contacts += state.weak_contacts;
-      bool one_sided =
-        weak_contacts > 0 && sensitivity::needs_solve(*workshop.objective);
-      if (one_sided)
-        workshop.warn({one_sided_warning(weak_contacts)});
-      for (const Method &method : methods())
+      // differences leave the solver at another design
+      if (method.is_difference && one_sided)
         {
-          // differences leave the solver at another design
-          if (method.is_difference && one_sided)
-            {
-              add_one_sided();
-              one_sided = false;
-            }
-          add(method);
+          add_one_sided();
+          one_sided = false;
         }
-      if (one_sided)
-        add_one_sided();
-      for (const auto &row : gradient.methods)
-        if (row.method == chosen)
-          static_cast<io::Summary::GradientRow &>(gradient) = row;
-      print_table(workshop.context.out(), gradient.methods);
+      add(method);
     }
+  if (one_sided)
+    add_one_sided();
+  for (const auto &row : gradient.methods)
+    if (row.method == chosen)
+      static_cast<io::Summary::GradientRow &>(gradient) = row;
+  print_table(workshop.context.out(), gradient.methods);
+}
 
-    template <int dim>
-    void
-    Sensitivity<dim>::choose_method()
-    {
-      chosen = workshop.scene.gradient.method;
-      if (chosen != "auto")
-        return;
-      const auto choice =
-        sensitivity::cheapest_methods<dim>({workshop.objective.get()},
-                                           workshop.basis->n_variables())
-          .front();
-      chosen          = choice.method;
-      gradient.reason = choice.reason;
-      workshop.context.out()
-        << "auto takes " << chosen << ": " << choice.reason << std::endl;
-    }
+template <int dim>
+void Sensitivity<dim>::choose_method()
+{
+  chosen = workshop.scene.gradient.method;
+  if (chosen != "auto")
+    return;
+  const auto choice =
+    sensitivity::cheapest_methods<dim>({workshop.objective.get()}, workshop.basis->n_variables())
+      .front();
+  chosen          = choice.method;
+  gradient.reason = choice.reason;
+  workshop.context.out() << "auto takes " << chosen << ": " << choice.reason << std::endl;
+}
 
-    template <int dim>
-    std::vector<typename Sensitivity<dim>::Method>
-    Sensitivity<dim>::methods() const
+template <int dim>
+std::vector<typename Sensitivity<dim>::Method> Sensitivity<dim>::methods() const
+{
+  const auto &given = workshop.scene.gradient;
+  const auto  named = [&](const std::string &name, const std::string &method,
+                         const std::string &derivatives) {
+    Method result{name, given, method == "finite differences"};
+    result.parameters.method      = method;
+    result.parameters.derivatives = derivatives;
+    return result;
+  };
+  if (!given.compare)
+    return {named(chosen, chosen, given.derivatives)};
+  const auto         &response = *workshop.objective;
+  std::vector<Method> list;
+  if (!sensitivity::needs_solve(response))
+    list.push_back(named("energy", "energy", "exact"));
+  if (response.needs_solution())
     {
-      const auto &given = workshop.scene.gradient;
-      const auto  named = [&](const std::string &name,
-                             const std::string &method,
-                             const std::string &derivatives) {
-        Method result{name, given, method == "finite differences"};
-        result.parameters.method      = method;
-        result.parameters.derivatives = derivatives;
-        return result;
-      };
-      if (!given.compare)
-        return {named(chosen, chosen, given.derivatives)};
-      const auto         &response = *workshop.objective;
-      std::vector<Method> list;
-      if (!sensitivity::needs_solve(response))
-        list.push_back(named("energy", "energy", "exact"));
-      if (response.needs_solution())
-        {
-          list.push_back(named("adjoint", "adjoint", "exact"));
-          list.push_back(named("direct", "direct", "exact"));
-          list.push_back(named("semi-analytic",
-                               "direct",
-                               given.derivatives == "exact"
-                                 ? "central differences"
-                                 : given.derivatives));
-        }
+      list.push_back(named("adjoint", "adjoint", "exact"));
+      list.push_back(named("direct", "direct", "exact"));
       list.push_back(
-        named("finite differences", "finite differences", "exact"));
-      return list;
+        named("semi-analytic", "direct",
+              given.derivatives == "exact" ? "central differences" : given.derivatives));
     }
+  list.push_back(named("finite differences", "finite differences", "exact"));
+  return list;
+}
 
-    template <int dim>
-    void
-    Sensitivity<dim>::add(const Method &method)
-    {
-      workshop.context.progress("gradient by " + method.name + " ...");
-      const auto               result       = workshop.gradients(states,
-                                             {},
-                                             workshop.basis->start(),
-                                             method.parameters);
-      const auto              &of_objective = result.of_response.front();
-      io::Summary::GradientRow row;
-      row.method                 = method.name;
-      row.f_mults                = result.f_mults;
-      row.numeric_factorizations = result.numeric_factorizations;
-      row.seconds                = result.seconds;
-      row.values                 = of_objective.values;
-      row.differentiable         = of_objective.differentiable;
-      if (method.is_difference)
-        row.step = method.parameters.step;
-      else if (method.parameters.derivatives != "exact")
-        row.step = method.parameters.semi_analytic_step;
-      if (method.name == "direct")
-        reference = result.displacement;
-      else if (!result.displacement.empty() && !reference.empty())
-        row.displacement_difference =
-          displacement_difference(result.displacement);
-      if (method.name == chosen)
-        shape_gradient = of_objective.shape;
-      gradient.methods.push_back(row);
-    }
+template <int dim>
+void Sensitivity<dim>::add(const Method &method)
+{
+  workshop.context.progress("gradient by " + method.name + " ...");
+  const auto  result = workshop.gradients(states, {}, workshop.basis->start(), method.parameters);
+  const auto &of_objective = result.of_response.front();
+  io::Summary::GradientRow row;
+  row.method                 = method.name;
+  row.f_mults                = result.f_mults;
+  row.numeric_factorizations = result.numeric_factorizations;
+  row.seconds                = result.seconds;
+  row.values                 = of_objective.values;
+  row.differentiable         = of_objective.differentiable;
+  if (method.is_difference)
+    row.step = method.parameters.step;
+  else if (method.parameters.derivatives != "exact")
+    row.step = method.parameters.semi_analytic_step;
+  if (method.name == "direct")
+    reference = result.displacement;
+  else if (!result.displacement.empty() && !reference.empty())
+    row.displacement_difference = displacement_difference(result.displacement);
+  if (method.name == chosen)
+    shape_gradient = of_objective.shape;
+  gradient.methods.push_back(row);
+}
 
-    template <int dim>
-    void
-    Sensitivity<dim>::add_one_sided()
-    {
-      const double        start  = workshop.context.seconds();
-      const unsigned long before = workshop.context.work.f_mults;
-      const auto          found =
-        workshop.one_sided_gradients(states, workshop.basis->start());
-      io::Summary::GradientRow row; // each is half of the work
-      row.f_mults = (workshop.context.work.f_mults - before) / 2;
-      row.seconds = (workshop.context.seconds() - start) / 2;
-      row.method  = "one-sided, up";
-      row.values  = found.increasing;
-      gradient.methods.push_back(row);
-      row.method = "one-sided, down";
-      row.values = found.decreasing;
-      gradient.methods.push_back(row);
-    }
+template <int dim>
+void Sensitivity<dim>::add_one_sided()
+{
+  const double             start  = workshop.context.seconds();
+  const unsigned long      before = workshop.context.work.f_mults;
+  const auto               found  = workshop.one_sided_gradients(states, workshop.basis->start());
+  io::Summary::GradientRow row; // each is half of the work
+  row.f_mults = (workshop.context.work.f_mults - before) / 2;
+  row.seconds = (workshop.context.seconds() - start) / 2;
+  row.method  = "one-sided, up";
+  row.values  = found.increasing;
+  gradient.methods.push_back(row);
+  row.method = "one-sided, down";
+  row.values = found.decreasing;
+  gradient.methods.push_back(row);
+}
 
-    template <int dim>
-    double
-    Sensitivity<dim>::displacement_difference(
-      const std::vector<Field> &derivatives) const
-    {
-      const auto        &mesh    = *workshop.mesh;
-      const unsigned int rank    = workshop.context.rank();
-      double             sums[2] = {0., 0.};
-      for (unsigned int j = 0; j < reference.size(); ++j)
-        for (unsigned int node = 0; node < reference[j].size(); ++node)
-          if (mesh.owner(node) == rank)
-            {
-              const auto &expected = reference[j][node];
-              sums[0] += (derivatives[j][node] - expected).norm_square();
-              sums[1] += expected.norm_square();
-            }
-      MPI_Allreduce(MPI_IN_PLACE,
-                    sums,
-                    2,
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    workshop.context.communicator());
-      return std::sqrt(sums[0] / sums[1]);
-    }
+template <int dim>
+double Sensitivity<dim>::displacement_difference(const std::vector<Field> &derivatives) const
+{
+  const auto        &mesh    = *workshop.mesh;
+  const unsigned int rank    = workshop.context.rank();
+  double             sums[2] = {0., 0.};
+  for (unsigned int j = 0; j < reference.size(); ++j)
+    for (unsigned int node = 0; node < reference[j].size(); ++node)
+      if (mesh.owner(node) == rank)
+        {
+          const auto &expected = reference[j][node];
+          sums[0] += (derivatives[j][node] - expected).norm_square();
+          sums[1] += expected.norm_square();
+        }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, workshop.context.communicator());
+  return std::sqrt(sums[0] / sums[1]);
+}
 
-    template class Sensitivity<2>;
-    template class Sensitivity<3>;
-  } // namespace app
-} // namespace snug
+template class Sensitivity<2>;
+template class Sensitivity<3>;
+} // namespace snug::app

@@ -11,182 +11,154 @@
 #include <ostream>
 #include <sstream>
 
-namespace snug
+namespace snug::app {
+namespace {
+void print_certificate(std::ostream &out, const state::Certificate &errors)
 {
-  namespace app
-  {
-    namespace
+  out << "certificate: equilibrium " << errors.equilibrium << ", continuity " << errors.continuity
+      << ", penetration " << errors.penetration << ", negative pressure "
+      << errors.negative_pressure << ", complementarity " << errors.complementarity << std::endl;
+}
+
+template <int dim>
+void print_state(std::ostream &out, const state::ContactState<dim> &state)
+{
+  out << "least scaled Jacobian of a cell " << state.least_scaled_jacobian << "\nenergy "
+      << state.energy << ", compliance " << state.compliance << ", strain energy "
+      << state.strain_energy << "\ncontact force (" << state.contact_force << "), area "
+      << state.contact_area << ", peak pressure " << state.max_pressure << ", "
+      << state.active_contacts << " active and " << state.weak_contacts << " weakly active of "
+      << state.contact.size() << " contact rows, distance to degeneracy "
+      << state.degeneracy_distance << '\n';
+  if (state.pairs.size() > 1)
+    for (const auto &pair : state.pairs)
+      out << "  on " << pair.name << ": force (" << pair.force << "), area " << pair.contact_area
+          << ", peak pressure " << pair.max_pressure << ", " << pair.active_contacts
+          << " active of " << pair.rows << " rows\n";
+  out << state.dual.method << ": " << state.dual.outer_iterations << " outer iterations, "
+      << state.f_mults << " F-mults\n";
+  print_certificate(out, state.certificate);
+}
+
+template <int dim>
+std::vector<state::ContactState<dim>> solve_start(Workshop<dim> &workshop)
+{
+  workshop.context.progress("solving the contact problem ...");
+  auto states = workshop.solve(workshop.basis->start());
+  for (auto &state : states)
     {
-      void
-      print_certificate(std::ostream &out, const state::Certificate &errors)
-      {
-        out << "certificate: equilibrium " << errors.equilibrium
-            << ", continuity " << errors.continuity << ", penetration "
-            << errors.penetration << ", negative pressure "
-            << errors.negative_pressure << ", complementarity "
-            << errors.complementarity << std::endl;
-      }
-
-      template <int dim>
-      void
-      print_state(std::ostream &out, const state::ContactState<dim> &state)
-      {
-        out << "least scaled Jacobian of a cell " << state.least_scaled_jacobian
-            << "\nenergy " << state.energy << ", compliance "
-            << state.compliance << ", strain energy " << state.strain_energy
-            << "\ncontact force (" << state.contact_force << "), area "
-            << state.contact_area << ", peak pressure " << state.max_pressure
-            << ", " << state.active_contacts << " active and "
-            << state.weak_contacts << " weakly active of "
-            << state.contact.size() << " contact rows, distance to degeneracy "
-            << state.degeneracy_distance << '\n';
-        if (state.pairs.size() > 1)
-          for (const auto &pair : state.pairs)
-            out << "  on " << pair.name << ": force (" << pair.force
-                << "), area " << pair.contact_area << ", peak pressure "
-                << pair.max_pressure << ", " << pair.active_contacts
-                << " active of " << pair.rows << " rows\n";
-        out << state.dual.method << ": " << state.dual.outer_iterations
-            << " outer iterations, " << state.f_mults << " F-mults\n";
-        print_certificate(out, state.certificate);
-      }
-
-      template <int dim>
-      std::vector<state::ContactState<dim>>
-      solve_start(Workshop<dim> &workshop)
-      {
-        workshop.context.progress("solving the contact problem ...");
-        auto states = workshop.solve(workshop.basis->start());
-        for (auto &state : states)
-          {
-            if (workshop.scene.report_linear_reference)
-              state.linear_f_mults = workshop.solver->linear_f_mults(state);
-            if (states.size() > 1)
-              workshop.context.out()
-                << "load case "
-                << workshop.scene.load_cases[state.load_case].name << ": ";
-            print_state(workshop.context.out(), state);
-            for (const auto &[name, value] : workshop.response_values(state))
-              workshop.context.out() << name << ' ' << value << std::endl;
-            workshop.warn(state);
-          }
-        return states;
-      }
-
-      template <int dim>
-      void
-      run_state(Workshop<dim> &workshop)
-      {
-        const auto states = solve_start(workshop);
-        workshop.draw(0., states);
-        io::Summary summary;
-        summary.task = "state";
-        workshop.summarize_states({}, states, summary);
-        workshop.write_summary(summary);
-      }
-
-      template <int dim>
-      void
-      run_sensitivity(Workshop<dim> &workshop)
-      {
-        const auto  states = solve_start(workshop);
-        io::Summary summary;
-        summary.task = "sensitivity";
-        workshop.summarize_states({}, states, summary);
-        const Sensitivity<dim> sensitivity(workshop, states);
-        workshop.draw(0., states, sensitivity.shape_gradient);
-        summary.gradient = sensitivity.gradient;
-        workshop.write_summary(summary);
-      }
-
-      void
-      prepare_output(const RunContext &context, const scene::Scene &scene)
-      {
-        const std::string &directory = scene.output_directory;
-        io::make_output_directory(context, directory);
-        if (scene.load_cases.size() > 1)
-          for (const auto &load_case : scene.load_cases)
-            io::make_output_directory(context,
-                                      directory + "/" + load_case.name);
-        everywhere(context.communicator(), [&]() {
-          std::ostringstream text;
-          scene::print(scene, text);
-          if (context.rank() == 0)
-            io::write_text_file(directory + "/parameters.prm", text.str());
-        });
-      }
-
-      /// The meshes of a scene, on the books of its setup.
-      template <int dim>
-      std::unique_ptr<mesh::BodyMesh<dim>>
-      timed_mesh(RunContext &context, const scene::Scene &scene)
-      {
-        const RunContext::Timer timer(context, "setup");
-        return build_mesh<dim>(scene, context.communicator());
-      }
-
-      template <int dim>
-      void
-      validate_in(RunContext &context, const scene::Scene &scene)
-      {
-        auto mesh = timed_mesh<dim>(context, scene);
-        print_import_notes(scene, context.out());
-        print(take_inventory(scene, *mesh), context.out());
-        Workshop<dim>(context, scene, std::move(mesh));
-      }
-
-      template <int dim>
-      void
-      run_task(RunContext         &context,
-               const scene::Scene &scene,
-               const Options      &options)
-      {
-        prepare_output(context, scene);
-        Workshop<dim> workshop(context, scene, timed_mesh<dim>(context, scene));
-        workshop.print_header();
-        std::string complaint;
-        switch (scene.task)
-          {
-            case scene::Task::state:
-              run_state(workshop);
-              break;
-            case scene::Task::sensitivity:
-              run_sensitivity(workshop);
-              break;
-            case scene::Task::optimize:
-              catch_interrupts();
-              complaint = Optimize<dim>(workshop, options.restart).run();
-              break;
-          }
-        context.out() << "results in " << scene.output_directory << ", "
-                      << context.seconds() << " s" << std::endl;
-        if (!complaint.empty())
-          throw SolveError(complaint);
-      }
-    } // namespace
-
-    void
-    run_study(RunContext         &context,
-              const scene::Scene &scene,
-              const Options      &options)
-    {
-      if (options.restart && scene.task != scene::Task::optimize)
-        throw InputError(
-          scene.file + ": option '--restart' goes on with an " +
-          "optimization, but 'Task' = " + scene::to_text(scene.task));
-      if (scene.dimension == 2)
-        run_task<2>(context, scene, options);
-      else
-        run_task<3>(context, scene, options);
+      if (workshop.scene.report_linear_reference)
+        state.linear_f_mults = workshop.solver->linear_f_mults(state);
+      if (states.size() > 1)
+        workshop.context.out() << "load case " << workshop.scene.load_cases[state.load_case].name
+                               << ": ";
+      print_state(workshop.context.out(), state);
+      for (const auto &[name, value] : workshop.response_values(state))
+        workshop.context.out() << name << ' ' << value << std::endl;
+      workshop.warn(state);
     }
+  return states;
+}
 
-    void
-    validate(RunContext &context, const scene::Scene &scene)
+template <int dim>
+void run_state(Workshop<dim> &workshop)
+{
+  const auto states = solve_start(workshop);
+  workshop.draw(0., states);
+  io::Summary summary;
+  summary.task = "state";
+  workshop.summarize_states({}, states, summary);
+  workshop.write_summary(summary);
+}
+
+template <int dim>
+void run_sensitivity(Workshop<dim> &workshop)
+{
+  const auto  states = solve_start(workshop);
+  io::Summary summary;
+  summary.task = "sensitivity";
+  workshop.summarize_states({}, states, summary);
+  const Sensitivity<dim> sensitivity(workshop, states);
+  workshop.draw(0., states, sensitivity.shape_gradient);
+  summary.gradient = sensitivity.gradient;
+  workshop.write_summary(summary);
+}
+
+void prepare_output(const RunContext &context, const scene::Scene &scene)
+{
+  const std::string &directory = scene.output_directory;
+  io::make_output_directory(context, directory);
+  if (scene.load_cases.size() > 1)
+    for (const auto &load_case : scene.load_cases)
+      io::make_output_directory(context, directory + "/" + load_case.name);
+  everywhere(context.communicator(), [&]() {
+    std::ostringstream text;
+    scene::print(scene, text);
+    if (context.rank() == 0)
+      io::write_text_file(directory + "/parameters.prm", text.str());
+  });
+}
+
+/// The meshes of a scene, on the books of its setup.
+template <int dim>
+std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene::Scene &scene)
+{
+  const RunContext::Timer timer(context, "setup");
+  return build_mesh<dim>(scene, context.communicator());
+}
+
+template <int dim>
+void validate_in(RunContext &context, const scene::Scene &scene)
+{
+  auto mesh = timed_mesh<dim>(context, scene);
+  print_import_notes(scene, context.out());
+  print(take_inventory(scene, *mesh), context.out());
+  Workshop<dim>(context, scene, std::move(mesh));
+}
+
+template <int dim>
+void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
+{
+  prepare_output(context, scene);
+  Workshop<dim> workshop(context, scene, timed_mesh<dim>(context, scene));
+  workshop.print_header();
+  std::string complaint;
+  switch (scene.task)
     {
-      if (scene.dimension == 2)
-        validate_in<2>(context, scene);
-      else
-        validate_in<3>(context, scene);
+      case scene::Task::state:
+        run_state(workshop);
+        break;
+      case scene::Task::sensitivity:
+        run_sensitivity(workshop);
+        break;
+      case scene::Task::optimize:
+        catch_interrupts();
+        complaint = Optimize<dim>(workshop, options.restart).run();
+        break;
     }
-  } // namespace app
-} // namespace snug
+  context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"
+                << std::endl;
+  if (!complaint.empty())
+    throw SolveError(complaint);
+}
+} // namespace
+
+void run_study(RunContext &context, const scene::Scene &scene, const Options &options)
+{
+  if (options.restart && scene.task != scene::Task::optimize)
+    throw InputError(scene.file + ": option '--restart' goes on with an " +
+                     "optimization, but 'Task' = " + scene::to_text(scene.task));
+  if (scene.dimension == 2)
+    run_task<2>(context, scene, options);
+  else
+    run_task<3>(context, scene, options);
+}
+
+void validate(RunContext &context, const scene::Scene &scene)
+{
+  if (scene.dimension == 2)
+    validate_in<2>(context, scene);
+  else
+    validate_in<3>(context, scene);
+}
+} // namespace snug::app

@@ -2,19 +2,14 @@
 
 #include <stdexcept>
 
-namespace snug
+namespace snug::petsc {
+void check(PetscErrorCode error)
 {
-  namespace petsc
-  {
-    void
-    check(PetscErrorCode error)
-    {
-      if (error == 0)
-        return;
-      const char *text = nullptr;
-      PetscErrorMessage(error, &text, nullptr);
-      throw std::runtime_error("PETSc error " + std::to_string(error) + ": " +
-                               (text ? text : "unknown"));
-    }
-  } // namespace petsc
-} // namespace snug
+  if (error == 0)
+    return;
+  const char *text = nullptr;
+  PetscErrorMessage(error, &text, nullptr);
+  throw std::runtime_error("PETSc error " + std::to_string(error) + ": " +
+                           (text ? text : "unknown"));
+}
+} // namespace snug::petsc

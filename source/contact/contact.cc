@@ -7,374 +7,322 @@
 #include <algorithm>
 #include <map>
 
-namespace snug
+namespace snug::contact {
+namespace {
+/// A side is finer if its faces are smaller by more than this part:
+/// equal meshes must be decided neither by round-off nor by a curvature
+/// that makes one side a few percent longer.
+const double finer_by = 0.1;
+
+/// Part of the slave faces' size over which gap formulas are
+/// differentiated by differences.
+const double gap_step = 1. / 25.;
+
+template <int dim>
+std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
 {
-  namespace contact
-  {
-    namespace
+  std::vector<unsigned int> faces;
+  for (unsigned int f = 0; f < surface.faces().size(); ++f)
+    if (Pair::Side(surface.faces()[f].body, surface.faces()[f].boundary) == side)
+      faces.push_back(f);
+  return faces;
+}
+
+/// Exchange the sides of a pair whose master is finer, if it wants that.
+template <int dim>
+void choose_slave(const mesh::Surface<dim>                 &surface,
+                  const typename mesh::Surface<dim>::Field &positions,
+                  Pair                                     &pair)
+{
+  const auto size = [&](const Pair::Side &side) {
+    return mean_face_size(surface, faces_of(surface, side), positions);
+  };
+  if (pair.parameters.slave == "finer" && !pair.obstacle &&
+      size(pair.master) < (1. - finer_by) * size(pair.slave))
     {
-      /// A side is finer if its faces are smaller by more than this part:
-      /// equal meshes must be decided neither by round-off nor by a curvature
-      /// that makes one side a few percent longer.
-      const double finer_by = 0.1;
+      std::swap(pair.slave, pair.master);
+      std::swap(pair.slave_name, pair.master_name);
+    }
+  pair.parameters.slave = "first";
+}
 
-      /// Part of the slave faces' size over which gap formulas are
-      /// differentiated by differences.
-      const double gap_step = 1. / 25.;
+/// Value of a field at the slave of a row less that at its master, if
+/// it has nodes, by the factors of the normal in the coefficients.
+template <int dim>
+dealii::Tensor<1, dim> slave_minus_master(const Row<dim>                           &row,
+                                          const typename mesh::Surface<dim>::Field &field)
+{
+  dealii::Tensor<1, dim> sum;
+  for (const auto &c : row.coefficients)
+    sum += (c.second * row.normal) * field[c.first];
+  return sum;
+}
 
-      template <int dim>
-      std::vector<unsigned int>
-      faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
+/// Length of @p v at right angles to @p normal.
+template <int dim>
+double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
+{
+  return (v - (v * normal) * normal).norm();
+}
+} // namespace
+
+template <int dim>
+const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> &contact_method_table()
+{
+  static const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> table = {
+    {"nodal", "slave nodes against the closest points of master faces",
+     [](const PairGeometry<dim> &pair) { return std::make_unique<NodalRows<dim>>(pair); }},
+    {"mortar",
+     "mean gaps around slave nodes, integrated over both faces: "
+     "for meshes that do not match",
+     [](const PairGeometry<dim> &pair) { return std::make_unique<MortarRows<dim>>(pair); }}};
+  return table;
+}
+
+template <int dim>
+Contact<dim>::Contact(const mesh::Surface<dim>  &surface,
+                      const std::vector<Pair>   &pairs,
+                      unsigned int               degree,
+                      const Field               &positions,
+                      const HeldDirections<dim> &held)
+  : surface(surface), shape(degree), chosen(pairs)
+{
+  for (Pair &pair : chosen)
+    choose_slave(surface, positions, pair);
+  this->pair(positions, held);
+}
+
+template <int dim>
+void Contact<dim>::pair(const Field &positions, const HeldDirections<dim> &held)
+{
+  AssertDimension(held.size(), surface.n_nodes());
+  groups.clear();
+  row_places.clear();
+  // nodes with a row, by what their rows are against
+  std::map<std::pair<std::string, Pair::Side>, std::vector<bool>> taken;
+  for (unsigned int p = 0; p < chosen.size(); ++p)
+    {
+      const Pair &pair       = chosen[p];
+      auto       &taken_here = taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
+      taken_here.resize(surface.n_nodes(), false);
+      PairFaces sides{faces_of(surface, pair.slave), {}};
+      if (!pair.obstacle)
+        sides.master = faces_of(surface, pair.master);
+      groups.push_back(make_group({surface, shape, pair, sides, positions, held, taken_here}));
+      for (const unsigned int slave : groups.back().rows->slaves())
+        {
+          row_places.push_back({p, slave});
+          taken_here[slave] = true;
+        }
+      if (groups.back().rows->slaves().empty())
+        throw InputError("contact pair '" + pair.name() +
+                         "': no slave node lies opposite to the master within the search "
+                         "distance and angle");
+    }
+  collect_shared_nodes();
+  measure_pairing(positions);
+}
+
+template <int dim>
+void Contact<dim>::collect_shared_nodes()
+{
+  shared.clear();
+  unsigned int first = 0;
+  for (const Group &group : groups)
+    {
+      for (SharedNode &node : group.rows->shared_nodes())
+        {
+          for (auto &row : node.rows)
+            row.first += first;
+          shared.push_back(std::move(node));
+        }
+      first += group.rows->slaves().size();
+    }
+}
+
+template <int dim>
+void Contact<dim>::measure_pairing(const Field &positions)
+{
+  const auto paired = rows(positions);
+  const auto sizes  = node_face_sizes(surface, positions);
+  paired_offsets.clear();
+  deepest.assign(groups.size(), 0.);
+  for (unsigned int i = 0; i < paired.size(); ++i)
+    {
+      paired_offsets.push_back(slave_minus_master(paired[i], positions));
+      double &depth = deepest[row_places[i].pair];
+      depth         = std::max(depth, -paired[i].gap / sizes[row_places[i].slave]);
+    }
+}
+
+template <int dim>
+typename Contact<dim>::Group Contact<dim>::make_group(const PairGeometry<dim> &geometry) const
+{
+  const PairParameters &parameters = geometry.pair.parameters;
+  Group                 group;
+  group.rows = geometry.pair.obstacle
+                 ? std::make_unique<ObstacleRows<dim>>(geometry)
+                 : choose(contact_method_table<dim>(), parameters.method).make(geometry);
+  group.step = gap_step * geometry.slave_size();
+  if (parameters.gap != "0")
+    group.offset = std::make_unique<mesh::Formula<dim>>("Gap", parameters.gap);
+  return group;
+}
+
+template <int dim>
+const std::vector<Pair> &Contact<dim>::pairs() const
+{
+  return chosen;
+}
+
+template <int dim>
+unsigned int Contact<dim>::n_rows() const
+{
+  return row_places.size();
+}
+
+template <int dim>
+const std::vector<RowPlace> &Contact<dim>::places() const
+{
+  return row_places;
+}
+
+template <int dim>
+const std::vector<SharedNode> &Contact<dim>::shared_nodes() const
+{
+  return shared;
+}
+
+template <int dim>
+std::vector<Row<dim>> Contact<dim>::rows(const Field &positions) const
+{
+  AssertDimension(positions.size(), surface.n_nodes());
+  std::vector<Row<dim>> result;
+  for (const Group &group : groups)
+    for (Row<dim> &row : group.rows->rows(positions))
       {
-        std::vector<unsigned int> faces;
-        for (unsigned int f = 0; f < surface.faces().size(); ++f)
-          if (Pair::Side(surface.faces()[f].body,
-                         surface.faces()[f].boundary) == side)
-            faces.push_back(f);
-        return faces;
+        const unsigned int slave = row_places[result.size()].slave;
+        if (group.offset)
+          row.gap += group.offset->value(dealii::Point<dim>(positions[slave]));
+        result.push_back(std::move(row));
       }
+  return result;
+}
 
-      /// Exchange the sides of a pair whose master is finer, if it wants that.
-      template <int dim>
-      void
-      choose_slave(const mesh::Surface<dim>                 &surface,
-                   const typename mesh::Surface<dim>::Field &positions,
-                   Pair                                     &pair)
+template <int dim>
+std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
+                                                    const Field &velocity) const
+{
+  AssertDimension(positions.size(), surface.n_nodes());
+  AssertDimension(velocity.size(), surface.n_nodes());
+  std::vector<Row<dim>> result;
+  for (const Group &group : groups)
+    for (Row<dim> &row : group.rows->row_derivatives(positions, velocity))
       {
-        const auto size = [&](const Pair::Side &side) {
-          return mean_face_size(surface, faces_of(surface, side), positions);
-        };
-        if (pair.parameters.slave == "finer" && !pair.obstacle &&
-            size(pair.master) < (1. - finer_by) * size(pair.slave))
-          {
-            std::swap(pair.slave, pair.master);
-            std::swap(pair.slave_name, pair.master_name);
-          }
-        pair.parameters.slave = "first";
+        const unsigned int slave = row_places[result.size()].slave;
+        if (group.offset)
+          row.gap += group.offset->gradient(dealii::Point<dim>(positions[slave]), group.step) *
+                     velocity[slave];
+        result.push_back(std::move(row));
       }
+  return result;
+}
 
-      /// Value of a field at the slave of a row less that at its master, if
-      /// it has nodes, by the factors of the normal in the coefficients.
-      template <int dim>
-      dealii::Tensor<1, dim>
-      slave_minus_master(const Row<dim>                           &row,
-                         const typename mesh::Surface<dim>::Field &field)
-      {
-        dealii::Tensor<1, dim> sum;
-        for (const auto &c : row.coefficients)
-          sum += (c.second * row.normal) * field[c.first];
-        return sum;
-      }
-
-      /// Length of @p v at right angles to @p normal.
-      template <int dim>
-      double
-      along(const dealii::Tensor<1, dim> &v,
-            const dealii::Tensor<1, dim> &normal)
-      {
-        return (v - (v * normal) * normal).norm();
-      }
-    } // namespace
-
-    template <int dim>
-    const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)>
-      &
-      contact_method_table()
+template <int dim>
+typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field               &positions,
+                                                           const Field               &displacement,
+                                                           const std::vector<double> &forces) const
+{
+  AssertDimension(positions.size(), surface.n_nodes());
+  AssertDimension(displacement.size(), surface.n_nodes());
+  AssertDimension(forces.size(), n_rows());
+  Field gradient(surface.n_nodes());
+  auto  first = forces.begin();
+  for (const Group &group : groups)
     {
-      static const ChoiceTable<std::unique_ptr<RowGroup<dim>>(
-        const PairGeometry<dim> &)>
-        table = {{"nodal",
-                  "slave nodes against the closest points of master faces",
-                  [](const PairGeometry<dim> &pair) {
-                    return std::make_unique<NodalRows<dim>>(pair);
-                  }},
-                 {"mortar",
-                  "mean gaps around slave nodes, integrated over both faces: "
-                  "for meshes that do not match",
-                  [](const PairGeometry<dim> &pair) {
-                    return std::make_unique<MortarRows<dim>>(pair);
-                  }}};
-      return table;
+      const auto               &slaves = group.rows->slaves();
+      const std::vector<double> of_group(first, first + slaves.size());
+      first += slaves.size();
+      group.rows->add_energy_gradient(positions, displacement, of_group, gradient);
+      if (group.offset)
+        for (unsigned int i = 0; i < slaves.size(); ++i)
+          gradient[slaves[i]] -=
+            of_group[i] *
+            group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]), group.step);
     }
+  return gradient;
+}
 
-    template <int dim>
-    Contact<dim>::Contact(const mesh::Surface<dim>  &surface,
-                          const std::vector<Pair>   &pairs,
-                          unsigned int               degree,
-                          const Field               &positions,
-                          const HeldDirections<dim> &held)
-      : surface(surface), shape(degree), chosen(pairs)
+template <int dim>
+std::vector<double> Contact<dim>::areas(const Field &positions) const
+{
+  AssertDimension(positions.size(), surface.n_nodes());
+  std::vector<double> result;
+  for (const Group &group : groups)
     {
-      for (Pair &pair : chosen)
-        choose_slave(surface, positions, pair);
-      this->pair(positions, held);
+      const auto of_group = group.rows->areas(positions);
+      result.insert(result.end(), of_group.begin(), of_group.end());
     }
+  return result;
+}
 
-    template <int dim>
-    void
-    Contact<dim>::pair(const Field &positions, const HeldDirections<dim> &held)
+template <int dim>
+typename Contact<dim>::Field Contact<dim>::area_gradient(const Field               &positions,
+                                                         const std::vector<double> &factors) const
+{
+  AssertDimension(positions.size(), surface.n_nodes());
+  AssertDimension(factors.size(), n_rows());
+  Field gradient(surface.n_nodes());
+  auto  first = factors.begin();
+  for (const Group &group : groups)
     {
-      AssertDimension(held.size(), surface.n_nodes());
-      groups.clear();
-      row_places.clear();
-      // nodes with a row, by what their rows are against
-      std::map<std::pair<std::string, Pair::Side>, std::vector<bool>> taken;
-      for (unsigned int p = 0; p < chosen.size(); ++p)
-        {
-          const Pair &pair = chosen[p];
-          auto       &taken_here =
-            taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
-          taken_here.resize(surface.n_nodes(), false);
-          PairFaces sides{faces_of(surface, pair.slave), {}};
-          if (!pair.obstacle)
-            sides.master = faces_of(surface, pair.master);
-          groups.push_back(make_group(
-            {surface, shape, pair, sides, positions, held, taken_here}));
-          for (const unsigned int slave : groups.back().rows->slaves())
-            {
-              row_places.push_back({p, slave});
-              taken_here[slave] = true;
-            }
-          if (groups.back().rows->slaves().empty())
-            throw InputError(
-              "contact pair '" + pair.name() +
-              "': no slave node lies opposite to the master within the search "
-              "distance and angle");
-        }
-      collect_shared_nodes();
-      measure_pairing(positions);
+      const auto last = first + group.rows->slaves().size();
+      group.rows->add_area_gradient(positions, {first, last}, gradient);
+      first = last;
     }
+  return gradient;
+}
 
-    template <int dim>
-    void
-    Contact<dim>::collect_shared_nodes()
+template <int dim>
+std::vector<double> Contact<dim>::slips(const Field                 &positions,
+                                        const std::vector<Row<dim>> &rows,
+                                        const Field                 &displacement) const
+{
+  const auto          sizes = node_face_sizes(surface, positions);
+  std::vector<double> result;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    result.push_back(along(slave_minus_master(rows[i], displacement), rows[i].normal) /
+                     sizes[row_places[i].slave]);
+  return result;
+}
+
+template <int dim>
+std::vector<double> Contact<dim>::drifts(const Field                 &positions,
+                                         const std::vector<Row<dim>> &rows) const
+{
+  const auto          sizes = node_face_sizes(surface, positions);
+  std::vector<double> result;
+  for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      shared.clear();
-      unsigned int first = 0;
-      for (const Group &group : groups)
-        {
-          for (SharedNode &node : group.rows->shared_nodes())
-            {
-              for (auto &row : node.rows)
-                row.first += first;
-              shared.push_back(std::move(node));
-            }
-          first += group.rows->slaves().size();
-        }
+      const auto offset         = slave_minus_master(rows[i], positions);
+      const auto &[pair, slave] = row_places[i];
+      result.push_back(chosen[pair].obstacle
+                         ? 0.
+                         : along(offset - paired_offsets[i], rows[i].normal) / sizes[slave]);
     }
+  return result;
+}
 
-    template <int dim>
-    void
-    Contact<dim>::measure_pairing(const Field &positions)
-    {
-      const auto paired = rows(positions);
-      const auto sizes  = node_face_sizes(surface, positions);
-      paired_offsets.clear();
-      deepest.assign(groups.size(), 0.);
-      for (unsigned int i = 0; i < paired.size(); ++i)
-        {
-          paired_offsets.push_back(slave_minus_master(paired[i], positions));
-          double &depth = deepest[row_places[i].pair];
-          depth = std::max(depth, -paired[i].gap / sizes[row_places[i].slave]);
-        }
-    }
+template <int dim>
+const std::vector<double> &Contact<dim>::overlaps() const
+{
+  return deepest;
+}
 
-    template <int dim>
-    typename Contact<dim>::Group
-    Contact<dim>::make_group(const PairGeometry<dim> &geometry) const
-    {
-      const PairParameters &parameters = geometry.pair.parameters;
-      Group                 group;
-      group.rows = geometry.pair.obstacle
-                     ? std::make_unique<ObstacleRows<dim>>(geometry)
-                     : choose(contact_method_table<dim>(), parameters.method)
-                         .make(geometry);
-      group.step = gap_step * geometry.slave_size();
-      if (parameters.gap != "0")
-        group.offset =
-          std::make_unique<mesh::Formula<dim>>("Gap", parameters.gap);
-      return group;
-    }
-
-    template <int dim>
-    const std::vector<Pair> &
-    Contact<dim>::pairs() const
-    {
-      return chosen;
-    }
-
-    template <int dim>
-    unsigned int
-    Contact<dim>::n_rows() const
-    {
-      return row_places.size();
-    }
-
-    template <int dim>
-    const std::vector<RowPlace> &
-    Contact<dim>::places() const
-    {
-      return row_places;
-    }
-
-    template <int dim>
-    const std::vector<SharedNode> &
-    Contact<dim>::shared_nodes() const
-    {
-      return shared;
-    }
-
-    template <int dim>
-    std::vector<Row<dim>>
-    Contact<dim>::rows(const Field &positions) const
-    {
-      AssertDimension(positions.size(), surface.n_nodes());
-      std::vector<Row<dim>> result;
-      for (const Group &group : groups)
-        for (Row<dim> &row : group.rows->rows(positions))
-          {
-            const unsigned int slave = row_places[result.size()].slave;
-            if (group.offset)
-              row.gap +=
-                group.offset->value(dealii::Point<dim>(positions[slave]));
-            result.push_back(std::move(row));
-          }
-      return result;
-    }
-
-    template <int dim>
-    std::vector<Row<dim>>
-    Contact<dim>::row_derivatives(const Field &positions,
-                                  const Field &velocity) const
-    {
-      AssertDimension(positions.size(), surface.n_nodes());
-      AssertDimension(velocity.size(), surface.n_nodes());
-      std::vector<Row<dim>> result;
-      for (const Group &group : groups)
-        for (Row<dim> &row : group.rows->row_derivatives(positions, velocity))
-          {
-            const unsigned int slave = row_places[result.size()].slave;
-            if (group.offset)
-              row.gap +=
-                group.offset->gradient(dealii::Point<dim>(positions[slave]),
-                                       group.step) *
-                velocity[slave];
-            result.push_back(std::move(row));
-          }
-      return result;
-    }
-
-    template <int dim>
-    typename Contact<dim>::Field
-    Contact<dim>::energy_gradient(const Field               &positions,
-                                  const Field               &displacement,
-                                  const std::vector<double> &forces) const
-    {
-      AssertDimension(positions.size(), surface.n_nodes());
-      AssertDimension(displacement.size(), surface.n_nodes());
-      AssertDimension(forces.size(), n_rows());
-      Field gradient(surface.n_nodes());
-      auto  first = forces.begin();
-      for (const Group &group : groups)
-        {
-          const auto               &slaves = group.rows->slaves();
-          const std::vector<double> of_group(first, first + slaves.size());
-          first += slaves.size();
-          group.rows->add_energy_gradient(positions,
-                                          displacement,
-                                          of_group,
-                                          gradient);
-          if (group.offset)
-            for (unsigned int i = 0; i < slaves.size(); ++i)
-              gradient[slaves[i]] -=
-                of_group[i] *
-                group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]),
-                                       group.step);
-        }
-      return gradient;
-    }
-
-    template <int dim>
-    std::vector<double>
-    Contact<dim>::areas(const Field &positions) const
-    {
-      AssertDimension(positions.size(), surface.n_nodes());
-      std::vector<double> result;
-      for (const Group &group : groups)
-        {
-          const auto of_group = group.rows->areas(positions);
-          result.insert(result.end(), of_group.begin(), of_group.end());
-        }
-      return result;
-    }
-
-    template <int dim>
-    typename Contact<dim>::Field
-    Contact<dim>::area_gradient(const Field               &positions,
-                                const std::vector<double> &factors) const
-    {
-      AssertDimension(positions.size(), surface.n_nodes());
-      AssertDimension(factors.size(), n_rows());
-      Field gradient(surface.n_nodes());
-      auto  first = factors.begin();
-      for (const Group &group : groups)
-        {
-          const auto last = first + group.rows->slaves().size();
-          group.rows->add_area_gradient(positions, {first, last}, gradient);
-          first = last;
-        }
-      return gradient;
-    }
-
-    template <int dim>
-    std::vector<double>
-    Contact<dim>::slips(const Field                 &positions,
-                        const std::vector<Row<dim>> &rows,
-                        const Field                 &displacement) const
-    {
-      const auto          sizes = node_face_sizes(surface, positions);
-      std::vector<double> result;
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        result.push_back(
-          along(slave_minus_master(rows[i], displacement), rows[i].normal) /
-          sizes[row_places[i].slave]);
-      return result;
-    }
-
-    template <int dim>
-    std::vector<double>
-    Contact<dim>::drifts(const Field                 &positions,
-                         const std::vector<Row<dim>> &rows) const
-    {
-      const auto          sizes = node_face_sizes(surface, positions);
-      std::vector<double> result;
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        {
-          const auto offset         = slave_minus_master(rows[i], positions);
-          const auto &[pair, slave] = row_places[i];
-          result.push_back(
-            chosen[pair].obstacle
-              ? 0.
-              : along(offset - paired_offsets[i], rows[i].normal) /
-                  sizes[slave]);
-        }
-      return result;
-    }
-
-    template <int dim>
-    const std::vector<double> &
-    Contact<dim>::overlaps() const
-    {
-      return deepest;
-    }
-
-    template const ChoiceTable<
-      std::unique_ptr<RowGroup<2>>(const PairGeometry<2> &)> &
-    contact_method_table();
-    template const ChoiceTable<
-      std::unique_ptr<RowGroup<3>>(const PairGeometry<3> &)> &
-    contact_method_table();
-    template class Contact<2>;
-    template class Contact<3>;
-  } // namespace contact
-} // namespace snug
+template const ChoiceTable<std::unique_ptr<RowGroup<2>>(const PairGeometry<2> &)> &
+contact_method_table();
+template const ChoiceTable<std::unique_ptr<RowGroup<3>>(const PairGeometry<3> &)> &
+contact_method_table();
+template class Contact<2>;
+template class Contact<3>;
+} // namespace snug::contact

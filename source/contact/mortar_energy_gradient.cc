@@ -1,148 +1,130 @@
 #include <snug/contact/integral_gradient.h>
 #include <snug/contact/mortar_rows.h>
 
-namespace snug
+namespace snug::contact {
+/// x + u, hanging nodes displaced with their masters.
+template <int dim>
+typename MortarRows<dim>::Field MortarRows<dim>::deformed(const Field &positions,
+                                                          const Field &displacement) const
 {
-  namespace contact
-  {
-    /// x + u, hanging nodes displaced with their masters.
-    template <int dim>
-    typename MortarRows<dim>::Field
-    MortarRows<dim>::deformed(const Field &positions,
-                              const Field &displacement) const
+  Field result = positions;
+  for (unsigned int node = 0; node < result.size(); ++node)
     {
-      Field result = positions;
-      for (unsigned int node = 0; node < result.size(); ++node)
+      if (surface.masters(node).empty())
+        result[node] += displacement[node];
+      for (const auto &master : surface.masters(node))
+        result[node] += master.second * displacement[master.first];
+    }
+  return result;
+}
+
+template <int dim>
+void MortarRows<dim>::add_energy_gradient(const Field               &positions,
+                                          const Field               &displacement,
+                                          const std::vector<double> &forces,
+                                          Field                     &gradient) const
+{
+  const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
+  const auto                  sums = row_sums<double>(node_arrays<dim>(positions));
+  Energy                      energy{positions, deformed(positions, displacement), {}, {}};
+  Field                       normal_gradient(surface.n_nodes());
+  for (unsigned int i = 0; i < sums.size(); ++i)
+    {
+      const unsigned int     node = multipliers.nodes[i];
+      const auto            &n    = normals.normals()[node];
+      const double           p    = forces[i] / sums[i].area;
+      dealii::Tensor<1, dim> r;
+      for (int d = 0; d < dim; ++d)
+        r[d] = -sums[i].offset[d];
+      for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
+        r += sums[i].coefficients[k] * displacement[row_nodes[i][k]];
+      normal_gradient[node] += p * r;
+      energy.directions.push_back(p * n);
+      energy.area_slopes.push_back(-p / sums[i].area * (n * r));
+    }
+  normals.add_transpose(normal_gradient, gradient);
+  for (const SlaveFace &face : faces)
+    add_face_gradient(face, energy, gradient);
+}
+
+/// The energy of rows without directions: only areas count.
+template <int dim>
+void MortarRows<dim>::add_area_gradient(const Field               &positions,
+                                        const std::vector<double> &factors,
+                                        Field                     &gradient) const
+{
+  AssertDimension(factors.size(), multipliers.nodes.size());
+  const Energy energy{positions, positions, Field(factors.size()), factors};
+  for (const SlaveFace &face : faces)
+    add_face_gradient(face, energy, gradient);
+}
+
+template <int dim>
+void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
+                                        const Energy    &energy,
+                                        Field           &gradient) const
+{
+  const auto        &nodes = surface.faces()[face.face].nodes;
+  const unsigned int n     = nodes.size();
+  // of the multiplier functions of the face's own nodes
+  Field               direction(n);
+  std::vector<double> area_slope(n, 0.);
+  for (unsigned int j = 0; j < n; ++j)
+    for (const auto &share : multipliers.shares[nodes[j]])
+      {
+        direction[j] += share.second * energy.directions[share.first];
+        area_slope[j] += share.second * energy.area_slopes[share.first];
+      }
+  bool counts = false;
+  for (unsigned int j = 0; j < n; ++j)
+    counts = counts || direction[j].norm_square() > 0. || area_slope[j] != 0.;
+  if (!counts)
+    return;
+
+  // positions that stand in x + u, and the gradient of the integrals; as
+  // the integrals of psi_j (1 - 1) vanish, from any origin
+  const auto origin      = energy.deformed[nodes[0]];
+  const auto x           = node_arrays<dim>(energy.positions);
+  const auto of_shapes   = integrals(face, x);
+  const auto coupling    = couple(of_shapes, face.biorthogonal);
+  auto       to_coupling = coupling;
+  to_coupling.multiplier = area_slope;
+  const auto add         = [&](double sign, const dealii::Table<2, double> &integral,
+                       const std::vector<unsigned int> &others, dealii::Table<2, double> &slope) {
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int k = 0; k < n; ++k)
         {
-          if (surface.masters(node).empty())
-            result[node] += displacement[node];
-          for (const auto &master : surface.masters(node))
-            result[node] += master.second * displacement[master.first];
+          gradient[others[k]] += sign * integral(j, k) * direction[j];
+          slope(j, k) = sign * (direction[j] * (energy.deformed[others[k]] - origin));
         }
-      return result;
-    }
-
-    template <int dim>
-    void
-    MortarRows<dim>::add_energy_gradient(const Field &positions,
-                                         const Field &displacement,
-                                         const std::vector<double> &forces,
-                                         Field &gradient) const
+  };
+  add(1., coupling.multiplier_slave, nodes, to_coupling.multiplier_slave);
+  std::vector<FaceNodes<dim, double>> masters;
+  for (unsigned int f = 0; f < face.masters.size(); ++f)
     {
-      const SupportedNormals<dim> normals(
-        surface, sides.slave, shape, positions, held);
-      const auto sums = row_sums<double>(node_arrays<dim>(positions));
-      Energy     energy{positions, deformed(positions, displacement), {}, {}};
-      Field      normal_gradient(surface.n_nodes());
-      for (unsigned int i = 0; i < sums.size(); ++i)
-        {
-          const unsigned int     node = multipliers.nodes[i];
-          const auto            &n    = normals.normals()[node];
-          const double           p    = forces[i] / sums[i].area;
-          dealii::Tensor<1, dim> r;
-          for (int d = 0; d < dim; ++d)
-            r[d] = -sums[i].offset[d];
-          for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
-            r += sums[i].coefficients[k] * displacement[row_nodes[i][k]];
-          normal_gradient[node] += p * r;
-          energy.directions.push_back(p * n);
-          energy.area_slopes.push_back(-p / sums[i].area * (n * r));
-        }
-      normals.add_transpose(normal_gradient, gradient);
-      for (const SlaveFace &face : faces)
-        add_face_gradient(face, energy, gradient);
+      add(-1., coupling.multiplier_master[f], surface.faces()[face.masters[f]].nodes,
+          to_coupling.multiplier_master[f]);
+      masters.push_back(face_nodes<dim>(surface, face.masters[f], x));
     }
+  const auto to_nodes =
+    integrate_transpose<dim>(quadrature, face_nodes<dim>(surface, face.face, x), masters,
+                             couple_transpose(of_shapes, face.biorthogonal, to_coupling));
+  const auto add_nodes = [&](unsigned int on, const FaceNodes<dim, double> &values) {
+    for (unsigned int k = 0; k < n; ++k)
+      for (int d = 0; d < dim; ++d)
+        gradient[surface.faces()[on].nodes[k]][d] += values[k][d];
+  };
+  add_nodes(face.face, to_nodes.slave);
+  for (unsigned int f = 0; f < face.masters.size(); ++f)
+    add_nodes(face.masters[f], to_nodes.masters[f]);
+}
 
-    /// The energy of rows without directions: only areas count.
-    template <int dim>
-    void
-    MortarRows<dim>::add_area_gradient(const Field               &positions,
-                                       const std::vector<double> &factors,
-                                       Field &gradient) const
-    {
-      AssertDimension(factors.size(), multipliers.nodes.size());
-      const Energy energy{positions, positions, Field(factors.size()), factors};
-      for (const SlaveFace &face : faces)
-        add_face_gradient(face, energy, gradient);
-    }
-
-    template <int dim>
-    void
-    MortarRows<dim>::add_face_gradient(const SlaveFace &face,
-                                       const Energy    &energy,
-                                       Field           &gradient) const
-    {
-      const auto        &nodes = surface.faces()[face.face].nodes;
-      const unsigned int n     = nodes.size();
-      // of the multiplier functions of the face's own nodes
-      Field               direction(n);
-      std::vector<double> area_slope(n, 0.);
-      for (unsigned int j = 0; j < n; ++j)
-        for (const auto &share : multipliers.shares[nodes[j]])
-          {
-            direction[j] += share.second * energy.directions[share.first];
-            area_slope[j] += share.second * energy.area_slopes[share.first];
-          }
-      bool counts = false;
-      for (unsigned int j = 0; j < n; ++j)
-        counts =
-          counts || direction[j].norm_square() > 0. || area_slope[j] != 0.;
-      if (!counts)
-        return;
-
-      // positions that stand in x + u, and the gradient of the integrals; as
-      // the integrals of psi_j (1 - 1) vanish, from any origin
-      const auto origin      = energy.deformed[nodes[0]];
-      const auto x           = node_arrays<dim>(energy.positions);
-      const auto of_shapes   = integrals(face, x);
-      const auto coupling    = couple(of_shapes, face.biorthogonal);
-      auto       to_coupling = coupling;
-      to_coupling.multiplier = area_slope;
-      const auto add         = [&](double                           sign,
-                           const dealii::Table<2, double>  &integral,
-                           const std::vector<unsigned int> &others,
-                           dealii::Table<2, double>        &slope) {
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int k = 0; k < n; ++k)
-            {
-              gradient[others[k]] += sign * integral(j, k) * direction[j];
-              slope(j, k) =
-                sign * (direction[j] * (energy.deformed[others[k]] - origin));
-            }
-      };
-      add(1., coupling.multiplier_slave, nodes, to_coupling.multiplier_slave);
-      std::vector<FaceNodes<dim, double>> masters;
-      for (unsigned int f = 0; f < face.masters.size(); ++f)
-        {
-          add(-1.,
-              coupling.multiplier_master[f],
-              surface.faces()[face.masters[f]].nodes,
-              to_coupling.multiplier_master[f]);
-          masters.push_back(face_nodes<dim>(surface, face.masters[f], x));
-        }
-      const auto to_nodes = integrate_transpose<dim>(
-        quadrature,
-        face_nodes<dim>(surface, face.face, x),
-        masters,
-        couple_transpose(of_shapes, face.biorthogonal, to_coupling));
-      const auto add_nodes = [&](unsigned int                  on,
-                                 const FaceNodes<dim, double> &values) {
-        for (unsigned int k = 0; k < n; ++k)
-          for (int d = 0; d < dim; ++d)
-            gradient[surface.faces()[on].nodes[k]][d] += values[k][d];
-      };
-      add_nodes(face.face, to_nodes.slave);
-      for (unsigned int f = 0; f < face.masters.size(); ++f)
-        add_nodes(face.masters[f], to_nodes.masters[f]);
-    }
-
-#define SNUG_INSTANTIATE(dim)                                                  \
-  template void MortarRows<dim>::add_energy_gradient(                          \
-    const Field &, const Field &, const std::vector<double> &, Field &) const; \
-  template void MortarRows<dim>::add_area_gradient(                            \
-    const Field &, const std::vector<double> &, Field &) const;
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+#define SNUG_INSTANTIATE(dim)                                                                     \
+  template void MortarRows<dim>::add_energy_gradient(const Field &, const Field &,                \
+                                                     const std::vector<double> &, Field &) const; \
+  template void MortarRows<dim>::add_area_gradient(const Field &, const std::vector<double> &,    \
+                                                   Field &) const;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace contact
-} // namespace snug
+} // namespace snug::contact

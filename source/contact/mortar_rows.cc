@@ -8,341 +8,305 @@
 #include <numeric>
 #include <set>
 
-namespace snug
+namespace snug::contact {
+namespace {
+/// Faces covered less than this have standard multiplier functions.
+const double least_biorthogonal_cover = 0.25;
+
+/// A node is held if its supports leave less than this of its normal.
+const double held_part = 0.1;
+
+/// Integrals of the shape functions over a whole face.
+template <int dim>
+std::vector<double> whole_integrals(const mesh::Surface<dim>                 &surface,
+                                    unsigned int                              face,
+                                    const FaceShape<dim>                     &shape,
+                                    const typename mesh::Surface<dim>::Field &positions)
 {
-  namespace contact
-  {
-    namespace
+  const auto                     &nodes = surface.faces()[face].nodes;
+  const dealii::QGauss<dim - 1>   gauss(shape.degree() + 2);
+  typename FaceShape<dim>::Values values;
+  std::vector<double>             result(nodes.size(), 0.);
+  for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      /// Faces covered less than this have standard multiplier functions.
-      const double least_biorthogonal_cover = 0.25;
-
-      /// A node is held if its supports leave less than this of its normal.
-      const double held_part = 0.1;
-
-      /// Integrals of the shape functions over a whole face.
-      template <int dim>
-      std::vector<double>
-      whole_integrals(const mesh::Surface<dim>                 &surface,
-                      unsigned int                              face,
-                      const FaceShape<dim>                     &shape,
-                      const typename mesh::Surface<dim>::Field &positions)
-      {
-        const auto                     &nodes = surface.faces()[face].nodes;
-        const dealii::QGauss<dim - 1>   gauss(shape.degree() + 2);
-        typename FaceShape<dim>::Values values;
-        std::vector<double>             result(nodes.size(), 0.);
-        for (unsigned int q = 0; q < gauss.size(); ++q)
-          {
-            shape.evaluate(gauss.point(q), values);
-            dealii::Tensor<1, dim> x;
-            for (unsigned int k = 0; k < nodes.size(); ++k)
-              x += values.value[k] * positions[nodes[k]];
-            const double weight =
-              gauss.weight(q) * surface.idealization().weight(x) *
-              area_vector(tangents<dim>(values, nodes, positions)).norm();
-            for (unsigned int k = 0; k < nodes.size(); ++k)
-              result[k] += weight * values.value[k];
-          }
-        return result;
-      }
-
-      double
-      sum(const std::vector<double> &values)
-      {
-        return std::accumulate(values.begin(), values.end(), 0.);
-      }
-    } // namespace
-
-    template <int dim>
-    MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
-      : surface(pair.surface)
-      , shape(pair.shape)
-      , quadrature(shape.degree(), surface.idealization())
-      , sides(pair.sides)
-      , held(pair.held)
-    {
-      const auto opposite = opposite_faces(pair);
-      for (unsigned int i = 0; i < sides.slave.size(); ++i)
-        if (!opposite[i].empty())
-          faces.push_back({sides.slave[i], opposite[i], false});
-      choose_multipliers(pair);
-      collect_row_nodes();
-      leave_out_far_rows(pair);
+      shape.evaluate(gauss.point(q), values);
+      dealii::Tensor<1, dim> x;
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        x += values.value[k] * positions[nodes[k]];
+      const double weight = gauss.weight(q) * surface.idealization().weight(x) *
+                            area_vector(tangents<dim>(values, nodes, positions)).norm();
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        result[k] += weight * values.value[k];
     }
+  return result;
+}
 
-    template <int dim>
-    void
-    MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
+double sum(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+} // namespace
+
+template <int dim>
+MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
+  : surface(pair.surface)
+  , shape(pair.shape)
+  , quadrature(shape.degree(), surface.idealization())
+  , sides(pair.sides)
+  , held(pair.held)
+{
+  const auto opposite = opposite_faces(pair);
+  for (unsigned int i = 0; i < sides.slave.size(); ++i)
+    if (!opposite[i].empty())
+      faces.push_back({sides.slave[i], opposite[i], false});
+  choose_multipliers(pair);
+  collect_row_nodes();
+  leave_out_far_rows(pair);
+}
+
+template <int dim>
+void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
+{
+  const NodalNormals<dim> normals(surface, sides.slave, shape, pair.positions);
+  std::vector<bool>       is_held(surface.n_nodes());
+  for (unsigned int node = 0; node < is_held.size(); ++node)
+    is_held[node] =
+      pair.taken[node] || free_part(normals.normals()[node], held[node]).norm() < held_part;
+  const auto             x = node_arrays<dim>(pair.positions);
+  std::vector<FaceCover> covers;
+  for (SlaveFace &face : faces)
     {
-      const NodalNormals<dim> normals(surface,
-                                      sides.slave,
-                                      shape,
-                                      pair.positions);
-      std::vector<bool>       is_held(surface.n_nodes());
-      for (unsigned int node = 0; node < is_held.size(); ++node)
-        is_held[node] =
-          pair.taken[node] ||
-          free_part(normals.normals()[node], held[node]).norm() < held_part;
-      const auto             x = node_arrays<dim>(pair.positions);
-      std::vector<FaceCover> covers;
-      for (SlaveFace &face : faces)
-        {
-          const FaceCover cover = {
-            face.face,
-            integrals(face, x).slave,
-            whole_integrals(surface, face.face, shape, pair.positions)};
-          face.biorthogonal =
-            sum(cover.covered) >= least_biorthogonal_cover * sum(cover.whole);
-          if (sum(cover.covered) > 0.)
-            covers.push_back(cover);
-        }
-      multipliers =
-        choose_multiplier_nodes(surface, covers, is_held, pair.positions);
+      const FaceCover cover = {face.face, integrals(face, x).slave,
+                               whole_integrals(surface, face.face, shape, pair.positions)};
+      face.biorthogonal     = sum(cover.covered) >= least_biorthogonal_cover * sum(cover.whole);
+      if (sum(cover.covered) > 0.)
+        covers.push_back(cover);
     }
+  multipliers = choose_multiplier_nodes(surface, covers, is_held, pair.positions);
+}
 
-    template <int dim>
-    void
-    MortarRows<dim>::collect_row_nodes()
+template <int dim>
+void MortarRows<dim>::collect_row_nodes()
+{
+  std::vector<std::set<unsigned int>> reached(multipliers.nodes.size());
+  for (const SlaveFace &face : faces)
     {
-      std::vector<std::set<unsigned int>> reached(multipliers.nodes.size());
-      for (const SlaveFace &face : faces)
-        {
-          const auto               &nodes = surface.faces()[face.face].nodes;
-          std::vector<unsigned int> masters;
-          for (const unsigned int master : face.masters)
-            {
-              const auto &of_face = surface.faces()[master].nodes;
-              masters.insert(masters.end(), of_face.begin(), of_face.end());
-            }
-          for (const unsigned int node : nodes)
-            for (const auto &share : multipliers.shares[node])
-              {
-                auto &row = reached[share.first];
-                row.insert(masters.begin(), masters.end());
-                if (face.biorthogonal)
-                  row.insert(node);
-                else
-                  row.insert(nodes.begin(), nodes.end());
-              }
-        }
-      for (const auto &nodes : reached)
-        {
-          std::set<unsigned int> resolved;
-          for (const unsigned int node : nodes)
-            {
-              if (surface.masters(node).empty())
-                resolved.insert(node);
-              for (const auto &master : surface.masters(node))
-                resolved.insert(master.first);
-            }
-          row_nodes.emplace_back(resolved.begin(), resolved.end());
-        }
-    }
-
-    template <int dim>
-    void
-    MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
-    {
-      const Opposition<dim>     opposition(pair);
-      const auto                all           = rows(pair.positions);
-      const MultiplierNodes     old           = multipliers;
-      const auto                old_row_nodes = row_nodes;
-      std::vector<unsigned int> index(all.size(), all.size());
-      multipliers.nodes.clear();
-      row_nodes.clear();
-      for (unsigned int i = 0; i < all.size(); ++i)
-        if (opposition.is_near(all[i].gap))
-          {
-            index[i] = row_nodes.size();
-            multipliers.nodes.push_back(old.nodes[i]);
-            row_nodes.push_back(old_row_nodes[i]);
-          }
-      for (auto &shares : multipliers.shares)
-        {
-          MultiplierNodes::Shares kept;
-          for (const auto &share : shares)
-            if (index[share.first] < all.size())
-              kept.emplace_back(index[share.first], share.second);
-          shares = kept;
-        }
-    }
-
-    template <int dim>
-    template <typename Number>
-    FaceIntegrals<Number>
-    MortarRows<dim>::integrals(const SlaveFace              &face,
-                               const FaceNodes<dim, Number> &x) const
-    {
-      std::vector<FaceNodes<dim, Number>> masters;
+      const auto               &nodes = surface.faces()[face.face].nodes;
+      std::vector<unsigned int> masters;
       for (const unsigned int master : face.masters)
-        masters.push_back(face_nodes<dim>(surface, master, x));
-      return integrate<dim>(quadrature,
-                            face_nodes<dim>(surface, face.face, x),
-                            masters);
+        {
+          const auto &of_face = surface.faces()[master].nodes;
+          masters.insert(masters.end(), of_face.begin(), of_face.end());
+        }
+      for (const unsigned int node : nodes)
+        for (const auto &share : multipliers.shares[node])
+          {
+            auto &row = reached[share.first];
+            row.insert(masters.begin(), masters.end());
+            if (face.biorthogonal)
+              row.insert(node);
+            else
+              row.insert(nodes.begin(), nodes.end());
+          }
     }
-
-    /// Add @p coefficient at @p node, or at its masters if it hangs.
-    template <int dim>
-    template <typename Number>
-    void
-    MortarRows<dim>::add_to_row(RowSum<Number> &sum,
-                                unsigned int    row,
-                                unsigned int    node,
-                                const Number   &coefficient) const
+  for (const auto &nodes : reached)
     {
-      const auto add = [&](unsigned int at, double weight) {
-        const auto &nodes = row_nodes[row];
-        const auto  place = std::lower_bound(nodes.begin(), nodes.end(), at);
-        sum.coefficients[place - nodes.begin()] += weight * coefficient;
+      std::set<unsigned int> resolved;
+      for (const unsigned int node : nodes)
+        {
+          if (surface.masters(node).empty())
+            resolved.insert(node);
+          for (const auto &master : surface.masters(node))
+            resolved.insert(master.first);
+        }
+      row_nodes.emplace_back(resolved.begin(), resolved.end());
+    }
+}
+
+template <int dim>
+void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
+{
+  const Opposition<dim>     opposition(pair);
+  const auto                all           = rows(pair.positions);
+  const MultiplierNodes     old           = multipliers;
+  const auto                old_row_nodes = row_nodes;
+  std::vector<unsigned int> index(all.size(), all.size());
+  multipliers.nodes.clear();
+  row_nodes.clear();
+  for (unsigned int i = 0; i < all.size(); ++i)
+    if (opposition.is_near(all[i].gap))
+      {
+        index[i] = row_nodes.size();
+        multipliers.nodes.push_back(old.nodes[i]);
+        row_nodes.push_back(old_row_nodes[i]);
+      }
+  for (auto &shares : multipliers.shares)
+    {
+      MultiplierNodes::Shares kept;
+      for (const auto &share : shares)
+        if (index[share.first] < all.size())
+          kept.emplace_back(index[share.first], share.second);
+      shares = kept;
+    }
+}
+
+template <int dim>
+template <typename Number>
+FaceIntegrals<Number> MortarRows<dim>::integrals(const SlaveFace              &face,
+                                                 const FaceNodes<dim, Number> &x) const
+{
+  std::vector<FaceNodes<dim, Number>> masters;
+  for (const unsigned int master : face.masters)
+    masters.push_back(face_nodes<dim>(surface, master, x));
+  return integrate<dim>(quadrature, face_nodes<dim>(surface, face.face, x), masters);
+}
+
+/// Add @p coefficient at @p node, or at its masters if it hangs.
+template <int dim>
+template <typename Number>
+void MortarRows<dim>::add_to_row(RowSum<Number> &sum,
+                                 unsigned int    row,
+                                 unsigned int    node,
+                                 const Number   &coefficient) const
+{
+  const auto add = [&](unsigned int at, double weight) {
+    const auto &nodes = row_nodes[row];
+    const auto  place = std::lower_bound(nodes.begin(), nodes.end(), at);
+    sum.coefficients[place - nodes.begin()] += weight * coefficient;
+  };
+  if (surface.masters(node).empty())
+    add(node, 1.);
+  for (const auto &master : surface.masters(node))
+    add(master.first, master.second);
+}
+
+template <int dim>
+template <typename Number>
+std::vector<typename MortarRows<dim>::template RowSum<Number>>
+MortarRows<dim>::row_sums(const FaceNodes<dim, Number> &x) const
+{
+  std::vector<RowSum<Number>> sums(row_nodes.size());
+  for (unsigned int i = 0; i < sums.size(); ++i)
+    sums[i].coefficients.resize(row_nodes[i].size());
+  for (const SlaveFace &face : faces)
+    {
+      const auto  coupling = couple(integrals(face, x), face.biorthogonal);
+      const auto &nodes    = surface.faces()[face.face].nodes;
+      // int psi_j N at one node of a face: coefficient and part of the gap
+      const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
+        for (const auto &share : multipliers.shares[nodes[j]])
+          {
+            RowSum<Number> &sum    = sums[share.first];
+            const Number    shared = share.second * integral;
+            add_to_row(sum, share.first, node, shared);
+            for (int d = 0; d < dim; ++d)
+              sum.offset[d] -= shared * x[node][d];
+          }
       };
-      if (surface.masters(node).empty())
-        add(node, 1.);
-      for (const auto &master : surface.masters(node))
-        add(master.first, master.second);
-    }
-
-    template <int dim>
-    template <typename Number>
-    std::vector<typename MortarRows<dim>::template RowSum<Number>>
-    MortarRows<dim>::row_sums(const FaceNodes<dim, Number> &x) const
-    {
-      std::vector<RowSum<Number>> sums(row_nodes.size());
-      for (unsigned int i = 0; i < sums.size(); ++i)
-        sums[i].coefficients.resize(row_nodes[i].size());
-      for (const SlaveFace &face : faces)
+      for (unsigned int j = 0; j < nodes.size(); ++j)
         {
-          const auto  coupling = couple(integrals(face, x), face.biorthogonal);
-          const auto &nodes    = surface.faces()[face.face].nodes;
-          // int psi_j N at one node of a face: coefficient and part of the gap
-          const auto add =
-            [&](unsigned int j, unsigned int node, const Number &integral) {
-              for (const auto &share : multipliers.shares[nodes[j]])
-                {
-                  RowSum<Number> &sum    = sums[share.first];
-                  const Number    shared = share.second * integral;
-                  add_to_row(sum, share.first, node, shared);
-                  for (int d = 0; d < dim; ++d)
-                    sum.offset[d] -= shared * x[node][d];
-                }
-            };
-          for (unsigned int j = 0; j < nodes.size(); ++j)
+          for (const auto &share : multipliers.shares[nodes[j]])
+            sums[share.first].area += share.second * coupling.multiplier[j];
+          for (unsigned int l = 0; l < nodes.size(); ++l)
+            if (!face.biorthogonal || l == j)
+              add(j, nodes[l], coupling.multiplier_slave(j, l));
+          for (unsigned int f = 0; f < face.masters.size(); ++f)
             {
-              for (const auto &share : multipliers.shares[nodes[j]])
-                sums[share.first].area += share.second * coupling.multiplier[j];
-              for (unsigned int l = 0; l < nodes.size(); ++l)
-                if (!face.biorthogonal || l == j)
-                  add(j, nodes[l], coupling.multiplier_slave(j, l));
-              for (unsigned int f = 0; f < face.masters.size(); ++f)
-                {
-                  const auto &master = surface.faces()[face.masters[f]].nodes;
-                  for (unsigned int k = 0; k < master.size(); ++k)
-                    add(j, master[k], -coupling.multiplier_master[f](j, k));
-                }
+              const auto &master = surface.faces()[face.masters[f]].nodes;
+              for (unsigned int k = 0; k < master.size(); ++k)
+                add(j, master[k], -coupling.multiplier_master[f](j, k));
             }
         }
-      for (unsigned int i = 0; i < sums.size(); ++i)
-        if (!(value_of(sums[i].area) > 0.))
-          throw TangledMesh("the master side has moved away from contact "
-                            "nodes that it was opposite to");
-      return sums;
     }
+  for (unsigned int i = 0; i < sums.size(); ++i)
+    if (!(value_of(sums[i].area) > 0.))
+      throw TangledMesh("the master side has moved away from contact "
+                        "nodes that it was opposite to");
+  return sums;
+}
 
-    template <int dim>
-    const std::vector<unsigned int> &
-    MortarRows<dim>::slaves() const
+template <int dim>
+const std::vector<unsigned int> &MortarRows<dim>::slaves() const
+{
+  return multipliers.nodes;
+}
+
+template <int dim>
+std::vector<SharedNode> MortarRows<dim>::shared_nodes() const
+{
+  std::vector<bool> own(surface.n_nodes(), false);
+  for (const unsigned int node : multipliers.nodes)
+    own[node] = true;
+  std::vector<SharedNode> result;
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    if (!own[node] && surface.masters(node).empty() && !multipliers.shares[node].empty())
+      result.push_back({node, multipliers.shares[node]});
+  return result;
+}
+
+template <int dim>
+std::vector<Row<dim>> MortarRows<dim>::rows(const Field &positions) const
+{
+  const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
+  const auto                  sums = row_sums<double>(node_arrays<dim>(positions));
+  std::vector<Row<dim>>       result(sums.size());
+  for (unsigned int i = 0; i < sums.size(); ++i)
     {
-      return multipliers.nodes;
+      Row<dim> &row = result[i];
+      row.normal    = normals.normals()[multipliers.nodes[i]];
+      for (int d = 0; d < dim; ++d)
+        row.gap += row.normal[d] * sums[i].offset[d] / sums[i].area;
+      for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
+        row.coefficients.emplace_back(row_nodes[i][k],
+                                      sums[i].coefficients[k] / sums[i].area * row.normal);
     }
+  return result;
+}
 
-    template <int dim>
-    std::vector<SharedNode>
-    MortarRows<dim>::shared_nodes() const
+template <int dim>
+std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
+                                                       const Field &velocity) const
+{
+  const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
+  const Field                 normal_slopes = normals.derivative(velocity);
+  const auto            sums = row_sums<Differential<1>>(node_arrays<dim>(positions, velocity));
+  std::vector<Row<dim>> result(sums.size());
+  for (unsigned int i = 0; i < sums.size(); ++i)
     {
-      std::vector<bool> own(surface.n_nodes(), false);
-      for (const unsigned int node : multipliers.nodes)
-        own[node] = true;
-      std::vector<SharedNode> result;
-      for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-        if (!own[node] && surface.masters(node).empty() &&
-            !multipliers.shares[node].empty())
-          result.push_back({node, multipliers.shares[node]});
-      return result;
-    }
-
-    template <int dim>
-    std::vector<Row<dim>>
-    MortarRows<dim>::rows(const Field &positions) const
-    {
-      const SupportedNormals<dim> normals(
-        surface, sides.slave, shape, positions, held);
-      const auto sums = row_sums<double>(node_arrays<dim>(positions));
-      std::vector<Row<dim>> result(sums.size());
-      for (unsigned int i = 0; i < sums.size(); ++i)
+      const auto &n   = normals.normals()[multipliers.nodes[i]];
+      Row<dim>   &row = result[i];
+      row.normal      = normal_slopes[multipliers.nodes[i]];
+      for (int d = 0; d < dim; ++d)
         {
-          Row<dim> &row = result[i];
-          row.normal    = normals.normals()[multipliers.nodes[i]];
-          for (int d = 0; d < dim; ++d)
-            row.gap += row.normal[d] * sums[i].offset[d] / sums[i].area;
-          for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
-            row.coefficients.emplace_back(row_nodes[i][k],
-                                          sums[i].coefficients[k] /
-                                            sums[i].area * row.normal);
+          const auto mean = sums[i].offset[d] / sums[i].area;
+          row.gap += row.normal[d] * mean.value + n[d] * mean.slope[0];
         }
-      return result;
-    }
-
-    template <int dim>
-    std::vector<Row<dim>>
-    MortarRows<dim>::row_derivatives(const Field &positions,
-                                     const Field &velocity) const
-    {
-      const SupportedNormals<dim> normals(
-        surface, sides.slave, shape, positions, held);
-      const Field normal_slopes = normals.derivative(velocity);
-      const auto  sums =
-        row_sums<Differential<1>>(node_arrays<dim>(positions, velocity));
-      std::vector<Row<dim>> result(sums.size());
-      for (unsigned int i = 0; i < sums.size(); ++i)
+      for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
         {
-          const auto &n   = normals.normals()[multipliers.nodes[i]];
-          Row<dim>   &row = result[i];
-          row.normal      = normal_slopes[multipliers.nodes[i]];
-          for (int d = 0; d < dim; ++d)
-            {
-              const auto mean = sums[i].offset[d] / sums[i].area;
-              row.gap += row.normal[d] * mean.value + n[d] * mean.slope[0];
-            }
-          for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
-            {
-              const auto c = sums[i].coefficients[k] / sums[i].area;
-              row.coefficients.emplace_back(row_nodes[i][k],
-                                            c.value * row.normal +
-                                              c.slope[0] * n);
-            }
+          const auto c = sums[i].coefficients[k] / sums[i].area;
+          row.coefficients.emplace_back(row_nodes[i][k], c.value * row.normal + c.slope[0] * n);
         }
-      return result;
     }
+  return result;
+}
 
-    template <int dim>
-    std::vector<double>
-    MortarRows<dim>::areas(const Field &positions) const
-    {
-      std::vector<double> result;
-      for (const auto &sum : row_sums<double>(node_arrays<dim>(positions)))
-        result.push_back(sum.area);
-      return result;
-    }
+template <int dim>
+std::vector<double> MortarRows<dim>::areas(const Field &positions) const
+{
+  std::vector<double> result;
+  for (const auto &sum : row_sums<double>(node_arrays<dim>(positions)))
+    result.push_back(sum.area);
+  return result;
+}
 
-    template class MortarRows<2>;
-    template class MortarRows<3>;
-#define SNUG_INSTANTIATE(dim)                                 \
-  template FaceIntegrals<double> MortarRows<dim>::integrals(  \
-    const SlaveFace &, const FaceNodes<dim, double> &) const; \
-  template std::vector<MortarRows<dim>::RowSum<double>>       \
-  MortarRows<dim>::row_sums(const FaceNodes<dim, double> &) const;
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+template class MortarRows<2>;
+template class MortarRows<3>;
+#define SNUG_INSTANTIATE(dim)                                                                      \
+  template FaceIntegrals<double> MortarRows<dim>::integrals(const SlaveFace &,                     \
+                                                            const FaceNodes<dim, double> &) const; \
+  template std::vector<MortarRows<dim>::RowSum<double>> MortarRows<dim>::row_sums(                 \
+    const FaceNodes<dim, double> &) const;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace contact
-} // namespace snug
+} // namespace snug::contact

@@ -4,218 +4,185 @@
 
 #include <map>
 
-namespace snug
+namespace snug::contact {
+namespace {
+/// n = v/|v|, v = -sum_k w_k n_k
+template <int dim>
+struct RowNormal
 {
-  namespace contact
-  {
-    namespace
+  dealii::Tensor<1, dim> n;
+  double                 length; ///< |v|
+};
+
+template <int dim>
+using SurfaceField = typename mesh::Surface<dim>::Field;
+
+/// sum_k w_k field_k over the masters of @p projection.
+template <int dim>
+dealii::Tensor<1, dim> at_master(const Projection &projection, const SurfaceField<dim> &field)
+{
+  dealii::Tensor<1, dim> sum;
+  for (const auto &master : projection.masters)
+    sum += master.second * field[master.first];
+  return sum;
+}
+
+template <int dim>
+RowNormal<dim> row_normal(const Projection &projection, const SurfaceField<dim> &nodal_normals)
+{
+  const dealii::Tensor<1, dim> v      = -1. * at_master<dim>(projection, nodal_normals);
+  const double                 length = v.norm();
+  if (!(length > 0.))
+    throw TangledMesh("the normals of a contact face cancel: it is folded");
+  return {v / length, length};
+}
+
+/// The row whose coefficients are @p factors times @p n.
+template <int dim>
+Row<dim> make_row(const std::vector<std::pair<unsigned int, double>> &factors,
+                  const dealii::Tensor<1, dim>                       &n,
+                  double                                              gap)
+{
+  Row<dim> row;
+  for (const auto &factor : factors)
+    row.coefficients.emplace_back(factor.first, factor.second * n);
+  row.gap    = gap;
+  row.normal = n;
+  return row;
+}
+} // namespace
+
+template <int dim>
+NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
+  : surface(pair.surface), shape(pair.shape), sides(pair.sides), held(pair.held)
+{
+  const Opposition<dim> opposition(pair);
+  const auto            normals = master_normals(pair.positions);
+  for (const Projection &projection : project(surface, sides, shape, pair.positions))
     {
-      /// n = v/|v|, v = -sum_k w_k n_k
-      template <int dim>
-      struct RowNormal
-      {
-        dealii::Tensor<1, dim> n;
-        double                 length; ///< |v|
-      };
+      const unsigned int slave = projection.slave;
+      const double       distance =
+        (at_master<dim>(projection, pair.positions) - pair.positions[slave]).norm();
+      const auto n = row_normal<dim>(projection, normals.normals()).n;
+      if (pair.taken[slave] || !opposition.holds(slave, distance, n))
+        continue;
+      found.push_back(projection);
+      slave_nodes.push_back(slave);
+    }
+  resolve_hanging();
+}
 
-      template <int dim>
-      using SurfaceField = typename mesh::Surface<dim>::Field;
-
-      /// sum_k w_k field_k over the masters of @p projection.
-      template <int dim>
-      dealii::Tensor<1, dim>
-      at_master(const Projection &projection, const SurfaceField<dim> &field)
-      {
-        dealii::Tensor<1, dim> sum;
-        for (const auto &master : projection.masters)
-          sum += master.second * field[master.first];
-        return sum;
-      }
-
-      template <int dim>
-      RowNormal<dim>
-      row_normal(const Projection        &projection,
-                 const SurfaceField<dim> &nodal_normals)
-      {
-        const dealii::Tensor<1, dim> v =
-          -1. * at_master<dim>(projection, nodal_normals);
-        const double length = v.norm();
-        if (!(length > 0.))
-          throw TangledMesh(
-            "the normals of a contact face cancel: it is folded");
-        return {v / length, length};
-      }
-
-      /// The row whose coefficients are @p factors times @p n.
-      template <int dim>
-      Row<dim>
-      make_row(const std::vector<std::pair<unsigned int, double>> &factors,
-               const dealii::Tensor<1, dim>                       &n,
-               double                                              gap)
-      {
-        Row<dim> row;
-        for (const auto &factor : factors)
-          row.coefficients.emplace_back(factor.first, factor.second * n);
-        row.gap    = gap;
-        row.normal = n;
-        return row;
-      }
-    } // namespace
-
-    template <int dim>
-    NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
-      : surface(pair.surface)
-      , shape(pair.shape)
-      , sides(pair.sides)
-      , held(pair.held)
+template <int dim>
+void NodalRows<dim>::resolve_hanging()
+{
+  for (const Projection &projection : found)
     {
-      const Opposition<dim> opposition(pair);
-      const auto            normals = master_normals(pair.positions);
-      for (const Projection &projection :
-           project(surface, sides, shape, pair.positions))
+      std::map<unsigned int, double> factor;
+      factor[projection.slave] = 1.;
+      for (const auto &node : projection.masters)
         {
-          const unsigned int slave = projection.slave;
-          const double       distance =
-            (at_master<dim>(projection, pair.positions) - pair.positions[slave])
-              .norm();
-          const auto n = row_normal<dim>(projection, normals.normals()).n;
-          if (pair.taken[slave] || !opposition.holds(slave, distance, n))
-            continue;
-          found.push_back(projection);
-          slave_nodes.push_back(slave);
+          const auto &masters = surface.masters(node.first);
+          if (masters.empty())
+            factor[node.first] -= node.second;
+          for (const auto &master : masters)
+            factor[master.first] -= node.second * master.second;
         }
-      resolve_hanging();
+      factors.emplace_back(factor.begin(), factor.end());
     }
+}
 
-    template <int dim>
-    void
-    NodalRows<dim>::resolve_hanging()
+template <int dim>
+const std::vector<unsigned int> &NodalRows<dim>::slaves() const
+{
+  return slave_nodes;
+}
+
+template <int dim>
+SupportedNormals<dim> NodalRows<dim>::master_normals(const Field &positions) const
+{
+  return {surface, sides.master, shape, positions, held};
+}
+
+template <int dim>
+std::vector<Row<dim>> NodalRows<dim>::rows(const Field &positions) const
+{
+  const auto            normals = master_normals(positions);
+  std::vector<Row<dim>> result;
+  for (unsigned int i = 0; i < found.size(); ++i)
     {
-      for (const Projection &projection : found)
+      const auto   n   = row_normal<dim>(found[i], normals.normals()).n;
+      const double gap = n * (at_master<dim>(found[i], positions) - positions[found[i].slave]);
+      result.push_back(make_row(factors[i], n, gap));
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<Row<dim>> NodalRows<dim>::row_derivatives(const Field &positions,
+                                                      const Field &velocity) const
+{
+  const auto            normals     = master_normals(positions);
+  const auto            derivatives = normals.derivative(velocity);
+  std::vector<Row<dim>> result;
+  for (unsigned int i = 0; i < found.size(); ++i)
+    {
+      const auto                  &projection = found[i];
+      const auto                   normal     = row_normal<dim>(projection, normals.normals());
+      const dealii::Tensor<1, dim> dv         = -1. * at_master<dim>(projection, derivatives);
+      const auto                   dn         = unit_vector_derivative(normal.n, normal.length, dv);
+      const double                 dgap =
+        dn * (at_master<dim>(projection, positions) - positions[projection.slave]) +
+        normal.n * (at_master<dim>(projection, velocity) - velocity[projection.slave]);
+      result.push_back(make_row(factors[i], dn, dgap));
+    }
+  return result;
+}
+
+template <int dim>
+void NodalRows<dim>::add_energy_gradient(const Field               &positions,
+                                         const Field               &displacement,
+                                         const std::vector<double> &forces,
+                                         Field                     &gradient) const
+{
+  AssertDimension(forces.size(), found.size());
+  const auto normals = master_normals(positions);
+  Field      normal_gradients(surface.n_nodes());
+  for (unsigned int i = 0; i < found.size(); ++i)
+    {
+      const auto &projection = found[i];
+      const auto  normal     = row_normal<dim>(projection, normals.normals());
+      // d/dn of n . (sum_b factor_b u_b - sum_k w_k x_k + x_s)
+      dealii::Tensor<1, dim> n_gradient =
+        positions[projection.slave] - at_master<dim>(projection, positions);
+      for (const auto &factor : factors[i])
+        n_gradient += factor.second * displacement[factor.first];
+      const auto v_gradient =
+        forces[i] * unit_vector_derivative(normal.n, normal.length, n_gradient);
+      gradient[projection.slave] += forces[i] * normal.n;
+      for (const auto &master : projection.masters)
         {
-          std::map<unsigned int, double> factor;
-          factor[projection.slave] = 1.;
-          for (const auto &node : projection.masters)
-            {
-              const auto &masters = surface.masters(node.first);
-              if (masters.empty())
-                factor[node.first] -= node.second;
-              for (const auto &master : masters)
-                factor[master.first] -= node.second * master.second;
-            }
-          factors.emplace_back(factor.begin(), factor.end());
+          gradient[master.first] -= forces[i] * master.second * normal.n;
+          normal_gradients[master.first] -= master.second * v_gradient;
         }
     }
+  normals.add_transpose(normal_gradients, gradient);
+}
 
-    template <int dim>
-    const std::vector<unsigned int> &
-    NodalRows<dim>::slaves() const
-    {
-      return slave_nodes;
-    }
+template <int dim>
+std::vector<double> NodalRows<dim>::areas(const Field &positions) const
+{
+  return tributary_areas<dim>({surface, sides.slave, shape}, slave_nodes, positions);
+}
 
-    template <int dim>
-    SupportedNormals<dim>
-    NodalRows<dim>::master_normals(const Field &positions) const
-    {
-      return {surface, sides.master, shape, positions, held};
-    }
+template <int dim>
+void NodalRows<dim>::add_area_gradient(const Field               &positions,
+                                       const std::vector<double> &factors,
+                                       Field                     &gradient) const
+{
+  add_tributary_gradient<dim>({surface, sides.slave, shape}, slave_nodes, positions, factors,
+                              gradient);
+}
 
-    template <int dim>
-    std::vector<Row<dim>>
-    NodalRows<dim>::rows(const Field &positions) const
-    {
-      const auto            normals = master_normals(positions);
-      std::vector<Row<dim>> result;
-      for (unsigned int i = 0; i < found.size(); ++i)
-        {
-          const auto   n   = row_normal<dim>(found[i], normals.normals()).n;
-          const double gap = n * (at_master<dim>(found[i], positions) -
-                                  positions[found[i].slave]);
-          result.push_back(make_row(factors[i], n, gap));
-        }
-      return result;
-    }
-
-    template <int dim>
-    std::vector<Row<dim>>
-    NodalRows<dim>::row_derivatives(const Field &positions,
-                                    const Field &velocity) const
-    {
-      const auto            normals     = master_normals(positions);
-      const auto            derivatives = normals.derivative(velocity);
-      std::vector<Row<dim>> result;
-      for (unsigned int i = 0; i < found.size(); ++i)
-        {
-          const auto &projection = found[i];
-          const auto  normal = row_normal<dim>(projection, normals.normals());
-          const dealii::Tensor<1, dim> dv =
-            -1. * at_master<dim>(projection, derivatives);
-          const auto   dn = unit_vector_derivative(normal.n, normal.length, dv);
-          const double dgap = dn * (at_master<dim>(projection, positions) -
-                                    positions[projection.slave]) +
-                              normal.n * (at_master<dim>(projection, velocity) -
-                                          velocity[projection.slave]);
-          result.push_back(make_row(factors[i], dn, dgap));
-        }
-      return result;
-    }
-
-    template <int dim>
-    void
-    NodalRows<dim>::add_energy_gradient(const Field               &positions,
-                                        const Field               &displacement,
-                                        const std::vector<double> &forces,
-                                        Field &gradient) const
-    {
-      AssertDimension(forces.size(), found.size());
-      const auto normals = master_normals(positions);
-      Field      normal_gradients(surface.n_nodes());
-      for (unsigned int i = 0; i < found.size(); ++i)
-        {
-          const auto &projection = found[i];
-          const auto  normal = row_normal<dim>(projection, normals.normals());
-          // d/dn of n . (sum_b factor_b u_b - sum_k w_k x_k + x_s)
-          dealii::Tensor<1, dim> n_gradient =
-            positions[projection.slave] - at_master<dim>(projection, positions);
-          for (const auto &factor : factors[i])
-            n_gradient += factor.second * displacement[factor.first];
-          const auto v_gradient =
-            forces[i] *
-            unit_vector_derivative(normal.n, normal.length, n_gradient);
-          gradient[projection.slave] += forces[i] * normal.n;
-          for (const auto &master : projection.masters)
-            {
-              gradient[master.first] -= forces[i] * master.second * normal.n;
-              normal_gradients[master.first] -= master.second * v_gradient;
-            }
-        }
-      normals.add_transpose(normal_gradients, gradient);
-    }
-
-    template <int dim>
-    std::vector<double>
-    NodalRows<dim>::areas(const Field &positions) const
-    {
-      return tributary_areas<dim>({surface, sides.slave, shape},
-                                  slave_nodes,
-                                  positions);
-    }
-
-    template <int dim>
-    void
-    NodalRows<dim>::add_area_gradient(const Field               &positions,
-                                      const std::vector<double> &factors,
-                                      Field                     &gradient) const
-    {
-      add_tributary_gradient<dim>({surface, sides.slave, shape},
-                                  slave_nodes,
-                                  positions,
-                                  factors,
-                                  gradient);
-    }
-
-    template class NodalRows<2>;
-    template class NodalRows<3>;
-  } // namespace contact
-} // namespace snug
+template class NodalRows<2>;
+template class NodalRows<3>;
+} // namespace snug::contact

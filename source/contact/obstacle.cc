@@ -1,137 +1,105 @@
 #include <snug/contact/level_set.h>
 #include <snug/contact/obstacle.h>
 
-namespace snug
+namespace snug::contact {
+namespace {
+template <int dim>
+class Plane : public Obstacle<dim>
 {
-  namespace contact
+public:
+  Plane(const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &normal)
+    : point(point), normal(normal / normal.norm())
+  {}
+
+  std::optional<ObstacleDistance<dim>> distance(const dealii::Point<dim> &x) const override
   {
-    namespace
-    {
-      template <int dim>
-      class Plane : public Obstacle<dim>
-      {
-      public:
-        Plane(const dealii::Point<dim>     &point,
-              const dealii::Tensor<1, dim> &normal)
-          : point(point), normal(normal / normal.norm())
-        {
-        }
+    return ObstacleDistance<dim>{(x - point) * normal, normal, {}};
+  }
 
-        std::optional<ObstacleDistance<dim>>
-        distance(const dealii::Point<dim> &x) const override
-        {
-          return ObstacleDistance<dim>{(x - point) * normal, normal, {}};
-        }
+private:
+  const dealii::Point<dim>     point;
+  const dealii::Tensor<1, dim> normal;
+};
 
-      private:
-        const dealii::Point<dim>     point;
-        const dealii::Tensor<1, dim> normal;
-      };
+/// A ball, or a round bar where the distance is taken at right angles to
+/// its axis; hollow: all the space but that.
+template <int dim>
+class Round : public Obstacle<dim>
+{
+public:
+  Round(const ObstacleParameters &parameters, bool bar, bool hollow)
+    : centre(to_point<dim>(parameters.point))
+    , across(dealii::unit_symmetric_tensor<dim>())
+    , radius(parameters.radius)
+    , side(hollow ? -1. : 1.)
+  {
+    const dealii::Tensor<1, dim> axis = to_point<dim>(parameters.axis);
+    if (bar && dim == 3)
+      across -= outer_product(axis, axis) / axis.norm_square();
+  }
 
-      /// A ball, or a round bar where the distance is taken at right angles to
-      /// its axis; hollow: all the space but that.
-      template <int dim>
-      class Round : public Obstacle<dim>
-      {
-      public:
-        Round(const ObstacleParameters &parameters, bool bar, bool hollow)
-          : centre(to_point<dim>(parameters.point))
-          , across(dealii::unit_symmetric_tensor<dim>())
-          , radius(parameters.radius)
-          , side(hollow ? -1. : 1.)
-        {
-          const dealii::Tensor<1, dim> axis = to_point<dim>(parameters.axis);
-          if (bar && dim == 3)
-            across -= outer_product(axis, axis) / axis.norm_square();
-        }
+  std::optional<ObstacleDistance<dim>> distance(const dealii::Point<dim> &x) const override
+  {
+    const dealii::Tensor<1, dim> r      = across * (x - centre);
+    const double                 length = r.norm();
+    if (!(length > 1e-10 * radius))
+      return std::nullopt;
+    const dealii::Tensor<1, dim> n = r / length;
+    return ObstacleDistance<dim>{side * (length - radius), side * n,
+                                 side / length * (across - outer_product(n, n))};
+  }
 
-        std::optional<ObstacleDistance<dim>>
-        distance(const dealii::Point<dim> &x) const override
-        {
-          const dealii::Tensor<1, dim> r      = across * (x - centre);
-          const double                 length = r.norm();
-          if (!(length > 1e-10 * radius))
-            return std::nullopt;
-          const dealii::Tensor<1, dim> n = r / length;
-          return ObstacleDistance<dim>{side * (length - radius),
-                                       side * n,
-                                       side / length *
-                                         (across - outer_product(n, n))};
-        }
+private:
+  const dealii::Point<dim> centre;
+  dealii::Tensor<2, dim>   across; ///< I, or I - axis axis'
+  const double             radius, side;
+};
 
-      private:
-        const dealii::Point<dim> centre;
-        dealii::Tensor<2, dim>   across; ///< I, or I - axis axis'
-        const double             radius, side;
-      };
+template <int dim>
+using Make = std::unique_ptr<Obstacle<dim>>(const ObstacleParameters &, double);
 
-      template <int dim>
-      using Make = std::unique_ptr<Obstacle<dim>>(const ObstacleParameters &,
-                                                  double);
+template <int dim>
+Choice<Make<dim>> round(const std::string &name, const std::string &meaning, bool bar, bool hollow)
+{
+  return {name, meaning, [bar, hollow](const ObstacleParameters &parameters, double) {
+            return std::make_unique<Round<dim>>(parameters, bar, hollow);
+          }};
+}
+} // namespace
 
-      template <int dim>
-      Choice<Make<dim>>
-      round(const std::string &name,
-            const std::string &meaning,
-            bool               bar,
-            bool               hollow)
-      {
-        return {name,
-                meaning,
-                [bar, hollow](const ObstacleParameters &parameters, double) {
-                  return std::make_unique<Round<dim>>(parameters, bar, hollow);
-                }};
-      }
-    } // namespace
+template <int dim>
+dealii::Point<dim> to_point(const std::vector<double> &coordinates)
+{
+  AssertDimension(coordinates.size(), dim);
+  dealii::Point<dim> point;
+  std::copy(coordinates.begin(), coordinates.end(), point.begin_raw());
+  return point;
+}
 
-    template <int dim>
-    dealii::Point<dim>
-    to_point(const std::vector<double> &coordinates)
-    {
-      AssertDimension(coordinates.size(), dim);
-      dealii::Point<dim> point;
-      std::copy(coordinates.begin(), coordinates.end(), point.begin_raw());
-      return point;
-    }
+template <int dim>
+const ChoiceTable<Make<dim>> &obstacle_table()
+{
+  static const ChoiceTable<Make<dim>> table = {
+    {"plane", "all that lies behind the plane through Point with Normal",
+     [](const ObstacleParameters &parameters, double) {
+       return std::make_unique<Plane<dim>>(to_point<dim>(parameters.point),
+                                           to_point<dim>(parameters.normal));
+     }},
+    round<dim>("sphere", "about Point with Radius", false, false),
+    round<dim>("hollow sphere", "all that lies outside of the sphere", false, true),
+    round<dim>("cylinder", "about the Axis through Point with Radius; in 2D a circle", true, false),
+    round<dim>("hollow cylinder", "all that lies outside of the cylinder", true, true),
+    {"formula",
+     "where Formula is negative, with Point as origin and Axis as last "
+     "coordinate direction",
+     [](const ObstacleParameters &parameters, double element_size) {
+       return std::make_unique<LevelSet<dim>>(parameters, element_size);
+     }}};
+  return table;
+}
 
-    template <int dim>
-    const ChoiceTable<Make<dim>> &
-    obstacle_table()
-    {
-      static const ChoiceTable<Make<dim>> table = {
-        {"plane",
-         "all that lies behind the plane through Point with Normal",
-         [](const ObstacleParameters &parameters, double) {
-           return std::make_unique<Plane<dim>>(
-             to_point<dim>(parameters.point), to_point<dim>(parameters.normal));
-         }},
-        round<dim>("sphere", "about Point with Radius", false, false),
-        round<dim>(
-          "hollow sphere", "all that lies outside of the sphere", false, true),
-        round<dim>("cylinder",
-                   "about the Axis through Point with Radius; in 2D a circle",
-                   true,
-                   false),
-        round<dim>("hollow cylinder",
-                   "all that lies outside of the cylinder",
-                   true,
-                   true),
-        {"formula",
-         "where Formula is negative, with Point as origin and Axis as last "
-         "coordinate direction",
-         [](const ObstacleParameters &parameters, double element_size) {
-           return std::make_unique<LevelSet<dim>>(parameters, element_size);
-         }}};
-      return table;
-    }
-
-    template dealii::Point<2>
-    to_point(const std::vector<double> &);
-    template dealii::Point<3>
-    to_point(const std::vector<double> &);
-    template const ChoiceTable<Make<2>> &
-    obstacle_table();
-    template const ChoiceTable<Make<3>> &
-    obstacle_table();
-  } // namespace contact
-} // namespace snug
+template dealii::Point<2>            to_point(const std::vector<double> &);
+template dealii::Point<3>            to_point(const std::vector<double> &);
+template const ChoiceTable<Make<2>> &obstacle_table();
+template const ChoiceTable<Make<3>> &obstacle_table();
+} // namespace snug::contact

@@ -7,100 +7,80 @@
 #include <cmath>
 #include <limits>
 
-namespace snug
+namespace snug::contact {
+namespace {
+const double round_off = 1e-9;
+
+/// Diagonal over sqrt(dim-1), the edge length of a square.
+template <int dim>
+double face_size(const std::vector<unsigned int>          &nodes,
+                 const typename mesh::Surface<dim>::Field &positions)
 {
-  namespace contact
-  {
-    namespace
-    {
-      const double round_off = 1e-9;
+  return (positions[nodes.back()] - positions[nodes.front()]).norm() / std::sqrt(dim - 1.);
+}
+} // namespace
 
-      /// Diagonal over sqrt(dim-1), the edge length of a square.
-      template <int dim>
-      double
-      face_size(const std::vector<unsigned int>          &nodes,
-                const typename mesh::Surface<dim>::Field &positions)
-      {
-        return (positions[nodes.back()] - positions[nodes.front()]).norm() /
-               std::sqrt(dim - 1.);
-      }
-    } // namespace
+template <int dim>
+double mean_face_size(const mesh::Surface<dim>                 &surface,
+                      const std::vector<unsigned int>          &faces,
+                      const typename mesh::Surface<dim>::Field &positions)
+{
+  double sum = 0.;
+  for (const unsigned int f : faces)
+    sum += face_size<dim>(surface.faces()[f].nodes, positions);
+  return sum / faces.size();
+}
 
-    template <int dim>
-    double
-    mean_face_size(const mesh::Surface<dim>                 &surface,
-                   const std::vector<unsigned int>          &faces,
-                   const typename mesh::Surface<dim>::Field &positions)
-    {
-      double sum = 0.;
-      for (const unsigned int f : faces)
-        sum += face_size<dim>(surface.faces()[f].nodes, positions);
-      return sum / faces.size();
-    }
+template <int dim>
+std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &surface,
+                                    const typename mesh::Surface<dim>::Field &positions)
+{
+  std::vector<double> sizes(surface.n_nodes(), 0.);
+  for (const auto &face : surface.faces())
+    for (const unsigned int node : face.nodes)
+      sizes[node] = std::max(sizes[node], face_size<dim>(face.nodes, positions));
+  return sizes;
+}
 
-    template <int dim>
-    std::vector<double>
-    node_face_sizes(const mesh::Surface<dim>                 &surface,
-                    const typename mesh::Surface<dim>::Field &positions)
-    {
-      std::vector<double> sizes(surface.n_nodes(), 0.);
-      for (const auto &face : surface.faces())
-        for (const unsigned int node : face.nodes)
-          sizes[node] =
-            std::max(sizes[node], face_size<dim>(face.nodes, positions));
-      return sizes;
-    }
+template <int dim>
+double PairGeometry<dim>::slave_size() const
+{
+  return mean_face_size(surface, sides.slave, positions);
+}
 
-    template <int dim>
-    double
-    PairGeometry<dim>::slave_size() const
-    {
-      return mean_face_size(surface, sides.slave, positions);
-    }
+template <int dim>
+Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
+  : normals(NodalNormals<dim>(pair.surface, pair.sides.slave, pair.shape, pair.positions).normals())
+{
+  const PairParameters &parameters = pair.pair.parameters;
+  largest_distance                 = parameters.search_distance == 0.
+                                       ? std::numeric_limits<double>::infinity()
+                                       : parameters.search_distance * (1. + round_off);
+  least_cosine = std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) - round_off;
+}
 
-    template <int dim>
-    Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
-      : normals(NodalNormals<dim>(pair.surface,
-                                  pair.sides.slave,
-                                  pair.shape,
-                                  pair.positions)
-                  .normals())
-    {
-      const PairParameters &parameters = pair.pair.parameters;
-      largest_distance                 = parameters.search_distance == 0.
-                                           ? std::numeric_limits<double>::infinity()
-                                           : parameters.search_distance * (1. + round_off);
-      least_cosine =
-        std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) -
-        round_off;
-    }
+template <int dim>
+bool Opposition<dim>::is_near(double distance) const
+{
+  return std::abs(distance) <= largest_distance;
+}
 
-    template <int dim>
-    bool
-    Opposition<dim>::is_near(double distance) const
-    {
-      return std::abs(distance) <= largest_distance;
-    }
+template <int dim>
+bool Opposition<dim>::holds(unsigned int                  slave,
+                            double                        distance,
+                            const dealii::Tensor<1, dim> &normal) const
+{
+  return is_near(distance) && normals[slave] * normal >= least_cosine;
+}
 
-    template <int dim>
-    bool
-    Opposition<dim>::holds(unsigned int                  slave,
-                           double                        distance,
-                           const dealii::Tensor<1, dim> &normal) const
-    {
-      return is_near(distance) && normals[slave] * normal >= least_cosine;
-    }
-
-#define SNUG_INSTANTIATE(dim)                                                     \
-  template double              mean_face_size(const mesh::Surface<dim> &,         \
-                                              const std::vector<unsigned int> &,  \
-                                              const mesh::Surface<dim>::Field &); \
-  template std::vector<double> node_face_sizes(                                   \
-    const mesh::Surface<dim> &, const mesh::Surface<dim>::Field &);               \
-  template struct PairGeometry<dim>;                                              \
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
+                                 const mesh::Surface<dim>::Field &);                            \
+  template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                      \
+                                               const mesh::Surface<dim>::Field &);              \
+  template struct PairGeometry<dim>;                                                            \
   template class Opposition<dim>;
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace contact
-} // namespace snug
+} // namespace snug::contact

@@ -9,256 +9,222 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::contact {
+namespace {
+/// Weights below this are round-off of nodes that do not take part.
+const double least_weight = 1e-12;
+
+/**
+ * Bézier control points of the face with Lagrange @p nodes: their hull
+ * contains the face, also a quadratic one that bulges beyond its nodes.
+ */
+template <int dim>
+std::vector<dealii::Tensor<1, dim>> hull_points(const FaceShape<dim>               &shape,
+                                                std::vector<dealii::Tensor<1, dim>> nodes)
 {
-  namespace contact
+  if (shape.degree() == 1)
+    return nodes;
+  // middle control point of a parabola: 2 x_1 - (x_0 + x_2)/2
+  const unsigned int n_lines = nodes.size() / 3;
+  for (int direction = 0; direction < dim - 1; ++direction)
+    for (unsigned int line = 0; line < n_lines; ++line)
+      {
+        const unsigned int stride = direction == 0 ? 1 : 3;
+        const unsigned int first  = direction == 0 ? 3 * line : line;
+        auto              &middle = nodes[first + stride];
+        middle                    = 2. * middle - 0.5 * (nodes[first] + nodes[first + 2 * stride]);
+      }
+  return nodes;
+}
+
+/// The master side of a pair, searched by a tree of face boxes.
+template <int dim>
+class MasterSide
+{
+public:
+  using Field = typename mesh::Surface<dim>::Field;
+
+  struct Found
   {
-    namespace
+    unsigned int      face; ///< surface index
+    ClosestPoint<dim> point;
+  };
+
+  MasterSide(const mesh::Surface<dim>        &surface,
+             const std::vector<unsigned int> &faces,
+             const FaceShape<dim>            &shape,
+             const Field                     &positions)
+    : shape(shape)
+    , faces(faces)
+    , nodes(node_positions(surface, faces, positions))
+    , boxes(face_boxes(shape, nodes))
+    , tree(dealii::pack_rtree_of_indices(boxes))
+  {}
+
+  Found closest(const dealii::Tensor<1, dim> &p) const;
+
+private:
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
+  using Boxes = std::vector<dealii::BoundingBox<dim>>;
+
+  const FaceShape<dim>                                                        &shape;
+  const std::vector<unsigned int>                                             &faces;
+  const std::vector<Nodes>                                                     nodes;
+  const Boxes                                                                  boxes;
+  const decltype(dealii::pack_rtree_of_indices(std::declval<const Boxes &>())) tree;
+
+  static std::vector<Nodes> node_positions(const mesh::Surface<dim>        &surface,
+                                           const std::vector<unsigned int> &faces,
+                                           const Field                     &positions);
+  static Boxes face_boxes(const FaceShape<dim> &shape, const std::vector<Nodes> &nodes);
+  double       extent(std::size_t i) const;
+  bool         ties(const ClosestPoint<dim> &a, const ClosestPoint<dim> &best, double extent) const;
+};
+
+template <int dim>
+std::vector<typename MasterSide<dim>::Nodes>
+MasterSide<dim>::node_positions(const mesh::Surface<dim>        &surface,
+                                const std::vector<unsigned int> &faces,
+                                const Field                     &positions)
+{
+  std::vector<Nodes> result(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (const unsigned int node : surface.faces()[faces[i]].nodes)
+      result[i].push_back(positions[node]);
+  return result;
+}
+
+template <int dim>
+typename MasterSide<dim>::Boxes MasterSide<dim>::face_boxes(const FaceShape<dim>     &shape,
+                                                            const std::vector<Nodes> &nodes)
+{
+  Boxes result;
+  for (const Nodes &face : nodes)
     {
-      /// Weights below this are round-off of nodes that do not take part.
-      const double least_weight = 1e-12;
-
-      /**
-       * Bézier control points of the face with Lagrange @p nodes: their hull
-       * contains the face, also a quadratic one that bulges beyond its nodes.
-       */
-      template <int dim>
-      std::vector<dealii::Tensor<1, dim>>
-      hull_points(const FaceShape<dim>               &shape,
-                  std::vector<dealii::Tensor<1, dim>> nodes)
-      {
-        if (shape.degree() == 1)
-          return nodes;
-        // middle control point of a parabola: 2 x_1 - (x_0 + x_2)/2
-        const unsigned int n_lines = nodes.size() / 3;
-        for (int direction = 0; direction < dim - 1; ++direction)
-          for (unsigned int line = 0; line < n_lines; ++line)
-            {
-              const unsigned int stride = direction == 0 ? 1 : 3;
-              const unsigned int first  = direction == 0 ? 3 * line : line;
-              auto              &middle = nodes[first + stride];
-              middle =
-                2. * middle - 0.5 * (nodes[first] + nodes[first + 2 * stride]);
-            }
-        return nodes;
-      }
-
-      /// The master side of a pair, searched by a tree of face boxes.
-      template <int dim>
-      class MasterSide
-      {
-      public:
-        using Field = typename mesh::Surface<dim>::Field;
-
-        struct Found
-        {
-          unsigned int      face; ///< surface index
-          ClosestPoint<dim> point;
-        };
-
-        MasterSide(const mesh::Surface<dim>        &surface,
-                   const std::vector<unsigned int> &faces,
-                   const FaceShape<dim>            &shape,
-                   const Field                     &positions)
-          : shape(shape)
-          , faces(faces)
-          , nodes(node_positions(surface, faces, positions))
-          , boxes(face_boxes(shape, nodes))
-          , tree(dealii::pack_rtree_of_indices(boxes))
-        {
-        }
-
-        Found
-        closest(const dealii::Tensor<1, dim> &p) const;
-
-      private:
-        using Nodes = std::vector<dealii::Tensor<1, dim>>;
-        using Boxes = std::vector<dealii::BoundingBox<dim>>;
-
-        const FaceShape<dim>             &shape;
-        const std::vector<unsigned int>  &faces;
-        const std::vector<Nodes>          nodes;
-        const Boxes                       boxes;
-        const decltype(dealii::pack_rtree_of_indices(
-          std::declval<const Boxes &>())) tree;
-
-        static std::vector<Nodes>
-        node_positions(const mesh::Surface<dim>        &surface,
-                       const std::vector<unsigned int> &faces,
-                       const Field                     &positions);
-        static Boxes
-        face_boxes(const FaceShape<dim>     &shape,
-                   const std::vector<Nodes> &nodes);
-        double
-        extent(std::size_t i) const;
-        bool
-        ties(const ClosestPoint<dim> &a,
-             const ClosestPoint<dim> &best,
-             double                   extent) const;
-      };
-
-      template <int dim>
-      std::vector<typename MasterSide<dim>::Nodes>
-      MasterSide<dim>::node_positions(const mesh::Surface<dim>        &surface,
-                                      const std::vector<unsigned int> &faces,
-                                      const Field &positions)
-      {
-        std::vector<Nodes> result(faces.size());
-        for (std::size_t i = 0; i < faces.size(); ++i)
-          for (const unsigned int node : surface.faces()[faces[i]].nodes)
-            result[i].push_back(positions[node]);
-        return result;
-      }
-
-      template <int dim>
-      typename MasterSide<dim>::Boxes
-      MasterSide<dim>::face_boxes(const FaceShape<dim>     &shape,
-                                  const std::vector<Nodes> &nodes)
-      {
-        Boxes result;
-        for (const Nodes &face : nodes)
-          {
-            std::vector<dealii::Point<dim>> points;
-            for (const auto &point : hull_points<dim>(shape, face))
-              points.emplace_back(point);
-            result.emplace_back(points);
-          }
-        return result;
-      }
-
-      template <int dim>
-      double
-      MasterSide<dim>::extent(std::size_t i) const
-      {
-        const auto &corners = boxes[i].get_boundary_points();
-        return corners.first.distance(corners.second);
-      }
-
-      /// Equally close: the same point, which faces share, or another one at
-      /// the same distance but for round-off. Points in between are different
-      /// answers, of which the closer is right.
-      template <int dim>
-      bool
-      MasterSide<dim>::ties(const ClosestPoint<dim> &a,
-                            const ClosestPoint<dim> &best,
-                            double                   extent) const
-      {
-        const double apart = (a.position - best.position).norm();
-        return apart <= 1e-11 * extent ||
-               (apart > 1e-3 * extent &&
-                a.squared_distance <= best.squared_distance * (1. + 1e-12));
-      }
-
-      template <int dim>
-      typename MasterSide<dim>::Found
-      MasterSide<dim>::closest(const dealii::Tensor<1, dim> &p) const
-      {
-        namespace bgi = boost::geometry::index;
-        const dealii::Point<dim> centre(p);
-        // An upper bound of the distance from the faces of the nearest boxes,
-        // then all faces whose boxes meet the cube of that size around p.
-        double bound = std::numeric_limits<double>::infinity();
-        for (const auto i :
-             tree | bgi::adaptors::queried(bgi::nearest(centre, 4)))
-          bound =
-            std::min(bound, closest_point(shape, nodes[i], p).squared_distance);
-        double reach = 0.;
-        for (const auto i :
-             tree | bgi::adaptors::queried(bgi::nearest(centre, 1)))
-          reach = extent(i);
-        reach = std::sqrt(bound) * (1. + 1e-6) + 1e-6 * reach;
-        dealii::Point<dim> lower = centre, upper = centre;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= reach;
-            upper[d] += reach;
-          }
-        const dealii::BoundingBox<dim> cube({lower, upper});
-
-        std::vector<std::size_t> candidates;
-        for (const auto i :
-             tree | bgi::adaptors::queried(bgi::intersects(cube)))
-          candidates.push_back(i);
-        std::sort(candidates.begin(), candidates.end());
-        std::vector<ClosestPoint<dim>> points;
-        std::size_t                    best = 0;
-        for (const std::size_t i : candidates)
-          {
-            points.push_back(closest_point(shape, nodes[i], p));
-            if (points.back().squared_distance < points[best].squared_distance)
-              best = points.size() - 1;
-          }
-        std::size_t first = 0;
-        while (!ties(points[first], points[best], extent(candidates[best])))
-          ++first;
-        return {faces[candidates[first]], points[first]};
-      }
-
-      template <int dim>
-      std::vector<std::pair<unsigned int, double>>
-      weights(const FaceShape<dim>            &shape,
-              const dealii::Point<dim - 1>    &xi,
-              const std::vector<unsigned int> &nodes)
-      {
-        typename FaceShape<dim>::Values values;
-        shape.evaluate(xi, values);
-        std::vector<std::pair<unsigned int, double>> result;
-        double                                       sum = 0.;
-        for (unsigned int k = 0; k < nodes.size(); ++k)
-          if (std::abs(values.value[k]) >= least_weight)
-            {
-              result.emplace_back(nodes[k], values.value[k]);
-              sum += values.value[k];
-            }
-        for (auto &weight : result)
-          weight.second /= sum;
-        std::sort(result.begin(), result.end());
-        return result;
-      }
-    } // namespace
-
-    template <int dim>
-    std::vector<Projection>
-    project(const mesh::Surface<dim>                 &surface,
-            const PairFaces                          &sides,
-            const FaceShape<dim>                     &shape,
-            const typename mesh::Surface<dim>::Field &positions)
-    {
-      std::vector<Projection> result;
-      if (sides.master.empty())
-        return result;
-      const MasterSide<dim> master(surface, sides.master, shape, positions);
-      const OuterEdges<dim> edges(surface, sides.master, shape);
-      std::vector<bool>     visited(surface.n_nodes(), false);
-      for (const unsigned int slave_face : sides.slave)
-        for (const unsigned int slave : surface.faces()[slave_face].nodes)
-          {
-            if (visited[slave] || !surface.masters(slave).empty())
-              continue;
-            visited[slave]   = true;
-            const auto found = master.closest(positions[slave]);
-            if (edges.excess(found.face,
-                             found.point.xi,
-                             positions[slave] - found.point.position,
-                             positions) > edge_tolerance)
-              continue;
-            result.push_back({slave,
-                              weights(shape,
-                                      found.point.xi,
-                                      surface.faces()[found.face].nodes)});
-          }
-      return result;
+      std::vector<dealii::Point<dim>> points;
+      for (const auto &point : hull_points<dim>(shape, face))
+        points.emplace_back(point);
+      result.emplace_back(points);
     }
+  return result;
+}
 
-    template std::vector<Projection>
-    project(const mesh::Surface<2> &,
-            const PairFaces &,
-            const FaceShape<2> &,
-            const mesh::Surface<2>::Field &);
-    template std::vector<Projection>
-    project(const mesh::Surface<3> &,
-            const PairFaces &,
-            const FaceShape<3> &,
-            const mesh::Surface<3>::Field &);
-  } // namespace contact
-} // namespace snug
+template <int dim>
+double MasterSide<dim>::extent(std::size_t i) const
+{
+  const auto &corners = boxes[i].get_boundary_points();
+  return corners.first.distance(corners.second);
+}
+
+/// Equally close: the same point, which faces share, or another one at
+/// the same distance but for round-off. Points in between are different
+/// answers, of which the closer is right.
+template <int dim>
+bool MasterSide<dim>::ties(const ClosestPoint<dim> &a,
+                           const ClosestPoint<dim> &best,
+                           double                   extent) const
+{
+  const double apart = (a.position - best.position).norm();
+  return apart <= 1e-11 * extent ||
+         (apart > 1e-3 * extent && a.squared_distance <= best.squared_distance * (1. + 1e-12));
+}
+
+template <int dim>
+typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1, dim> &p) const
+{
+  namespace bgi = boost::geometry::index;
+  const dealii::Point<dim> centre(p);
+  // An upper bound of the distance from the faces of the nearest boxes,
+  // then all faces whose boxes meet the cube of that size around p.
+  double bound = std::numeric_limits<double>::infinity();
+  for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 4)))
+    bound = std::min(bound, closest_point(shape, nodes[i], p).squared_distance);
+  double reach = 0.;
+  for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 1)))
+    reach = extent(i);
+  reach                    = std::sqrt(bound) * (1. + 1e-6) + 1e-6 * reach;
+  dealii::Point<dim> lower = centre, upper = centre;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] -= reach;
+      upper[d] += reach;
+    }
+  const dealii::BoundingBox<dim> cube({lower, upper});
+
+  std::vector<std::size_t> candidates;
+  for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(cube)))
+    candidates.push_back(i);
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<ClosestPoint<dim>> points;
+  std::size_t                    best = 0;
+  for (const std::size_t i : candidates)
+    {
+      points.push_back(closest_point(shape, nodes[i], p));
+      if (points.back().squared_distance < points[best].squared_distance)
+        best = points.size() - 1;
+    }
+  std::size_t first = 0;
+  while (!ties(points[first], points[best], extent(candidates[best])))
+    ++first;
+  return {faces[candidates[first]], points[first]};
+}
+
+template <int dim>
+std::vector<std::pair<unsigned int, double>> weights(const FaceShape<dim>            &shape,
+                                                     const dealii::Point<dim - 1>    &xi,
+                                                     const std::vector<unsigned int> &nodes)
+{
+  typename FaceShape<dim>::Values values;
+  shape.evaluate(xi, values);
+  std::vector<std::pair<unsigned int, double>> result;
+  double                                       sum = 0.;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    if (std::abs(values.value[k]) >= least_weight)
+      {
+        result.emplace_back(nodes[k], values.value[k]);
+        sum += values.value[k];
+      }
+  for (auto &weight : result)
+    weight.second /= sum;
+  std::sort(result.begin(), result.end());
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::vector<Projection> project(const mesh::Surface<dim>                 &surface,
+                                const PairFaces                          &sides,
+                                const FaceShape<dim>                     &shape,
+                                const typename mesh::Surface<dim>::Field &positions)
+{
+  std::vector<Projection> result;
+  if (sides.master.empty())
+    return result;
+  const MasterSide<dim> master(surface, sides.master, shape, positions);
+  const OuterEdges<dim> edges(surface, sides.master, shape);
+  std::vector<bool>     visited(surface.n_nodes(), false);
+  for (const unsigned int slave_face : sides.slave)
+    for (const unsigned int slave : surface.faces()[slave_face].nodes)
+      {
+        if (visited[slave] || !surface.masters(slave).empty())
+          continue;
+        visited[slave]   = true;
+        const auto found = master.closest(positions[slave]);
+        if (edges.excess(found.face, found.point.xi, positions[slave] - found.point.position,
+                         positions) > edge_tolerance)
+          continue;
+        result.push_back(
+          {slave, weights(shape, found.point.xi, surface.faces()[found.face].nodes)});
+      }
+  return result;
+}
+
+template std::vector<Projection> project(const mesh::Surface<2> &,
+                                         const PairFaces &,
+                                         const FaceShape<2> &,
+                                         const mesh::Surface<2>::Field &);
+template std::vector<Projection> project(const mesh::Surface<3> &,
+                                         const PairFaces &,
+                                         const FaceShape<3> &,
+                                         const mesh::Surface<3>::Field &);
+} // namespace snug::contact

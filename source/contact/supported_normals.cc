@@ -1,77 +1,63 @@
 #include <snug/contact/supported_normals.h>
 
-namespace snug
-{
-  namespace contact
-  {
-    namespace
-    {
-      /// cos(25 deg): normals that lean more on a support mean it.
-      const double least_free_part = 0.9;
-    } // namespace
+namespace snug::contact {
+namespace {
+/// cos(25 deg): normals that lean more on a support mean it.
+const double least_free_part = 0.9;
+} // namespace
 
-    template <int dim>
-    SupportedNormals<dim>::SupportedNormals(
-      const mesh::Surface<dim>        &surface,
-      const std::vector<unsigned int> &faces,
-      const FaceShape<dim>            &shape,
-      const Field                     &positions,
-      const HeldDirections<dim>       &held)
-      : nodal(surface, faces, shape, positions)
-      , held(held)
-      , unit(nodal.normals())
-      , length(unit.size(), 0.)
+template <int dim>
+SupportedNormals<dim>::SupportedNormals(const mesh::Surface<dim>        &surface,
+                                        const std::vector<unsigned int> &faces,
+                                        const FaceShape<dim>            &shape,
+                                        const Field                     &positions,
+                                        const HeldDirections<dim>       &held)
+  : nodal(surface, faces, shape, positions)
+  , held(held)
+  , unit(nodal.normals())
+  , length(unit.size(), 0.)
+{
+  for (unsigned int node = 0; node < unit.size(); ++node)
     {
-      for (unsigned int node = 0; node < unit.size(); ++node)
+      const auto   v    = free_part(unit[node], held[node]);
+      const double size = v.norm();
+      if (!held[node].empty() && size > least_free_part)
         {
-          const auto   v    = free_part(unit[node], held[node]);
-          const double size = v.norm();
-          if (!held[node].empty() && size > least_free_part)
-            {
-              unit[node]   = v / size;
-              length[node] = size;
-            }
+          unit[node]   = v / size;
+          length[node] = size;
         }
     }
+}
 
-    template <int dim>
-    const typename SupportedNormals<dim>::Field &
-    SupportedNormals<dim>::normals() const
-    {
-      return unit;
-    }
+template <int dim>
+const typename SupportedNormals<dim>::Field &SupportedNormals<dim>::normals() const
+{
+  return unit;
+}
 
-    template <int dim>
-    typename SupportedNormals<dim>::Field
-    SupportedNormals<dim>::derivative(const Field &velocity) const
-    {
-      Field result = nodal.derivative(velocity);
-      for (unsigned int node = 0; node < result.size(); ++node)
-        if (length[node] > 0.)
-          result[node] =
-            unit_vector_derivative(unit[node],
-                                   length[node],
-                                   free_part(result[node], held[node]));
-      return result;
-    }
+template <int dim>
+typename SupportedNormals<dim>::Field SupportedNormals<dim>::derivative(const Field &velocity) const
+{
+  Field result = nodal.derivative(velocity);
+  for (unsigned int node = 0; node < result.size(); ++node)
+    if (length[node] > 0.)
+      result[node] =
+        unit_vector_derivative(unit[node], length[node], free_part(result[node], held[node]));
+  return result;
+}
 
-    template <int dim>
-    void
-    SupportedNormals<dim>::add_transpose(const Field &normal_gradient,
-                                         Field       &gradient) const
-    {
-      Field to_nodal = normal_gradient;
-      for (unsigned int node = 0; node < to_nodal.size(); ++node)
-        if (length[node] > 0.)
-          to_nodal[node] =
-            free_part(unit_vector_derivative(unit[node],
-                                             length[node],
-                                             normal_gradient[node]),
-                      held[node]);
-      nodal.add_transpose(to_nodal, gradient);
-    }
+template <int dim>
+void SupportedNormals<dim>::add_transpose(const Field &normal_gradient, Field &gradient) const
+{
+  Field to_nodal = normal_gradient;
+  for (unsigned int node = 0; node < to_nodal.size(); ++node)
+    if (length[node] > 0.)
+      to_nodal[node] =
+        free_part(unit_vector_derivative(unit[node], length[node], normal_gradient[node]),
+                  held[node]);
+  nodal.add_transpose(to_nodal, gradient);
+}
 
-    template class SupportedNormals<2>;
-    template class SupportedNormals<3>;
-  } // namespace contact
-} // namespace snug
+template class SupportedNormals<2>;
+template class SupportedNormals<3>;
+} // namespace snug::contact

@@ -2,107 +2,97 @@
 
 #include <deal.II/base/exceptions.h>
 
-namespace snug
+namespace snug::elasticity {
+template <int dim>
+dealii::Tensor<2, dim> jacobian(const LagrangePoint<dim>                  &shape,
+                                const std::vector<dealii::Tensor<1, dim>> &X)
 {
-  namespace elasticity
-  {
-    template <int dim>
-    dealii::Tensor<2, dim>
-    jacobian(const LagrangePoint<dim>                  &shape,
-             const std::vector<dealii::Tensor<1, dim>> &X)
+  AssertDimension(X.size(), shape.gradients.size());
+  dealii::Tensor<2, dim> J;
+  for (unsigned int a = 0; a < X.size(); ++a)
+    J += outer_product(X[a], shape.gradients[a]);
+  return J;
+}
+
+template <int dim>
+dealii::Tensor<1, dim> value(const LagrangePoint<dim>                  &shape,
+                             const std::vector<dealii::Tensor<1, dim>> &u)
+{
+  AssertDimension(u.size(), shape.values.size());
+  dealii::Tensor<1, dim> result;
+  for (unsigned int a = 0; a < u.size(); ++a)
+    result += shape.values[a] * u[a];
+  return result;
+}
+
+template <int dim>
+CellPoint<dim>::CellPoint(const LagrangePoint<dim> &shape,
+                          const Nodes              &X,
+                          const mesh::Idealization &idealization)
+  : shape(shape), inverse_radius(0.)
+{
+  const dealii::Tensor<2, dim> J       = jacobian(shape, X);
+  const dealii::Tensor<2, dim> inverse = invert(J);
+
+  dV = shape.weight * determinant(J);
+  if (dim == 2)
     {
-      AssertDimension(X.size(), shape.gradients.size());
-      dealii::Tensor<2, dim> J;
-      for (unsigned int a = 0; a < X.size(); ++a)
-        J += outer_product(X[a], shape.gradients[a]);
-      return J;
+      const auto x = value(shape, X);
+      dV *= idealization.weight(x);
+      if (idealization.is_axisymmetric())
+        inverse_radius = 1. / x[0];
     }
+  for (unsigned int a = 0; a < X.size(); ++a)
+    gradients[a] = shape.gradients[a] * inverse;
+}
 
-    template <int dim>
-    dealii::Tensor<1, dim>
-    value(const LagrangePoint<dim>                  &shape,
-          const std::vector<dealii::Tensor<1, dim>> &u)
+template <int dim>
+dealii::Tensor<2, 3> CellPoint<dim>::gradient(const Nodes &u) const
+{
+  AssertDimension(u.size(), shape.values.size());
+  dealii::Tensor<2, dim> sum;
+  for (unsigned int a = 0; a < u.size(); ++a)
+    sum += outer_product(u[a], gradients[a]);
+  dealii::Tensor<2, 3> result;
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int d = 0; d < dim; ++d)
+      result[c][d] = sum[c][d];
+  if (inverse_radius != 0.)
+    result[2][2] = value(shape, u)[0] * inverse_radius;
+  return result;
+}
+
+template <int dim>
+void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
+{
+  AssertDimension(f.size(), shape.values.size());
+  dealii::Tensor<2, dim> in_plane;
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int d = 0; d < dim; ++d)
+      in_plane[c][d] = dV * flux[c][d];
+  const double hoop = dV * flux[2][2] * inverse_radius;
+  for (unsigned int a = 0; a < f.size(); ++a)
     {
-      AssertDimension(u.size(), shape.values.size());
-      dealii::Tensor<1, dim> result;
-      for (unsigned int a = 0; a < u.size(); ++a)
-        result += shape.values[a] * u[a];
-      return result;
+      f[a] += in_plane * gradients[a];
+      f[a][0] += hoop * shape.values[a];
     }
+}
 
-    template <int dim>
-    CellPoint<dim>::CellPoint(const LagrangePoint<dim> &shape,
-                              const Nodes              &X,
-                              const mesh::Idealization &idealization)
-      : shape(shape), inverse_radius(0.)
-    {
-      const dealii::Tensor<2, dim> J       = jacobian(shape, X);
-      const dealii::Tensor<2, dim> inverse = invert(J);
+template <int dim>
+void CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const
+{
+  AssertDimension(f.size(), shape.values.size());
+  for (unsigned int a = 0; a < f.size(); ++a)
+    f[a] += dV * shape.values[a] * source;
+}
 
-      dV = shape.weight * determinant(J);
-      if (dim == 2)
-        {
-          const auto x = value(shape, X);
-          dV *= idealization.weight(x);
-          if (idealization.is_axisymmetric())
-            inverse_radius = 1. / x[0];
-        }
-      for (unsigned int a = 0; a < X.size(); ++a)
-        gradients[a] = shape.gradients[a] * inverse;
-    }
-
-    template <int dim>
-    dealii::Tensor<2, 3>
-    CellPoint<dim>::gradient(const Nodes &u) const
-    {
-      AssertDimension(u.size(), shape.values.size());
-      dealii::Tensor<2, dim> sum;
-      for (unsigned int a = 0; a < u.size(); ++a)
-        sum += outer_product(u[a], gradients[a]);
-      dealii::Tensor<2, 3> result;
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int d = 0; d < dim; ++d)
-          result[c][d] = sum[c][d];
-      if (inverse_radius != 0.)
-        result[2][2] = value(shape, u)[0] * inverse_radius;
-      return result;
-    }
-
-    template <int dim>
-    void
-    CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
-    {
-      AssertDimension(f.size(), shape.values.size());
-      dealii::Tensor<2, dim> in_plane;
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int d = 0; d < dim; ++d)
-          in_plane[c][d] = dV * flux[c][d];
-      const double hoop = dV * flux[2][2] * inverse_radius;
-      for (unsigned int a = 0; a < f.size(); ++a)
-        {
-          f[a] += in_plane * gradients[a];
-          f[a][0] += hoop * shape.values[a];
-        }
-    }
-
-    template <int dim>
-    void
-    CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source,
-                               Nodes                        &f) const
-    {
-      AssertDimension(f.size(), shape.values.size());
-      for (unsigned int a = 0; a < f.size(); ++a)
-        f[a] += dV * shape.values[a] * source;
-    }
-
-#define SNUG_INSTANTIATE(dim)                                                 \
-  template dealii::Tensor<2, dim> jacobian(                                   \
-    const LagrangePoint<dim> &, const std::vector<dealii::Tensor<1, dim>> &); \
-  template dealii::Tensor<1, dim> value(                                      \
-    const LagrangePoint<dim> &, const std::vector<dealii::Tensor<1, dim>> &); \
+#define SNUG_INSTANTIATE(dim)                                                            \
+  template dealii::Tensor<2, dim> jacobian(const LagrangePoint<dim> &,                   \
+                                           const std::vector<dealii::Tensor<1, dim>> &); \
+  template dealii::Tensor<1, dim> value(const LagrangePoint<dim> &,                      \
+                                        const std::vector<dealii::Tensor<1, dim>> &);    \
   template struct CellPoint<dim>;
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace elasticity
-} // namespace snug
+} // namespace snug::elasticity

@@ -8,204 +8,182 @@
 #include <cmath>
 #include <limits>
 
-namespace snug
+namespace snug::elasticity {
+template <int dim>
+Element<dim>::Element(const unsigned int        degree,
+                      const mesh::Idealization &idealization,
+                      const Formulation         formulation)
+  : degree(degree)
+  , idealization(idealization)
+  , formulation(formulation)
+  , gauss(lagrange_gauss_points<dim>(degree))
+  , nodes(lagrange_nodes<dim>(degree))
 {
-  namespace elasticity
-  {
-    template <int dim>
-    Element<dim>::Element(const unsigned int        degree,
-                          const mesh::Idealization &idealization,
-                          const Formulation         formulation)
-      : degree(degree)
-      , idealization(idealization)
-      , formulation(formulation)
-      , gauss(lagrange_gauss_points<dim>(degree))
-      , nodes(lagrange_nodes<dim>(degree))
-    {
-      using Kind = mesh::Idealization::Kind;
-      Assert(degree == 1 || degree == 2,
-             dealii::ExcMessage("Elements have degree 1 or 2."));
-      Assert((idealization.kind == Kind::solid) == (dim == 3),
-             dealii::ExcMessage("Solids are 3D, sections 2D."));
-      Assert(formulation == Formulation::standard ||
-               idealization.kind != Kind::plane_stress,
-             dealii::ExcMessage("B-bar is not for plane stress."));
-      const unsigned int n_padded = (n_nodes() + 3) / 4 * 4;
-      for (const auto &shape : gauss)
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int a = 0; a < n_padded; ++a)
-            reference_gradients.push_back(a < n_nodes() ? shape.gradients[a][d]
-                                                        : 0.);
-    }
+  using Kind = mesh::Idealization::Kind;
+  Assert(degree == 1 || degree == 2, dealii::ExcMessage("Elements have degree 1 or 2."));
+  Assert((idealization.kind == Kind::solid) == (dim == 3),
+         dealii::ExcMessage("Solids are 3D, sections 2D."));
+  Assert(formulation == Formulation::standard || idealization.kind != Kind::plane_stress,
+         dealii::ExcMessage("B-bar is not for plane stress."));
+  const unsigned int n_padded = (n_nodes() + 3) / 4 * 4;
+  for (const auto &shape : gauss)
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int a = 0; a < n_padded; ++a)
+        reference_gradients.push_back(a < n_nodes() ? shape.gradients[a][d] : 0.);
+}
 
-    template <int dim>
-    unsigned int
-    Element<dim>::n_nodes() const
-    {
-      return nodes.size();
-    }
+template <int dim>
+unsigned int Element<dim>::n_nodes() const
+{
+  return nodes.size();
+}
 
-    template <int dim>
-    std::vector<CellPoint<dim>>
-    Element<dim>::gauss_points(const Nodes &X) const
-    {
-      std::vector<CellPoint<dim>> points;
-      points.reserve(gauss.size() + 1);
-      for (const auto &shape : gauss)
-        points.emplace_back(shape, X, idealization);
-      return points;
-    }
+template <int dim>
+std::vector<CellPoint<dim>> Element<dim>::gauss_points(const Nodes &X) const
+{
+  std::vector<CellPoint<dim>> points;
+  points.reserve(gauss.size() + 1);
+  for (const auto &shape : gauss)
+    points.emplace_back(shape, X, idealization);
+  return points;
+}
 
-    template <int dim>
-    void
-    Element<dim>::take_dilatation(const std::vector<CellPoint<dim>> &points,
-                                  std::vector<double> &values) const
+template <int dim>
+void Element<dim>::take_dilatation(const std::vector<CellPoint<dim>> &points,
+                                   std::vector<double>               &values) const
+{
+  if (formulation == Formulation::standard)
+    return;
+  std::vector<dealii::Point<dim>> xi;
+  std::vector<double>             dV;
+  for (const auto &point : points)
     {
-      if (formulation == Formulation::standard)
-        return;
-      std::vector<dealii::Point<dim>> xi;
-      std::vector<double>             dV;
-      for (const auto &point : points)
-        {
-          xi.push_back(point.shape.point);
-          dV.push_back(point.dV);
-        }
-      PressureSpace<dim>(degree, xi, dV).project(values);
+      xi.push_back(point.shape.point);
+      dV.push_back(point.dV);
     }
+  PressureSpace<dim>(degree, xi, dV).project(values);
+}
 
-    template <int dim>
-    std::vector<typename Element<dim>::PointState>
-    Element<dim>::point_states(const std::vector<CellPoint<dim>> &points,
-                               const Material                    &material,
-                               const Nodes                       &u) const
+template <int dim>
+std::vector<typename Element<dim>::PointState>
+Element<dim>::point_states(const std::vector<CellPoint<dim>> &points,
+                           const Material                    &material,
+                           const Nodes                       &u) const
+{
+  std::vector<PointState> states(points.size());
+  std::vector<double>     dilatation(points.size());
+  for (unsigned int q = 0; q < points.size(); ++q)
     {
-      std::vector<PointState> states(points.size());
-      std::vector<double>     dilatation(points.size());
-      for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          states[q].gradient = points[q].gradient(u);
-          dilatation[q]      = trace(states[q].gradient);
-        }
-      take_dilatation(points, dilatation);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          auto &state = states[q];
-          state.theta = dilatation[q] - trace(state.gradient);
-          state.stress =
-            cauchy_stress(material,
-                          strain(idealization, material, state.gradient) +
-                            state.theta / 3. *
-                              dealii::unit_symmetric_tensor<3>());
-        }
-      return states;
+      states[q].gradient = points[q].gradient(u);
+      dilatation[q]      = trace(states[q].gradient);
     }
-
-    template <int dim>
-    void
-    Element<dim>::internal_force(const Nodes    &X,
-                                 const Material &material,
-                                 const Nodes    &u,
-                                 Nodes          &r) const
+  take_dilatation(points, dilatation);
+  for (unsigned int q = 0; q < points.size(); ++q)
     {
-      r.assign(n_nodes(), {});
-      const auto points = gauss_points(X);
-      const auto states = point_states(points, material, u);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        points[q].add_flux(states[q].stress, r);
+      auto &state = states[q];
+      state.theta = dilatation[q] - trace(state.gradient);
+      state.stress =
+        cauchy_stress(material, strain(idealization, material, state.gradient) +
+                                  state.theta / 3. * dealii::unit_symmetric_tensor<3>());
     }
+  return states;
+}
 
-    template <int dim>
-    typename Element<dim>::Nodes
-    Element<dim>::quadrature_points(const Nodes &X) const
+template <int dim>
+void Element<dim>::internal_force(const Nodes    &X,
+                                  const Material &material,
+                                  const Nodes    &u,
+                                  Nodes          &r) const
+{
+  r.assign(n_nodes(), {});
+  const auto points = gauss_points(X);
+  const auto states = point_states(points, material, u);
+  for (unsigned int q = 0; q < points.size(); ++q)
+    points[q].add_flux(states[q].stress, r);
+}
+
+template <int dim>
+typename Element<dim>::Nodes Element<dim>::quadrature_points(const Nodes &X) const
+{
+  Nodes points;
+  for (const auto &shape : gauss)
+    points.push_back(value(shape, X));
+  return points;
+}
+
+template <int dim>
+void Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
+{
+  AssertDimension(b.size(), gauss.size());
+  f.assign(n_nodes(), {});
+  const auto points = gauss_points(X);
+  for (unsigned int q = 0; q < points.size(); ++q)
+    points[q].add_source(b[q], f);
+}
+
+template <int dim>
+double Element<dim>::volume(const Nodes &X) const
+{
+  double sum = 0.;
+  for (const auto &shape : gauss)
+    sum += shape.weight * determinant(jacobian(shape, X)) * idealization.weight(value(shape, X));
+  return sum;
+}
+
+template <int dim>
+dealii::SymmetricTensor<2, 3> Element<dim>::stress(const Nodes              &X,
+                                                   const Material           &material,
+                                                   const Nodes              &u,
+                                                   const dealii::Point<dim> &point) const
+{
+  // one more point, without a weight, receives what the cell makes
+  const auto shape  = lagrange_point<dim>(degree, point);
+  auto       points = gauss_points(X);
+  points.emplace_back(shape, X, idealization);
+  return point_states(points, material, u).back().stress;
+}
+
+template <int dim>
+double Element<dim>::quality(const Nodes &X) const
+{
+  double smallest = std::numeric_limits<double>::max();
+  double mean     = 0.;
+  for (const auto *points : {&gauss, &nodes})
+    for (const auto &shape : *points)
+      {
+        const double det = determinant(jacobian(shape, X));
+        smallest         = std::min(smallest, det);
+        mean += shape.weight * std::abs(det);
+      }
+  if (idealization.is_axisymmetric())
     {
-      Nodes points;
-      for (const auto &shape : gauss)
-        points.push_back(value(shape, X));
-      return points;
+      const auto radii =
+        std::minmax_element(X.begin(), X.end(), [](auto &x, auto &y) { return x[0] < y[0]; });
+      const double round_off = 1e-10;
+      if ((*radii.first)[0] < -round_off * (*radii.second)[0])
+        return 0.;
     }
+  return mean > 0. ? smallest / mean : 0.;
+}
 
-    template <int dim>
-    void
-    Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
-    {
-      AssertDimension(b.size(), gauss.size());
-      f.assign(n_nodes(), {});
-      const auto points = gauss_points(X);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        points[q].add_source(b[q], f);
-    }
+template <int dim>
+double Element<dim>::scaled_jacobian(const Nodes &X) const
+{
+  double smallest = 1.;
+  for (const auto *points : {&gauss, &nodes})
+    for (const auto &shape : *points)
+      {
+        const auto J      = jacobian(shape, X);
+        double     volume = 1.; // of the box with these edges
+        for (int d = 0; d < dim; ++d)
+          volume *= (transpose(J)[d]).norm();
+        const double ratio = determinant(J) / volume;
+        if (!(ratio > smallest))
+          smallest = std::isnan(ratio) ? 0. : ratio;
+      }
+  return smallest;
+}
 
-    template <int dim>
-    double
-    Element<dim>::volume(const Nodes &X) const
-    {
-      double sum = 0.;
-      for (const auto &shape : gauss)
-        sum += shape.weight * determinant(jacobian(shape, X)) *
-               idealization.weight(value(shape, X));
-      return sum;
-    }
-
-    template <int dim>
-    dealii::SymmetricTensor<2, 3>
-    Element<dim>::stress(const Nodes              &X,
-                         const Material           &material,
-                         const Nodes              &u,
-                         const dealii::Point<dim> &point) const
-    {
-      // one more point, without a weight, receives what the cell makes
-      const auto shape  = lagrange_point<dim>(degree, point);
-      auto       points = gauss_points(X);
-      points.emplace_back(shape, X, idealization);
-      return point_states(points, material, u).back().stress;
-    }
-
-    template <int dim>
-    double
-    Element<dim>::quality(const Nodes &X) const
-    {
-      double smallest = std::numeric_limits<double>::max();
-      double mean     = 0.;
-      for (const auto *points : {&gauss, &nodes})
-        for (const auto &shape : *points)
-          {
-            const double det = determinant(jacobian(shape, X));
-            smallest         = std::min(smallest, det);
-            mean += shape.weight * std::abs(det);
-          }
-      if (idealization.is_axisymmetric())
-        {
-          const auto radii =
-            std::minmax_element(X.begin(), X.end(), [](auto &x, auto &y) {
-              return x[0] < y[0];
-            });
-          const double round_off = 1e-10;
-          if ((*radii.first)[0] < -round_off * (*radii.second)[0])
-            return 0.;
-        }
-      return mean > 0. ? smallest / mean : 0.;
-    }
-
-    template <int dim>
-    double
-    Element<dim>::scaled_jacobian(const Nodes &X) const
-    {
-      double smallest = 1.;
-      for (const auto *points : {&gauss, &nodes})
-        for (const auto &shape : *points)
-          {
-            const auto J      = jacobian(shape, X);
-            double     volume = 1.; // of the box with these edges
-            for (int d = 0; d < dim; ++d)
-              volume *= (transpose(J)[d]).norm();
-            const double ratio = determinant(J) / volume;
-            if (!(ratio > smallest))
-              smallest = std::isnan(ratio) ? 0. : ratio;
-          }
-      return smallest;
-    }
-
-    template class Element<2>;
-    template class Element<3>;
-  } // namespace elasticity
-} // namespace snug
+template class Element<2>;
+template class Element<3>;
+} // namespace snug::elasticity

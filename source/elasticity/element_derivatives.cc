@@ -3,143 +3,115 @@
 
 #include <deal.II/base/exceptions.h>
 
-namespace snug
+namespace snug::elasticity {
+namespace {
+const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
+}
+
+template <int dim>
+void Element<dim>::internal_force_derivative(const Nodes    &X,
+                                             const Nodes    &V,
+                                             const Material &material,
+                                             const Nodes    &u,
+                                             Nodes          &r) const
 {
-  namespace elasticity
-  {
-    namespace
+  r.assign(n_nodes(), {});
+  const auto points = gauss_points(X);
+  const auto states = point_states(points, material, u);
+  // projection of the changing div u in the changing cell
+  std::vector<double> dilatation(points.size());
+  for (unsigned int q = 0; q < points.size(); ++q)
     {
-      const dealii::SymmetricTensor<2, 3> identity =
-        dealii::unit_symmetric_tensor<3>();
+      const auto grad_V = points[q].gradient(V);
+      dilatation[q]     = -trace(states[q].gradient * grad_V) - states[q].theta * trace(grad_V);
     }
-
-    template <int dim>
-    void
-    Element<dim>::internal_force_derivative(const Nodes    &X,
-                                            const Nodes    &V,
-                                            const Material &material,
-                                            const Nodes    &u,
-                                            Nodes          &r) const
+  take_dilatation(points, dilatation);
+  for (unsigned int q = 0; q < points.size(); ++q)
     {
-      r.assign(n_nodes(), {});
-      const auto points = gauss_points(X);
-      const auto states = point_states(points, material, u);
-      // projection of the changing div u in the changing cell
-      std::vector<double> dilatation(points.size());
-      for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          const auto grad_V = points[q].gradient(V);
-          dilatation[q]     = -trace(states[q].gradient * grad_V) -
-                          states[q].theta * trace(grad_V);
-        }
-      take_dilatation(points, dilatation);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          const auto                &state  = states[q];
-          const auto                 grad_V = points[q].gradient(V);
-          const dealii::Tensor<2, 3> grad_u = -1. * state.gradient * grad_V;
-          const dealii::Tensor<2, 3> stress = state.stress;
-          const double               theta  = dilatation[q] - trace(grad_u);
-          // derivative of (dV stress g_a) = dV (change g_a)
-          const dealii::Tensor<2, 3> change =
-            cauchy_stress(material,
-                          strain(idealization, material, grad_u) +
-                            theta / 3. * identity) +
-            trace(grad_V) * stress - stress * transpose(grad_V);
-          points[q].add_flux(change, r);
-        }
+      const auto                &state  = states[q];
+      const auto                 grad_V = points[q].gradient(V);
+      const dealii::Tensor<2, 3> grad_u = -1. * state.gradient * grad_V;
+      const dealii::Tensor<2, 3> stress = state.stress;
+      const double               theta  = dilatation[q] - trace(grad_u);
+      // derivative of (dV stress g_a) = dV (change g_a)
+      const dealii::Tensor<2, 3> change =
+        cauchy_stress(material, strain(idealization, material, grad_u) + theta / 3. * identity) +
+        trace(grad_V) * stress - stress * transpose(grad_V);
+      points[q].add_flux(change, r);
     }
+}
 
-    template <int dim>
-    void
-    Element<dim>::add_energy_gradient(const Nodes    &X,
-                                      const Material &material,
-                                      const Nodes    &u,
-                                      const Nodes    &w,
-                                      const double    factor,
-                                      Nodes          &gradient) const
+template <int dim>
+void Element<dim>::add_energy_gradient(const Nodes    &X,
+                                       const Material &material,
+                                       const Nodes    &u,
+                                       const Nodes    &w,
+                                       const double    factor,
+                                       Nodes          &gradient) const
+{
+  const auto points   = gauss_points(X);
+  const auto states_u = point_states(points, material, u);
+  const auto states_w = point_states(points, material, w);
+  for (unsigned int q = 0; q < points.size(); ++q)
     {
-      const auto points   = gauss_points(X);
-      const auto states_u = point_states(points, material, u);
-      const auto states_w = point_states(points, material, w);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          const auto                &of_u     = states_u[q];
-          const auto                &of_w     = states_w[q];
-          const dealii::Tensor<2, 3> stress_u = of_u.stress;
-          const dealii::Tensor<2, 3> stress_w = of_w.stress;
-          const double density = scalar_product(stress_u, of_w.gradient) -
-                                 of_u.theta * trace(stress_w) / 3.;
-          const dealii::Tensor<2, 3> energy_momentum =
-            density * identity - transpose(of_w.gradient) * stress_u -
-            transpose(of_u.gradient) * stress_w;
-          points[q].add_flux(factor * energy_momentum, gradient);
-        }
+      const auto                &of_u     = states_u[q];
+      const auto                &of_w     = states_w[q];
+      const dealii::Tensor<2, 3> stress_u = of_u.stress;
+      const dealii::Tensor<2, 3> stress_w = of_w.stress;
+      const double               density =
+        scalar_product(stress_u, of_w.gradient) - of_u.theta * trace(stress_w) / 3.;
+      const dealii::Tensor<2, 3> energy_momentum = density * identity -
+                                                   transpose(of_w.gradient) * stress_u -
+                                                   transpose(of_u.gradient) * stress_w;
+      points[q].add_flux(factor * energy_momentum, gradient);
     }
+}
 
-    template <int dim>
-    void
-    Element<dim>::body_force_derivative(const Nodes &X,
-                                        const Nodes &V,
-                                        const Nodes &b,
-                                        Nodes       &f) const
-    {
-      AssertDimension(b.size(), gauss.size());
-      f.assign(n_nodes(), {});
-      const auto points = gauss_points(X);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        points[q].add_source(trace(points[q].gradient(V)) * b[q], f);
-    }
+template <int dim>
+void Element<dim>::body_force_derivative(const Nodes &X,
+                                         const Nodes &V,
+                                         const Nodes &b,
+                                         Nodes       &f) const
+{
+  AssertDimension(b.size(), gauss.size());
+  f.assign(n_nodes(), {});
+  const auto points = gauss_points(X);
+  for (unsigned int q = 0; q < points.size(); ++q)
+    points[q].add_source(trace(points[q].gradient(V)) * b[q], f);
+}
 
-    template <int dim>
-    void
-    Element<dim>::add_body_force_gradient(const Nodes &X,
-                                          const Nodes &b,
-                                          const Nodes &u,
-                                          const double factor,
-                                          Nodes       &gradient) const
-    {
-      AssertDimension(b.size(), gauss.size());
-      const auto points = gauss_points(X);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        points[q].add_flux(factor * (value(points[q].shape, u) * b[q]) *
-                             identity,
-                           gradient);
-    }
+template <int dim>
+void Element<dim>::add_body_force_gradient(const Nodes &X,
+                                           const Nodes &b,
+                                           const Nodes &u,
+                                           const double factor,
+                                           Nodes       &gradient) const
+{
+  AssertDimension(b.size(), gauss.size());
+  const auto points = gauss_points(X);
+  for (unsigned int q = 0; q < points.size(); ++q)
+    points[q].add_flux(factor * (value(points[q].shape, u) * b[q]) * identity, gradient);
+}
 
-    template <int dim>
-    void
-    Element<dim>::add_volume_gradient(const Nodes &X,
-                                      const double factor,
-                                      Nodes       &gradient) const
-    {
-      for (const auto &point : gauss_points(X))
-        point.add_flux(factor * identity, gradient);
-    }
+template <int dim>
+void Element<dim>::add_volume_gradient(const Nodes &X, const double factor, Nodes &gradient) const
+{
+  for (const auto &point : gauss_points(X))
+    point.add_flux(factor * identity, gradient);
+}
 
-#define SNUG_INSTANTIATE(dim)                                             \
-  template void Element<dim>::internal_force_derivative(const Nodes &,    \
-                                                        const Nodes &,    \
-                                                        const Material &, \
-                                                        const Nodes &,    \
-                                                        Nodes &) const;   \
-  template void Element<dim>::add_energy_gradient(const Nodes &,          \
-                                                  const Material &,       \
-                                                  const Nodes &,          \
-                                                  const Nodes &,          \
-                                                  double,                 \
-                                                  Nodes &) const;         \
-  template void Element<dim>::body_force_derivative(const Nodes &,        \
-                                                    const Nodes &,        \
-                                                    const Nodes &,        \
-                                                    Nodes &) const;       \
-  template void Element<dim>::add_body_force_gradient(                    \
-    const Nodes &, const Nodes &, const Nodes &, double, Nodes &) const;  \
-  template void Element<dim>::add_volume_gradient(const Nodes &,          \
-                                                  double,                 \
-                                                  Nodes &) const;
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+#define SNUG_INSTANTIATE(dim)                                                                      \
+  template void Element<dim>::internal_force_derivative(const Nodes &, const Nodes &,              \
+                                                        const Material &, const Nodes &, Nodes &)  \
+    const;                                                                                         \
+  template void Element<dim>::add_energy_gradient(const Nodes &, const Material &, const Nodes &,  \
+                                                  const Nodes &, double, Nodes &) const;           \
+  template void Element<dim>::body_force_derivative(const Nodes &, const Nodes &, const Nodes &,   \
+                                                    Nodes &) const;                                \
+  template void Element<dim>::add_body_force_gradient(const Nodes &, const Nodes &, const Nodes &, \
+                                                      double, Nodes &) const;                      \
+  template void Element<dim>::add_volume_gradient(const Nodes &, double, Nodes &) const;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace elasticity
-} // namespace snug
+} // namespace snug::elasticity

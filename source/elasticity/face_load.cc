@@ -4,360 +4,306 @@
 
 #include <array>
 
-namespace snug
+namespace snug::elasticity {
+namespace {
+/// t_i = dx / d xi_i of the positions (or velocities) of a face's nodes.
+template <int dim>
+std::array<dealii::Tensor<1, dim>, dim - 1> tangents(const LagrangePoint<dim - 1> &shape,
+                                                     const std::vector<dealii::Tensor<1, dim>> &X)
 {
-  namespace elasticity
+  AssertDimension(X.size(), shape.values.size());
+  std::array<dealii::Tensor<1, dim>, dim - 1> t;
+  for (unsigned int a = 0; a < X.size(); ++a)
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      t[i] += shape.gradients[a][i] * X[a];
+  return t;
+}
+
+/// sum_a N_a x_a.
+template <int dim>
+dealii::Tensor<1, dim> interpolate(const LagrangePoint<dim - 1>              &shape,
+                                   const std::vector<dealii::Tensor<1, dim>> &x)
+{
+  AssertDimension(x.size(), shape.values.size());
+  dealii::Tensor<1, dim> sum;
+  for (unsigned int a = 0; a < x.size(); ++a)
+    sum += shape.values[a] * x[a];
+  return sum;
+}
+
+/// m = (t_y, -t_x): outer normal times dA / d xi.
+dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
+{
+  return cross_product_2d(t[0]);
+}
+
+/// m = t_1 x t_2.
+dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t)
+{
+  return cross_product_3d(t[0], t[1]);
+}
+
+/// m' along tangents V_,i.
+dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &,
+                                            const std::array<dealii::Tensor<1, 2>, 1> &v)
+{
+  return cross_product_2d(v[0]);
+}
+
+dealii::Tensor<1, 3> area_vector_derivative(const std::array<dealii::Tensor<1, 3>, 2> &t,
+                                            const std::array<dealii::Tensor<1, 3>, 2> &v)
+{
+  return cross_product_3d(v[0], t[1]) + cross_product_3d(t[0], v[1]);
+}
+
+/// d/dt_i (c . m) for a fixed vector c.
+std::array<dealii::Tensor<1, 2>, 1>
+area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &, const dealii::Tensor<1, 2> &c)
+{
+  return {{-cross_product_2d(c)}};
+}
+
+std::array<dealii::Tensor<1, 3>, 2>
+area_vector_transpose(const std::array<dealii::Tensor<1, 3>, 2> &t, const dealii::Tensor<1, 3> &c)
+{
+  return {{cross_product_3d(t[1], c), cross_product_3d(c, t[0])}};
+}
+
+/// A Gauss point of a face with nodes X.
+template <int dim>
+struct FacePoint
+{
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+  FacePoint(const LagrangePoint<dim - 1> &shape,
+            const mesh::Idealization     &idealization,
+            const Nodes                  &X)
+    : shape(shape)
+    , x(interpolate<dim>(shape, X))
+    , t(tangents<dim>(shape, X))
+    , m(area_vector(t))
+    , weight(shape.weight * idealization.weight(x))
+    , weight_gradient(shape.weight * idealization.template weight_gradient<dim>())
+  {}
+
+  /// dA.
+  double area() const { return weight * m.norm(); }
+
+  /// (n dA)' along V.
+  dealii::Tensor<1, dim> vector_derivative(const Nodes &V) const
   {
-    namespace
-    {
-      /// t_i = dx / d xi_i of the positions (or velocities) of a face's nodes.
-      template <int dim>
-      std::array<dealii::Tensor<1, dim>, dim - 1>
-      tangents(const LagrangePoint<dim - 1>              &shape,
-               const std::vector<dealii::Tensor<1, dim>> &X)
+    return weight * area_vector_derivative(t, tangents<dim>(shape, V)) +
+           (weight_gradient * interpolate<dim>(shape, V)) * m;
+  }
+
+  /// dA' along V.
+  double area_derivative(const Nodes &V) const { return vector_derivative(V) * m / m.norm(); }
+
+  /// gradient_a += d/dX_a (c . n dA); with c = kappa n of kappa dA.
+  void add_vector_gradient(const dealii::Tensor<1, dim> &c, Nodes &gradient) const
+  {
+    const auto gradient_t = area_vector_transpose(t, c);
+    for (unsigned int a = 0; a < gradient.size(); ++a)
       {
-        AssertDimension(X.size(), shape.values.size());
-        std::array<dealii::Tensor<1, dim>, dim - 1> t;
-        for (unsigned int a = 0; a < X.size(); ++a)
-          for (unsigned int i = 0; i < dim - 1; ++i)
-            t[i] += shape.gradients[a][i] * X[a];
-        return t;
+        gradient[a] += (c * m) * shape.values[a] * weight_gradient;
+        for (unsigned int i = 0; i < dim - 1; ++i)
+          gradient[a] += weight * shape.gradients[a][i] * gradient_t[i];
       }
+  }
 
-      /// sum_a N_a x_a.
-      template <int dim>
-      dealii::Tensor<1, dim>
-      interpolate(const LagrangePoint<dim - 1>              &shape,
-                  const std::vector<dealii::Tensor<1, dim>> &x)
-      {
-        AssertDimension(x.size(), shape.values.size());
-        dealii::Tensor<1, dim> sum;
-        for (unsigned int a = 0; a < x.size(); ++a)
-          sum += shape.values[a] * x[a];
-        return sum;
-      }
+  const LagrangePoint<dim - 1>               &shape;
+  dealii::Tensor<1, dim>                      x;
+  std::array<dealii::Tensor<1, dim>, dim - 1> t;
+  dealii::Tensor<1, dim>                      m;
+  double                                      weight; ///< of the quadrature and of the section
+  dealii::Tensor<1, dim>                      weight_gradient;
+};
 
-      /// m = (t_y, -t_x): outer normal times dA / d xi.
-      dealii::Tensor<1, 2>
-      area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
-      {
-        return cross_product_2d(t[0]);
-      }
+/// Pressure and traction of a load at Gauss point q.
+template <int dim>
+double pressure(const FaceLoadValues<dim> &load, unsigned int q)
+{
+  return load.pressure.empty() ? 0. : load.pressure[q];
+}
 
-      /// m = t_1 x t_2.
-      dealii::Tensor<1, 3>
-      area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t)
-      {
-        return cross_product_3d(t[0], t[1]);
-      }
+template <int dim>
+dealii::Tensor<1, dim> traction(const FaceLoadValues<dim> &load, unsigned int q)
+{
+  return load.traction.empty() ? dealii::Tensor<1, dim>() : load.traction[q];
+}
+} // namespace
 
-      /// m' along tangents V_,i.
-      dealii::Tensor<1, 2>
-      area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &,
-                             const std::array<dealii::Tensor<1, 2>, 1> &v)
-      {
-        return cross_product_2d(v[0]);
-      }
+template <int dim>
+FaceLoad<dim>::FaceLoad(const unsigned int degree, const mesh::Idealization &idealization)
+  : idealization(idealization), gauss(lagrange_gauss_points<dim - 1>(degree))
+{
+  Assert(degree == 1 || degree == 2, dealii::ExcMessage("Faces have degree 1 or 2."));
+}
 
-      dealii::Tensor<1, 3>
-      area_vector_derivative(const std::array<dealii::Tensor<1, 3>, 2> &t,
-                             const std::array<dealii::Tensor<1, 3>, 2> &v)
-      {
-        return cross_product_3d(v[0], t[1]) + cross_product_3d(t[0], v[1]);
-      }
+template <int dim>
+typename FaceLoad<dim>::Nodes FaceLoad<dim>::quadrature_points(const Nodes &X) const
+{
+  Nodes points;
+  for (const auto &shape : gauss)
+    points.push_back(interpolate<dim>(shape, X));
+  return points;
+}
 
-      /// d/dt_i (c . m) for a fixed vector c.
-      std::array<dealii::Tensor<1, 2>, 1>
-      area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &,
-                            const dealii::Tensor<1, 2> &c)
-      {
-        return {{-cross_product_2d(c)}};
-      }
-
-      std::array<dealii::Tensor<1, 3>, 2>
-      area_vector_transpose(const std::array<dealii::Tensor<1, 3>, 2> &t,
-                            const dealii::Tensor<1, 3>                &c)
-      {
-        return {{cross_product_3d(t[1], c), cross_product_3d(c, t[0])}};
-      }
-
-      /// A Gauss point of a face with nodes X.
-      template <int dim>
-      struct FacePoint
-      {
-        using Nodes = std::vector<dealii::Tensor<1, dim>>;
-
-        FacePoint(const LagrangePoint<dim - 1> &shape,
-                  const mesh::Idealization     &idealization,
-                  const Nodes                  &X)
-          : shape(shape)
-          , x(interpolate<dim>(shape, X))
-          , t(tangents<dim>(shape, X))
-          , m(area_vector(t))
-          , weight(shape.weight * idealization.weight(x))
-          , weight_gradient(shape.weight *
-                            idealization.template weight_gradient<dim>())
-        {
-        }
-
-        /// dA.
-        double
-        area() const
-        {
-          return weight * m.norm();
-        }
-
-        /// (n dA)' along V.
-        dealii::Tensor<1, dim>
-        vector_derivative(const Nodes &V) const
-        {
-          return weight * area_vector_derivative(t, tangents<dim>(shape, V)) +
-                 (weight_gradient * interpolate<dim>(shape, V)) * m;
-        }
-
-        /// dA' along V.
-        double
-        area_derivative(const Nodes &V) const
-        {
-          return vector_derivative(V) * m / m.norm();
-        }
-
-        /// gradient_a += d/dX_a (c . n dA); with c = kappa n of kappa dA.
-        void
-        add_vector_gradient(const dealii::Tensor<1, dim> &c,
-                            Nodes                        &gradient) const
-        {
-          const auto gradient_t = area_vector_transpose(t, c);
-          for (unsigned int a = 0; a < gradient.size(); ++a)
-            {
-              gradient[a] += (c * m) * shape.values[a] * weight_gradient;
-              for (unsigned int i = 0; i < dim - 1; ++i)
-                gradient[a] += weight * shape.gradients[a][i] * gradient_t[i];
-            }
-        }
-
-        const LagrangePoint<dim - 1>               &shape;
-        dealii::Tensor<1, dim>                      x;
-        std::array<dealii::Tensor<1, dim>, dim - 1> t;
-        dealii::Tensor<1, dim>                      m;
-        double                 weight; ///< of the quadrature and of the section
-        dealii::Tensor<1, dim> weight_gradient;
-      };
-
-      /// Pressure and traction of a load at Gauss point q.
-      template <int dim>
-      double
-      pressure(const FaceLoadValues<dim> &load, unsigned int q)
-      {
-        return load.pressure.empty() ? 0. : load.pressure[q];
-      }
-
-      template <int dim>
-      dealii::Tensor<1, dim>
-      traction(const FaceLoadValues<dim> &load, unsigned int q)
-      {
-        return load.traction.empty() ? dealii::Tensor<1, dim>()
-                                     : load.traction[q];
-      }
-    } // namespace
-
-    template <int dim>
-    FaceLoad<dim>::FaceLoad(const unsigned int        degree,
-                            const mesh::Idealization &idealization)
-      : idealization(idealization)
-      , gauss(lagrange_gauss_points<dim - 1>(degree))
+template <int dim>
+void FaceLoad<dim>::force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes &f) const
+{
+  f.assign(X.size(), {});
+  for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      Assert(degree == 1 || degree == 2,
-             dealii::ExcMessage("Faces have degree 1 or 2."));
+      const FacePoint<dim> point(gauss[q], idealization, X);
+      const auto           force = point.area() * (traction(load, q) + load.linear.value(point.x)) -
+                         pressure(load, q) * point.weight * point.m;
+      for (unsigned int a = 0; a < X.size(); ++a)
+        f[a] += gauss[q].values[a] * force;
     }
+}
 
-    template <int dim>
-    typename FaceLoad<dim>::Nodes
-    FaceLoad<dim>::quadrature_points(const Nodes &X) const
+template <int dim>
+void FaceLoad<dim>::force_derivative(const Nodes               &X,
+                                     const Nodes               &V,
+                                     const FaceLoadValues<dim> &load,
+                                     const LinearTraction<dim> &linear,
+                                     Nodes                     &f) const
+{
+  f.assign(X.size(), {});
+  for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      Nodes points;
-      for (const auto &shape : gauss)
-        points.push_back(interpolate<dim>(shape, X));
-      return points;
+      const FacePoint<dim> point(gauss[q], idealization, X);
+      const auto           linear_derivative =
+        linear.uniform + turned(linear.spin, point.x - load.linear.centre) +
+        turned(load.linear.spin, interpolate<dim>(gauss[q], V) - linear.centre);
+      const auto force_derivative =
+        point.area_derivative(V) * (traction(load, q) + load.linear.value(point.x)) +
+        point.area() * linear_derivative - pressure(load, q) * point.vector_derivative(V);
+      for (unsigned int a = 0; a < X.size(); ++a)
+        f[a] += gauss[q].values[a] * force_derivative;
     }
+}
 
-    template <int dim>
-    void
-    FaceLoad<dim>::force(const Nodes               &X,
-                         const FaceLoadValues<dim> &load,
-                         Nodes                     &f) const
+template <int dim>
+void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
+                                       const FaceLoadValues<dim> &load,
+                                       const Nodes               &u,
+                                       const double               factor,
+                                       Nodes                     &gradient) const
+{
+  AssertDimension(u.size(), X.size());
+  AssertDimension(gradient.size(), X.size());
+  for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      f.assign(X.size(), {});
-      for (unsigned int q = 0; q < gauss.size(); ++q)
+      const FacePoint<dim> point(gauss[q], idealization, X);
+      const auto           displacement = interpolate<dim>(gauss[q], u);
+      point.add_vector_gradient(factor *
+                                  ((displacement * traction(load, q)) / point.m.norm() * point.m -
+                                   pressure(load, q) * displacement),
+                                gradient);
+    }
+}
+
+template <int dim>
+void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
+                                           const ResultantWork<dim> &work,
+                                           const Nodes              &u,
+                                           const double              factor,
+                                           Nodes                    &gradient) const
+{
+  const auto  &w  = work.traction.spin;
+  const auto  &y  = work.rotation;
+  const double yw = y * w;
+  // u x w = -(w x u)
+  const auto shift = -1. / work.area * turned(w, work.displacement);
+  for (const auto &shape : gauss)
+    {
+      const FacePoint<dim>   point(shape, idealization, X);
+      const auto             displacement = interpolate<dim>(shape, u);
+      const auto             r            = point.x - work.traction.centre;
+      dealii::Tensor<1, dim> in_plane_w, in_plane_y;
+      for (unsigned int c = 0; c < dim; ++c)
         {
-          const FacePoint<dim> point(gauss[q], idealization, X);
-          const auto           force =
-            point.area() * (traction(load, q) + load.linear.value(point.x)) -
-            pressure(load, q) * point.weight * point.m;
-          for (unsigned int a = 0; a < X.size(); ++a)
-            f[a] += gauss[q].values[a] * force;
+          in_plane_w[c] = w[c];
+          in_plane_y[c] = y[c];
         }
+      const double wr = in_plane_w * r, yr = in_plane_y * r;
+      const double kappa = displacement * work.traction.value(point.x) -
+                           work.traction.uniform * work.displacement / work.area - shift * r -
+                           r.norm_square() * yw + yr * wr;
+      const auto k =
+        -1. * turned(w, displacement) - shift - 2. * yw * r + wr * in_plane_y + yr * in_plane_w;
+      point.add_vector_gradient(factor * kappa / point.m.norm() * point.m, gradient);
+      for (unsigned int a = 0; a < X.size(); ++a)
+        gradient[a] += factor * point.area() * shape.values[a] * k;
     }
+}
 
-    template <int dim>
-    void
-    FaceLoad<dim>::force_derivative(const Nodes               &X,
-                                    const Nodes               &V,
-                                    const FaceLoadValues<dim> &load,
-                                    const LinearTraction<dim> &linear,
-                                    Nodes                     &f) const
+template <int dim>
+AreaMoments<dim> FaceLoad<dim>::moments(const Nodes &X, const dealii::Tensor<1, dim> &origin) const
+{
+  AreaMoments<dim> result;
+  for (const auto &shape : gauss)
     {
-      f.assign(X.size(), {});
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-        {
-          const FacePoint<dim> point(gauss[q], idealization, X);
-          const auto           linear_derivative =
-            linear.uniform + turned(linear.spin, point.x - load.linear.centre) +
-            turned(load.linear.spin,
-                   interpolate<dim>(gauss[q], V) - linear.centre);
-          const auto force_derivative =
-            point.area_derivative(V) *
-              (traction(load, q) + load.linear.value(point.x)) +
-            point.area() * linear_derivative -
-            pressure(load, q) * point.vector_derivative(V);
-          for (unsigned int a = 0; a < X.size(); ++a)
-            f[a] += gauss[q].values[a] * force_derivative;
-        }
+      const FacePoint<dim> point(shape, idealization, X);
+      const auto           x = point.x - origin;
+      result.area += point.area();
+      result.first += point.area() * x;
+      result.second += point.area() * outer_product(x, x);
     }
+  return result;
+}
 
-    template <int dim>
-    void
-    FaceLoad<dim>::add_force_gradient(const Nodes               &X,
-                                      const FaceLoadValues<dim> &load,
-                                      const Nodes               &u,
-                                      const double               factor,
-                                      Nodes                     &gradient) const
+template <int dim>
+AreaMoments<dim> FaceLoad<dim>::moment_derivatives(const Nodes                  &X,
+                                                   const Nodes                  &V,
+                                                   const dealii::Tensor<1, dim> &origin) const
+{
+  AreaMoments<dim> result;
+  for (const auto &shape : gauss)
     {
-      AssertDimension(u.size(), X.size());
-      AssertDimension(gradient.size(), X.size());
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-        {
-          const FacePoint<dim> point(gauss[q], idealization, X);
-          const auto           displacement = interpolate<dim>(gauss[q], u);
-          point.add_vector_gradient(factor *
-                                      ((displacement * traction(load, q)) /
-                                         point.m.norm() * point.m -
-                                       pressure(load, q) * displacement),
-                                    gradient);
-        }
+      const FacePoint<dim> point(shape, idealization, X);
+      const auto           x      = point.x - origin;
+      const auto           v      = interpolate<dim>(shape, V);
+      const double         change = point.area_derivative(V);
+      result.area += change;
+      result.first += change * x + point.area() * v;
+      result.second +=
+        change * outer_product(x, x) + point.area() * (outer_product(v, x) + outer_product(x, v));
     }
+  return result;
+}
 
-    template <int dim>
-    void
-    FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
-                                          const ResultantWork<dim> &work,
-                                          const Nodes              &u,
-                                          const double              factor,
-                                          Nodes &gradient) const
+template <int dim>
+Resultant<dim> FaceLoad<dim>::displacement_moments(const Nodes                  &X,
+                                                   const Nodes                  &u,
+                                                   const dealii::Tensor<1, dim> &centre) const
+{
+  Resultant<dim> result;
+  for (const auto &shape : gauss)
     {
-      const auto  &w  = work.traction.spin;
-      const auto  &y  = work.rotation;
-      const double yw = y * w;
-      // u x w = -(w x u)
-      const auto shift = -1. / work.area * turned(w, work.displacement);
-      for (const auto &shape : gauss)
-        {
-          const FacePoint<dim>   point(shape, idealization, X);
-          const auto             displacement = interpolate<dim>(shape, u);
-          const auto             r            = point.x - work.traction.centre;
-          dealii::Tensor<1, dim> in_plane_w, in_plane_y;
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              in_plane_w[c] = w[c];
-              in_plane_y[c] = y[c];
-            }
-          const double wr = in_plane_w * r, yr = in_plane_y * r;
-          const double kappa =
-            displacement * work.traction.value(point.x) -
-            work.traction.uniform * work.displacement / work.area - shift * r -
-            r.norm_square() * yw + yr * wr;
-          const auto k = -1. * turned(w, displacement) - shift - 2. * yw * r +
-                         wr * in_plane_y + yr * in_plane_w;
-          point.add_vector_gradient(factor * kappa / point.m.norm() * point.m,
-                                    gradient);
-          for (unsigned int a = 0; a < X.size(); ++a)
-            gradient[a] += factor * point.area() * shape.values[a] * k;
-        }
+      const FacePoint<dim> point(shape, idealization, X);
+      const auto           displacement = point.area() * interpolate<dim>(shape, u);
+      result.force += displacement;
+      result.moment += moment_of(point.x - centre, displacement);
     }
+  return result;
+}
 
-    template <int dim>
-    AreaMoments<dim>
-    FaceLoad<dim>::moments(const Nodes                  &X,
-                           const dealii::Tensor<1, dim> &origin) const
+template <int dim>
+std::vector<double> FaceLoad<dim>::areas(const Nodes &X) const
+{
+  std::vector<double> areas(X.size());
+  for (const auto &shape : gauss)
     {
-      AreaMoments<dim> result;
-      for (const auto &shape : gauss)
-        {
-          const FacePoint<dim> point(shape, idealization, X);
-          const auto           x = point.x - origin;
-          result.area += point.area();
-          result.first += point.area() * x;
-          result.second += point.area() * outer_product(x, x);
-        }
-      return result;
+      const double dA = FacePoint<dim>(shape, idealization, X).area();
+      for (unsigned int a = 0; a < X.size(); ++a)
+        areas[a] += shape.values[a] * dA;
     }
+  return areas;
+}
 
-    template <int dim>
-    AreaMoments<dim>
-    FaceLoad<dim>::moment_derivatives(
-      const Nodes                  &X,
-      const Nodes                  &V,
-      const dealii::Tensor<1, dim> &origin) const
-    {
-      AreaMoments<dim> result;
-      for (const auto &shape : gauss)
-        {
-          const FacePoint<dim> point(shape, idealization, X);
-          const auto           x      = point.x - origin;
-          const auto           v      = interpolate<dim>(shape, V);
-          const double         change = point.area_derivative(V);
-          result.area += change;
-          result.first += change * x + point.area() * v;
-          result.second +=
-            change * outer_product(x, x) +
-            point.area() * (outer_product(v, x) + outer_product(x, v));
-        }
-      return result;
-    }
-
-    template <int dim>
-    Resultant<dim>
-    FaceLoad<dim>::displacement_moments(
-      const Nodes                  &X,
-      const Nodes                  &u,
-      const dealii::Tensor<1, dim> &centre) const
-    {
-      Resultant<dim> result;
-      for (const auto &shape : gauss)
-        {
-          const FacePoint<dim> point(shape, idealization, X);
-          const auto displacement = point.area() * interpolate<dim>(shape, u);
-          result.force += displacement;
-          result.moment += moment_of(point.x - centre, displacement);
-        }
-      return result;
-    }
-
-    template <int dim>
-    std::vector<double>
-    FaceLoad<dim>::areas(const Nodes &X) const
-    {
-      std::vector<double> areas(X.size());
-      for (const auto &shape : gauss)
-        {
-          const double dA = FacePoint<dim>(shape, idealization, X).area();
-          for (unsigned int a = 0; a < X.size(); ++a)
-            areas[a] += shape.values[a] * dA;
-        }
-      return areas;
-    }
-
-    template class FaceLoad<2>;
-    template class FaceLoad<3>;
-  } // namespace elasticity
-} // namespace snug
+template class FaceLoad<2>;
+template class FaceLoad<3>;
+} // namespace snug::elasticity

@@ -2,71 +2,59 @@
 
 #include <deal.II/base/exceptions.h>
 
-namespace snug
+namespace snug::elasticity {
+const ChoiceTable<Stencil()> &stencil_table()
 {
-  namespace elasticity
-  {
-    const ChoiceTable<Stencil()> &
-    stencil_table()
-    {
-      static const ChoiceTable<Stencil()> table = {
-        {"forward",
-         "(f(h) - f(0)) / h",
-         []() {
-           return Stencil{{0., 1.}, {-1., 1.}};
-         }},
-        {"backward",
-         "(f(0) - f(-h)) / h",
-         []() {
-           return Stencil{{-1., 0.}, {-1., 1.}};
-         }},
-        {"central",
-         "(f(h) - f(-h)) / 2h",
-         []() {
-           return Stencil{{-1., 1.}, {-1. / 2., 1. / 2.}};
-         }},
-        {"fourth order", "(f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h", []() {
-           return Stencil{{-2., -1., 1., 2.},
-                          {1. / 12., -8. / 12., 8. / 12., -1. / 12.}};
-         }}};
-      return table;
-    }
+  static const ChoiceTable<Stencil()> table = {
+    {"forward", "(f(h) - f(0)) / h",
+     []() {
+       return Stencil{{0., 1.}, {-1., 1.}};
+     }},
+    {"backward", "(f(0) - f(-h)) / h",
+     []() {
+       return Stencil{{-1., 0.}, {-1., 1.}};
+     }},
+    {"central", "(f(h) - f(-h)) / 2h",
+     []() {
+       return Stencil{{-1., 1.}, {-1. / 2., 1. / 2.}};
+     }},
+    {"fourth order", "(f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h", []() {
+       return Stencil{{-2., -1., 1., 2.}, {1. / 12., -8. / 12., 8. / 12., -1. / 12.}};
+     }}};
+  return table;
+}
 
-    template <int dim>
-    std::vector<dealii::Tensor<1, dim>>
-    difference(const Stencil                             &stencil,
-               const NodeFunction<dim>                   &f,
-               const std::vector<dealii::Tensor<1, dim>> &X,
-               const std::vector<dealii::Tensor<1, dim>> &V,
-               const double                               step)
+template <int dim>
+std::vector<dealii::Tensor<1, dim>> difference(const Stencil                             &stencil,
+                                               const NodeFunction<dim>                   &f,
+                                               const std::vector<dealii::Tensor<1, dim>> &X,
+                                               const std::vector<dealii::Tensor<1, dim>> &V,
+                                               const double                               step)
+{
+  AssertDimension(X.size(), V.size());
+  Assert(step > 0., dealii::ExcMessage("The step must be positive."));
+  std::vector<dealii::Tensor<1, dim>> at, values, sum;
+  for (unsigned int k = 0; k < stencil.places.size(); ++k)
     {
-      AssertDimension(X.size(), V.size());
-      Assert(step > 0., dealii::ExcMessage("The step must be positive."));
-      std::vector<dealii::Tensor<1, dim>> at, values, sum;
-      for (unsigned int k = 0; k < stencil.places.size(); ++k)
-        {
-          at = X;
-          for (unsigned int a = 0; a < X.size(); ++a)
-            at[a] += stencil.places[k] * step * V[a];
-          f(at, values);
-          sum.resize(values.size());
-          for (unsigned int a = 0; a < values.size(); ++a)
-            sum[a] += stencil.weights[k] / step * values[a];
-        }
-      return sum;
+      at = X;
+      for (unsigned int a = 0; a < X.size(); ++a)
+        at[a] += stencil.places[k] * step * V[a];
+      f(at, values);
+      sum.resize(values.size());
+      for (unsigned int a = 0; a < values.size(); ++a)
+        sum[a] += stencil.weights[k] / step * values[a];
     }
+  return sum;
+}
 
-    template std::vector<dealii::Tensor<1, 2>>
-    difference(const Stencil &,
-               const NodeFunction<2> &,
-               const std::vector<dealii::Tensor<1, 2>> &,
-               const std::vector<dealii::Tensor<1, 2>> &,
-               double);
-    template std::vector<dealii::Tensor<1, 3>>
-    difference(const Stencil &,
-               const NodeFunction<3> &,
-               const std::vector<dealii::Tensor<1, 3>> &,
-               const std::vector<dealii::Tensor<1, 3>> &,
-               double);
-  } // namespace elasticity
-} // namespace snug
+template std::vector<dealii::Tensor<1, 2>> difference(const Stencil &,
+                                                      const NodeFunction<2> &,
+                                                      const std::vector<dealii::Tensor<1, 2>> &,
+                                                      const std::vector<dealii::Tensor<1, 2>> &,
+                                                      double);
+template std::vector<dealii::Tensor<1, 3>> difference(const Stencil &,
+                                                      const NodeFunction<3> &,
+                                                      const std::vector<dealii::Tensor<1, 3>> &,
+                                                      const std::vector<dealii::Tensor<1, 3>> &,
+                                                      double);
+} // namespace snug::elasticity

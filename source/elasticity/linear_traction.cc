@@ -1,131 +1,110 @@
 #include <snug/elasticity/linear_traction.h>
 
-namespace snug
+namespace snug::elasticity {
+namespace {
+/// int (|r|^2 - r (x) r) dA from int r (x) r dA; the out-of-plane entry
+/// in the plane.
+template <int dim>
+dealii::Tensor<2, 3> inertia(const dealii::Tensor<2, dim> &second)
 {
-  namespace elasticity
-  {
-    namespace
-    {
-      /// int (|r|^2 - r (x) r) dA from int r (x) r dA; the out-of-plane entry
-      /// in the plane.
-      template <int dim>
-      dealii::Tensor<2, 3>
-      inertia(const dealii::Tensor<2, dim> &second)
-      {
-        dealii::Tensor<2, 3> I;
-        for (unsigned int d = 0; d < 3; ++d)
-          I[d][d] = trace(second);
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int e = 0; e < dim; ++e)
-            I[d][e] -= second[d][e];
-        return I;
-      }
+  dealii::Tensor<2, 3> I;
+  for (unsigned int d = 0; d < 3; ++d)
+    I[d][d] = trace(second);
+  for (unsigned int d = 0; d < dim; ++d)
+    for (unsigned int e = 0; e < dim; ++e)
+      I[d][e] -= second[d][e];
+  return I;
+}
 
-      template <int dim>
-      dealii::Tensor<2, 3>
-      inverse(const dealii::Tensor<2, 3> &I)
-      {
-        if (dim == 3)
-          return invert(I);
-        dealii::Tensor<2, 3> result;
-        result[2][2] = 1. / I[2][2];
-        return result;
-      }
-    } // namespace
+template <int dim>
+dealii::Tensor<2, 3> inverse(const dealii::Tensor<2, 3> &I)
+{
+  if (dim == 3)
+    return invert(I);
+  dealii::Tensor<2, 3> result;
+  result[2][2] = 1. / I[2][2];
+  return result;
+}
+} // namespace
 
-    template <>
-    dealii::Tensor<1, 3>
-    moment_of(const dealii::Tensor<1, 2> &arm,
-              const dealii::Tensor<1, 2> &force)
-    {
-      dealii::Tensor<1, 3> moment;
-      moment[2] = arm[0] * force[1] - arm[1] * force[0];
-      return moment;
-    }
+template <>
+dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 2> &arm, const dealii::Tensor<1, 2> &force)
+{
+  dealii::Tensor<1, 3> moment;
+  moment[2] = arm[0] * force[1] - arm[1] * force[0];
+  return moment;
+}
 
-    template <>
-    dealii::Tensor<1, 3>
-    moment_of(const dealii::Tensor<1, 3> &arm,
-              const dealii::Tensor<1, 3> &force)
-    {
-      return cross_product_3d(arm, force);
-    }
+template <>
+dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 3> &arm, const dealii::Tensor<1, 3> &force)
+{
+  return cross_product_3d(arm, force);
+}
 
-    template <>
-    dealii::Tensor<1, 2>
-    turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 2> &v)
-    {
-      dealii::Tensor<1, 2> result;
-      result[0] = -axis[2] * v[1];
-      result[1] = axis[2] * v[0];
-      return result;
-    }
+template <>
+dealii::Tensor<1, 2> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 2> &v)
+{
+  dealii::Tensor<1, 2> result;
+  result[0] = -axis[2] * v[1];
+  result[1] = axis[2] * v[0];
+  return result;
+}
 
-    template <>
-    dealii::Tensor<1, 3>
-    turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 3> &v)
-    {
-      return cross_product_3d(axis, v);
-    }
+template <>
+dealii::Tensor<1, 3> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 3> &v)
+{
+  return cross_product_3d(axis, v);
+}
 
-    template <int dim>
-    SpreadResultant<dim>::SpreadResultant(const Resultant<dim>   &resultant,
-                                          const AreaMoments<dim> &moments,
-                                          const dealii::Tensor<1, dim> &origin)
-      : moments(moments)
-    {
-      const auto to_centre = moments.first / moments.area;
-      spread.uniform       = resultant.force / moments.area;
-      spread.centre        = origin + to_centre;
-      if (resultant.moment.norm() == 0.)
-        return;
-      inverse_inertia = inverse<dim>(inertia(
-        moments.second - moments.area * outer_product(to_centre, to_centre)));
-      spread.spin     = inverse_inertia * resultant.moment;
-    }
+template <int dim>
+SpreadResultant<dim>::SpreadResultant(const Resultant<dim>         &resultant,
+                                      const AreaMoments<dim>       &moments,
+                                      const dealii::Tensor<1, dim> &origin)
+  : moments(moments)
+{
+  const auto to_centre = moments.first / moments.area;
+  spread.uniform       = resultant.force / moments.area;
+  spread.centre        = origin + to_centre;
+  if (resultant.moment.norm() == 0.)
+    return;
+  inverse_inertia =
+    inverse<dim>(inertia(moments.second - moments.area * outer_product(to_centre, to_centre)));
+  spread.spin = inverse_inertia * resultant.moment;
+}
 
-    template <int dim>
-    const LinearTraction<dim> &
-    SpreadResultant<dim>::traction() const
-    {
-      return spread;
-    }
+template <int dim>
+const LinearTraction<dim> &SpreadResultant<dim>::traction() const
+{
+  return spread;
+}
 
-    template <int dim>
-    LinearTraction<dim>
-    SpreadResultant<dim>::derivative(const AreaMoments<dim> &change) const
-    {
-      const auto to_centre = moments.first / moments.area;
-      const auto centre_change =
-        (change.first - change.area * to_centre) / moments.area;
-      LinearTraction<dim> result;
-      result.uniform = (-change.area / moments.area) * spread.uniform;
-      result.centre  = centre_change;
-      const auto second_change =
-        change.second - change.area * outer_product(to_centre, to_centre) -
-        moments.area * (outer_product(centre_change, to_centre) +
-                        outer_product(to_centre, centre_change));
-      result.spin =
-        -1. * divided_by_inertia(inertia(second_change) * spread.spin);
-      return result;
-    }
+template <int dim>
+LinearTraction<dim> SpreadResultant<dim>::derivative(const AreaMoments<dim> &change) const
+{
+  const auto          to_centre     = moments.first / moments.area;
+  const auto          centre_change = (change.first - change.area * to_centre) / moments.area;
+  LinearTraction<dim> result;
+  result.uniform           = (-change.area / moments.area) * spread.uniform;
+  result.centre            = centre_change;
+  const auto second_change = change.second - change.area * outer_product(to_centre, to_centre) -
+                             moments.area * (outer_product(centre_change, to_centre) +
+                                             outer_product(to_centre, centre_change));
+  result.spin = -1. * divided_by_inertia(inertia(second_change) * spread.spin);
+  return result;
+}
 
-    template <int dim>
-    dealii::Tensor<1, 3>
-    SpreadResultant<dim>::divided_by_inertia(
-      const dealii::Tensor<1, 3> &m) const
-    {
-      return inverse_inertia * m;
-    }
+template <int dim>
+dealii::Tensor<1, 3> SpreadResultant<dim>::divided_by_inertia(const dealii::Tensor<1, 3> &m) const
+{
+  return inverse_inertia * m;
+}
 
-    template <int dim>
-    double
-    SpreadResultant<dim>::area() const
-    {
-      return moments.area;
-    }
+template <int dim>
+double SpreadResultant<dim>::area() const
+{
+  return moments.area;
+}
 
-    template class SpreadResultant<2>;
-    template class SpreadResultant<3>;
-  } // namespace elasticity
-} // namespace snug
+template class SpreadResultant<2>;
+template class SpreadResultant<3>;
+} // namespace snug::elasticity

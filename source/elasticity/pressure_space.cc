@@ -4,72 +4,63 @@
 
 #include <cmath>
 
-namespace snug
+namespace snug::elasticity {
+template <int dim>
+PressureSpace<dim>::PressureSpace(const unsigned int                     degree,
+                                  const std::vector<dealii::Point<dim>> &points,
+                                  const std::vector<double>             &dV)
+  : dV(dV)
 {
-  namespace elasticity
-  {
-    template <int dim>
-    PressureSpace<dim>::PressureSpace(
-      const unsigned int                     degree,
-      const std::vector<dealii::Point<dim>> &points,
-      const std::vector<double>             &dV)
-      : dV(dV)
+  AssertDimension(points.size(), dV.size());
+  const unsigned int n_functions = degree == 1 ? 1 : 1 + dim;
+  for (unsigned int i = 0; i < n_functions; ++i)
     {
-      AssertDimension(points.size(), dV.size());
-      const unsigned int n_functions = degree == 1 ? 1 : 1 + dim;
-      for (unsigned int i = 0; i < n_functions; ++i)
+      std::vector<double> f(points.size(), 1.);
+      for (unsigned int q = 0; i > 0 && q < f.size(); ++q)
+        f[q] = points[q][i - 1] - 0.5;
+      for (const auto &g : orthonormal)
         {
-          std::vector<double> f(points.size(), 1.);
-          for (unsigned int q = 0; i > 0 && q < f.size(); ++q)
-            f[q] = points[q][i - 1] - 0.5;
-          for (const auto &g : orthonormal)
-            {
-              const double part = product(f, g);
-              for (unsigned int q = 0; q < f.size(); ++q)
-                f[q] -= part * g[q];
-            }
-          const double norm = std::sqrt(product(f, f));
-          for (double &value : f)
-            value /= norm;
-          orthonormal.push_back(f);
+          const double part = product(f, g);
+          for (unsigned int q = 0; q < f.size(); ++q)
+            f[q] -= part * g[q];
         }
+      const double norm = std::sqrt(product(f, f));
+      for (double &value : f)
+        value /= norm;
+      orthonormal.push_back(f);
     }
+}
 
-    template <int dim>
-    const std::vector<std::vector<double>> &
-    PressureSpace<dim>::functions() const
+template <int dim>
+const std::vector<std::vector<double>> &PressureSpace<dim>::functions() const
+{
+  return orthonormal;
+}
+
+template <int dim>
+void PressureSpace<dim>::project(std::vector<double> &values) const
+{
+  std::vector<double> projection(values.size(), 0.);
+  for (const auto &f : orthonormal)
     {
-      return orthonormal;
+      const double part = product(f, values);
+      for (unsigned int q = 0; q < values.size(); ++q)
+        projection[q] += part * f[q];
     }
+  values = projection;
+}
 
-    template <int dim>
-    void
-    PressureSpace<dim>::project(std::vector<double> &values) const
-    {
-      std::vector<double> projection(values.size(), 0.);
-      for (const auto &f : orthonormal)
-        {
-          const double part = product(f, values);
-          for (unsigned int q = 0; q < values.size(); ++q)
-            projection[q] += part * f[q];
-        }
-      values = projection;
-    }
+template <int dim>
+double PressureSpace<dim>::product(const std::vector<double> &f, const std::vector<double> &g) const
+{
+  AssertDimension(f.size(), dV.size());
+  AssertDimension(g.size(), dV.size());
+  double sum = 0.;
+  for (unsigned int q = 0; q < dV.size(); ++q)
+    sum += f[q] * g[q] * dV[q];
+  return sum;
+}
 
-    template <int dim>
-    double
-    PressureSpace<dim>::product(const std::vector<double> &f,
-                                const std::vector<double> &g) const
-    {
-      AssertDimension(f.size(), dV.size());
-      AssertDimension(g.size(), dV.size());
-      double sum = 0.;
-      for (unsigned int q = 0; q < dV.size(); ++q)
-        sum += f[q] * g[q] * dV[q];
-      return sum;
-    }
-
-    template class PressureSpace<2>;
-    template class PressureSpace<3>;
-  } // namespace elasticity
-} // namespace snug
+template class PressureSpace<2>;
+template class PressureSpace<3>;
+} // namespace snug::elasticity

@@ -7,302 +7,252 @@
 
 #include <cmath>
 
-namespace snug
+namespace snug::elasticity {
+namespace {
+/**
+ * K of one element with all loop bounds known to the compiler.
+ *
+ * The material is constant in the cell, so that the quadrature reduces
+ * to one symmetric product
+ *   H_(ca)(db) = sum_q dV_q g_a,c g_b,d
+ * after which
+ *   K_(ac)(bd) = lambda H_(ca)(db) + mu H_(da)(cb)
+ *                + mu delta_cd sum_e H_(ea)(eb).
+ * Index (ca) = c * n_padded + a; n_padded is a multiple of the tile size,
+ * so H is computed in square tiles that stay in registers.
+ *
+ * Axisymmetric: one more direction, g_a,2 = N_a / r, the hoop strain of
+ * component 0.
+ */
+template <int dim, int degree, bool axisymmetric>
+class StiffnessKernel
 {
-  namespace elasticity
-  {
-    namespace
-    {
-      /**
-       * K of one element with all loop bounds known to the compiler.
-       *
-       * The material is constant in the cell, so that the quadrature reduces
-       * to one symmetric product
-       *   H_(ca)(db) = sum_q dV_q g_a,c g_b,d
-       * after which
-       *   K_(ac)(bd) = lambda H_(ca)(db) + mu H_(da)(cb)
-       *                + mu delta_cd sum_e H_(ea)(eb).
-       * Index (ca) = c * n_padded + a; n_padded is a multiple of the tile size,
-       * so H is computed in square tiles that stay in registers.
-       *
-       * Axisymmetric: one more direction, g_a,2 = N_a / r, the hoop strain of
-       * component 0.
-       */
-      template <int dim, int degree, bool axisymmetric>
-      class StiffnessKernel
+public:
+  static constexpr int tile         = 4;
+  static constexpr int n_directions = axisymmetric ? dim + 1 : dim;
+  static constexpr int n            = dealii::Utilities::pow(degree + 1, dim);
+  static constexpr int n_gauss      = n;
+  static constexpr int n_padded     = (n + tile - 1) / tile * tile;
+  static constexpr int n_rows       = n_directions * n_padded;
+  static constexpr int N            = n * dim; ///< unknowns
+
+  /// @p reference: [point][d][a] as in Element.
+  void compute_gradients(const std::vector<dealii::Tensor<1, dim>> &X,
+                         const std::vector<LagrangePoint<dim>>     &gauss,
+                         const double                              *reference,
+                         const mesh::Idealization                  &idealization);
+
+  /// H on and above its diagonal tiles.
+  void compute_products();
+
+  /// K from H.
+  void combine(double lambda, double mu, double *K) const;
+
+  /// K += what the hoop strain adds.
+  void add_hoop(double lambda, double mu, double *K) const;
+
+  /// K += kappa sum_i c_i c_i' of Element.
+  void add_projected(double kappa, const std::vector<LagrangePoint<dim>> &gauss, double *K) const;
+
+private:
+  double positions[dim][n_padded];
+  double volumes[n_gauss]; ///< dV
+  double gradients[n_gauss][n_rows];
+  double weighted[n_gauss][n_rows]; ///< dV times gradients
+  double products[n_rows][n_rows];  ///< H
+
+  dealii::Tensor<2, dim> jacobian(const double *reference) const;
+};
+
+template <int dim, int degree, bool axisymmetric>
+dealii::Tensor<2, dim>
+StiffnessKernel<dim, degree, axisymmetric>::jacobian(const double *reference) const
+{
+  dealii::Tensor<2, dim> J;
+  for (int c = 0; c < dim; ++c)
+    for (int d = 0; d < dim; ++d)
       {
-      public:
-        static constexpr int tile         = 4;
-        static constexpr int n_directions = axisymmetric ? dim + 1 : dim;
-        static constexpr int n        = dealii::Utilities::pow(degree + 1, dim);
-        static constexpr int n_gauss  = n;
-        static constexpr int n_padded = (n + tile - 1) / tile * tile;
-        static constexpr int n_rows   = n_directions * n_padded;
-        static constexpr int N        = n * dim; ///< unknowns
-
-        /// @p reference: [point][d][a] as in Element.
-        void
-        compute_gradients(const std::vector<dealii::Tensor<1, dim>> &X,
-                          const std::vector<LagrangePoint<dim>>     &gauss,
-                          const double                              *reference,
-                          const mesh::Idealization &idealization);
-
-        /// H on and above its diagonal tiles.
-        void
-        compute_products();
-
-        /// K from H.
-        void
-        combine(double lambda, double mu, double *K) const;
-
-        /// K += what the hoop strain adds.
-        void
-        add_hoop(double lambda, double mu, double *K) const;
-
-        /// K += kappa sum_i c_i c_i' of Element.
-        void
-        add_projected(double                                 kappa,
-                      const std::vector<LagrangePoint<dim>> &gauss,
-                      double                                *K) const;
-
-      private:
-        double positions[dim][n_padded];
-        double volumes[n_gauss]; ///< dV
-        double gradients[n_gauss][n_rows];
-        double weighted[n_gauss][n_rows]; ///< dV times gradients
-        double products[n_rows][n_rows];  ///< H
-
-        dealii::Tensor<2, dim>
-        jacobian(const double *reference) const;
-      };
-
-      template <int dim, int degree, bool axisymmetric>
-      dealii::Tensor<2, dim>
-      StiffnessKernel<dim, degree, axisymmetric>::jacobian(
-        const double *reference) const
-      {
-        dealii::Tensor<2, dim> J;
-        for (int c = 0; c < dim; ++c)
-          for (int d = 0; d < dim; ++d)
-            {
-              double sums[tile] = {};
-              for (int a = 0; a < n_padded; a += tile)
-                for (int i = 0; i < tile; ++i)
-                  sums[i] +=
-                    positions[c][a + i] * reference[d * n_padded + a + i];
-              J[c][d] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-            }
-        return J;
+        double sums[tile] = {};
+        for (int a = 0; a < n_padded; a += tile)
+          for (int i = 0; i < tile; ++i)
+            sums[i] += positions[c][a + i] * reference[d * n_padded + a + i];
+        J[c][d] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
       }
+  return J;
+}
 
-      template <int dim, int degree, bool axisymmetric>
-      void
-      StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
-        const std::vector<dealii::Tensor<1, dim>> &X,
-        const std::vector<LagrangePoint<dim>>     &gauss,
-        const double                              *reference,
-        const mesh::Idealization                  &idealization)
-      {
-        for (int c = 0; c < dim; ++c)
-          for (int a = 0; a < n_padded; ++a)
-            positions[c][a] = a < n ? X[a][c] : 0.;
+template <int dim, int degree, bool axisymmetric>
+void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
+  const std::vector<dealii::Tensor<1, dim>> &X,
+  const std::vector<LagrangePoint<dim>>     &gauss,
+  const double                              *reference,
+  const mesh::Idealization                  &idealization)
+{
+  for (int c = 0; c < dim; ++c)
+    for (int a = 0; a < n_padded; ++a)
+      positions[c][a] = a < n ? X[a][c] : 0.;
 
-        for (int q = 0; q < n_gauss; ++q, reference += dim * n_padded)
+  for (int q = 0; q < n_gauss; ++q, reference += dim * n_padded)
+    {
+      const dealii::Tensor<2, dim> J       = jacobian(reference);
+      const dealii::Tensor<2, dim> inverse = invert(J);
+      volumes[q]                           = gauss[q].weight * determinant(J);
+      for (int c = 0; c < dim; ++c)
+        for (int a = 0; a < n_padded; ++a)
           {
-            const dealii::Tensor<2, dim> J       = jacobian(reference);
-            const dealii::Tensor<2, dim> inverse = invert(J);
-            volumes[q] = gauss[q].weight * determinant(J);
-            for (int c = 0; c < dim; ++c)
-              for (int a = 0; a < n_padded; ++a)
-                {
-                  double g = 0.;
-                  for (int d = 0; d < dim; ++d)
-                    g += inverse[d][c] * reference[d * n_padded + a];
-                  gradients[q][c * n_padded + a] = g;
-                }
-            if (dim == 2)
+            double g = 0.;
+            for (int d = 0; d < dim; ++d)
+              g += inverse[d][c] * reference[d * n_padded + a];
+            gradients[q][c * n_padded + a] = g;
+          }
+      if (dim == 2)
+        {
+          const auto x = value(gauss[q], X);
+          volumes[q] *= idealization.weight(x);
+          if (axisymmetric)
+            for (int a = 0; a < n_padded; ++a)
+              gradients[q][n_rows - n_padded + a] = a < n ? gauss[q].values[a] / x[0] : 0.;
+        }
+      for (int row = 0; row < n_rows; ++row)
+        weighted[q][row] = volumes[q] * gradients[q][row];
+    }
+}
+
+template <int dim, int degree, bool axisymmetric>
+void StiffnessKernel<dim, degree, axisymmetric>::compute_products()
+{
+  for (int I = 0; I < n_rows; I += tile)
+    for (int J = I; J < n_rows; J += tile)
+      {
+        double H[tile][tile] = {};
+        for (int q = 0; q < n_gauss; ++q)
+          for (int i = 0; i < tile; ++i)
+            for (int j = 0; j < tile; ++j)
+              H[i][j] += weighted[q][I + i] * gradients[q][J + j];
+        for (int i = 0; i < tile; ++i)
+          for (int j = 0; j < tile; ++j)
+            products[I + i][J + j] = H[i][j];
+      }
+}
+
+template <int dim, int degree, bool axisymmetric>
+void StiffnessKernel<dim, degree, axisymmetric>::combine(const double lambda,
+                                                         const double mu,
+                                                         double      *K) const
+{
+  const auto set = [K](const int row, const int column, double value) {
+    K[row * N + column] = value;
+    K[column * N + row] = value;
+  };
+  for (int a = 0; a < n; ++a)
+    for (int b = a; b < n; ++b)
+      {
+        double trace = 0.;
+        for (int c = 0; c < dim; ++c)
+          trace += products[c * n_padded + a][c * n_padded + b];
+        for (int c = 0; c < dim; ++c)
+          {
+            set(a * dim + c, b * dim + c,
+                (lambda + mu) * products[c * n_padded + a][c * n_padded + b] + mu * trace);
+            for (int d = c + 1; d < dim; ++d)
               {
-                const auto x = value(gauss[q], X);
-                volumes[q] *= idealization.weight(x);
-                if (axisymmetric)
-                  for (int a = 0; a < n_padded; ++a)
-                    gradients[q][n_rows - n_padded + a] =
-                      a < n ? gauss[q].values[a] / x[0] : 0.;
+                const double H_cd = products[c * n_padded + a][d * n_padded + b];
+                const double H_dc = products[c * n_padded + b][d * n_padded + a];
+                set(a * dim + c, b * dim + d, lambda * H_cd + mu * H_dc);
+                set(a * dim + d, b * dim + c, lambda * H_dc + mu * H_cd);
               }
-            for (int row = 0; row < n_rows; ++row)
-              weighted[q][row] = volumes[q] * gradients[q][row];
           }
       }
+}
 
-      template <int dim, int degree, bool axisymmetric>
-      void
-      StiffnessKernel<dim, degree, axisymmetric>::compute_products()
-      {
-        for (int I = 0; I < n_rows; I += tile)
-          for (int J = I; J < n_rows; J += tile)
-            {
-              double H[tile][tile] = {};
-              for (int q = 0; q < n_gauss; ++q)
-                for (int i = 0; i < tile; ++i)
-                  for (int j = 0; j < tile; ++j)
-                    H[i][j] += weighted[q][I + i] * gradients[q][J + j];
-              for (int i = 0; i < tile; ++i)
-                for (int j = 0; j < tile; ++j)
-                  products[I + i][J + j] = H[i][j];
-            }
-      }
-
-      template <int dim, int degree, bool axisymmetric>
-      void
-      StiffnessKernel<dim, degree, axisymmetric>::combine(const double lambda,
+template <int dim, int degree, bool axisymmetric>
+void StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
                                                           const double mu,
                                                           double      *K) const
+{
+  constexpr int hoop = n_rows - n_padded; // its first row in H
+  const auto    add  = [K](const int row, const int column, double value) {
+    K[row * N + column] += value;
+    K[column * N + row] = K[row * N + column];
+  };
+  for (int a = 0; a < n; ++a)
+    for (int b = a; b < n; ++b)
       {
-        const auto set = [K](const int row, const int column, double value) {
-          K[row * N + column] = value;
-          K[column * N + row] = value;
-        };
-        for (int a = 0; a < n; ++a)
-          for (int b = a; b < n; ++b)
-            {
-              double trace = 0.;
-              for (int c = 0; c < dim; ++c)
-                trace += products[c * n_padded + a][c * n_padded + b];
-              for (int c = 0; c < dim; ++c)
-                {
-                  set(a * dim + c,
-                      b * dim + c,
-                      (lambda + mu) *
-                          products[c * n_padded + a][c * n_padded + b] +
-                        mu * trace);
-                  for (int d = c + 1; d < dim; ++d)
-                    {
-                      const double H_cd =
-                        products[c * n_padded + a][d * n_padded + b];
-                      const double H_dc =
-                        products[c * n_padded + b][d * n_padded + a];
-                      set(a * dim + c, b * dim + d, lambda * H_cd + mu * H_dc);
-                      set(a * dim + d, b * dim + c, lambda * H_dc + mu * H_cd);
-                    }
-                }
-            }
+        const double radial = products[a][hoop + b] + products[b][hoop + a];
+        add(a * dim, b * dim, lambda * radial + (lambda + 2. * mu) * products[hoop + a][hoop + b]);
+        add(a * dim, b * dim + 1, lambda * products[n_padded + b][hoop + a]);
+        if (a != b)
+          add(a * dim + 1, b * dim, lambda * products[n_padded + a][hoop + b]);
       }
+}
 
-      template <int dim, int degree, bool axisymmetric>
-      void
-      StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
-                                                           const double mu,
-                                                           double      *K) const
-      {
-        constexpr int hoop = n_rows - n_padded; // its first row in H
-        const auto    add = [K](const int row, const int column, double value) {
-          K[row * N + column] += value;
-          K[column * N + row] = K[row * N + column];
-        };
-        for (int a = 0; a < n; ++a)
-          for (int b = a; b < n; ++b)
-            {
-              const double radial =
-                products[a][hoop + b] + products[b][hoop + a];
-              add(a * dim,
-                  b * dim,
-                  lambda * radial +
-                    (lambda + 2. * mu) * products[hoop + a][hoop + b]);
-              add(a * dim,
-                  b * dim + 1,
-                  lambda * products[n_padded + b][hoop + a]);
-              if (a != b)
-                add(a * dim + 1,
-                    b * dim,
-                    lambda * products[n_padded + a][hoop + b]);
-            }
-      }
-
-      template <int dim, int degree, bool axisymmetric>
-      void
-      StiffnessKernel<dim, degree, axisymmetric>::add_projected(
-        const double                           kappa,
-        const std::vector<LagrangePoint<dim>> &gauss,
-        double                                *K) const
-      {
-        std::vector<dealii::Point<dim>> xi;
-        for (const auto &shape : gauss)
-          xi.push_back(shape.point);
-        const PressureSpace<dim> space(
-          degree, xi, std::vector<double>(volumes, volumes + n_gauss));
-        for (const auto &psi : space.functions())
-          {
-            double c[N] = {};
-            for (int q = 0; q < n_gauss; ++q)
-              {
-                const double factor = std::sqrt(kappa) * psi[q];
-                for (int a = 0; a < n; ++a)
-                  {
-                    for (int d = 0; d < dim; ++d)
-                      c[a * dim + d] += factor * weighted[q][d * n_padded + a];
-                    if (axisymmetric)
-                      c[a * dim] += factor * weighted[q][n_rows - n_padded + a];
-                  }
-              }
-            for (int row = 0; row < N; ++row)
-              for (int column = 0; column < N; ++column)
-                K[row * N + column] += c[row] * c[column];
-          }
-      }
-    } // namespace
-
-    template <int dim>
-    template <int degree, bool axisymmetric>
-    void
-    Element<dim>::compute_stiffness(const Nodes         &X,
-                                    const Material      &material,
-                                    std::vector<double> &K) const
+template <int dim, int degree, bool axisymmetric>
+void StiffnessKernel<dim, degree, axisymmetric>::add_projected(
+  const double                           kappa,
+  const std::vector<LagrangePoint<dim>> &gauss,
+  double                                *K) const
+{
+  std::vector<dealii::Point<dim>> xi;
+  for (const auto &shape : gauss)
+    xi.push_back(shape.point);
+  const PressureSpace<dim> space(degree, xi, std::vector<double>(volumes, volumes + n_gauss));
+  for (const auto &psi : space.functions())
     {
-      using Kernel = StiffnessKernel<dim, degree, axisymmetric>;
-      AssertDimension(X.size(), Kernel::n);
-      AssertDimension(reference_gradients.size(),
-                      Kernel::n_gauss * dim * Kernel::n_padded);
-      K.resize(Kernel::N * Kernel::N);
-      const double mu     = material.lame_mu();
-      const double lambda = formulation == Formulation::B_bar
-                              ? -2. / 3. * mu
-                              : lame_lambda(idealization, material);
-
-      Kernel kernel;
-      kernel.compute_gradients(X,
-                               gauss,
-                               reference_gradients.data(),
-                               idealization);
-      kernel.compute_products();
-      kernel.combine(lambda, mu, K.data());
-      if (axisymmetric)
-        kernel.add_hoop(lambda, mu, K.data());
-      if (formulation == Formulation::B_bar)
-        kernel.add_projected(material.bulk_modulus(), gauss, K.data());
+      double c[N] = {};
+      for (int q = 0; q < n_gauss; ++q)
+        {
+          const double factor = std::sqrt(kappa) * psi[q];
+          for (int a = 0; a < n; ++a)
+            {
+              for (int d = 0; d < dim; ++d)
+                c[a * dim + d] += factor * weighted[q][d * n_padded + a];
+              if (axisymmetric)
+                c[a * dim] += factor * weighted[q][n_rows - n_padded + a];
+            }
+        }
+      for (int row = 0; row < N; ++row)
+        for (int column = 0; column < N; ++column)
+          K[row * N + column] += c[row] * c[column];
     }
+}
+} // namespace
 
-    template <int dim>
-    void
-    Element<dim>::stiffness(const Nodes         &X,
-                            const Material      &material,
-                            std::vector<double> &K) const
-    {
-      constexpr bool section = dim == 2; // solids are never axisymmetric
-      if (section && idealization.is_axisymmetric())
-        degree == 1 ? compute_stiffness<1, section>(X, material, K)
-                    : compute_stiffness<2, section>(X, material, K);
-      else
-        degree == 1 ? compute_stiffness<1, false>(X, material, K)
-                    : compute_stiffness<2, false>(X, material, K);
-    }
+template <int dim>
+template <int degree, bool axisymmetric>
+void Element<dim>::compute_stiffness(const Nodes         &X,
+                                     const Material      &material,
+                                     std::vector<double> &K) const
+{
+  using Kernel = StiffnessKernel<dim, degree, axisymmetric>;
+  AssertDimension(X.size(), Kernel::n);
+  AssertDimension(reference_gradients.size(), Kernel::n_gauss * dim * Kernel::n_padded);
+  K.resize(Kernel::N * Kernel::N);
+  const double mu = material.lame_mu();
+  const double lambda =
+    formulation == Formulation::B_bar ? -2. / 3. * mu : lame_lambda(idealization, material);
 
-    template void
-    Element<2>::stiffness(const Nodes &,
-                          const Material &,
-                          std::vector<double> &) const;
-    template void
-    Element<3>::stiffness(const Nodes &,
-                          const Material &,
-                          std::vector<double> &) const;
-  } // namespace elasticity
-} // namespace snug
+  Kernel kernel;
+  kernel.compute_gradients(X, gauss, reference_gradients.data(), idealization);
+  kernel.compute_products();
+  kernel.combine(lambda, mu, K.data());
+  if (axisymmetric)
+    kernel.add_hoop(lambda, mu, K.data());
+  if (formulation == Formulation::B_bar)
+    kernel.add_projected(material.bulk_modulus(), gauss, K.data());
+}
+
+template <int dim>
+void Element<dim>::stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const
+{
+  constexpr bool section = dim == 2; // solids are never axisymmetric
+  if (section && idealization.is_axisymmetric())
+    degree == 1 ? compute_stiffness<1, section>(X, material, K)
+                : compute_stiffness<2, section>(X, material, K);
+  else
+    degree == 1 ? compute_stiffness<1, false>(X, material, K)
+                : compute_stiffness<2, false>(X, material, K);
+}
+
+template void Element<2>::stiffness(const Nodes &, const Material &, std::vector<double> &) const;
+template void Element<3>::stiffness(const Nodes &, const Material &, std::vector<double> &) const;
+} // namespace snug::elasticity

@@ -2,46 +2,35 @@
 
 #include <cmath>
 
-namespace snug
+namespace snug::elasticity {
+dealii::SymmetricTensor<2, 3> strain(const mesh::Idealization   &idealization,
+                                     const Material             &material,
+                                     const dealii::Tensor<2, 3> &displacement_gradient)
 {
-  namespace elasticity
-  {
-    dealii::SymmetricTensor<2, 3>
-    strain(const mesh::Idealization   &idealization,
-           const Material             &material,
-           const dealii::Tensor<2, 3> &displacement_gradient)
-    {
-      dealii::SymmetricTensor<2, 3> result = symmetrize(displacement_gradient);
-      if (idealization.kind == mesh::Idealization::Kind::plane_stress)
-        result[2][2] = -material.poissons_ratio /
-                       (1. - material.poissons_ratio) *
-                       (result[0][0] + result[1][1]);
-      return result;
-    }
+  dealii::SymmetricTensor<2, 3> result = symmetrize(displacement_gradient);
+  if (idealization.kind == mesh::Idealization::Kind::plane_stress)
+    result[2][2] =
+      -material.poissons_ratio / (1. - material.poissons_ratio) * (result[0][0] + result[1][1]);
+  return result;
+}
 
-    dealii::SymmetricTensor<2, 3>
-    cauchy_stress(const Material                      &material,
-                  const dealii::SymmetricTensor<2, 3> &strain)
-    {
-      return material.lame_lambda() * trace(strain) *
-               dealii::unit_symmetric_tensor<3>() +
-             2. * material.lame_mu() * strain;
-    }
+dealii::SymmetricTensor<2, 3> cauchy_stress(const Material                      &material,
+                                            const dealii::SymmetricTensor<2, 3> &strain)
+{
+  return material.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<3>() +
+         2. * material.lame_mu() * strain;
+}
 
-    double
-    von_mises(const dealii::SymmetricTensor<2, 3> &stress)
-    {
-      return std::sqrt(1.5) * deviator(stress).norm();
-    }
+double von_mises(const dealii::SymmetricTensor<2, 3> &stress)
+{
+  return std::sqrt(1.5) * deviator(stress).norm();
+}
 
-    double
-    lame_lambda(const mesh::Idealization &idealization,
-                const Material           &material)
-    {
-      const double nu = material.poissons_ratio;
-      return idealization.kind == mesh::Idealization::Kind::plane_stress
-               ? material.youngs_modulus * nu / (1. - nu * nu)
-               : material.lame_lambda();
-    }
-  } // namespace elasticity
-} // namespace snug
+double lame_lambda(const mesh::Idealization &idealization, const Material &material)
+{
+  const double nu = material.poissons_ratio;
+  return idealization.kind == mesh::Idealization::Kind::plane_stress
+           ? material.youngs_modulus * nu / (1. - nu * nu)
+           : material.lame_lambda();
+}
+} // namespace snug::elasticity

@@ -4,104 +4,82 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::elasticity {
+template <int dim>
+VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
+                                  const mesh::Idealization &idealization,
+                                  const double              p,
+                                  const double              scale)
+  : idealization(idealization), p(p), scale(scale), gauss(lagrange_gauss_points<dim>(degree))
+{}
+
+/// s = 2 mu dev e.
+template <int dim>
+dealii::SymmetricTensor<2, 3> VonMisesPower<dim>::deviator_at(const CellPoint<dim> &point,
+                                                              const Material       &material,
+                                                              const Nodes          &u) const
 {
-  namespace elasticity
-  {
-    template <int dim>
-    VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
-                                      const mesh::Idealization &idealization,
-                                      const double              p,
-                                      const double              scale)
-      : idealization(idealization)
-      , p(p)
-      , scale(scale)
-      , gauss(lagrange_gauss_points<dim>(degree))
-    {
-    }
+  return 2. * material.lame_mu() * deviator(strain(idealization, material, point.gradient(u)));
+}
 
-    /// s = 2 mu dev e.
-    template <int dim>
-    dealii::SymmetricTensor<2, 3>
-    VonMisesPower<dim>::deviator_at(const CellPoint<dim> &point,
-                                    const Material       &material,
-                                    const Nodes          &u) const
+template <int dim>
+double VonMisesPower<dim>::largest(const Nodes &X, const Material &material, const Nodes &u) const
+{
+  double result = 0.;
+  for (const auto &shape : gauss)
     {
-      return 2. * material.lame_mu() *
-             deviator(strain(idealization, material, point.gradient(u)));
+      const CellPoint<dim> point(shape, X, idealization);
+      result = std::max(result, von_mises(deviator_at(point, material, u)));
     }
+  return result;
+}
 
-    template <int dim>
-    double
-    VonMisesPower<dim>::largest(const Nodes    &X,
-                                const Material &material,
-                                const Nodes    &u) const
+template <int dim>
+double VonMisesPower<dim>::value(const Nodes &X, const Material &material, const Nodes &u) const
+{
+  double result = 0.;
+  for (const auto &shape : gauss)
     {
-      double result = 0.;
-      for (const auto &shape : gauss)
+      const CellPoint<dim> point(shape, X, idealization);
+      result += std::pow(von_mises(deviator_at(point, material, u)) / scale, p) * point.dV;
+    }
+  return result;
+}
+
+template <int dim>
+void VonMisesPower<dim>::add_gradients(const Nodes    &X,
+                                       const Material &material,
+                                       const Nodes    &u,
+                                       const double    factor,
+                                       Nodes          &by_u,
+                                       Nodes          &by_X) const
+{
+  const auto identity = dealii::unit_symmetric_tensor<3>();
+  for (const auto &shape : gauss)
+    {
+      const CellPoint<dim> point(shape, X, idealization);
+      const auto           s      = deviator_at(point, material, u);
+      const double         stress = von_mises(s) / scale;
+      if (stress == 0.)
+        continue;
+      // dS = dV of_strain : de
+      dealii::SymmetricTensor<2, 3> of_strain =
+        p * std::pow(stress, p - 2.) * 3. * material.lame_mu() / (scale * scale) * s;
+      if (idealization.kind == mesh::Idealization::Kind::plane_stress)
         {
-          const CellPoint<dim> point(shape, X, idealization);
-          result = std::max(result, von_mises(deviator_at(point, material, u)));
+          const double across =
+            -material.poissons_ratio / (1. - material.poissons_ratio) * of_strain[2][2];
+          of_strain[0][0] += across;
+          of_strain[1][1] += across;
+          of_strain[2][2] = 0.;
         }
-      return result;
+      const dealii::Tensor<2, 3> flux = factor * of_strain;
+      point.add_flux(flux, by_u);
+      point.add_flux(factor * std::pow(stress, p) * identity - transpose(point.gradient(u)) * flux,
+                     by_X);
     }
+}
 
-    template <int dim>
-    double
-    VonMisesPower<dim>::value(const Nodes    &X,
-                              const Material &material,
-                              const Nodes    &u) const
-    {
-      double result = 0.;
-      for (const auto &shape : gauss)
-        {
-          const CellPoint<dim> point(shape, X, idealization);
-          result +=
-            std::pow(von_mises(deviator_at(point, material, u)) / scale, p) *
-            point.dV;
-        }
-      return result;
-    }
-
-    template <int dim>
-    void
-    VonMisesPower<dim>::add_gradients(const Nodes    &X,
-                                      const Material &material,
-                                      const Nodes    &u,
-                                      const double    factor,
-                                      Nodes          &by_u,
-                                      Nodes          &by_X) const
-    {
-      const auto identity = dealii::unit_symmetric_tensor<3>();
-      for (const auto &shape : gauss)
-        {
-          const CellPoint<dim> point(shape, X, idealization);
-          const auto           s      = deviator_at(point, material, u);
-          const double         stress = von_mises(s) / scale;
-          if (stress == 0.)
-            continue;
-          // dS = dV of_strain : de
-          dealii::SymmetricTensor<2, 3> of_strain =
-            p * std::pow(stress, p - 2.) * 3. * material.lame_mu() /
-            (scale * scale) * s;
-          if (idealization.kind == mesh::Idealization::Kind::plane_stress)
-            {
-              const double across = -material.poissons_ratio /
-                                    (1. - material.poissons_ratio) *
-                                    of_strain[2][2];
-              of_strain[0][0] += across;
-              of_strain[1][1] += across;
-              of_strain[2][2] = 0.;
-            }
-          const dealii::Tensor<2, 3> flux = factor * of_strain;
-          point.add_flux(flux, by_u);
-          point.add_flux(factor * std::pow(stress, p) * identity -
-                           transpose(point.gradient(u)) * flux,
-                         by_X);
-        }
-    }
-
-    template class VonMisesPower<2>;
-    template class VonMisesPower<3>;
-  } // namespace elasticity
-} // namespace snug
+template class VonMisesPower<2>;
+template class VonMisesPower<3>;
+} // namespace snug::elasticity

@@ -3,91 +3,77 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::feti {
+namespace {
+/// Below this, relative to the largest, an eigenvalue of the rigid
+/// modes of the bodies is a motion the rows do not see.
+const double kernel_cut = 1e-10;
+
+qp::MultiVector multiply_columns(const CsrMatrix &A, const qp::MultiVector &X)
 {
-  namespace feti
-  {
-    namespace
+  qp::MultiVector Y(A.n_rows, X.n_columns());
+  A.multiply_add(1., X, Y);
+  return Y;
+}
+
+/// Orthonormal N = Z y over the kernel of Z' A Z.
+qp::MultiVector kernel_of(const CsrMatrix &A, const qp::MultiVector &Z)
+{
+  qp::MultiVector vectors = dense::transpose_product(Z, multiply_columns(A, Z));
+  const auto      values  = dense::eigen(vectors);
+  unsigned int    n_null  = 0;
+  double          trace   = 0.;
+  for (unsigned int i = 0; i < A.n_rows; ++i)
+    trace += A.diagonal(i);
+  while (n_null < values.size() && values[n_null] <= kernel_cut * trace / A.n_rows)
+    ++n_null;
+  return dense::product(Z, vectors.columns_from(0, n_null));
+}
+} // namespace
+
+CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
+  : A(space.factors().take(space.pattern()))
+{
+  CsrMatrix &matrix = A->matrix;
+  const auto values = space.gram_values(free);
+  std::copy(values.begin(), values.end(), matrix.values.begin());
+  N = kernel_of(matrix, space.body_modes());
+  if (N.n_columns() > 0)
     {
-      /// Below this, relative to the largest, an eigenvalue of the rigid
-      /// modes of the bodies is a motion the rows do not see.
-      const double kernel_cut = 1e-10;
-
-      qp::MultiVector
-      multiply_columns(const CsrMatrix &A, const qp::MultiVector &X)
-      {
-        qp::MultiVector Y(A.n_rows, X.n_columns());
-        A.multiply_add(1., X, Y);
-        return Y;
-      }
-
-      /// Orthonormal N = Z y over the kernel of Z' A Z.
-      qp::MultiVector
-      kernel_of(const CsrMatrix &A, const qp::MultiVector &Z)
-      {
-        qp::MultiVector vectors =
-          dense::transpose_product(Z, multiply_columns(A, Z));
-        const auto   values = dense::eigen(vectors);
-        unsigned int n_null = 0;
-        double       trace  = 0.;
-        for (unsigned int i = 0; i < A.n_rows; ++i)
-          trace += A.diagonal(i);
-        while (n_null < values.size() &&
-               values[n_null] <= kernel_cut * trace / A.n_rows)
-          ++n_null;
-        return dense::product(Z, vectors.columns_from(0, n_null));
-      }
-    } // namespace
-
-    CoarseProblem::CoarseProblem(const CoarseSpace &space,
-                                 const qp::RowSet  &free)
-      : A(space.factors().take(space.pattern()))
-    {
-      CsrMatrix &matrix = A->matrix;
-      const auto values = space.gram_values(free);
-      std::copy(values.begin(), values.end(), matrix.values.begin());
-      N = kernel_of(matrix, space.body_modes());
-      if (N.n_columns() > 0)
-        {
-          const auto        &f = space.representatives();
-          const unsigned int r = N.n_columns();
-          qp::MultiVector    N_f(f.size(), r), N_f_transposed(r, f.size());
-          double             rho = 0.;
-          for (unsigned int i = 0; i < matrix.n_rows; ++i)
-            rho += matrix.diagonal(i) / matrix.n_rows;
-          for (unsigned int i = 0; i < f.size(); ++i)
-            for (unsigned int j = 0; j < r; ++j)
-              N_f(i, j) = N_f_transposed(j, i) = N(f[i], j);
-          const auto Q = dense::transpose_product(
-            N_f_transposed,
-            dense::solve_spd(dense::transpose_product(N_f, N_f),
-                             N_f_transposed));
-          for (unsigned int i = 0; i < f.size(); ++i)
-            for (unsigned int j = 0; j < f.size(); ++j)
-              matrix.values[matrix.position(f[i], f[j])] += rho * Q(i, j);
-        }
-      A->factor.factorize("the coarse problem G G'");
+      const auto        &f = space.representatives();
+      const unsigned int r = N.n_columns();
+      qp::MultiVector    N_f(f.size(), r), N_f_transposed(r, f.size());
+      double             rho = 0.;
+      for (unsigned int i = 0; i < matrix.n_rows; ++i)
+        rho += matrix.diagonal(i) / matrix.n_rows;
+      for (unsigned int i = 0; i < f.size(); ++i)
+        for (unsigned int j = 0; j < r; ++j)
+          N_f(i, j) = N_f_transposed(j, i) = N(f[i], j);
+      const auto Q = dense::transpose_product(N_f_transposed,
+                                              dense::solve_spd(dense::transpose_product(N_f, N_f),
+                                                               N_f_transposed));
+      for (unsigned int i = 0; i < f.size(); ++i)
+        for (unsigned int j = 0; j < f.size(); ++j)
+          matrix.values[matrix.position(f[i], f[j])] += rho * Q(i, j);
     }
+  A->factor.factorize("the coarse problem G G'");
+}
 
-    qp::MultiVector
-    CoarseProblem::solve(const qp::MultiVector &c) const
-    {
-      qp::MultiVector alpha(c.n_rows(), c.n_columns());
-      A->factor.solve(c, alpha);
-      alpha.add(-1., kernel_part(alpha));
-      return alpha;
-    }
+qp::MultiVector CoarseProblem::solve(const qp::MultiVector &c) const
+{
+  qp::MultiVector alpha(c.n_rows(), c.n_columns());
+  A->factor.solve(c, alpha);
+  alpha.add(-1., kernel_part(alpha));
+  return alpha;
+}
 
-    qp::MultiVector
-    CoarseProblem::kernel_part(const qp::MultiVector &c) const
-    {
-      return dense::product(N, dense::transpose_product(N, c));
-    }
+qp::MultiVector CoarseProblem::kernel_part(const qp::MultiVector &c) const
+{
+  return dense::product(N, dense::transpose_product(N, c));
+}
 
-    const qp::MultiVector &
-    CoarseProblem::kernel() const
-    {
-      return N;
-    }
-  } // namespace feti
-} // namespace snug
+const qp::MultiVector &CoarseProblem::kernel() const
+{
+  return N;
+}
+} // namespace snug::feti

@@ -5,297 +5,249 @@
 #include <cmath>
 #include <set>
 
-namespace snug
+namespace snug::feti {
+namespace {
+using Pair = std::pair<unsigned int, unsigned int>;
+
+/// The union over ranks of sorted pairs.
+std::vector<Pair> unite(const std::set<Pair> &mine, MPI_Comm comm)
 {
-  namespace feti
-  {
-    namespace
+  std::vector<unsigned int> flat;
+  for (const Pair &pair : mine)
     {
-      using Pair = std::pair<unsigned int, unsigned int>;
-
-      /// The union over ranks of sorted pairs.
-      std::vector<Pair>
-      unite(const std::set<Pair> &mine, MPI_Comm comm)
-      {
-        std::vector<unsigned int> flat;
-        for (const Pair &pair : mine)
-          {
-            flat.push_back(pair.first);
-            flat.push_back(pair.second);
-          }
-        int n_ranks, count = flat.size();
-        MPI_Comm_size(comm, &n_ranks);
-        std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
-        MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-        for (int r = 0; r < n_ranks; ++r)
-          starts[r + 1] = starts[r] + counts[r];
-        std::vector<unsigned int> all(starts.back());
-        MPI_Allgatherv(flat.data(),
-                       count,
-                       MPI_UNSIGNED,
-                       all.data(),
-                       counts.data(),
-                       starts.data(),
-                       MPI_UNSIGNED,
-                       comm);
-        std::vector<Pair> pairs;
-        for (std::size_t i = 0; i < all.size(); i += 2)
-          pairs.emplace_back(all[i], all[i + 1]);
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-        return pairs;
-      }
-
-      void
-      sum_over_ranks(std::vector<double> &values, MPI_Comm comm)
-      {
-        MPI_Allreduce(MPI_IN_PLACE,
-                      values.data(),
-                      values.size(),
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      comm);
-      }
-    } // namespace
-
-    CoarseSpace::CoarseSpace(const RowLayout      &layout,
-                             const SubdomainTable &table)
-      : layout(layout), table(table)
-    {
-      const auto &start    = layout.entry_start();
-      const auto &unknowns = layout.entry_unknowns();
-      block_start.assign(1, 0);
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        {
-          for (unsigned int e = start[row]; e < start[row + 1]; ++e)
-            {
-              if (e == start[row] || unknowns[e].first != unknowns[e - 1].first)
-                block_subdomain.push_back(unknowns[e].first);
-              block_of_entry.push_back(block_subdomain.size() - 1);
-            }
-          block_start.push_back(block_subdomain.size());
-        }
-      const unsigned int n_bodies = table.body_names.size();
-      for (unsigned int body = 0; body < n_bodies; ++body)
-        {
-          const unsigned int s =
-            std::find(table.body.begin(), table.body.end(), body) -
-            table.body.begin();
-          for (unsigned int mode = 0; mode < table.n_modes; ++mode)
-            representative.push_back(s * table.n_modes + mode);
-        }
-      build_pattern();
+      flat.push_back(pair.first);
+      flat.push_back(pair.second);
     }
+  int n_ranks, count = flat.size();
+  MPI_Comm_size(comm, &n_ranks);
+  std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  for (int r = 0; r < n_ranks; ++r)
+    starts[r + 1] = starts[r] + counts[r];
+  std::vector<unsigned int> all(starts.back());
+  MPI_Allgatherv(flat.data(), count, MPI_UNSIGNED, all.data(), counts.data(), starts.data(),
+                 MPI_UNSIGNED, comm);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < all.size(); i += 2)
+    pairs.emplace_back(all[i], all[i + 1]);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
 
-    void
-    CoarseSpace::build_pattern()
+void sum_over_ranks(std::vector<double> &values, MPI_Comm comm)
+{
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM, comm);
+}
+} // namespace
+
+CoarseSpace::CoarseSpace(const RowLayout &layout, const SubdomainTable &table)
+  : layout(layout), table(table)
+{
+  const auto &start    = layout.entry_start();
+  const auto &unknowns = layout.entry_unknowns();
+  block_start.assign(1, 0);
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
     {
-      const unsigned int m = table.n_modes, n_subdomains = table.body.size();
-      std::set<Pair>     couplings, bounded_couplings;
-      for (unsigned int s = 0; s < n_subdomains; ++s)
-        couplings.emplace(s, s);
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
+      for (unsigned int e = start[row]; e < start[row + 1]; ++e)
+        {
+          if (e == start[row] || unknowns[e].first != unknowns[e - 1].first)
+            block_subdomain.push_back(unknowns[e].first);
+          block_of_entry.push_back(block_subdomain.size() - 1);
+        }
+      block_start.push_back(block_subdomain.size());
+    }
+  const unsigned int n_bodies = table.body_names.size();
+  for (unsigned int body = 0; body < n_bodies; ++body)
+    {
+      const unsigned int s =
+        std::find(table.body.begin(), table.body.end(), body) - table.body.begin();
+      for (unsigned int mode = 0; mode < table.n_modes; ++mode)
+        representative.push_back(s * table.n_modes + mode);
+    }
+  build_pattern();
+}
+
+void CoarseSpace::build_pattern()
+{
+  const unsigned int m = table.n_modes, n_subdomains = table.body.size();
+  std::set<Pair>     couplings, bounded_couplings;
+  for (unsigned int s = 0; s < n_subdomains; ++s)
+    couplings.emplace(s, s);
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
+      for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
+        {
+          const Pair pair(block_subdomain[a], block_subdomain[b]);
+          couplings.insert(pair);
+          if (layout.bounded()[row])
+            bounded_couplings.insert(pair);
+        }
+  for (const unsigned int i : representative)
+    for (const unsigned int j : representative)
+      couplings.emplace(i / m, j / m);
+  const auto                         pairs = unite(couplings, layout.communicator());
+  std::vector<std::vector<PetscInt>> rows(n_kernel());
+  for (const Pair &pair : pairs)
+    for (unsigned int i = 0; i < m; ++i)
+      for (unsigned int j = 0; j < m; ++j)
+        rows[pair.first * m + i].push_back(pair.second * m + j);
+  gram = CsrMatrix::from_rows(rows, n_kernel());
+  for (const Pair &pair : unite(bounded_couplings, layout.communicator()))
+    for (unsigned int i = 0; i < m; ++i)
+      for (unsigned int j = 0; j < m; ++j)
+        bounded_places.push_back(gram.position(pair.first * m + i, pair.second * m + j));
+}
+
+void CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
+{
+  const unsigned int m = table.n_modes;
+  for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
+    for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
+      {
+        // the m rows of a block row have the same pattern
+        const unsigned int first  = block_subdomain[a] * m;
+        const unsigned int length = gram.row_start[first + 1] - gram.row_start[first];
+        double            *to     = &values[gram.position(first, block_subdomain[b] * m)];
+        for (unsigned int i = 0; i < m; ++i, to += length)
+          for (unsigned int j = 0; j < m; ++j)
+            to[j] += blocks[a * m + i] * blocks[b * m + j];
+      }
+}
+
+void CoarseSpace::update(const std::vector<double>          &G_entries,
+                         unsigned int                        stride,
+                         const std::vector<qp::MultiVector> &Z)
+{
+  const unsigned int m = table.n_modes;
+  blocks.assign(block_subdomain.size() * m, 0.);
+  for (std::size_t e = 0; e < block_of_entry.size(); ++e)
+    for (unsigned int i = 0; i < m; ++i)
+      blocks[block_of_entry[e] * m + i] += G_entries[e * stride + i];
+  equality_gram.assign(gram.values.size(), 0.);
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    if (!layout.bounded()[row])
+      add_row(row, equality_gram);
+  sum_over_ranks(equality_gram, layout.communicator());
+
+  const unsigned int n_bodies = table.body_names.size();
+  modes                       = qp::MultiVector(n_kernel(), n_bodies * m);
+  for (unsigned int s = 0; s < Z.size(); ++s)
+    for (unsigned int i = 0; i < m; ++i)
+      for (unsigned int j = 0; j < m; ++j)
+        modes((table.first + s) * m + i, table.body[table.first + s] * m + j) = Z[s](i, j);
+  MPI_Allreduce(MPI_IN_PLACE, modes.column(0), modes.n_rows() * modes.n_columns(), MPI_DOUBLE,
+                MPI_SUM, layout.communicator());
+  // Z (Z'Z)^{-1/2}: orthonormal, and each body keeps its own columns
+  qp::MultiVector vectors = dense::transpose_product(modes, modes);
+  const auto      values  = dense::eigen(vectors);
+  qp::MultiVector scaled  = vectors;
+  for (unsigned int j = 0; j < values.size(); ++j)
+    for (unsigned int i = 0; i < values.size(); ++i)
+      scaled(i, j) = vectors(i, j) / std::sqrt(values[j]);
+  qp::MultiVector transposed(values.size(), values.size());
+  for (unsigned int j = 0; j < values.size(); ++j)
+    for (unsigned int i = 0; i < values.size(); ++i)
+      transposed(i, j) = vectors(j, i);
+  modes = dense::product(modes, dense::product(scaled, transposed));
+}
+
+unsigned int CoarseSpace::n_kernel() const
+{
+  return table.body.size() * table.n_modes;
+}
+
+qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet *free) const
+{
+  const unsigned int m = table.n_modes;
+  qp::MultiVector    c(n_kernel(), x.n_columns());
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    if (free == nullptr || (*free)[row])
+      for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
+        {
+          const double *G = &blocks[std::size_t(b) * m];
+          for (unsigned int k = 0; k < x.n_columns(); ++k)
+            {
+              double      *c_s   = c.column(k) + block_subdomain[b] * m;
+              const double x_row = x(row, k);
+              for (unsigned int i = 0; i < m; ++i)
+                c_s[i] += G[i] * x_row;
+            }
+        }
+  MPI_Allreduce(MPI_IN_PLACE, c.column(0), c.n_rows() * c.n_columns(), MPI_DOUBLE, MPI_SUM,
+                layout.communicator());
+  return c;
+}
+
+qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
+                                                const qp::RowSet      *free) const
+{
+  const unsigned int m = table.n_modes;
+  qp::MultiVector    y(layout.n_owned(), alpha.n_columns());
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    if (free == nullptr || (*free)[row])
+      for (unsigned int k = 0; k < alpha.n_columns(); ++k)
+        {
+          double sum = 0.;
           for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
             {
-              const Pair pair(block_subdomain[a], block_subdomain[b]);
-              couplings.insert(pair);
-              if (layout.bounded()[row])
-                bounded_couplings.insert(pair);
+              const double *G       = &blocks[std::size_t(b) * m];
+              const double *alpha_s = alpha.column(k) + block_subdomain[b] * m;
+              for (unsigned int i = 0; i < m; ++i)
+                sum += G[i] * alpha_s[i];
             }
-      for (const unsigned int i : representative)
-        for (const unsigned int j : representative)
-          couplings.emplace(i / m, j / m);
-      const auto pairs = unite(couplings, layout.communicator());
-      std::vector<std::vector<PetscInt>> rows(n_kernel());
-      for (const Pair &pair : pairs)
-        for (unsigned int i = 0; i < m; ++i)
-          for (unsigned int j = 0; j < m; ++j)
-            rows[pair.first * m + i].push_back(pair.second * m + j);
-      gram = CsrMatrix::from_rows(rows, n_kernel());
-      for (const Pair &pair : unite(bounded_couplings, layout.communicator()))
-        for (unsigned int i = 0; i < m; ++i)
-          for (unsigned int j = 0; j < m; ++j)
-            bounded_places.push_back(
-              gram.position(pair.first * m + i, pair.second * m + j));
-    }
+          y(row, k) = sum;
+        }
+  return y;
+}
 
-    void
-    CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
-    {
-      const unsigned int m = table.n_modes;
-      for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
-        for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
-          {
-            // the m rows of a block row have the same pattern
-            const unsigned int first = block_subdomain[a] * m;
-            const unsigned int length =
-              gram.row_start[first + 1] - gram.row_start[first];
-            double *to = &values[gram.position(first, block_subdomain[b] * m)];
-            for (unsigned int i = 0; i < m; ++i, to += length)
-              for (unsigned int j = 0; j < m; ++j)
-                to[j] += blocks[a * m + i] * blocks[b * m + j];
-          }
-    }
+std::vector<double> CoarseSpace::gram_values(const qp::RowSet &free) const
+{
+  std::vector<double> contact(gram.values.size(), 0.);
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    if (layout.bounded()[row] && free[row])
+      add_row(row, contact);
+  std::vector<double> packed;
+  for (const std::size_t place : bounded_places)
+    packed.push_back(contact[place]);
+  sum_over_ranks(packed, layout.communicator());
+  std::vector<double> values = equality_gram;
+  for (std::size_t i = 0; i < packed.size(); ++i)
+    values[bounded_places[i]] += packed[i];
+  return values;
+}
 
-    void
-    CoarseSpace::update(const std::vector<double>          &G_entries,
-                        unsigned int                        stride,
-                        const std::vector<qp::MultiVector> &Z)
-    {
-      const unsigned int m = table.n_modes;
-      blocks.assign(block_subdomain.size() * m, 0.);
-      for (std::size_t e = 0; e < block_of_entry.size(); ++e)
-        for (unsigned int i = 0; i < m; ++i)
-          blocks[block_of_entry[e] * m + i] += G_entries[e * stride + i];
-      equality_gram.assign(gram.values.size(), 0.);
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        if (!layout.bounded()[row])
-          add_row(row, equality_gram);
-      sum_over_ranks(equality_gram, layout.communicator());
+const CsrMatrix &CoarseSpace::pattern() const
+{
+  return gram;
+}
 
-      const unsigned int n_bodies = table.body_names.size();
-      modes                       = qp::MultiVector(n_kernel(), n_bodies * m);
-      for (unsigned int s = 0; s < Z.size(); ++s)
-        for (unsigned int i = 0; i < m; ++i)
-          for (unsigned int j = 0; j < m; ++j)
-            modes((table.first + s) * m + i,
-                  table.body[table.first + s] * m + j) = Z[s](i, j);
-      MPI_Allreduce(MPI_IN_PLACE,
-                    modes.column(0),
-                    modes.n_rows() * modes.n_columns(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    layout.communicator());
-      // Z (Z'Z)^{-1/2}: orthonormal, and each body keeps its own columns
-      qp::MultiVector vectors = dense::transpose_product(modes, modes);
-      const auto      values  = dense::eigen(vectors);
-      qp::MultiVector scaled  = vectors;
-      for (unsigned int j = 0; j < values.size(); ++j)
-        for (unsigned int i = 0; i < values.size(); ++i)
-          scaled(i, j) = vectors(i, j) / std::sqrt(values[j]);
-      qp::MultiVector transposed(values.size(), values.size());
-      for (unsigned int j = 0; j < values.size(); ++j)
-        for (unsigned int i = 0; i < values.size(); ++i)
-          transposed(i, j) = vectors(j, i);
-      modes = dense::product(modes, dense::product(scaled, transposed));
-    }
+const FactorPool &CoarseSpace::factors() const
+{
+  return factor_pool;
+}
 
-    unsigned int
-    CoarseSpace::n_kernel() const
-    {
-      return table.body.size() * table.n_modes;
-    }
+const qp::MultiVector &CoarseSpace::body_modes() const
+{
+  return modes;
+}
 
-    qp::MultiVector
-    CoarseSpace::multiply(const qp::MultiVector &x,
-                          const qp::RowSet      *free) const
-    {
-      const unsigned int m = table.n_modes;
-      qp::MultiVector    c(n_kernel(), x.n_columns());
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        if (free == nullptr || (*free)[row])
-          for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
-            {
-              const double *G = &blocks[std::size_t(b) * m];
-              for (unsigned int k = 0; k < x.n_columns(); ++k)
-                {
-                  double      *c_s   = c.column(k) + block_subdomain[b] * m;
-                  const double x_row = x(row, k);
-                  for (unsigned int i = 0; i < m; ++i)
-                    c_s[i] += G[i] * x_row;
-                }
-            }
-      MPI_Allreduce(MPI_IN_PLACE,
-                    c.column(0),
-                    c.n_rows() * c.n_columns(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    layout.communicator());
-      return c;
-    }
+const std::vector<unsigned int> &CoarseSpace::representatives() const
+{
+  return representative;
+}
 
-    qp::MultiVector
-    CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
-                                    const qp::RowSet      *free) const
-    {
-      const unsigned int m = table.n_modes;
-      qp::MultiVector    y(layout.n_owned(), alpha.n_columns());
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        if (free == nullptr || (*free)[row])
-          for (unsigned int k = 0; k < alpha.n_columns(); ++k)
-            {
-              double sum = 0.;
-              for (unsigned int b = block_start[row]; b < block_start[row + 1];
-                   ++b)
-                {
-                  const double *G = &blocks[std::size_t(b) * m];
-                  const double *alpha_s =
-                    alpha.column(k) + block_subdomain[b] * m;
-                  for (unsigned int i = 0; i < m; ++i)
-                    sum += G[i] * alpha_s[i];
-                }
-              y(row, k) = sum;
-            }
-      return y;
-    }
+const SubdomainTable &CoarseSpace::subdomains() const
+{
+  return table;
+}
 
-    std::vector<double>
-    CoarseSpace::gram_values(const qp::RowSet &free) const
-    {
-      std::vector<double> contact(gram.values.size(), 0.);
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        if (layout.bounded()[row] && free[row])
-          add_row(row, contact);
-      std::vector<double> packed;
-      for (const std::size_t place : bounded_places)
-        packed.push_back(contact[place]);
-      sum_over_ranks(packed, layout.communicator());
-      std::vector<double> values = equality_gram;
-      for (std::size_t i = 0; i < packed.size(); ++i)
-        values[bounded_places[i]] += packed[i];
-      return values;
-    }
-
-    const CsrMatrix &
-    CoarseSpace::pattern() const
-    {
-      return gram;
-    }
-
-    const FactorPool &
-    CoarseSpace::factors() const
-    {
-      return factor_pool;
-    }
-
-    const qp::MultiVector &
-    CoarseSpace::body_modes() const
-    {
-      return modes;
-    }
-
-    const std::vector<unsigned int> &
-    CoarseSpace::representatives() const
-    {
-      return representative;
-    }
-
-    const SubdomainTable &
-    CoarseSpace::subdomains() const
-    {
-      return table;
-    }
-
-    double
-    CoarseSpace::norm() const
-    {
-      double square = 0.;
-      for (const double value : blocks)
-        square += value * value;
-      MPI_Allreduce(
-        MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, layout.communicator());
-      return std::sqrt(square);
-    }
-  } // namespace feti
-} // namespace snug
+double CoarseSpace::norm() const
+{
+  double square = 0.;
+  for (const double value : blocks)
+    square += value * value;
+  MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, layout.communicator());
+  return std::sqrt(square);
+}
+} // namespace snug::feti

@@ -7,152 +7,130 @@
 #include <cmath>
 #include <sstream>
 
-namespace snug
+namespace snug::feti {
+namespace {
+/// Rigid loads below this part of all loads are round-off.
+const double balance_tolerance = 1e-8;
+
+/// Columns Z'g_i of all contact rows, on all ranks in rank order.
+qp::MultiVector contact_columns(const CoarseSpace &coarse, const RowLayout &layout)
 {
-  namespace feti
-  {
-    namespace
+  const unsigned int  n_modes = coarse.body_modes().n_columns();
+  const auto          rows    = coarse.transpose_multiply(coarse.body_modes(), nullptr);
+  std::vector<double> mine;
+  for (unsigned int i = 0; i < layout.n_owned(); ++i)
+    if (layout.bounded()[i])
+      for (unsigned int mode = 0; mode < n_modes; ++mode)
+        mine.push_back(rows(i, mode));
+  int n_ranks, count = mine.size();
+  MPI_Comm_size(layout.communicator(), &n_ranks);
+  std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, layout.communicator());
+  for (int r = 0; r < n_ranks; ++r)
+    starts[r + 1] = starts[r] + counts[r];
+  qp::MultiVector columns(n_modes, starts.back() / n_modes);
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, columns.column(0), counts.data(), starts.data(),
+                 MPI_DOUBLE, layout.communicator());
+  return columns;
+}
+
+/// Orthonormal basis of the body motions no equality row sees.
+qp::MultiVector free_motions(const CoarseSpace &coarse, const RowLayout &layout)
+{
+  qp::RowSet equality = layout.bounded();
+  for (auto &flag : equality)
+    flag = !flag;
+  CsrMatrix A = coarse.pattern();
+  A.values    = coarse.gram_values(equality);
+  qp::MultiVector AZ(A.n_rows, coarse.body_modes().n_columns());
+  A.multiply_add(1., coarse.body_modes(), AZ);
+  auto   vectors = dense::transpose_product(coarse.body_modes(), AZ);
+  double trace   = 0.;
+  for (unsigned int i = 0; i < A.n_rows; ++i)
+    trace += A.diagonal(i);
+  const auto   values = dense::eigen(vectors);
+  unsigned int n_free = 0;
+  while (n_free < values.size() && values[n_free] <= 1e-10 * trace / A.n_rows)
+    ++n_free;
+  return vectors.columns_from(0, n_free);
+}
+
+/// "body punch: translation (0 0 1), rotation (0 0 0)" of the body that
+/// moves most under @p motion in body mode coordinates.
+std::string describe_motion(const qp::MultiVector &motion, const SubdomainTable &table)
+{
+  const unsigned int m    = table.n_modes;
+  unsigned int       body = 0;
+  double             best = -1.;
+  for (unsigned int b = 0; b < table.body_names.size(); ++b)
     {
-      /// Rigid loads below this part of all loads are round-off.
-      const double balance_tolerance = 1e-8;
-
-      /// Columns Z'g_i of all contact rows, on all ranks in rank order.
-      qp::MultiVector
-      contact_columns(const CoarseSpace &coarse, const RowLayout &layout)
-      {
-        const unsigned int n_modes = coarse.body_modes().n_columns();
-        const auto         rows =
-          coarse.transpose_multiply(coarse.body_modes(), nullptr);
-        std::vector<double> mine;
-        for (unsigned int i = 0; i < layout.n_owned(); ++i)
-          if (layout.bounded()[i])
-            for (unsigned int mode = 0; mode < n_modes; ++mode)
-              mine.push_back(rows(i, mode));
-        int n_ranks, count = mine.size();
-        MPI_Comm_size(layout.communicator(), &n_ranks);
-        std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
-        MPI_Allgather(
-          &count, 1, MPI_INT, counts.data(), 1, MPI_INT, layout.communicator());
-        for (int r = 0; r < n_ranks; ++r)
-          starts[r + 1] = starts[r] + counts[r];
-        qp::MultiVector columns(n_modes, starts.back() / n_modes);
-        MPI_Allgatherv(mine.data(),
-                       count,
-                       MPI_DOUBLE,
-                       columns.column(0),
-                       counts.data(),
-                       starts.data(),
-                       MPI_DOUBLE,
-                       layout.communicator());
-        return columns;
-      }
-
-      /// Orthonormal basis of the body motions no equality row sees.
-      qp::MultiVector
-      free_motions(const CoarseSpace &coarse, const RowLayout &layout)
-      {
-        qp::RowSet equality = layout.bounded();
-        for (auto &flag : equality)
-          flag = !flag;
-        CsrMatrix A = coarse.pattern();
-        A.values    = coarse.gram_values(equality);
-        qp::MultiVector AZ(A.n_rows, coarse.body_modes().n_columns());
-        A.multiply_add(1., coarse.body_modes(), AZ);
-        auto   vectors = dense::transpose_product(coarse.body_modes(), AZ);
-        double trace   = 0.;
-        for (unsigned int i = 0; i < A.n_rows; ++i)
-          trace += A.diagonal(i);
-        const auto   values = dense::eigen(vectors);
-        unsigned int n_free = 0;
-        while (n_free < values.size() &&
-               values[n_free] <= 1e-10 * trace / A.n_rows)
-          ++n_free;
-        return vectors.columns_from(0, n_free);
-      }
-
-      /// "body punch: translation (0 0 1), rotation (0 0 0)" of the body that
-      /// moves most under @p motion in body mode coordinates.
-      std::string
-      describe_motion(const qp::MultiVector &motion,
-                      const SubdomainTable  &table)
-      {
-        const unsigned int m    = table.n_modes;
-        unsigned int       body = 0;
-        double             best = -1.;
-        for (unsigned int b = 0; b < table.body_names.size(); ++b)
-          {
-            double square = 0.;
-            for (unsigned int i = 0; i < m; ++i)
-              square += motion(b * m + i) * motion(b * m + i);
-            if (square > best)
-              {
-                best = square;
-                body = b;
-              }
-          }
-        const unsigned int n_translations = m == 6 ? 3 : (m == 3 ? 2 : 1);
-        std::ostringstream text;
-        text.precision(2);
-        text << "body " << table.body_names[body] << " escapes: ";
-        for (unsigned int i = 0; i < m; ++i)
-          {
-            const double part = motion(body * m + i) / std::sqrt(best);
-            text << (i == 0                ? "translation ("
-                     : i == n_translations ? "), rotation ("
-                                           : " ")
-                 << (std::abs(part) < 5e-3 ? 0. : part);
-          }
-        text << ")";
-        return text.str();
-      }
-    } // namespace
-
-    std::string
-    TotalFeti::escaping_body() const
-    {
-      const auto free    = free_motions(coarse, layout);
-      const auto columns = contact_columns(coarse, layout);
-      if (free.n_columns() == 0)
-        return "";
-      const auto wrenches = dense::transpose_product(free, columns);
-      const auto load     = dense::transpose_product(
-        free, dense::transpose_product(coarse.body_modes(), rigid_load));
-      double scale = 0.;
-      for (unsigned int i = 0; i < rigid_load.n_rows(); ++i)
-        scale = std::max(scale, std::abs(rigid_load(i)));
-      const auto balance  = qp::nnls(wrenches, load);
-      double     residual = 0.;
-      for (unsigned int i = 0; i < balance.residual.n_rows(); ++i)
-        residual = std::max(residual, std::abs(balance.residual(i)));
-      if (residual > balance_tolerance * scale)
-        return describe_motion(dense::product(free, balance.residual),
-                               coarse.subdomains());
-      return unheld_body(free, columns);
-    }
-
-    std::string
-    TotalFeti::unheld_body(const qp::MultiVector &free,
-                           const qp::MultiVector &columns) const
-    {
-      const unsigned int m = coarse.subdomains().n_modes;
-      for (unsigned int body = 0; body < n_bodies(); ++body)
+      double square = 0.;
+      for (unsigned int i = 0; i < m; ++i)
+        square += motion(b * m + i) * motion(b * m + i);
+      if (square > best)
         {
-          double held = 0., touched = 0.;
-          // all its motions are free if the rows of `free` are orthonormal
-          for (unsigned int i = 0; i < m; ++i)
-            {
-              double square = 0.;
-              for (unsigned int j = 0; j < free.n_columns(); ++j)
-                square += free(body * m + i, j) * free(body * m + i, j);
-              held = std::max(held, 1. - square);
-              for (unsigned int k = 0; k < columns.n_columns(); ++k)
-                touched = std::max(touched, std::abs(columns(body * m + i, k)));
-            }
-          if (held < 1e-8 && touched == 0.)
-            return "body " + coarse.subdomains().body_names[body] +
-                   " has neither supports nor contact";
+          best = square;
+          body = b;
         }
-      return "";
     }
-  } // namespace feti
-} // namespace snug
+  const unsigned int n_translations = m == 6 ? 3 : (m == 3 ? 2 : 1);
+  std::ostringstream text;
+  text.precision(2);
+  text << "body " << table.body_names[body] << " escapes: ";
+  for (unsigned int i = 0; i < m; ++i)
+    {
+      const double part = motion(body * m + i) / std::sqrt(best);
+      text << (i == 0                ? "translation ("
+               : i == n_translations ? "), rotation ("
+                                     : " ")
+           << (std::abs(part) < 5e-3 ? 0. : part);
+    }
+  text << ")";
+  return text.str();
+}
+} // namespace
+
+std::string TotalFeti::escaping_body() const
+{
+  const auto free    = free_motions(coarse, layout);
+  const auto columns = contact_columns(coarse, layout);
+  if (free.n_columns() == 0)
+    return "";
+  const auto wrenches = dense::transpose_product(free, columns);
+  const auto load =
+    dense::transpose_product(free, dense::transpose_product(coarse.body_modes(), rigid_load));
+  double scale = 0.;
+  for (unsigned int i = 0; i < rigid_load.n_rows(); ++i)
+    scale = std::max(scale, std::abs(rigid_load(i)));
+  const auto balance  = qp::nnls(wrenches, load);
+  double     residual = 0.;
+  for (unsigned int i = 0; i < balance.residual.n_rows(); ++i)
+    residual = std::max(residual, std::abs(balance.residual(i)));
+  if (residual > balance_tolerance * scale)
+    return describe_motion(dense::product(free, balance.residual), coarse.subdomains());
+  return unheld_body(free, columns);
+}
+
+std::string TotalFeti::unheld_body(const qp::MultiVector &free,
+                                   const qp::MultiVector &columns) const
+{
+  const unsigned int m = coarse.subdomains().n_modes;
+  for (unsigned int body = 0; body < n_bodies(); ++body)
+    {
+      double held = 0., touched = 0.;
+      // all its motions are free if the rows of `free` are orthonormal
+      for (unsigned int i = 0; i < m; ++i)
+        {
+          double square = 0.;
+          for (unsigned int j = 0; j < free.n_columns(); ++j)
+            square += free(body * m + i, j) * free(body * m + i, j);
+          held = std::max(held, 1. - square);
+          for (unsigned int k = 0; k < columns.n_columns(); ++k)
+            touched = std::max(touched, std::abs(columns(body * m + i, k)));
+        }
+      if (held < 1e-8 && touched == 0.)
+        return "body " + coarse.subdomains().body_names[body] + " has neither supports nor contact";
+    }
+  return "";
+}
+} // namespace snug::feti

@@ -2,28 +2,20 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::feti {
+std::shared_ptr<FactorPool::Item> FactorPool::take(const CsrMatrix &matrix) const
 {
-  namespace feti
-  {
-    std::shared_ptr<FactorPool::Item>
-    FactorPool::take(const CsrMatrix &matrix) const
+  std::unique_ptr<Item> item;
+  if (spare->empty())
+    item = std::make_unique<Item>(matrix);
+  else
     {
-      std::unique_ptr<Item> item;
-      if (spare->empty())
-        item = std::make_unique<Item>(matrix);
-      else
-        {
-          item = std::move(spare->back());
-          spare->pop_back();
-          // keeps the array that the factorization refers to
-          std::copy(matrix.values.begin(),
-                    matrix.values.end(),
-                    item->matrix.values.begin());
-        }
-      return std::shared_ptr<Item>(item.release(), [home = spare](Item *used) {
-        home->emplace_back(used);
-      });
+      item = std::move(spare->back());
+      spare->pop_back();
+      // keeps the array that the factorization refers to
+      std::copy(matrix.values.begin(), matrix.values.end(), item->matrix.values.begin());
     }
-  } // namespace feti
-} // namespace snug
+  return std::shared_ptr<Item>(item.release(),
+                               [home = spare](Item *used) { home->emplace_back(used); });
+}
+} // namespace snug::feti

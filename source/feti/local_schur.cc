@@ -2,137 +2,123 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::feti {
+namespace {
+/// y += A x, every column, for symmetric A of which the rows end at the
+/// diagonal: half the memory to read, which is what takes time here.
+void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::MultiVector &y)
 {
-  namespace feti
-  {
-    namespace
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
     {
-      /// y += A x, every column, for symmetric A of which the rows end at the
-      /// diagonal: half the memory to read, which is what takes time here.
-      void
-      add_symmetric_product(const CsrMatrix       &A,
-                            const qp::MultiVector &x,
-                            qp::MultiVector       &y)
-      {
-        for (unsigned int k = 0; k < x.n_columns(); ++k)
-          {
-            const double *xk = x.column(k);
-            double       *yk = y.column(k);
-            for (unsigned int i = 0; i < A.n_rows; ++i)
-              {
-                const PetscInt last = A.row_start[i + 1] - 1;
-                double         sum  = A.values[last] * xk[i];
-                for (PetscInt p = A.row_start[i]; p < last; ++p)
-                  {
-                    sum += A.values[p] * xk[A.columns[p]];
-                    yk[A.columns[p]] += A.values[p] * xk[i];
-                  }
-                yk[i] += sum;
-              }
-          }
-      }
-    } // namespace
-
-    LocalSchur::LocalSchur(const SubdomainSystem &system,
-                           bool                   lumped,
-                           const std::string     &package,
-                           RunContext            &context)
-      : system(system), context(context), lumped(lumped)
-    {
-      const unsigned int n = system.n_dofs();
-      std::vector<bool>  on_boundary(n, false);
-      for (const BEntry &entry : system.B)
-        on_boundary[entry.dof] = true;
-      // a few contact rows need not hold the subdomain: K_ii would be singular
-      if (std::count(on_boundary.begin(), on_boundary.end(), true) <
-          static_cast<std::ptrdiff_t>(system.fixing_dofs.size()))
-        for (const unsigned int dof : system.fixing_dofs)
-          on_boundary[dof] = true;
-      position_b.assign(n, n);
-      position_i.assign(n, n);
-      for (unsigned int i = 0; i < n; ++i)
-        if (on_boundary[i])
-          position_b[i] = n_b++;
-        else
-          position_i[i] = n_i++;
-      for (unsigned int &position : position_b)
-        if (position == n)
-          position = n_b;
-      bb = extract(true, true);
-      if (lumped)
-        return;
-      ib = extract(false, true);
-      ii = extract(false, false);
-      if (n_i == 0)
-        return;
-      factor = std::make_unique<SparseFactor>(ii.matrix, package);
-      ++context.work.symbolic_factorizations;
-    }
-
-    LocalSchur::Part
-    LocalSchur::extract(bool rows_on_boundary, bool columns_on_boundary) const
-    {
-      const CsrMatrix                   &K = system.K;
-      std::vector<std::vector<PetscInt>> rows;
-      Part                               part;
-      for (unsigned int i = 0; i < system.n_dofs(); ++i)
+      const double *xk = x.column(k);
+      double       *yk = y.column(k);
+      for (unsigned int i = 0; i < A.n_rows; ++i)
         {
-          if ((position_b[i] < n_b) != rows_on_boundary)
-            continue;
-          rows.emplace_back();
-          for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
+          const PetscInt last = A.row_start[i + 1] - 1;
+          double         sum  = A.values[last] * xk[i];
+          for (PetscInt p = A.row_start[i]; p < last; ++p)
             {
-              const PetscInt j = K.columns[p];
-              if ((position_b[j] < n_b) != columns_on_boundary)
-                continue;
-              if (rows_on_boundary && j > PetscInt(i))
-                continue; // see add_symmetric_product
-              rows.back().push_back(columns_on_boundary ? position_b[j]
-                                                        : position_i[j]);
-              part.source.push_back(p);
+              sum += A.values[p] * xk[A.columns[p]];
+              yk[A.columns[p]] += A.values[p] * xk[i];
             }
+          yk[i] += sum;
         }
-      part.matrix = CsrMatrix::from_rows(rows, columns_on_boundary ? n_b : n_i);
-      return part;
     }
+}
+} // namespace
 
-    void
-    LocalSchur::factorize(const std::string &what)
-    {
-      for (Part *part : {&bb, &ib, &ii})
-        for (std::size_t p = 0; p < part->source.size(); ++p)
-          part->matrix.values[p] = system.K.values[part->source[p]];
-      if (!factor)
-        return;
-      factor->factorize(what);
-      ++context.work.numeric_factorizations;
-    }
+LocalSchur::LocalSchur(const SubdomainSystem &system,
+                       bool                   lumped,
+                       const std::string     &package,
+                       RunContext            &context)
+  : system(system), context(context), lumped(lumped)
+{
+  const unsigned int n = system.n_dofs();
+  std::vector<bool>  on_boundary(n, false);
+  for (const BEntry &entry : system.B)
+    on_boundary[entry.dof] = true;
+  // a few contact rows need not hold the subdomain: K_ii would be singular
+  if (std::count(on_boundary.begin(), on_boundary.end(), true) <
+      static_cast<std::ptrdiff_t>(system.fixing_dofs.size()))
+    for (const unsigned int dof : system.fixing_dofs)
+      on_boundary[dof] = true;
+  position_b.assign(n, n);
+  position_i.assign(n, n);
+  for (unsigned int i = 0; i < n; ++i)
+    if (on_boundary[i])
+      position_b[i] = n_b++;
+    else
+      position_i[i] = n_i++;
+  for (unsigned int &position : position_b)
+    if (position == n)
+      position = n_b;
+  bb = extract(true, true);
+  if (lumped)
+    return;
+  ib = extract(false, true);
+  ii = extract(false, false);
+  if (n_i == 0)
+    return;
+  factor = std::make_unique<SparseFactor>(ii.matrix, package);
+  ++context.work.symbolic_factorizations;
+}
 
-    const std::vector<unsigned int> &
-    LocalSchur::boundary_position() const
+LocalSchur::Part LocalSchur::extract(bool rows_on_boundary, bool columns_on_boundary) const
+{
+  const CsrMatrix                   &K = system.K;
+  std::vector<std::vector<PetscInt>> rows;
+  Part                               part;
+  for (unsigned int i = 0; i < system.n_dofs(); ++i)
     {
-      return position_b;
+      if ((position_b[i] < n_b) != rows_on_boundary)
+        continue;
+      rows.emplace_back();
+      for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
+        {
+          const PetscInt j = K.columns[p];
+          if ((position_b[j] < n_b) != columns_on_boundary)
+            continue;
+          if (rows_on_boundary && j > PetscInt(i))
+            continue; // see add_symmetric_product
+          rows.back().push_back(columns_on_boundary ? position_b[j] : position_i[j]);
+          part.source.push_back(p);
+        }
     }
+  part.matrix = CsrMatrix::from_rows(rows, columns_on_boundary ? n_b : n_i);
+  return part;
+}
 
-    unsigned int
-    LocalSchur::n_boundary() const
-    {
-      return n_b;
-    }
+void LocalSchur::factorize(const std::string &what)
+{
+  for (Part *part : {&bb, &ib, &ii})
+    for (std::size_t p = 0; p < part->source.size(); ++p)
+      part->matrix.values[p] = system.K.values[part->source[p]];
+  if (!factor)
+    return;
+  factor->factorize(what);
+  ++context.work.numeric_factorizations;
+}
 
-    qp::MultiVector
-    LocalSchur::apply(const qp::MultiVector &x) const
-    {
-      qp::MultiVector y(n_b, x.n_columns());
-      add_symmetric_product(bb.matrix, x, y);
-      if (!factor)
-        return y;
-      qp::MultiVector load(n_i, x.n_columns()), inner(n_i, x.n_columns());
-      ib.matrix.multiply_add(1., x, load);
-      factor->solve(load, inner);
-      ib.matrix.transpose_multiply_add(-1., inner, y);
-      return y;
-    }
-  } // namespace feti
-} // namespace snug
+const std::vector<unsigned int> &LocalSchur::boundary_position() const
+{
+  return position_b;
+}
+
+unsigned int LocalSchur::n_boundary() const
+{
+  return n_b;
+}
+
+qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const
+{
+  qp::MultiVector y(n_b, x.n_columns());
+  add_symmetric_product(bb.matrix, x, y);
+  if (!factor)
+    return y;
+  qp::MultiVector load(n_i, x.n_columns()), inner(n_i, x.n_columns());
+  ib.matrix.multiply_add(1., x, load);
+  factor->solve(load, inner);
+  ib.matrix.transpose_multiply_add(-1., inner, y);
+  return y;
+}
+} // namespace snug::feti

@@ -4,166 +4,150 @@
 #include <map>
 #include <numeric>
 
-namespace snug
+namespace snug::feti {
+namespace {
+/// Rows with contact, or coupled to one by a chain of shared unknowns.
+std::vector<bool> coupled_to_contact(const qp::RowSet                             &bounded,
+                                     const std::vector<std::vector<unsigned int>> &rows_of_unknown,
+                                     const std::vector<std::vector<unsigned int>> &unknowns_of_row)
 {
-  namespace feti
-  {
-    namespace
-    {
-      /// Rows with contact, or coupled to one by a chain of shared unknowns.
-      std::vector<bool>
-      coupled_to_contact(
-        const qp::RowSet                             &bounded,
-        const std::vector<std::vector<unsigned int>> &rows_of_unknown,
-        const std::vector<std::vector<unsigned int>> &unknowns_of_row)
+  std::vector<bool>         coupled(bounded.size(), false);
+  std::vector<unsigned int> front;
+  for (unsigned int row = 0; row < bounded.size(); ++row)
+    if (bounded[row])
       {
-        std::vector<bool>         coupled(bounded.size(), false);
-        std::vector<unsigned int> front;
-        for (unsigned int row = 0; row < bounded.size(); ++row)
-          if (bounded[row])
-            {
-              coupled[row] = true;
-              front.push_back(row);
-            }
-        while (!front.empty())
-          {
-            const unsigned int row = front.back();
-            front.pop_back();
-            for (const unsigned int unknown : unknowns_of_row[row])
-              for (const unsigned int next : rows_of_unknown[unknown])
-                if (!coupled[next])
-                  {
-                    coupled[next] = true;
-                    front.push_back(next);
-                  }
-          }
-        return coupled;
+        coupled[row] = true;
+        front.push_back(row);
       }
-    } // namespace
-
-    RowGram::RowGram(const RowLayout &layout) : layout(layout)
+  while (!front.empty())
     {
-      const auto &start    = layout.entry_start();
-      const auto &unknowns = layout.entry_unknowns();
-      std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
-      std::vector<std::vector<unsigned int>> unknowns_of_row(layout.n_owned());
-      std::vector<std::vector<unsigned int>> rows_of_unknown;
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        for (unsigned int e = start[row]; e < start[row + 1]; ++e)
-          {
-            const auto found =
-              index.emplace(unknowns[e], unsigned(index.size())).first;
-            if (found->second == entries_of_unknown.size())
-              {
-                entries_of_unknown.emplace_back();
-                rows_of_unknown.emplace_back();
-              }
-            entries_of_unknown[found->second].push_back(e);
-            rows_of_unknown[found->second].push_back(row);
-            unknowns_of_row[row].push_back(found->second);
-            row_of_entry.push_back(row);
-          }
-      const auto coupled =
-        coupled_to_contact(layout.bounded(), rows_of_unknown, unknowns_of_row);
-      for (unsigned int row = 0; row < layout.n_owned(); ++row)
-        {
-          Group &group = coupled[row] ? contact : fixed;
-          place.emplace_back(coupled[row], group.rows.size());
-          group.rows.push_back(row);
-        }
-      for (Group *group : {&fixed, &contact})
-        {
-          std::vector<std::vector<PetscInt>> pattern;
-          for (const unsigned int row : group->rows)
+      const unsigned int row = front.back();
+      front.pop_back();
+      for (const unsigned int unknown : unknowns_of_row[row])
+        for (const unsigned int next : rows_of_unknown[unknown])
+          if (!coupled[next])
             {
-              std::vector<PetscInt> columns;
-              for (const unsigned int unknown : unknowns_of_row[row])
-                for (const unsigned int other : rows_of_unknown[unknown])
-                  columns.push_back(place[other].second);
-              std::sort(columns.begin(), columns.end());
-              columns.erase(std::unique(columns.begin(), columns.end()),
-                            columns.end());
-              pattern.push_back(columns);
+              coupled[next] = true;
+              front.push_back(next);
             }
-          group->matrix = CsrMatrix::from_rows(pattern, group->rows.size());
-        }
-      if (!fixed.rows.empty())
-        fixed_factor = std::make_unique<SparseFactor>(fixed.matrix, "CHOLMOD");
     }
+  return coupled;
+}
+} // namespace
 
-    void
-    RowGram::update(const std::vector<double> &entries, unsigned int stride)
-    {
-      for (Group *group : {&fixed, &contact})
-        std::fill(group->matrix.values.begin(), group->matrix.values.end(), 0.);
-      for (const auto &sharing : entries_of_unknown)
-        for (const unsigned int a : sharing)
-          for (const unsigned int b : sharing)
-            {
-              const auto i = place[row_of_entry[a]];
-              const auto j = place[row_of_entry[b]];
-              auto      &A = (i.first ? contact : fixed).matrix;
-              A.values[A.position(i.second, j.second)] +=
-                entries[std::size_t(a) * stride] *
-                entries[std::size_t(b) * stride] *
-                entries[std::size_t(a) * stride + 1];
-            }
-      if (fixed_factor)
-        fixed_factor->factorize("B D^-1 B' of the gluing rows");
-    }
-
-    std::vector<double>
-    RowGram::diagonal() const
-    {
-      std::vector<double> result;
-      for (const auto &p : place)
-        result.push_back((p.first ? contact : fixed).matrix.diagonal(p.second));
-      return result;
-    }
-
-    void
-    RowGram::Group::solve(const SparseFactor &factor, qp::MultiVector &x) const
-    {
-      qp::MultiVector b(rows.size(), x.n_columns()), y = b;
-      for (unsigned int k = 0; k < x.n_columns(); ++k)
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          b(i, k) = x(rows[i], k);
-      factor.solve(b, y);
-      for (unsigned int k = 0; k < x.n_columns(); ++k)
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          x(rows[i], k) = y(i, k);
-    }
-
-    RowGram::Factor::Factor(const RowGram &gram, const qp::RowSet &free)
-      : gram(gram), free(free)
-    {
-      const auto &rows = gram.contact.rows;
-      if (rows.empty())
-        return;
-      W                 = gram.contact_factors.take(gram.contact.matrix);
-      CsrMatrix &matrix = W->matrix;
-      for (unsigned int i = 0; i < matrix.n_rows; ++i)
-        for (PetscInt p = matrix.row_start[i]; p < matrix.row_start[i + 1]; ++p)
+RowGram::RowGram(const RowLayout &layout) : layout(layout)
+{
+  const auto                                                   &start    = layout.entry_start();
+  const auto                                                   &unknowns = layout.entry_unknowns();
+  std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
+  std::vector<std::vector<unsigned int>>                        unknowns_of_row(layout.n_owned());
+  std::vector<std::vector<unsigned int>>                        rows_of_unknown;
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    for (unsigned int e = start[row]; e < start[row + 1]; ++e)
+      {
+        const auto found = index.emplace(unknowns[e], unsigned(index.size())).first;
+        if (found->second == entries_of_unknown.size())
           {
-            const unsigned int j = matrix.columns[p];
-            if (!free[rows[i]] || !free[rows[j]])
-              matrix.values[p] = i == j ? 1. : 0.;
+            entries_of_unknown.emplace_back();
+            rows_of_unknown.emplace_back();
           }
-      W->factor.factorize("B D^-1 B' of the contact rows (are two contact rows "
-                          "the same?)");
-    }
-
-    void
-    RowGram::Factor::solve(qp::MultiVector &x) const
+        entries_of_unknown[found->second].push_back(e);
+        rows_of_unknown[found->second].push_back(row);
+        unknowns_of_row[row].push_back(found->second);
+        row_of_entry.push_back(row);
+      }
+  const auto coupled = coupled_to_contact(layout.bounded(), rows_of_unknown, unknowns_of_row);
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
     {
-      for (unsigned int k = 0; k < x.n_columns(); ++k)
-        for (unsigned int row = 0; row < x.n_rows(); ++row)
-          if (!free[row])
-            x(row, k) = 0.;
-      if (gram.fixed_factor)
-        gram.fixed.solve(*gram.fixed_factor, x);
-      if (W)
-        gram.contact.solve(W->factor, x);
+      Group &group = coupled[row] ? contact : fixed;
+      place.emplace_back(coupled[row], group.rows.size());
+      group.rows.push_back(row);
     }
-  } // namespace feti
-} // namespace snug
+  for (Group *group : {&fixed, &contact})
+    {
+      std::vector<std::vector<PetscInt>> pattern;
+      for (const unsigned int row : group->rows)
+        {
+          std::vector<PetscInt> columns;
+          for (const unsigned int unknown : unknowns_of_row[row])
+            for (const unsigned int other : rows_of_unknown[unknown])
+              columns.push_back(place[other].second);
+          std::sort(columns.begin(), columns.end());
+          columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+          pattern.push_back(columns);
+        }
+      group->matrix = CsrMatrix::from_rows(pattern, group->rows.size());
+    }
+  if (!fixed.rows.empty())
+    fixed_factor = std::make_unique<SparseFactor>(fixed.matrix, "CHOLMOD");
+}
+
+void RowGram::update(const std::vector<double> &entries, unsigned int stride)
+{
+  for (Group *group : {&fixed, &contact})
+    std::fill(group->matrix.values.begin(), group->matrix.values.end(), 0.);
+  for (const auto &sharing : entries_of_unknown)
+    for (const unsigned int a : sharing)
+      for (const unsigned int b : sharing)
+        {
+          const auto i = place[row_of_entry[a]];
+          const auto j = place[row_of_entry[b]];
+          auto      &A = (i.first ? contact : fixed).matrix;
+          A.values[A.position(i.second, j.second)] += entries[std::size_t(a) * stride] *
+                                                      entries[std::size_t(b) * stride] *
+                                                      entries[std::size_t(a) * stride + 1];
+        }
+  if (fixed_factor)
+    fixed_factor->factorize("B D^-1 B' of the gluing rows");
+}
+
+std::vector<double> RowGram::diagonal() const
+{
+  std::vector<double> result;
+  for (const auto &p : place)
+    result.push_back((p.first ? contact : fixed).matrix.diagonal(p.second));
+  return result;
+}
+
+void RowGram::Group::solve(const SparseFactor &factor, qp::MultiVector &x) const
+{
+  qp::MultiVector b(rows.size(), x.n_columns()), y = b;
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      b(i, k) = x(rows[i], k);
+  factor.solve(b, y);
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      x(rows[i], k) = y(i, k);
+}
+
+RowGram::Factor::Factor(const RowGram &gram, const qp::RowSet &free) : gram(gram), free(free)
+{
+  const auto &rows = gram.contact.rows;
+  if (rows.empty())
+    return;
+  W                 = gram.contact_factors.take(gram.contact.matrix);
+  CsrMatrix &matrix = W->matrix;
+  for (unsigned int i = 0; i < matrix.n_rows; ++i)
+    for (PetscInt p = matrix.row_start[i]; p < matrix.row_start[i + 1]; ++p)
+      {
+        const unsigned int j = matrix.columns[p];
+        if (!free[rows[i]] || !free[rows[j]])
+          matrix.values[p] = i == j ? 1. : 0.;
+      }
+  W->factor.factorize("B D^-1 B' of the contact rows (are two contact rows "
+                      "the same?)");
+}
+
+void RowGram::Factor::solve(qp::MultiVector &x) const
+{
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int row = 0; row < x.n_rows(); ++row)
+      if (!free[row])
+        x(row, k) = 0.;
+  if (gram.fixed_factor)
+    gram.fixed.solve(*gram.fixed_factor, x);
+  if (W)
+    gram.contact.solve(W->factor, x);
+}
+} // namespace snug::feti

@@ -3,243 +3,195 @@
 #include <algorithm>
 #include <numeric>
 
-namespace snug
+namespace snug::feti {
+namespace {
+using petsc::check;
+
+/// A forest whose leaves 0..n-1 hang on the given global rows.
+petsc::StarForest star_forest(MPI_Comm                         comm,
+                              unsigned int                     n_owned,
+                              const std::vector<unsigned int> &first_row_of_rank,
+                              const std::vector<unsigned int> &rows)
 {
-  namespace feti
+  std::vector<PetscSFNode> remote(rows.size());
+  for (unsigned int leaf = 0; leaf < rows.size(); ++leaf)
+    {
+      const unsigned int rank =
+        std::upper_bound(first_row_of_rank.begin(), first_row_of_rank.end(), rows[leaf]) -
+        first_row_of_rank.begin() - 1;
+      remote[leaf].rank  = rank;
+      remote[leaf].index = rows[leaf] - first_row_of_rank[rank];
+    }
+  petsc::StarForest forest;
+  check(PetscSFCreate(comm, forest.put()));
+  check(PetscSFSetRankOrder(forest, PETSC_TRUE));
+  check(PetscSFSetGraph(forest, n_owned, rows.size(), nullptr, PETSC_OWN_POINTER, remote.data(),
+                        PETSC_COPY_VALUES));
+  check(PetscSFSetUp(forest));
+  return forest;
+}
+
+/// k doubles as one MPI type; freed with the object.
+class DoubleTuple
+{
+public:
+  explicit DoubleTuple(unsigned int k)
   {
-    namespace
-    {
-      using petsc::check;
+    MPI_Type_contiguous(k, MPI_DOUBLE, &type);
+    MPI_Type_commit(&type);
+  }
+  ~DoubleTuple() { MPI_Type_free(&type); }
+  DoubleTuple(const DoubleTuple &)            = delete;
+  DoubleTuple &operator=(const DoubleTuple &) = delete;
+               operator MPI_Datatype() const { return type; }
 
-      /// A forest whose leaves 0..n-1 hang on the given global rows.
-      petsc::StarForest
-      star_forest(MPI_Comm                         comm,
-                  unsigned int                     n_owned,
-                  const std::vector<unsigned int> &first_row_of_rank,
-                  const std::vector<unsigned int> &rows)
+private:
+  MPI_Datatype type;
+};
+
+std::vector<double> interleave(const qp::MultiVector &x)
+{
+  const unsigned int  k = x.n_columns();
+  std::vector<double> rows(std::size_t(x.n_rows()) * k);
+  for (unsigned int j = 0; j < k; ++j)
+    for (unsigned int i = 0; i < x.n_rows(); ++i)
+      rows[std::size_t(i) * k + j] = x(i, j);
+  return rows;
+}
+
+qp::MultiVector deinterleave(const std::vector<double> &rows, unsigned int n, unsigned int k)
+{
+  qp::MultiVector x(n, k);
+  for (unsigned int j = 0; j < k; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      x(i, j) = rows[std::size_t(i) * k + j];
+  return x;
+}
+} // namespace
+
+RowLayout::RowLayout(MPI_Comm                               communicator,
+                     const qp::RowSet                      &bounded,
+                     const std::vector<std::vector<Entry>> &entries,
+                     unsigned int                           first_subdomain)
+  : comm(communicator), is_bounded(bounded)
+{
+  int n_ranks;
+  MPI_Comm_size(comm, &n_ranks);
+  std::vector<unsigned int> first(n_ranks + 1, 0);
+  const unsigned int        n = bounded.size();
+  MPI_Allgather(&n, 1, MPI_UNSIGNED, first.data() + 1, 1, MPI_UNSIGNED, comm);
+  std::partial_sum(first.begin(), first.end(), first.begin());
+
+  std::vector<unsigned int> entry_rows;
+  std::vector<double>       entry_places; // subdomain, dof
+  for (unsigned int s = 0; s < entries.size(); ++s)
+    for (const Entry &entry : entries[s])
       {
-        std::vector<PetscSFNode> remote(rows.size());
-        for (unsigned int leaf = 0; leaf < rows.size(); ++leaf)
-          {
-            const unsigned int rank =
-              std::upper_bound(first_row_of_rank.begin(),
-                               first_row_of_rank.end(),
-                               rows[leaf]) -
-              first_row_of_rank.begin() - 1;
-            remote[leaf].rank  = rank;
-            remote[leaf].index = rows[leaf] - first_row_of_rank[rank];
-          }
-        petsc::StarForest forest;
-        check(PetscSFCreate(comm, forest.put()));
-        check(PetscSFSetRankOrder(forest, PETSC_TRUE));
-        check(PetscSFSetGraph(forest,
-                              n_owned,
-                              rows.size(),
-                              nullptr,
-                              PETSC_OWN_POINTER,
-                              remote.data(),
-                              PETSC_COPY_VALUES));
-        check(PetscSFSetUp(forest));
-        return forest;
+        entry_rows.push_back(entry.global_row);
+        entry_places.push_back(first_subdomain + s);
+        entry_places.push_back(entry.dof);
       }
+  local_rows = entry_rows;
+  std::sort(local_rows.begin(), local_rows.end());
+  local_rows.erase(std::unique(local_rows.begin(), local_rows.end()), local_rows.end());
+  row_forest   = star_forest(comm, n, first, local_rows);
+  entry_forest = star_forest(comm, n, first, entry_rows);
 
-      /// k doubles as one MPI type; freed with the object.
-      class DoubleTuple
-      {
-      public:
-        explicit DoubleTuple(unsigned int k)
-        {
-          MPI_Type_contiguous(k, MPI_DOUBLE, &type);
-          MPI_Type_commit(&type);
-        }
-        ~DoubleTuple()
-        {
-          MPI_Type_free(&type);
-        }
-        DoubleTuple(const DoubleTuple &) = delete;
-        DoubleTuple &
-        operator=(const DoubleTuple &) = delete;
-        operator MPI_Datatype() const
-        {
-          return type;
-        }
+  const PetscInt *degree;
+  check(PetscSFComputeDegreeBegin(entry_forest, &degree));
+  check(PetscSFComputeDegreeEnd(entry_forest, &degree));
+  start.assign(1, 0);
+  for (unsigned int row = 0; row < n; ++row)
+    start.push_back(start.back() + degree[row]);
+  const auto places = gather_unsorted(2, entry_places);
+  order.resize(start.back());
+  std::iota(order.begin(), order.end(), 0);
+  for (unsigned int row = 0; row < n; ++row)
+    std::sort(order.begin() + start[row], order.begin() + start[row + 1],
+              [&](unsigned int a, unsigned int b) {
+                return std::make_pair(places[2 * a], places[2 * a + 1]) <
+                       std::make_pair(places[2 * b], places[2 * b + 1]);
+              });
+  for (const unsigned int entry : order)
+    unknowns.emplace_back(places[2 * entry], places[2 * entry + 1]);
+}
 
-      private:
-        MPI_Datatype type;
-      };
+MPI_Comm RowLayout::communicator() const
+{
+  return comm;
+}
 
-      std::vector<double>
-      interleave(const qp::MultiVector &x)
-      {
-        const unsigned int  k = x.n_columns();
-        std::vector<double> rows(std::size_t(x.n_rows()) * k);
-        for (unsigned int j = 0; j < k; ++j)
-          for (unsigned int i = 0; i < x.n_rows(); ++i)
-            rows[std::size_t(i) * k + j] = x(i, j);
-        return rows;
-      }
+unsigned int RowLayout::n_owned() const
+{
+  return is_bounded.size();
+}
 
-      qp::MultiVector
-      deinterleave(const std::vector<double> &rows,
-                   unsigned int               n,
-                   unsigned int               k)
-      {
-        qp::MultiVector x(n, k);
-        for (unsigned int j = 0; j < k; ++j)
-          for (unsigned int i = 0; i < n; ++i)
-            x(i, j) = rows[std::size_t(i) * k + j];
-        return x;
-      }
-    } // namespace
+unsigned int RowLayout::n_local() const
+{
+  return local_rows.size();
+}
 
-    RowLayout::RowLayout(MPI_Comm                               communicator,
-                         const qp::RowSet                      &bounded,
-                         const std::vector<std::vector<Entry>> &entries,
-                         unsigned int                           first_subdomain)
-      : comm(communicator), is_bounded(bounded)
+const qp::RowSet &RowLayout::bounded() const
+{
+  return is_bounded;
+}
+
+unsigned int RowLayout::local_row(unsigned int global_row) const
+{
+  return std::lower_bound(local_rows.begin(), local_rows.end(), global_row) - local_rows.begin();
+}
+
+qp::MultiVector RowLayout::to_local(const qp::MultiVector &owned) const
+{
+  const unsigned int  k    = owned.n_columns();
+  const auto          root = interleave(owned);
+  std::vector<double> leaf(std::size_t(n_local()) * k);
+  const DoubleTuple   type(k);
+  check(PetscSFBcastBegin(row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
+  check(PetscSFBcastEnd(row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
+  return deinterleave(leaf, n_local(), k);
+}
+
+qp::MultiVector RowLayout::to_owned(const qp::MultiVector &local) const
+{
+  // PETSc sums only plain numbers: one column at a time
+  qp::MultiVector owned(n_owned(), local.n_columns());
+  for (unsigned int j = 0; j < local.n_columns(); ++j)
     {
-      int n_ranks;
-      MPI_Comm_size(comm, &n_ranks);
-      std::vector<unsigned int> first(n_ranks + 1, 0);
-      const unsigned int        n = bounded.size();
-      MPI_Allgather(
-        &n, 1, MPI_UNSIGNED, first.data() + 1, 1, MPI_UNSIGNED, comm);
-      std::partial_sum(first.begin(), first.end(), first.begin());
-
-      std::vector<unsigned int> entry_rows;
-      std::vector<double>       entry_places; // subdomain, dof
-      for (unsigned int s = 0; s < entries.size(); ++s)
-        for (const Entry &entry : entries[s])
-          {
-            entry_rows.push_back(entry.global_row);
-            entry_places.push_back(first_subdomain + s);
-            entry_places.push_back(entry.dof);
-          }
-      local_rows = entry_rows;
-      std::sort(local_rows.begin(), local_rows.end());
-      local_rows.erase(std::unique(local_rows.begin(), local_rows.end()),
-                       local_rows.end());
-      row_forest   = star_forest(comm, n, first, local_rows);
-      entry_forest = star_forest(comm, n, first, entry_rows);
-
-      const PetscInt *degree;
-      check(PetscSFComputeDegreeBegin(entry_forest, &degree));
-      check(PetscSFComputeDegreeEnd(entry_forest, &degree));
-      start.assign(1, 0);
-      for (unsigned int row = 0; row < n; ++row)
-        start.push_back(start.back() + degree[row]);
-      const auto places = gather_unsorted(2, entry_places);
-      order.resize(start.back());
-      std::iota(order.begin(), order.end(), 0);
-      for (unsigned int row = 0; row < n; ++row)
-        std::sort(order.begin() + start[row],
-                  order.begin() + start[row + 1],
-                  [&](unsigned int a, unsigned int b) {
-                    return std::make_pair(places[2 * a], places[2 * a + 1]) <
-                           std::make_pair(places[2 * b], places[2 * b + 1]);
-                  });
-      for (const unsigned int entry : order)
-        unknowns.emplace_back(places[2 * entry], places[2 * entry + 1]);
+      check(PetscSFReduceBegin(row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
+      check(PetscSFReduceEnd(row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
     }
+  return owned;
+}
 
-    MPI_Comm
-    RowLayout::communicator() const
-    {
-      return comm;
-    }
+std::vector<double> RowLayout::gather_unsorted(unsigned int               width,
+                                               const std::vector<double> &values) const
+{
+  std::vector<double> gathered(std::size_t(start.back()) * width);
+  const DoubleTuple   type(width);
+  check(PetscSFGatherBegin(entry_forest, type, values.data(), gathered.data()));
+  check(PetscSFGatherEnd(entry_forest, type, values.data(), gathered.data()));
+  return gathered;
+}
 
-    unsigned int
-    RowLayout::n_owned() const
-    {
-      return is_bounded.size();
-    }
+std::vector<double> RowLayout::gather_entries(unsigned int               width,
+                                              const std::vector<double> &values) const
+{
+  const auto          unsorted = gather_unsorted(width, values);
+  std::vector<double> sorted(unsorted.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    std::copy_n(unsorted.begin() + std::size_t(order[i]) * width, width,
+                sorted.begin() + i * width);
+  return sorted;
+}
 
-    unsigned int
-    RowLayout::n_local() const
-    {
-      return local_rows.size();
-    }
+const std::vector<unsigned int> &RowLayout::entry_start() const
+{
+  return start;
+}
 
-    const qp::RowSet &
-    RowLayout::bounded() const
-    {
-      return is_bounded;
-    }
-
-    unsigned int
-    RowLayout::local_row(unsigned int global_row) const
-    {
-      return std::lower_bound(local_rows.begin(),
-                              local_rows.end(),
-                              global_row) -
-             local_rows.begin();
-    }
-
-    qp::MultiVector
-    RowLayout::to_local(const qp::MultiVector &owned) const
-    {
-      const unsigned int  k    = owned.n_columns();
-      const auto          root = interleave(owned);
-      std::vector<double> leaf(std::size_t(n_local()) * k);
-      const DoubleTuple   type(k);
-      check(PetscSFBcastBegin(
-        row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
-      check(PetscSFBcastEnd(
-        row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
-      return deinterleave(leaf, n_local(), k);
-    }
-
-    qp::MultiVector
-    RowLayout::to_owned(const qp::MultiVector &local) const
-    {
-      // PETSc sums only plain numbers: one column at a time
-      qp::MultiVector owned(n_owned(), local.n_columns());
-      for (unsigned int j = 0; j < local.n_columns(); ++j)
-        {
-          check(PetscSFReduceBegin(
-            row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
-          check(PetscSFReduceEnd(
-            row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
-        }
-      return owned;
-    }
-
-    std::vector<double>
-    RowLayout::gather_unsorted(unsigned int               width,
-                               const std::vector<double> &values) const
-    {
-      std::vector<double> gathered(std::size_t(start.back()) * width);
-      const DoubleTuple   type(width);
-      check(
-        PetscSFGatherBegin(entry_forest, type, values.data(), gathered.data()));
-      check(
-        PetscSFGatherEnd(entry_forest, type, values.data(), gathered.data()));
-      return gathered;
-    }
-
-    std::vector<double>
-    RowLayout::gather_entries(unsigned int               width,
-                              const std::vector<double> &values) const
-    {
-      const auto          unsorted = gather_unsorted(width, values);
-      std::vector<double> sorted(unsorted.size());
-      for (std::size_t i = 0; i < order.size(); ++i)
-        std::copy_n(unsorted.begin() + std::size_t(order[i]) * width,
-                    width,
-                    sorted.begin() + i * width);
-      return sorted;
-    }
-
-    const std::vector<unsigned int> &
-    RowLayout::entry_start() const
-    {
-      return start;
-    }
-
-    const std::vector<std::pair<unsigned int, unsigned int>> &
-    RowLayout::entry_unknowns() const
-    {
-      return unknowns;
-    }
-  } // namespace feti
-} // namespace snug
+const std::vector<std::pair<unsigned int, unsigned int>> &RowLayout::entry_unknowns() const
+{
+  return unknowns;
+}
+} // namespace snug::feti

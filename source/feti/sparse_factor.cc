@@ -5,150 +5,130 @@
 
 #include <cmath>
 
-namespace snug
+namespace snug::feti {
+namespace {
+/// CHOLMOD's default takes AMD when it looks good enough; trying METIS
+/// as well costs symbolic time once and saves 20 to 27 % of the fill.
+void prefer_nested_dissection()
 {
-  namespace feti
-  {
-    namespace
-    {
-      /// CHOLMOD's default takes AMD when it looks good enough; trying METIS
-      /// as well costs symbolic time once and saves 20 to 27 % of the fill.
-      void
-      prefer_nested_dissection()
-      {
-        const char *name = "-mat_cholmod_nmethods";
-        PetscBool   set  = PETSC_FALSE;
-        petsc::check(PetscOptionsHasName(nullptr, nullptr, name, &set));
-        if (set == PETSC_FALSE)
-          petsc::check(PetscOptionsSetValue(nullptr, name, "3"));
-      }
+  const char *name = "-mat_cholmod_nmethods";
+  PetscBool   set  = PETSC_FALSE;
+  petsc::check(PetscOptionsHasName(nullptr, nullptr, name, &set));
+  if (set == PETSC_FALSE)
+    petsc::check(PetscOptionsSetValue(nullptr, name, "3"));
+}
 
-      /// CHOLMOD asks OpenMP for four threads whatever OMP_NUM_THREADS says;
-      /// starting them takes as long as factorizing a subdomain, and ranks
-      /// are what runs in parallel here. Parallel regions nested in none are
-      /// serial. Looked up by name: CHOLMOD brings its runtime if it has one.
-      void
-      keep_to_one_thread()
-      {
-        using Function                          = void(int);
-        static const auto set_max_active_levels = reinterpret_cast<Function *>(
-          dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
-        if (set_max_active_levels != nullptr)
-          set_max_active_levels(0);
-      }
-    } // namespace
+/// CHOLMOD asks OpenMP for four threads whatever OMP_NUM_THREADS says;
+/// starting them takes as long as factorizing a subdomain, and ranks
+/// are what runs in parallel here. Parallel regions nested in none are
+/// serial. Looked up by name: CHOLMOD brings its runtime if it has one.
+void keep_to_one_thread()
+{
+  using Function = void(int);
+  static const auto set_max_active_levels =
+    reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+  if (set_max_active_levels != nullptr)
+    set_max_active_levels(0);
+}
+} // namespace
 
-    SparseFactor::SparseFactor(const CsrMatrix   &matrix,
-                               const std::string &package)
-      : matrix(matrix)
+SparseFactor::SparseFactor(const CsrMatrix &matrix, const std::string &package) : matrix(matrix)
+{
+  prefer_nested_dissection();
+  keep_to_one_thread();
+  const bool mumps = package == "MUMPS";
+  auto      &csr   = const_cast<CsrMatrix &>(matrix);
+  petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, matrix.n_rows, matrix.n_rows,
+                                         csr.row_start.data(), csr.columns.data(),
+                                         csr.values.data(), wrapped.put()));
+  petsc::check(MatSetOption(wrapped, MAT_SYMMETRIC, PETSC_TRUE));
+  petsc::check(MatSetOption(wrapped, MAT_SPD, PETSC_TRUE));
+  petsc::check(MatGetFactor(wrapped, mumps ? MATSOLVERMUMPS : MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY,
+                            factor.put()));
+  if (mumps)
+    petsc::check(MatMumpsSetIcntl(factor, 7, 4)); // PORD: METIS is absent
+  MatFactorInfo info;
+  petsc::check(MatFactorInfoInitialize(&info));
+  petsc::check(MatCholeskyFactorSymbolic(factor, wrapped, nullptr, &info));
+  petsc::check(
+    VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, right_hand_side.put()));
+  petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, solution.put()));
+}
+
+void SparseFactor::factorize(const std::string &what)
+{
+  petsc::check(MatAssemblyBegin(wrapped, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(wrapped, MAT_FINAL_ASSEMBLY));
+  MatFactorInfo info;
+  petsc::check(MatFactorInfoInitialize(&info));
+  if (matrix.n_rows > 0 && std::isnormal(matrix.diagonal(0)))
+    unit = std::ldexp(1., std::ilogb(matrix.diagonal(0)));
+  petsc::check(MatScale(wrapped, 1. / unit));
+  const bool failed = MatCholeskyFactorNumeric(factor, wrapped, &info) != 0;
+  petsc::check(MatScale(wrapped, unit));
+  if (failed)
+    throw SolveError(what + " is not positive definite: look for "
+                            "degenerate cells and unconnected parts");
+  check(what);
+}
+
+void SparseFactor::check(const std::string &what) const
+{
+  qp::MultiVector b(matrix.n_rows), x(matrix.n_rows);
+  double          largest = 0.;
+  for (unsigned int i = 0; i < matrix.n_rows; ++i)
     {
-      prefer_nested_dissection();
-      keep_to_one_thread();
-      const bool mumps = package == "MUMPS";
-      auto      &csr   = const_cast<CsrMatrix &>(matrix);
-      petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF,
-                                             matrix.n_rows,
-                                             matrix.n_rows,
-                                             csr.row_start.data(),
-                                             csr.columns.data(),
-                                             csr.values.data(),
-                                             wrapped.put()));
-      petsc::check(MatSetOption(wrapped, MAT_SYMMETRIC, PETSC_TRUE));
-      petsc::check(MatSetOption(wrapped, MAT_SPD, PETSC_TRUE));
-      petsc::check(MatGetFactor(wrapped,
-                                mumps ? MATSOLVERMUMPS : MATSOLVERCHOLMOD,
-                                MAT_FACTOR_CHOLESKY,
-                                factor.put()));
-      if (mumps)
-        petsc::check(MatMumpsSetIcntl(factor, 7, 4)); // PORD: METIS is absent
-      MatFactorInfo info;
-      petsc::check(MatFactorInfoInitialize(&info));
-      petsc::check(MatCholeskyFactorSymbolic(factor, wrapped, nullptr, &info));
-      petsc::check(VecCreateSeqWithArray(
-        PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, right_hand_side.put()));
-      petsc::check(VecCreateSeqWithArray(
-        PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, solution.put()));
+      b(i)    = matrix.diagonal(i) * (1. + i % 3);
+      largest = std::max(largest, std::abs(b(i)));
     }
-
-    void
-    SparseFactor::factorize(const std::string &what)
+  solve(b, x);
+  qp::MultiVector residual = b;
+  matrix.multiply_add(-1., x, residual);
+  double error = 0., size = 0., energy = 0.; // energy: b' A^-1 b
+  for (unsigned int i = 0; i < matrix.n_rows; ++i)
     {
-      petsc::check(MatAssemblyBegin(wrapped, MAT_FINAL_ASSEMBLY));
-      petsc::check(MatAssemblyEnd(wrapped, MAT_FINAL_ASSEMBLY));
-      MatFactorInfo info;
-      petsc::check(MatFactorInfoInitialize(&info));
-      if (matrix.n_rows > 0 && std::isnormal(matrix.diagonal(0)))
-        unit = std::ldexp(1., std::ilogb(matrix.diagonal(0)));
-      petsc::check(MatScale(wrapped, 1. / unit));
-      const bool failed = MatCholeskyFactorNumeric(factor, wrapped, &info) != 0;
-      petsc::check(MatScale(wrapped, unit));
-      if (failed)
-        throw SolveError(what + " is not positive definite: look for "
-                                "degenerate cells and unconnected parts");
-      check(what);
+      error = std::max(error, std::abs(residual(i)));
+      size  = std::max(size, std::abs(x(i)));
+      energy += b(i) * x(i);
+      if (!std::isfinite(x(i)))
+        error = INFINITY;
+      // LDL' of an indefinite matrix works; its diagonal often tells
+      if (b(i) <= 0.)
+        energy = -INFINITY;
     }
+  // backward error of a Cholesky solve is near 1e-15 |A| |x|
+  if (!(error <= 1e-8 * std::max(largest, largest * size)))
+    throw SolveError("the factorization of " + what +
+                     " is inaccurate or the matrix holds NaN: look for "
+                     "degenerate cells and extreme material constants");
+  // b is the diagonal, about; a solution of this size has lost all but
+  // five digits: the matrix is singular up to round-off
+  const double singular_size = 1e11;
+  if (matrix.n_rows > 0 && !(energy > 0. && size < singular_size))
+    throw SolveError(what + " is not positive definite: look for "
+                            "degenerate cells and unconnected parts");
+}
 
-    void
-    SparseFactor::check(const std::string &what) const
+void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
+{
+  const PetscInt n = matrix.n_rows, k = b.n_columns();
+  if (n == 0 || k == 0)
+    return;
+  if (k == 1)
     {
-      qp::MultiVector b(matrix.n_rows), x(matrix.n_rows);
-      double          largest = 0.;
-      for (unsigned int i = 0; i < matrix.n_rows; ++i)
-        {
-          b(i)    = matrix.diagonal(i) * (1. + i % 3);
-          largest = std::max(largest, std::abs(b(i)));
-        }
-      solve(b, x);
-      qp::MultiVector residual = b;
-      matrix.multiply_add(-1., x, residual);
-      double error = 0., size = 0., energy = 0.; // energy: b' A^-1 b
-      for (unsigned int i = 0; i < matrix.n_rows; ++i)
-        {
-          error = std::max(error, std::abs(residual(i)));
-          size  = std::max(size, std::abs(x(i)));
-          energy += b(i) * x(i);
-          if (!std::isfinite(x(i)))
-            error = INFINITY;
-          // LDL' of an indefinite matrix works; its diagonal often tells
-          if (b(i) <= 0.)
-            energy = -INFINITY;
-        }
-      // backward error of a Cholesky solve is near 1e-15 |A| |x|
-      if (!(error <= 1e-8 * std::max(largest, largest * size)))
-        throw SolveError("the factorization of " + what +
-                         " is inaccurate or the matrix holds NaN: look for "
-                         "degenerate cells and extreme material constants");
-      // b is the diagonal, about; a solution of this size has lost all but
-      // five digits: the matrix is singular up to round-off
-      const double singular_size = 1e11;
-      if (matrix.n_rows > 0 && !(energy > 0. && size < singular_size))
-        throw SolveError(what + " is not positive definite: look for "
-                                "degenerate cells and unconnected parts");
+      petsc::check(VecPlaceArray(right_hand_side, b.column(0)));
+      petsc::check(VecPlaceArray(solution, x.column(0)));
+      petsc::check(MatSolve(factor, right_hand_side, solution));
+      petsc::check(VecResetArray(right_hand_side));
+      petsc::check(VecScale(solution, 1. / unit));
+      petsc::check(VecResetArray(solution));
+      return;
     }
-
-    void
-    SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
-    {
-      const PetscInt n = matrix.n_rows, k = b.n_columns();
-      if (n == 0 || k == 0)
-        return;
-      if (k == 1)
-        {
-          petsc::check(VecPlaceArray(right_hand_side, b.column(0)));
-          petsc::check(VecPlaceArray(solution, x.column(0)));
-          petsc::check(MatSolve(factor, right_hand_side, solution));
-          petsc::check(VecResetArray(right_hand_side));
-          petsc::check(VecScale(solution, 1. / unit));
-          petsc::check(VecResetArray(solution));
-          return;
-        }
-      petsc::Matrix B, X;
-      petsc::check(MatCreateSeqDense(
-        PETSC_COMM_SELF, n, k, const_cast<double *>(b.column(0)), B.put()));
-      petsc::check(
-        MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), X.put()));
-      petsc::check(MatMatSolve(factor, B, X));
-      petsc::check(MatScale(X, 1. / unit));
-    }
-  } // namespace feti
-} // namespace snug
+  petsc::Matrix B, X;
+  petsc::check(
+    MatCreateSeqDense(PETSC_COMM_SELF, n, k, const_cast<double *>(b.column(0)), B.put()));
+  petsc::check(MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), X.put()));
+  petsc::check(MatMatSolve(factor, B, X));
+  petsc::check(MatScale(X, 1. / unit));
+}
+} // namespace snug::feti

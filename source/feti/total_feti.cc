@@ -3,373 +3,318 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::feti {
+namespace {
+std::string name_of_subdomain(unsigned int id)
 {
-  namespace feti
-  {
-    namespace
+  return "the stiffness of subdomain " + std::to_string(id);
+}
+
+/// y += B x
+void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
+{
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
     {
-      std::string
-      name_of_subdomain(unsigned int id)
+      const double *from = x.column(j);
+      double       *to   = y.column(j);
+      for (const BEntry &entry : B)
+        to[entry.row] += entry.value * from[entry.dof];
+    }
+}
+
+/// y += B' x
+void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
+{
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
+    {
+      const double *from = x.column(j);
+      double       *to   = y.column(j);
+      for (const BEntry &entry : B)
+        to[entry.dof] += entry.value * from[entry.row];
+    }
+}
+} // namespace
+
+TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &systems,
+                     const RowLayout                    &layout,
+                     const SubdomainTable               &table,
+                     const FetiParameters               &parameters,
+                     RunContext                         &context)
+  : systems(systems)
+  , layout(layout)
+  , parameters(parameters)
+  , run(context)
+  , coarse(layout, table)
+  , gram(layout)
+{
+  for (const SubdomainSystem &system : systems)
+    {
+      inverses.push_back(
+        std::make_unique<GeneralizedInverse>(system, parameters.factorization, run));
+      if (parameters.preconditioner != "none")
+        schur.push_back(std::make_unique<LocalSchur>(system, parameters.preconditioner == "lumped",
+                                                     parameters.factorization, run));
+    }
+}
+
+void TotalFeti::update(const std::vector<bool> &changed)
+{
+  everywhere(run.communicator(), [&]() {
+    const RunContext::Timer timer(run, "factorization");
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      if (changed[s])
+        {
+          const auto name = name_of_subdomain(coarse.subdomains().first + s);
+          inverses[s]->factorize(name);
+          if (!schur.empty())
+            schur[s]->factorize(name);
+        }
+  });
+  const RunContext::Timer timer(run, "solve");
+  gather_rows();
+  weight_rows();
+}
+
+void TotalFeti::set_loads(const qp::MultiVector &g)
+{
+  const RunContext::Timer timer(run, "solve");
+  gap        = g;
+  rigid_load = rigid_part(loads());
+  dual_load  = multiply_B(apply_inverse(loads()));
+  dual_load.add(-1., gap);
+}
+
+void TotalFeti::gather_rows()
+{
+  const unsigned int           n_modes = coarse.subdomains().n_modes;
+  const unsigned int           width   = 2 + n_modes;
+  const bool                   scaled  = parameters.scaling == "stiffness";
+  std::vector<double>          values;
+  std::vector<qp::MultiVector> Z;
+  for (const SubdomainSystem &system : systems)
+    {
+      Z.push_back(system.Z);
+      for (const BEntry &entry : system.B)
+        {
+          values.push_back(entry.value);
+          values.push_back(1. / system.K.diagonal(entry.dof));
+          for (unsigned int mode = 0; mode < n_modes; ++mode)
+            values.push_back(entry.value * system.R(entry.dof, mode));
+        }
+    }
+  auto gathered = layout.gather_entries(width, values);
+  F_diagonal.assign(n_owned(), 0.);
+  const auto &start = layout.entry_start();
+  for (unsigned int row = 0; row < n_owned(); ++row)
+    for (unsigned int e = start[row]; e < start[row + 1]; ++e)
       {
-        return "the stiffness of subdomain " + std::to_string(id);
+        const double *entry = &gathered[std::size_t(e) * width];
+        F_diagonal[row] += entry[0] * entry[0] * entry[1];
       }
+  if (!scaled)
+    for (std::size_t e = 0; e < start.back(); ++e)
+      gathered[e * width + 1] = 1.;
+  coarse.update(std::vector<double>(gathered.begin() + std::min<std::size_t>(2, gathered.size()),
+                                    gathered.end()),
+                width, Z);
+  everywhere(run.communicator(), [&]() { gram.update(gathered, width); });
+}
 
-      /// y += B x
-      void
-      add_product(const std::vector<BEntry> &B,
-                  const qp::MultiVector     &x,
-                  qp::MultiVector           &y)
-      {
-        for (unsigned int j = 0; j < x.n_columns(); ++j)
-          {
-            const double *from = x.column(j);
-            double       *to   = y.column(j);
-            for (const BEntry &entry : B)
-              to[entry.row] += entry.value * from[entry.dof];
-          }
-      }
-
-      /// y += B' x
-      void
-      add_transposed(const std::vector<BEntry> &B,
-                     const qp::MultiVector     &x,
-                     qp::MultiVector           &y)
-      {
-        for (unsigned int j = 0; j < x.n_columns(); ++j)
-          {
-            const double *from = x.column(j);
-            double       *to   = y.column(j);
-            for (const BEntry &entry : B)
-              to[entry.dof] += entry.value * from[entry.row];
-          }
-      }
-    } // namespace
-
-    TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &systems,
-                         const RowLayout                    &layout,
-                         const SubdomainTable               &table,
-                         const FetiParameters               &parameters,
-                         RunContext                         &context)
-      : systems(systems)
-      , layout(layout)
-      , parameters(parameters)
-      , run(context)
-      , coarse(layout, table)
-      , gram(layout)
+void TotalFeti::weight_rows()
+{
+  const bool scaled = parameters.scaling == "stiffness";
+  weighted_B.resize(schur.size());
+  for (unsigned int s = 0; s < schur.size(); ++s)
     {
-      for (const SubdomainSystem &system : systems)
+      const auto &position = schur[s]->boundary_position();
+      weighted_B[s]        = systems[s].B;
+      for (BEntry &entry : weighted_B[s])
         {
-          inverses.push_back(std::make_unique<GeneralizedInverse>(
-            system, parameters.factorization, run));
-          if (parameters.preconditioner != "none")
-            schur.push_back(
-              std::make_unique<LocalSchur>(system,
-                                           parameters.preconditioner ==
-                                             "lumped",
-                                           parameters.factorization,
-                                           run));
+          if (scaled)
+            entry.value *= 1. / systems[s].K.diagonal(entry.dof);
+          entry.dof = position[entry.dof];
         }
     }
+}
 
-    void
-    TotalFeti::update(const std::vector<bool> &changed)
+RunContext &TotalFeti::context() const
+{
+  return run;
+}
+
+unsigned int TotalFeti::n_owned() const
+{
+  return layout.n_owned();
+}
+
+const qp::RowSet &TotalFeti::bounded() const
+{
+  return layout.bounded();
+}
+
+const qp::MultiVector &TotalFeti::d() const
+{
+  return dual_load;
+}
+
+const qp::MultiVector &TotalFeti::e() const
+{
+  return rigid_load;
+}
+
+const std::vector<double> &TotalFeti::diagonal() const
+{
+  return F_diagonal;
+}
+
+const qp::MultiVector &TotalFeti::g() const
+{
+  return gap;
+}
+
+const std::vector<SubdomainSystem> &TotalFeti::subdomains() const
+{
+  return systems;
+}
+
+unsigned int TotalFeti::n_bodies() const
+{
+  return coarse.subdomains().body_names.size();
+}
+
+unsigned int TotalFeti::n_kernel() const
+{
+  return coarse.n_kernel();
+}
+
+qp::MultiVector TotalFeti::apply(const qp::MultiVector &x) const
+{
+  run.work.f_mults += x.n_columns();
+  return multiply_B(apply_inverse(multiply_Bt(x)));
+}
+
+qp::MultiVector TotalFeti::apply_G(const qp::MultiVector &x) const
+{
+  return coarse.multiply(x, nullptr);
+}
+
+qp::MultiVector TotalFeti::apply_Gt(const qp::MultiVector &alpha) const
+{
+  return coarse.transpose_multiply(alpha, nullptr);
+}
+
+qp::MultiVector TotalFeti::multiply_B(const PrimalVectors &v) const
+{
+  unsigned int k = v.empty() ? 0 : v.front().n_columns();
+  MPI_Allreduce(MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
+  qp::MultiVector local(layout.n_local(), k);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    add_product(systems[s].B, v[s], local);
+  return layout.to_owned(local);
+}
+
+PrimalVectors TotalFeti::multiply_Bt(const qp::MultiVector &lambda) const
+{
+  const qp::MultiVector local = layout.to_local(lambda);
+  PrimalVectors         v;
+  for (const SubdomainSystem &system : systems)
     {
-      everywhere(run.communicator(), [&]() {
-        const RunContext::Timer timer(run, "factorization");
-        for (unsigned int s = 0; s < systems.size(); ++s)
-          if (changed[s])
-            {
-              const auto name =
-                name_of_subdomain(coarse.subdomains().first + s);
-              inverses[s]->factorize(name);
-              if (!schur.empty())
-                schur[s]->factorize(name);
-            }
-      });
-      const RunContext::Timer timer(run, "solve");
-      gather_rows();
-      weight_rows();
+      v.emplace_back(system.n_dofs(), lambda.n_columns());
+      add_transposed(system.B, local, v.back());
     }
+  return v;
+}
 
-    void
-    TotalFeti::set_loads(const qp::MultiVector &g)
+PrimalVectors TotalFeti::apply_inverse(const PrimalVectors &right_hand_side) const
+{
+  PrimalVectors x;
+  for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      const RunContext::Timer timer(run, "solve");
-      gap        = g;
-      rigid_load = rigid_part(loads());
-      dual_load  = multiply_B(apply_inverse(loads()));
-      dual_load.add(-1., gap);
+      x.emplace_back(systems[s].n_dofs(), right_hand_side[s].n_columns());
+      inverses[s]->apply(right_hand_side[s], x.back());
     }
+  return x;
+}
 
-    void
-    TotalFeti::gather_rows()
-    {
-      const unsigned int           n_modes = coarse.subdomains().n_modes;
-      const unsigned int           width   = 2 + n_modes;
-      const bool                   scaled  = parameters.scaling == "stiffness";
-      std::vector<double>          values;
-      std::vector<qp::MultiVector> Z;
-      for (const SubdomainSystem &system : systems)
+qp::MultiVector TotalFeti::rigid_part(const PrimalVectors &b) const
+{
+  unsigned int k = b.empty() ? 0 : b.front().n_columns();
+  MPI_Allreduce(MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
+  const unsigned int m = coarse.subdomains().n_modes;
+  qp::MultiVector    result(coarse.n_kernel(), k);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (unsigned int j = 0; j < k; ++j)
+      for (unsigned int mode = 0; mode < m; ++mode)
+        for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+          result((coarse.subdomains().first + s) * m + mode, j) +=
+            systems[s].R(i, mode) * b[s](i, j);
+  MPI_Allreduce(MPI_IN_PLACE, result.column(0), result.n_rows() * k, MPI_DOUBLE, MPI_SUM,
+                run.communicator());
+  return result;
+}
+
+PrimalVectors TotalFeti::recover(PrimalVectors          b,
+                                 const qp::MultiVector &lambda,
+                                 const qp::MultiVector &alpha) const
+{
+  const PrimalVectors forces = multiply_Bt(lambda);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    b[s].add(-1., forces[s]);
+  PrimalVectors      u = apply_inverse(b);
+  const unsigned int m = coarse.subdomains().n_modes;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (unsigned int j = 0; j < u[s].n_columns(); ++j)
+      for (unsigned int mode = 0; mode < m; ++mode)
         {
-          Z.push_back(system.Z);
-          for (const BEntry &entry : system.B)
-            {
-              values.push_back(entry.value);
-              values.push_back(1. / system.K.diagonal(entry.dof));
-              for (unsigned int mode = 0; mode < n_modes; ++mode)
-                values.push_back(entry.value * system.R(entry.dof, mode));
-            }
+          const double amplitude = alpha((coarse.subdomains().first + s) * m + mode, j);
+          for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+            u[s](i, j) += systems[s].R(i, mode) * amplitude;
         }
-      auto gathered = layout.gather_entries(width, values);
-      F_diagonal.assign(n_owned(), 0.);
-      const auto &start = layout.entry_start();
-      for (unsigned int row = 0; row < n_owned(); ++row)
-        for (unsigned int e = start[row]; e < start[row + 1]; ++e)
-          {
-            const double *entry = &gathered[std::size_t(e) * width];
-            F_diagonal[row] += entry[0] * entry[0] * entry[1];
-          }
-      if (!scaled)
-        for (std::size_t e = 0; e < start.back(); ++e)
-          gathered[e * width + 1] = 1.;
-      coarse.update(
-        std::vector<double>(gathered.begin() +
-                              std::min<std::size_t>(2, gathered.size()),
-                            gathered.end()),
-        width,
-        Z);
-      everywhere(run.communicator(), [&]() { gram.update(gathered, width); });
-    }
+  return u;
+}
 
-    void
-    TotalFeti::weight_rows()
+PrimalVectors TotalFeti::loads() const
+{
+  PrimalVectors f;
+  for (const SubdomainSystem &system : systems)
     {
-      const bool scaled = parameters.scaling == "stiffness";
-      weighted_B.resize(schur.size());
-      for (unsigned int s = 0; s < schur.size(); ++s)
-        {
-          const auto &position = schur[s]->boundary_position();
-          weighted_B[s]        = systems[s].B;
-          for (BEntry &entry : weighted_B[s])
-            {
-              if (scaled)
-                entry.value *= 1. / systems[s].K.diagonal(entry.dof);
-              entry.dof = position[entry.dof];
-            }
-        }
+      f.emplace_back(system.n_dofs(), 1);
+      std::copy(system.f.begin(), system.f.end(), f.back().column(0));
     }
+  return f;
+}
 
-    RunContext &
-    TotalFeti::context() const
-    {
-      return run;
-    }
+double TotalFeti::feasibility_scale(const qp::MultiVector &lambda) const
+{
+  return feasibility_scale(rigid_load, lambda);
+}
 
-    unsigned int
-    TotalFeti::n_owned() const
+double TotalFeti::feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const
+{
+  double             largest = 0., norm_e = 0.;
+  const unsigned int m = coarse.subdomains().n_modes;
+  for (unsigned int s = 0; s < coarse.n_kernel() / m; ++s)
     {
-      return layout.n_owned();
+      double square = 0.;
+      for (unsigned int i = 0; i < m; ++i)
+        square += e(s * m + i) * e(s * m + i);
+      norm_e += square;
+      largest = std::max(largest, square);
     }
+  return std::sqrt(largest) + coarse.norm() * qp::norms(lambda, run.communicator())[0];
+}
 
-    const qp::RowSet &
-    TotalFeti::bounded() const
+void TotalFeti::precondition(qp::MultiVector &x) const
+{
+  const qp::MultiVector local = layout.to_local(x);
+  const unsigned int    k     = x.n_columns();
+  qp::MultiVector       result(layout.n_local(), k);
+  for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      return layout.bounded();
+      qp::MultiVector boundary(schur[s]->n_boundary(), k);
+      add_transposed(weighted_B[s], local, boundary);
+      add_product(weighted_B[s], schur[s]->apply(boundary), result);
     }
-
-    const qp::MultiVector &
-    TotalFeti::d() const
-    {
-      return dual_load;
-    }
-
-    const qp::MultiVector &
-    TotalFeti::e() const
-    {
-      return rigid_load;
-    }
-
-    const std::vector<double> &
-    TotalFeti::diagonal() const
-    {
-      return F_diagonal;
-    }
-
-    const qp::MultiVector &
-    TotalFeti::g() const
-    {
-      return gap;
-    }
-
-    const std::vector<SubdomainSystem> &
-    TotalFeti::subdomains() const
-    {
-      return systems;
-    }
-
-    unsigned int
-    TotalFeti::n_bodies() const
-    {
-      return coarse.subdomains().body_names.size();
-    }
-
-    unsigned int
-    TotalFeti::n_kernel() const
-    {
-      return coarse.n_kernel();
-    }
-
-    qp::MultiVector
-    TotalFeti::apply(const qp::MultiVector &x) const
-    {
-      run.work.f_mults += x.n_columns();
-      return multiply_B(apply_inverse(multiply_Bt(x)));
-    }
-
-    qp::MultiVector
-    TotalFeti::apply_G(const qp::MultiVector &x) const
-    {
-      return coarse.multiply(x, nullptr);
-    }
-
-    qp::MultiVector
-    TotalFeti::apply_Gt(const qp::MultiVector &alpha) const
-    {
-      return coarse.transpose_multiply(alpha, nullptr);
-    }
-
-    qp::MultiVector
-    TotalFeti::multiply_B(const PrimalVectors &v) const
-    {
-      unsigned int k = v.empty() ? 0 : v.front().n_columns();
-      MPI_Allreduce(
-        MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
-      qp::MultiVector local(layout.n_local(), k);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        add_product(systems[s].B, v[s], local);
-      return layout.to_owned(local);
-    }
-
-    PrimalVectors
-    TotalFeti::multiply_Bt(const qp::MultiVector &lambda) const
-    {
-      const qp::MultiVector local = layout.to_local(lambda);
-      PrimalVectors         v;
-      for (const SubdomainSystem &system : systems)
-        {
-          v.emplace_back(system.n_dofs(), lambda.n_columns());
-          add_transposed(system.B, local, v.back());
-        }
-      return v;
-    }
-
-    PrimalVectors
-    TotalFeti::apply_inverse(const PrimalVectors &right_hand_side) const
-    {
-      PrimalVectors x;
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        {
-          x.emplace_back(systems[s].n_dofs(), right_hand_side[s].n_columns());
-          inverses[s]->apply(right_hand_side[s], x.back());
-        }
-      return x;
-    }
-
-    qp::MultiVector
-    TotalFeti::rigid_part(const PrimalVectors &b) const
-    {
-      unsigned int k = b.empty() ? 0 : b.front().n_columns();
-      MPI_Allreduce(
-        MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
-      const unsigned int m = coarse.subdomains().n_modes;
-      qp::MultiVector    result(coarse.n_kernel(), k);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        for (unsigned int j = 0; j < k; ++j)
-          for (unsigned int mode = 0; mode < m; ++mode)
-            for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
-              result((coarse.subdomains().first + s) * m + mode, j) +=
-                systems[s].R(i, mode) * b[s](i, j);
-      MPI_Allreduce(MPI_IN_PLACE,
-                    result.column(0),
-                    result.n_rows() * k,
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    run.communicator());
-      return result;
-    }
-
-    PrimalVectors
-    TotalFeti::recover(PrimalVectors          b,
-                       const qp::MultiVector &lambda,
-                       const qp::MultiVector &alpha) const
-    {
-      const PrimalVectors forces = multiply_Bt(lambda);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        b[s].add(-1., forces[s]);
-      PrimalVectors      u = apply_inverse(b);
-      const unsigned int m = coarse.subdomains().n_modes;
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        for (unsigned int j = 0; j < u[s].n_columns(); ++j)
-          for (unsigned int mode = 0; mode < m; ++mode)
-            {
-              const double amplitude =
-                alpha((coarse.subdomains().first + s) * m + mode, j);
-              for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
-                u[s](i, j) += systems[s].R(i, mode) * amplitude;
-            }
-      return u;
-    }
-
-    PrimalVectors
-    TotalFeti::loads() const
-    {
-      PrimalVectors f;
-      for (const SubdomainSystem &system : systems)
-        {
-          f.emplace_back(system.n_dofs(), 1);
-          std::copy(system.f.begin(), system.f.end(), f.back().column(0));
-        }
-      return f;
-    }
-
-    double
-    TotalFeti::feasibility_scale(const qp::MultiVector &lambda) const
-    {
-      return feasibility_scale(rigid_load, lambda);
-    }
-
-    double
-    TotalFeti::feasibility_scale(const qp::MultiVector &e,
-                                 const qp::MultiVector &lambda) const
-    {
-      double             largest = 0., norm_e = 0.;
-      const unsigned int m = coarse.subdomains().n_modes;
-      for (unsigned int s = 0; s < coarse.n_kernel() / m; ++s)
-        {
-          double square = 0.;
-          for (unsigned int i = 0; i < m; ++i)
-            square += e(s * m + i) * e(s * m + i);
-          norm_e += square;
-          largest = std::max(largest, square);
-        }
-      return std::sqrt(largest) +
-             coarse.norm() * qp::norms(lambda, run.communicator())[0];
-    }
-
-    void
-    TotalFeti::precondition(qp::MultiVector &x) const
-    {
-      const qp::MultiVector local = layout.to_local(x);
-      const unsigned int    k     = x.n_columns();
-      qp::MultiVector       result(layout.n_local(), k);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        {
-          qp::MultiVector boundary(schur[s]->n_boundary(), k);
-          add_transposed(weighted_B[s], local, boundary);
-          add_product(weighted_B[s], schur[s]->apply(boundary), result);
-        }
-      x = layout.to_owned(result);
-    }
-  } // namespace feti
-} // namespace snug
+  x = layout.to_owned(result);
+}
+} // namespace snug::feti

@@ -7,172 +7,144 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::io {
+template <int dim>
+ContactOutput<dim>::ContactOutput(const Sources &sources, const std::string &directory)
+  : sources(sources)
+  , directory(directory)
+  , reference(sources.surface.gather(sources.mesh.reference_positions()))
+{}
+
+namespace {
+/// Pressure and gap by the shares of others, flags where all have them.
+template <typename Shares, typename Point>
+state::ContactPoint shared_point(const Shares &shares, const Point &point)
 {
-  namespace io
-  {
-    template <int dim>
-    ContactOutput<dim>::ContactOutput(const Sources     &sources,
-                                      const std::string &directory)
-      : sources(sources)
-      , directory(directory)
-      , reference(sources.surface.gather(sources.mesh.reference_positions()))
+  state::ContactPoint result;
+  result.active = result.weak = true;
+  for (const auto &[index, share] : shares)
     {
+      const state::ContactPoint &other = point(index);
+      result.pressure += share * other.pressure;
+      result.gap += share * other.gap;
+      result.active = result.active && other.active;
+      result.weak   = result.weak && other.weak;
     }
+  return result;
+}
+} // namespace
 
-    namespace
+template <int dim>
+std::vector<state::ContactPoint>
+ContactOutput<dim>::nodal_points(const std::vector<state::ContactPoint> &rows) const
+{
+  AssertDimension(rows.size(), sources.places.size());
+  std::vector<state::ContactPoint> points(sources.surface.n_nodes());
+  std::vector<bool>                seen(points.size(), false);
+  for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      /// Pressure and gap by the shares of others, flags where all have them.
-      template <typename Shares, typename Point>
-      state::ContactPoint
-      shared_point(const Shares &shares, const Point &point)
-      {
-        state::ContactPoint result;
-        result.active = result.weak = true;
-        for (const auto &[index, share] : shares)
-          {
-            const state::ContactPoint &other = point(index);
-            result.pressure += share * other.pressure;
-            result.gap += share * other.gap;
-            result.active = result.active && other.active;
-            result.weak   = result.weak && other.weak;
-          }
-        return result;
-      }
-    } // namespace
-
-    template <int dim>
-    std::vector<state::ContactPoint>
-    ContactOutput<dim>::nodal_points(
-      const std::vector<state::ContactPoint> &rows) const
-    {
-      AssertDimension(rows.size(), sources.places.size());
-      std::vector<state::ContactPoint> points(sources.surface.n_nodes());
-      std::vector<bool>                seen(points.size(), false);
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        {
-          const unsigned int node = sources.places[i].slave;
-          if (!seen[node] || rows[i].force > points[node].force)
-            points[node] = rows[i];
-          seen[node] = true;
-        }
-      for (const auto &shared : sources.shared_nodes)
-        if (!seen[shared.node])
-          points[shared.node] =
-            shared_point(shared.rows,
-                         [&](unsigned int row) { return rows[row]; });
-      for (unsigned int node = 0; node < points.size(); ++node)
-        if (!sources.surface.masters(node).empty())
-          points[node] =
-            shared_point(sources.surface.masters(node),
-                         [&](unsigned int master) { return points[master]; });
-      return points;
+      const unsigned int node = sources.places[i].slave;
+      if (!seen[node] || rows[i].force > points[node].force)
+        points[node] = rows[i];
+      seen[node] = true;
     }
+  for (const auto &shared : sources.shared_nodes)
+    if (!seen[shared.node])
+      points[shared.node] = shared_point(shared.rows, [&](unsigned int row) { return rows[row]; });
+  for (unsigned int node = 0; node < points.size(); ++node)
+    if (!sources.surface.masters(node).empty())
+      points[node] = shared_point(sources.surface.masters(node),
+                                  [&](unsigned int master) { return points[master]; });
+  return points;
+}
 
-    template <int dim>
-    std::string
-    ContactOutput<dim>::faces_text(const state::ContactState<dim> &state,
-                                   const Field                    &positions,
-                                   const Field &displacement) const
+template <int dim>
+std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state,
+                                           const Field                    &positions,
+                                           const Field                    &displacement) const
+{
+  const auto        points = nodal_points(state.contact);
+  const auto       &pairs  = sources.pairs;
+  std::vector<bool> candidate(sources.surface.n_nodes(), false);
+  for (const auto &row : sources.places)
+    candidate[row.slave] = true;
+  PatchList<dim - 1, dim> patches({{"pressure", 1},
+                                   {"gap", 1},
+                                   {"force", 1},
+                                   {"area", 1},
+                                   {"active", 1},
+                                   {"weak", 1},
+                                   {"candidate", 1},
+                                   {"slave", 1},
+                                   {"pair", 1},
+                                   {"body", 1},
+                                   {"displacement", dim},
+                                   {"design_displacement", dim}});
+  for (const auto &face : sources.surface.faces())
     {
-      const auto        points = nodal_points(state.contact);
-      const auto       &pairs  = sources.pairs;
-      std::vector<bool> candidate(sources.surface.n_nodes(), false);
-      for (const auto &row : sources.places)
-        candidate[row.slave] = true;
-      PatchList<dim - 1, dim> patches({{"pressure", 1},
-                                       {"gap", 1},
-                                       {"force", 1},
-                                       {"area", 1},
-                                       {"active", 1},
-                                       {"weak", 1},
-                                       {"candidate", 1},
-                                       {"slave", 1},
-                                       {"pair", 1},
-                                       {"body", 1},
-                                       {"displacement", dim},
-                                       {"design_displacement", dim}});
-      for (const auto &face : sources.surface.faces())
-        {
-          const auto pair = std::find_if(
-            pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
-              return pair.slave == std::make_pair(face.body, face.boundary);
-            });
-          const bool   slave  = pair != pairs.end();
-          const double number = slave ? double(pair - pairs.begin()) : -1.;
-          Field        corners;
-          std::vector<std::vector<double>> values;
-          for (const unsigned int node : face.nodes)
-            {
-              // A master side may share its edge with a slave side.
-              const auto point = slave ? points[node] : state::ContactPoint();
-              values.push_back({point.pressure,
-                                point.gap,
-                                point.force,
-                                point.area,
-                                double(point.active),
-                                double(point.weak),
-                                double(slave && candidate[node]),
-                                double(slave),
-                                number,
-                                double(face.body)});
-              for (unsigned int c = 0; c < dim; ++c)
-                values.back().push_back(displacement[node][c]);
-              for (unsigned int c = 0; c < dim; ++c)
-                values.back().push_back(positions[node][c] -
-                                        reference[node][c]);
-              corners.push_back(positions[node]);
-            }
-          patches.add(corners, values);
-        }
-      return patches.vtu();
-    }
-
-    template <int dim>
-    std::string
-    ContactOutput<dim>::rows_text(const state::ContactState<dim> &state,
-                                  const Field &positions) const
-    {
-      std::string text = std::string("pair,x,y,") + (dim == 3 ? "z," : "") +
-                         "force,pressure,gap,area,active,weak\n";
-      for (unsigned int i = 0; i < state.contact.size(); ++i)
-        {
-          const auto &row   = sources.places[i];
-          const auto &point = state.contact[i];
-          text += std::to_string(row.pair);
-          for (unsigned int c = 0; c < dim; ++c)
-            text += ',' + exact(positions[row.slave][c]);
-          for (const double x :
-               {point.force, point.pressure, point.gap, point.area})
-            text += ',' + exact(x);
-          text += std::string(point.active ? ",1" : ",0") +
-                  (point.weak ? ",1\n" : ",0\n");
-        }
-      return text;
-    }
-
-    template <int dim>
-    void
-    ContactOutput<dim>::write(double                          time,
-                              const state::ContactState<dim> &state)
-    {
-      const Field positions    = sources.surface.gather(state.positions);
-      const Field displacement = sources.surface.gather(state.displacement);
-      const std::string stem   = "contact-" + padded(series.size(), 4);
-      series.emplace_back(time, stem + ".vtu");
-      const MPI_Comm comm = sources.mesh.communicator();
-      everywhere(comm, [&] {
-        if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
-          return;
-        write_text_file(directory + "/" + stem + ".vtu",
-                        faces_text(state, positions, displacement));
-        write_text_file(directory + "/" + stem + ".csv",
-                        rows_text(state, positions));
-        write_text_file(directory + "/contact.pvd", pvd(series));
+      const auto   pair  = std::find_if(pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
+        return pair.slave == std::make_pair(face.body, face.boundary);
       });
+      const bool   slave = pair != pairs.end();
+      const double number = slave ? double(pair - pairs.begin()) : -1.;
+      Field        corners;
+      std::vector<std::vector<double>> values;
+      for (const unsigned int node : face.nodes)
+        {
+          // A master side may share its edge with a slave side.
+          const auto point = slave ? points[node] : state::ContactPoint();
+          values.push_back({point.pressure, point.gap, point.force, point.area,
+                            double(point.active), double(point.weak),
+                            double(slave && candidate[node]), double(slave), number,
+                            double(face.body)});
+          for (unsigned int c = 0; c < dim; ++c)
+            values.back().push_back(displacement[node][c]);
+          for (unsigned int c = 0; c < dim; ++c)
+            values.back().push_back(positions[node][c] - reference[node][c]);
+          corners.push_back(positions[node]);
+        }
+      patches.add(corners, values);
     }
+  return patches.vtu();
+}
 
-    template class ContactOutput<2>;
-    template class ContactOutput<3>;
-  } // namespace io
-} // namespace snug
+template <int dim>
+std::string ContactOutput<dim>::rows_text(const state::ContactState<dim> &state,
+                                          const Field                    &positions) const
+{
+  std::string text =
+    std::string("pair,x,y,") + (dim == 3 ? "z," : "") + "force,pressure,gap,area,active,weak\n";
+  for (unsigned int i = 0; i < state.contact.size(); ++i)
+    {
+      const auto &row   = sources.places[i];
+      const auto &point = state.contact[i];
+      text += std::to_string(row.pair);
+      for (unsigned int c = 0; c < dim; ++c)
+        text += ',' + exact(positions[row.slave][c]);
+      for (const double x : {point.force, point.pressure, point.gap, point.area})
+        text += ',' + exact(x);
+      text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1\n" : ",0\n");
+    }
+  return text;
+}
+
+template <int dim>
+void ContactOutput<dim>::write(double time, const state::ContactState<dim> &state)
+{
+  const Field       positions    = sources.surface.gather(state.positions);
+  const Field       displacement = sources.surface.gather(state.displacement);
+  const std::string stem         = "contact-" + padded(series.size(), 4);
+  series.emplace_back(time, stem + ".vtu");
+  const MPI_Comm comm = sources.mesh.communicator();
+  everywhere(comm, [&] {
+    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
+      return;
+    write_text_file(directory + "/" + stem + ".vtu", faces_text(state, positions, displacement));
+    write_text_file(directory + "/" + stem + ".csv", rows_text(state, positions));
+    write_text_file(directory + "/contact.pvd", pvd(series));
+  });
+}
+
+template class ContactOutput<2>;
+template class ContactOutput<3>;
+} // namespace snug::io

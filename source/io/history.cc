@@ -5,60 +5,43 @@
 
 #include <cstdio>
 
-namespace snug
+namespace snug::io {
+std::string log_header()
 {
-  namespace io
-  {
-    std::string
-    log_header()
-    {
-      return "  it                   J        |g|  constraint  active  F-mults"
-             "  jacobian          s";
-    }
+  return "  it                   J        |g|  constraint  active  F-mults"
+         "  jacobian          s";
+}
 
-    std::string
-    log_line(const HistoryLine &line)
-    {
-      char text[160];
-      std::snprintf(text,
-                    sizeof(text),
-                    "%4u %19.12e %10.3e %11.3e %7u %8lu %9.3f %10.2f",
-                    line.iteration,
-                    line.objective,
-                    line.projected_gradient,
-                    line.constraint_violation,
-                    line.active_contacts,
-                    line.f_mults,
-                    line.scaled_jacobian,
-                    line.seconds);
-      return text;
-    }
+std::string log_line(const HistoryLine &line)
+{
+  char text[160];
+  std::snprintf(text, sizeof(text), "%4u %19.12e %10.3e %11.3e %7u %8lu %9.3f %10.2f",
+                line.iteration, line.objective, line.projected_gradient, line.constraint_violation,
+                line.active_contacts, line.f_mults, line.scaled_jacobian, line.seconds);
+  return text;
+}
 
-    History::History(const std::string &path, unsigned int n_variables)
-      : path(path)
-      , text("iteration,objective,constraint_violation,projected_gradient,"
-             "active_contacts,f_mults,scaled_jacobian,seconds")
-      , n_variables(n_variables)
-    {
-      for (unsigned int i = 0; i < n_variables; ++i)
-        text += ",design_" + std::to_string(i);
-      text += '\n';
-    }
+History::History(const std::string &path, unsigned int n_variables)
+  : path(path)
+  , text("iteration,objective,constraint_violation,projected_gradient,"
+         "active_contacts,f_mults,scaled_jacobian,seconds")
+  , n_variables(n_variables)
+{
+  for (unsigned int i = 0; i < n_variables; ++i)
+    text += ",design_" + std::to_string(i);
+  text += '\n';
+}
 
-    void
-    History::add(const HistoryLine &line)
-    {
-      AssertDimension(line.design.size(), n_variables);
-      text += std::to_string(line.iteration) + ',' + exact(line.objective) +
-              ',' + exact(line.constraint_violation) + ',' +
-              exact(line.projected_gradient) + ',' +
-              std::to_string(line.active_contacts) + ',' +
-              std::to_string(line.f_mults) + ',' + exact(line.scaled_jacobian) +
-              ',' + exact(line.seconds);
-      for (const double value : line.design)
-        text += ',' + exact(value);
-      text += '\n';
-      write_text_file(path, text);
-    }
-  } // namespace io
-} // namespace snug
+void History::add(const HistoryLine &line)
+{
+  AssertDimension(line.design.size(), n_variables);
+  text += std::to_string(line.iteration) + ',' + exact(line.objective) + ',' +
+          exact(line.constraint_violation) + ',' + exact(line.projected_gradient) + ',' +
+          std::to_string(line.active_contacts) + ',' + std::to_string(line.f_mults) + ',' +
+          exact(line.scaled_jacobian) + ',' + exact(line.seconds);
+  for (const double value : line.design)
+    text += ',' + exact(value);
+  text += '\n';
+  write_text_file(path, text);
+}
+} // namespace snug::io

@@ -8,83 +8,70 @@
 
 #include <cstdlib>
 
-namespace snug
+namespace snug::io {
+namespace {
+/// The file dgemm was loaded from, links resolved; empty if unknown.
+std::string blas_file()
 {
-  namespace io
-  {
-    namespace
-    {
-      /// The file dgemm was loaded from, links resolved; empty if unknown.
-      std::string
-      blas_file()
-      {
-        Dl_info     where;
-        void *const dgemm = dlsym(RTLD_DEFAULT, "dgemm_");
-        if (dgemm == nullptr || dladdr(dgemm, &where) == 0)
-          return "";
-        char *const resolved = realpath(where.dli_fname, nullptr);
-        std::string file     = resolved ? resolved : where.dli_fname;
-        std::free(resolved);
-        return file;
-      }
+  Dl_info     where;
+  void *const dgemm = dlsym(RTLD_DEFAULT, "dgemm_");
+  if (dgemm == nullptr || dladdr(dgemm, &where) == 0)
+    return "";
+  char *const resolved = realpath(where.dli_fname, nullptr);
+  std::string file     = resolved ? resolved : where.dli_fname;
+  std::free(resolved);
+  return file;
+}
 
-      std::string
-      openblas_config()
-      {
-        using Function      = char *();
-        const auto function = reinterpret_cast<Function *>(
-          dlsym(RTLD_DEFAULT, "openblas_get_config"));
-        return function ? function() : "";
-      }
+std::string openblas_config()
+{
+  using Function      = char *();
+  const auto function = reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
+  return function ? function() : "";
+}
 
-      std::string
-      compiler_name()
-      {
+std::string compiler_name()
+{
 #if defined(__clang__)
-        return __VERSION__;
+  return __VERSION__;
 #else
-        return std::string("g++ ") + __VERSION__;
+  return std::string("g++ ") + __VERSION__;
 #endif
-      }
-    } // namespace
+}
+} // namespace
 
-    std::string
-    blas_name(const std::string &file, const std::string &openblas_config)
-    {
-      if (file.find("openblas") != std::string::npos)
-        return openblas_config.empty() ? "OpenBLAS" : openblas_config;
-      for (const char *name : {"mkl", "blis", "atlas"})
-        if (file.find(name) != std::string::npos)
-          return name;
-      // netlib's library is the one called plainly libblas, as Debian has it
-      if (file.find("/libblas.so") != std::string::npos)
-        return "reference";
-      return file.empty() ? "unknown" : file;
-    }
+std::string blas_name(const std::string &file, const std::string &openblas_config)
+{
+  if (file.find("openblas") != std::string::npos)
+    return openblas_config.empty() ? "OpenBLAS" : openblas_config;
+  for (const char *name : {"mkl", "blis", "atlas"})
+    if (file.find(name) != std::string::npos)
+      return name;
+  // netlib's library is the one called plainly libblas, as Debian has it
+  if (file.find("/libblas.so") != std::string::npos)
+    return "reference";
+  return file.empty() ? "unknown" : file;
+}
 
-    std::string
-    blas_warning(const Summary::Program &program)
-    {
-      if (program.blas != "reference")
-        return "";
-      return "the reference BLAS is in use; factorizations are 3 to "
-             "10 times faster with OpenBLAS (sudo apt install "
-             "libopenblas0-serial)";
-    }
+std::string blas_warning(const Summary::Program &program)
+{
+  if (program.blas != "reference")
+    return "";
+  return "the reference BLAS is in use; factorizations are 3 to "
+         "10 times faster with OpenBLAS (sudo apt install "
+         "libopenblas0-serial)";
+}
 
-    Summary::Program
-    program_info(const RunContext &context)
-    {
-      Summary::Program program;
-      program.version = SNUG_VERSION;
-      program.dealii  = DEAL_II_PACKAGE_VERSION;
-      program.petsc   = std::to_string(PETSC_VERSION_MAJOR) + '.' +
-                      std::to_string(PETSC_VERSION_MINOR) + '.' +
-                      std::to_string(PETSC_VERSION_SUBMINOR);
-      program.blas     = blas_name(blas_file(), openblas_config());
-      program.compiler = compiler_name();
-      program.ranks    = context.n_ranks();
-      return program;
-    }
-  } // namespace io
-} // namespace snug
+Summary::Program program_info(const RunContext &context)
+{
+  Summary::Program program;
+  program.version = SNUG_VERSION;
+  program.dealii  = DEAL_II_PACKAGE_VERSION;
+  program.petsc = std::to_string(PETSC_VERSION_MAJOR) + '.' + std::to_string(PETSC_VERSION_MINOR) +
+                  '.' + std::to_string(PETSC_VERSION_SUBMINOR);
+  program.blas     = blas_name(blas_file(), openblas_config());
+  program.compiler = compiler_name();
+  program.ranks    = context.n_ranks();
+  return program;
+}
+} // namespace snug::io

@@ -5,171 +5,140 @@
 #include <map>
 #include <set>
 
-namespace snug
+namespace snug::io {
+namespace {
+std::string stl_triangle(const dealii::Tensor<1, 3> &a,
+                         const dealii::Tensor<1, 3> &b,
+                         const dealii::Tensor<1, 3> &c)
 {
-  namespace io
-  {
-    namespace
-    {
-      std::string
-      stl_triangle(const dealii::Tensor<1, 3> &a,
-                   const dealii::Tensor<1, 3> &b,
-                   const dealii::Tensor<1, 3> &c)
-      {
-        dealii::Tensor<1, 3> normal = cross_product_3d(b - a, c - a);
-        if (normal.norm() > 0.)
-          normal /= normal.norm();
-        const auto numbers = [](const dealii::Tensor<1, 3> &x) {
-          return ' ' + exact(x[0]) + ' ' + exact(x[1]) + ' ' + exact(x[2]) +
-                 '\n';
-        };
-        std::string text = "facet normal" + numbers(normal) + "outer loop\n";
-        for (const auto &corner : {a, b, c})
-          text += "vertex" + numbers(corner);
-        return text + "endloop\nendfacet\n";
-      }
+  dealii::Tensor<1, 3> normal = cross_product_3d(b - a, c - a);
+  if (normal.norm() > 0.)
+    normal /= normal.norm();
+  const auto numbers = [](const dealii::Tensor<1, 3> &x) {
+    return ' ' + exact(x[0]) + ' ' + exact(x[1]) + ' ' + exact(x[2]) + '\n';
+  };
+  std::string text = "facet normal" + numbers(normal) + "outer loop\n";
+  for (const auto &corner : {a, b, c})
+    text += "vertex" + numbers(corner);
+  return text + "endloop\nendfacet\n";
+}
 
-      std::string
-      stl_text(const mesh::Surface<3>        &surface,
-               const mesh::Surface<3>::Field &positions,
-               const std::string             &name)
-      {
-        std::string text = "solid " + name + "\n";
-        for (const auto &face : surface.faces())
+std::string stl_text(const mesh::Surface<3>        &surface,
+                     const mesh::Surface<3>::Field &positions,
+                     const std::string             &name)
+{
+  std::string text = "solid " + name + "\n";
+  for (const auto &face : surface.faces())
+    {
+      const unsigned int n      = std::lround(std::sqrt(face.nodes.size()));
+      const auto         corner = [&](unsigned int i, unsigned int j) {
+        return positions[face.nodes[j * n + i]];
+      };
+      for (unsigned int j = 0; j + 1 < n; ++j)
+        for (unsigned int i = 0; i + 1 < n; ++i)
           {
-            const unsigned int n = std::lround(std::sqrt(face.nodes.size()));
-            const auto         corner = [&](unsigned int i, unsigned int j) {
-              return positions[face.nodes[j * n + i]];
-            };
-            for (unsigned int j = 0; j + 1 < n; ++j)
-              for (unsigned int i = 0; i + 1 < n; ++i)
-                {
-                  text += stl_triangle(corner(i, j),
-                                       corner(i + 1, j),
-                                       corner(i + 1, j + 1));
-                  text += stl_triangle(corner(i, j),
-                                       corner(i + 1, j + 1),
-                                       corner(i, j + 1));
-                }
+            text += stl_triangle(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1));
+            text += stl_triangle(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1));
           }
-        return text + "endsolid " + name + "\n";
-      }
+    }
+  return text + "endsolid " + name + "\n";
+}
 
-      /// Faces by their first node, taken from @p faces piece by piece: open
-      /// pieces from their beginning, then closed ones.
-      std::vector<std::vector<unsigned int>>
-      polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
-      {
-        std::set<unsigned int> ends;
-        for (const auto &face : faces)
-          ends.insert(face.second.back());
-        std::vector<std::vector<unsigned int>> pieces;
-        while (!faces.empty())
+/// Faces by their first node, taken from @p faces piece by piece: open
+/// pieces from their beginning, then closed ones.
+std::vector<std::vector<unsigned int>>
+polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
+{
+  std::set<unsigned int> ends;
+  for (const auto &face : faces)
+    ends.insert(face.second.back());
+  std::vector<std::vector<unsigned int>> pieces;
+  while (!faces.empty())
+    {
+      auto next = faces.begin();
+      for (auto face = faces.begin(); face != faces.end(); ++face)
+        if (ends.count(face->first) == 0)
           {
-            auto next = faces.begin();
-            for (auto face = faces.begin(); face != faces.end(); ++face)
-              if (ends.count(face->first) == 0)
-                {
-                  next = face;
-                  break;
-                }
-            std::vector<unsigned int> piece(1, next->first);
-            while (next != faces.end())
-              {
-                piece.insert(piece.end(),
-                             next->second.begin() + 1,
-                             next->second.end());
-                faces.erase(next);
-                next = faces.find(piece.back());
-              }
-            pieces.push_back(piece);
+            next = face;
+            break;
           }
-        return pieces;
-      }
-
-      std::string
-      polyline_text(const mesh::Surface<2>        &surface,
-                    const mesh::Surface<2>::Field &positions)
-      {
-        std::map<unsigned int, std::vector<unsigned int>> faces;
-        for (const auto &face : surface.faces())
-          faces[face.nodes.front()] = face.nodes;
-        std::string text  = "x,y\n";
-        bool        first = true;
-        for (const auto &piece : polyline_pieces(faces))
-          {
-            text += first ? "" : "\n";
-            first = false;
-            for (const unsigned int node : piece)
-              text += exact(positions[node][0]) + ',' +
-                      exact(positions[node][1]) + '\n';
-          }
-        return text;
-      }
-    } // namespace
-
-    template <>
-    std::string
-    surface_text(const mesh::Surface<2>        &surface,
-                 const mesh::Surface<2>::Field &positions,
-                 const std::string &)
-    {
-      return polyline_text(surface, positions);
-    }
-
-    template <>
-    std::string
-    surface_text(const mesh::Surface<3>        &surface,
-                 const mesh::Surface<3>::Field &positions,
-                 const std::string             &name)
-    {
-      return stl_text(surface, positions, name);
-    }
-
-    template <int dim>
-    void
-    write_surface(const std::string                        &stem,
-                  const mesh::Surface<dim>                 &surface,
-                  const typename mesh::Surface<dim>::Field &positions)
-    {
-      // npos + 1 is 0: a stem without directory is all name.
-      const std::string name = stem.substr(stem.rfind('/') + 1);
-      write_text_file(stem + (dim == 2 ? ".csv" : ".stl"),
-                      surface_text(surface, positions, name));
-    }
-
-    template <int dim>
-    void
-    write_control_points(const std::string                         &path,
-                         const std::vector<shape::MovedPoint<dim>> &points)
-    {
-      std::string text =
-        dim == 3 ? "shape,index,x,y,z,dx,dy,dz\n" : "shape,index,x,y,dx,dy\n";
-      for (const auto &point : points)
+      std::vector<unsigned int> piece(1, next->first);
+      while (next != faces.end())
         {
-          text += point.shape + ',' + std::to_string(point.index);
-          for (unsigned int c = 0; c < dim; ++c)
-            text += ',' + exact(point.position[c]);
-          for (unsigned int c = 0; c < dim; ++c)
-            text += ',' + exact(point.move[c]);
-          text += '\n';
+          piece.insert(piece.end(), next->second.begin() + 1, next->second.end());
+          faces.erase(next);
+          next = faces.find(piece.back());
         }
-      write_text_file(path, text);
+      pieces.push_back(piece);
     }
+  return pieces;
+}
 
-    template void
-    write_surface(const std::string &,
-                  const mesh::Surface<2> &,
-                  const mesh::Surface<2>::Field &);
-    template void
-    write_surface(const std::string &,
-                  const mesh::Surface<3> &,
-                  const mesh::Surface<3>::Field &);
-    template void
-    write_control_points(const std::string &,
-                         const std::vector<shape::MovedPoint<2>> &);
-    template void
-    write_control_points(const std::string &,
-                         const std::vector<shape::MovedPoint<3>> &);
-  } // namespace io
-} // namespace snug
+std::string polyline_text(const mesh::Surface<2> &surface, const mesh::Surface<2>::Field &positions)
+{
+  std::map<unsigned int, std::vector<unsigned int>> faces;
+  for (const auto &face : surface.faces())
+    faces[face.nodes.front()] = face.nodes;
+  std::string text  = "x,y\n";
+  bool        first = true;
+  for (const auto &piece : polyline_pieces(faces))
+    {
+      text += first ? "" : "\n";
+      first = false;
+      for (const unsigned int node : piece)
+        text += exact(positions[node][0]) + ',' + exact(positions[node][1]) + '\n';
+    }
+  return text;
+}
+} // namespace
+
+template <>
+std::string surface_text(const mesh::Surface<2>        &surface,
+                         const mesh::Surface<2>::Field &positions,
+                         const std::string &)
+{
+  return polyline_text(surface, positions);
+}
+
+template <>
+std::string surface_text(const mesh::Surface<3>        &surface,
+                         const mesh::Surface<3>::Field &positions,
+                         const std::string             &name)
+{
+  return stl_text(surface, positions, name);
+}
+
+template <int dim>
+void write_surface(const std::string                        &stem,
+                   const mesh::Surface<dim>                 &surface,
+                   const typename mesh::Surface<dim>::Field &positions)
+{
+  // npos + 1 is 0: a stem without directory is all name.
+  const std::string name = stem.substr(stem.rfind('/') + 1);
+  write_text_file(stem + (dim == 2 ? ".csv" : ".stl"), surface_text(surface, positions, name));
+}
+
+template <int dim>
+void write_control_points(const std::string                         &path,
+                          const std::vector<shape::MovedPoint<dim>> &points)
+{
+  std::string text = dim == 3 ? "shape,index,x,y,z,dx,dy,dz\n" : "shape,index,x,y,dx,dy\n";
+  for (const auto &point : points)
+    {
+      text += point.shape + ',' + std::to_string(point.index);
+      for (unsigned int c = 0; c < dim; ++c)
+        text += ',' + exact(point.position[c]);
+      for (unsigned int c = 0; c < dim; ++c)
+        text += ',' + exact(point.move[c]);
+      text += '\n';
+    }
+  write_text_file(path, text);
+}
+
+template void
+write_surface(const std::string &, const mesh::Surface<2> &, const mesh::Surface<2>::Field &);
+template void
+write_surface(const std::string &, const mesh::Surface<3> &, const mesh::Surface<3>::Field &);
+template void write_control_points(const std::string &, const std::vector<shape::MovedPoint<2>> &);
+template void write_control_points(const std::string &, const std::vector<shape::MovedPoint<3>> &);
+} // namespace snug::io

@@ -1,106 +1,84 @@
 #include <snug/io/summary.h>
 
-namespace snug
+namespace snug::io {
+template <int dim>
+Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing)
 {
-  namespace io
-  {
-    template <int dim>
-    Summary::Mesh
-    summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing)
-    {
-      Summary::Mesh result;
-      int           n_ranks;
-      MPI_Comm_size(mesh.communicator(), &n_ranks);
-      result.bodies     = mesh.n_bodies();
-      result.cells      = mesh.n_global_cells();
-      result.dofs       = dim * mesh.n_global_free_nodes();
-      result.subdomains = tearing.n_global;
-      result.ranks      = n_ranks;
-      return result;
-    }
+  Summary::Mesh result;
+  int           n_ranks;
+  MPI_Comm_size(mesh.communicator(), &n_ranks);
+  result.bodies     = mesh.n_bodies();
+  result.cells      = mesh.n_global_cells();
+  result.dofs       = dim * mesh.n_global_free_nodes();
+  result.subdomains = tearing.n_global;
+  result.ranks      = n_ranks;
+  return result;
+}
 
-    template <int dim>
-    Summary::State
-    summarize(const state::ContactState<dim> &state)
+template <int dim>
+Summary::State summarize(const state::ContactState<dim> &state)
+{
+  Summary::State result;
+  result.least_scaled_jacobian = state.least_scaled_jacobian;
+  result.energy                = state.energy;
+  result.compliance            = state.compliance;
+  result.strain_energy         = state.strain_energy;
+  for (unsigned int c = 0; c < dim; ++c)
+    result.contact_force.push_back(state.contact_force[c]);
+  result.contact_area        = state.contact_area;
+  result.max_pressure        = state.max_pressure;
+  result.active_contacts     = state.active_contacts;
+  result.weak_contacts       = state.weak_contacts;
+  result.degeneracy_distance = state.degeneracy_distance;
+  result.outer_iterations    = state.dual.outer_iterations;
+  result.f_mults             = state.f_mults;
+  result.linear_f_mults      = state.linear_f_mults;
+  result.method              = state.dual.method;
+  result.certificate         = state.certificate;
+  result.assumptions         = state.assumptions;
+  for (const auto &of_pair : state.pairs)
     {
-      Summary::State result;
-      result.least_scaled_jacobian = state.least_scaled_jacobian;
-      result.energy                = state.energy;
-      result.compliance            = state.compliance;
-      result.strain_energy         = state.strain_energy;
+      Summary::Pair pair;
+      pair.name            = of_pair.name;
+      pair.rows            = of_pair.rows;
+      pair.active_contacts = of_pair.active_contacts;
       for (unsigned int c = 0; c < dim; ++c)
-        result.contact_force.push_back(state.contact_force[c]);
-      result.contact_area        = state.contact_area;
-      result.max_pressure        = state.max_pressure;
-      result.active_contacts     = state.active_contacts;
-      result.weak_contacts       = state.weak_contacts;
-      result.degeneracy_distance = state.degeneracy_distance;
-      result.outer_iterations    = state.dual.outer_iterations;
-      result.f_mults             = state.f_mults;
-      result.linear_f_mults      = state.linear_f_mults;
-      result.method              = state.dual.method;
-      result.certificate         = state.certificate;
-      result.assumptions         = state.assumptions;
-      for (const auto &of_pair : state.pairs)
-        {
-          Summary::Pair pair;
-          pair.name            = of_pair.name;
-          pair.rows            = of_pair.rows;
-          pair.active_contacts = of_pair.active_contacts;
-          for (unsigned int c = 0; c < dim; ++c)
-            pair.force.push_back(of_pair.force[c]);
-          pair.contact_area = of_pair.contact_area;
-          pair.max_pressure = of_pair.max_pressure;
-          result.pairs.push_back(pair);
-        }
-      return result;
+        pair.force.push_back(of_pair.force[c]);
+      pair.contact_area = of_pair.contact_area;
+      pair.max_pressure = of_pair.max_pressure;
+      result.pairs.push_back(pair);
     }
+  return result;
+}
 
-    Summary::Optimization
-    summarize(const optimization::OptimizationResult &result,
-              const std::string                      &algorithm)
-    {
-      Summary::Optimization summary;
-      summary.algorithm            = algorithm;
-      summary.iterations           = result.iterations;
-      summary.evaluations          = result.evaluations;
-      summary.objective_initial    = result.objective_initial;
-      summary.objective_final      = result.objective_final;
-      summary.constraint_violation = result.constraint_violation;
-      summary.projected_gradient   = result.projected_gradient;
-      summary.stop_reason          = result.stop_reason;
-      summary.design               = result.x;
-      return summary;
-    }
+Summary::Optimization summarize(const optimization::OptimizationResult &result,
+                                const std::string                      &algorithm)
+{
+  Summary::Optimization summary;
+  summary.algorithm            = algorithm;
+  summary.iterations           = result.iterations;
+  summary.evaluations          = result.evaluations;
+  summary.objective_initial    = result.objective_initial;
+  summary.objective_final      = result.objective_final;
+  summary.constraint_violation = result.constraint_violation;
+  summary.projected_gradient   = result.projected_gradient;
+  summary.stop_reason          = result.stop_reason;
+  summary.design               = result.x;
+  return summary;
+}
 
-    Summary::Times
-    collect_times(const RunContext &context)
-    {
-      double seconds[] = {context.seconds("setup"),
-                          context.seconds("assembly"),
-                          context.seconds("factorization"),
-                          context.seconds("solve"),
-                          context.seconds("gradient"),
-                          context.seconds("output"),
-                          context.seconds()};
-      MPI_Allreduce(
-        MPI_IN_PLACE, seconds, 7, MPI_DOUBLE, MPI_MAX, context.communicator());
-      return {seconds[0],
-              seconds[1],
-              seconds[2],
-              seconds[3],
-              seconds[4],
-              seconds[5],
-              seconds[6]};
-    }
+Summary::Times collect_times(const RunContext &context)
+{
+  double seconds[] = {
+    context.seconds("setup"), context.seconds("assembly"), context.seconds("factorization"),
+    context.seconds("solve"), context.seconds("gradient"), context.seconds("output"),
+    context.seconds()};
+  MPI_Allreduce(MPI_IN_PLACE, seconds, 7, MPI_DOUBLE, MPI_MAX, context.communicator());
+  return {seconds[0], seconds[1], seconds[2], seconds[3], seconds[4], seconds[5], seconds[6]};
+}
 
-    template Summary::Mesh
-    summarize(const mesh::BodyMesh<2> &, const mesh::Tearing &);
-    template Summary::Mesh
-    summarize(const mesh::BodyMesh<3> &, const mesh::Tearing &);
-    template Summary::State
-    summarize(const state::ContactState<2> &);
-    template Summary::State
-    summarize(const state::ContactState<3> &);
-  } // namespace io
-} // namespace snug
+template Summary::Mesh  summarize(const mesh::BodyMesh<2> &, const mesh::Tearing &);
+template Summary::Mesh  summarize(const mesh::BodyMesh<3> &, const mesh::Tearing &);
+template Summary::State summarize(const state::ContactState<2> &);
+template Summary::State summarize(const state::ContactState<3> &);
+} // namespace snug::io

@@ -3,201 +3,173 @@
 
 #include <nlohmann/json.hpp>
 
-namespace snug
+namespace snug::io {
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json summary_part(const Summary::Program &program)
 {
-  namespace io
-  {
-    namespace
-    {
-      using Json = nlohmann::ordered_json;
+  return {{"version", program.version}, {"dealii", program.dealii},     {"petsc", program.petsc},
+          {"blas", program.blas},       {"compiler", program.compiler}, {"ranks", program.ranks}};
+}
 
-      Json
-      summary_part(const Summary::Program &program)
-      {
-        return {{"version", program.version},
-                {"dealii", program.dealii},
-                {"petsc", program.petsc},
-                {"blas", program.blas},
-                {"compiler", program.compiler},
-                {"ranks", program.ranks}};
-      }
+Json summary_part(const Summary::Mesh &mesh)
+{
+  return {{"bodies", mesh.bodies},
+          {"cells", mesh.cells},
+          {"dofs", mesh.dofs},
+          {"subdomains", mesh.subdomains},
+          {"ranks", mesh.ranks},
+          {"dual_rows", mesh.dual_rows},
+          {"contact_rows", mesh.contact_rows},
+          {"kernel_dimension", mesh.kernel_dimension}};
+}
 
-      Json
-      summary_part(const Summary::Mesh &mesh)
-      {
-        return {{"bodies", mesh.bodies},
-                {"cells", mesh.cells},
-                {"dofs", mesh.dofs},
-                {"subdomains", mesh.subdomains},
-                {"ranks", mesh.ranks},
-                {"dual_rows", mesh.dual_rows},
-                {"contact_rows", mesh.contact_rows},
-                {"kernel_dimension", mesh.kernel_dimension}};
-      }
+Json summary_part(const Summary::Pair &pair)
+{
+  return {{"name", pair.name},
+          {"rows", pair.rows},
+          {"active_contacts", pair.active_contacts},
+          {"force", pair.force},
+          {"contact_area", pair.contact_area},
+          {"max_pressure", pair.max_pressure}};
+}
 
-      Json
-      summary_part(const Summary::Pair &pair)
-      {
-        return {{"name", pair.name},
-                {"rows", pair.rows},
-                {"active_contacts", pair.active_contacts},
-                {"force", pair.force},
-                {"contact_area", pair.contact_area},
-                {"max_pressure", pair.max_pressure}};
-      }
+Json summary_part(const Summary::State &state)
+{
+  Json pairs = Json::array();
+  for (const auto &pair : state.pairs)
+    pairs.push_back(summary_part(pair));
+  Json responses = Json::object();
+  for (const auto &[name, value] : state.responses)
+    responses[name] = value;
+  const auto &certificate = state.certificate;
+  const Json  linear      = state.linear_f_mults == 0 ? Json(nullptr) : Json(state.linear_f_mults);
+  return {{"least_scaled_jacobian", state.least_scaled_jacobian},
+          {"energy", state.energy},
+          {"compliance", state.compliance},
+          {"strain_energy", state.strain_energy},
+          {"contact_force", state.contact_force},
+          {"contact_area", state.contact_area},
+          {"max_pressure", state.max_pressure},
+          {"active_contacts", state.active_contacts},
+          {"weak_contacts", state.weak_contacts},
+          {"degeneracy_distance", state.degeneracy_distance},
+          {"outer_iterations", state.outer_iterations},
+          {"f_mults", state.f_mults},
+          {"linear_f_mults", linear},
+          {"method", state.method},
+          {"pairs", pairs},
+          {"responses", responses},
+          {"certificate",
+           {{"equilibrium", certificate.equilibrium},
+            {"continuity", certificate.continuity},
+            {"penetration", certificate.penetration},
+            {"negative_pressure", certificate.negative_pressure},
+            {"complementarity", certificate.complementarity}}},
+          {"assumptions",
+           {{"rotation", state.assumptions.rotation},
+            {"strain", state.assumptions.strain},
+            {"slip", state.assumptions.slip},
+            {"drift", state.assumptions.drift}}}};
+}
 
-      Json
-      summary_part(const Summary::State &state)
-      {
-        Json pairs = Json::array();
-        for (const auto &pair : state.pairs)
-          pairs.push_back(summary_part(pair));
-        Json responses = Json::object();
-        for (const auto &[name, value] : state.responses)
-          responses[name] = value;
-        const auto &certificate = state.certificate;
-        const Json  linear      = state.linear_f_mults == 0
-                                    ? Json(nullptr)
-                                    : Json(state.linear_f_mults);
-        return {{"least_scaled_jacobian", state.least_scaled_jacobian},
-                {"energy", state.energy},
-                {"compliance", state.compliance},
-                {"strain_energy", state.strain_energy},
-                {"contact_force", state.contact_force},
-                {"contact_area", state.contact_area},
-                {"max_pressure", state.max_pressure},
-                {"active_contacts", state.active_contacts},
-                {"weak_contacts", state.weak_contacts},
-                {"degeneracy_distance", state.degeneracy_distance},
-                {"outer_iterations", state.outer_iterations},
-                {"f_mults", state.f_mults},
-                {"linear_f_mults", linear},
-                {"method", state.method},
-                {"pairs", pairs},
-                {"responses", responses},
-                {"certificate",
-                 {{"equilibrium", certificate.equilibrium},
-                  {"continuity", certificate.continuity},
-                  {"penetration", certificate.penetration},
-                  {"negative_pressure", certificate.negative_pressure},
-                  {"complementarity", certificate.complementarity}}},
-                {"assumptions",
-                 {{"rotation", state.assumptions.rotation},
-                  {"strain", state.assumptions.strain},
-                  {"slip", state.assumptions.slip},
-                  {"drift", state.assumptions.drift}}}};
-      }
+Json summary_part(const Summary::GradientRow &row)
+{
+  return {{"method", row.method},
+          {"f_mults", row.f_mults},
+          {"numeric_factorizations", row.numeric_factorizations},
+          {"seconds", row.seconds},
+          {"values", row.values},
+          {"step", row.step},
+          {"displacement_difference", row.displacement_difference},
+          {"differentiable", row.differentiable}};
+}
 
-      Json
-      summary_part(const Summary::GradientRow &row)
-      {
-        return {{"method", row.method},
-                {"f_mults", row.f_mults},
-                {"numeric_factorizations", row.numeric_factorizations},
-                {"seconds", row.seconds},
-                {"values", row.values},
-                {"step", row.step},
-                {"displacement_difference", row.displacement_difference},
-                {"differentiable", row.differentiable}};
-      }
+Json summary_part(const Summary::Gradient &gradient)
+{
+  Json part       = summary_part(Summary::GradientRow(gradient));
+  part["reason"]  = gradient.reason;
+  part["methods"] = Json::array();
+  for (const auto &row : gradient.methods)
+    part["methods"].push_back(summary_part(row));
+  return part;
+}
 
-      Json
-      summary_part(const Summary::Gradient &gradient)
-      {
-        Json part       = summary_part(Summary::GradientRow(gradient));
-        part["reason"]  = gradient.reason;
-        part["methods"] = Json::array();
-        for (const auto &row : gradient.methods)
-          part["methods"].push_back(summary_part(row));
-        return part;
-      }
+Json summary_part(const Summary::Optimization &optimization)
+{
+  return {{"algorithm", optimization.algorithm},
+          {"iterations", optimization.iterations},
+          {"evaluations", optimization.evaluations},
+          {"objective_initial", optimization.objective_initial},
+          {"objective_final", optimization.objective_final},
+          {"constraint_violation", optimization.constraint_violation},
+          {"projected_gradient", optimization.projected_gradient},
+          {"stop_reason", optimization.stop_reason},
+          {"design", optimization.design}};
+}
 
-      Json
-      summary_part(const Summary::Optimization &optimization)
-      {
-        return {{"algorithm", optimization.algorithm},
-                {"iterations", optimization.iterations},
-                {"evaluations", optimization.evaluations},
-                {"objective_initial", optimization.objective_initial},
-                {"objective_final", optimization.objective_final},
-                {"constraint_violation", optimization.constraint_violation},
-                {"projected_gradient", optimization.projected_gradient},
-                {"stop_reason", optimization.stop_reason},
-                {"design", optimization.design}};
-      }
+Json summary_part(const Summary::LoadCase &load_case)
+{
+  Json part = {{"name", load_case.name},
+               {"weight", load_case.weight},
+               {"state", summary_part(load_case.state)}};
+  if (load_case.initial_state)
+    part["initial_state"] = summary_part(*load_case.initial_state);
+  return part;
+}
 
-      Json
-      summary_part(const Summary::LoadCase &load_case)
-      {
-        Json part = {{"name", load_case.name},
-                     {"weight", load_case.weight},
-                     {"state", summary_part(load_case.state)}};
-        if (load_case.initial_state)
-          part["initial_state"] = summary_part(*load_case.initial_state);
-        return part;
-      }
+/// The keys of a part that was not computed, with null for values.
+template <typename Part>
+Json summary_part(const std::optional<Part> &part)
+{
+  Json result = summary_part(part.value_or(Part()));
+  if (!part)
+    for (auto &entry : result.items())
+      entry.value() = nullptr;
+  return result;
+}
 
-      /// The keys of a part that was not computed, with null for values.
-      template <typename Part>
-      Json
-      summary_part(const std::optional<Part> &part)
-      {
-        Json result = summary_part(part.value_or(Part()));
-        if (!part)
-          for (auto &entry : result.items())
-            entry.value() = nullptr;
-        return result;
-      }
+Json summary_part(const Work &work)
+{
+  return {{"f_mults", work.f_mults},
+          {"preconditioner_applications", work.preconditioner_applications},
+          {"coarse_solves", work.coarse_solves},
+          {"symbolic_factorizations", work.symbolic_factorizations},
+          {"numeric_factorizations", work.numeric_factorizations},
+          {"assembled_subdomains", work.assembled_subdomains}};
+}
 
-      Json
-      summary_part(const Work &work)
-      {
-        return {{"f_mults", work.f_mults},
-                {"preconditioner_applications",
-                 work.preconditioner_applications},
-                {"coarse_solves", work.coarse_solves},
-                {"symbolic_factorizations", work.symbolic_factorizations},
-                {"numeric_factorizations", work.numeric_factorizations},
-                {"assembled_subdomains", work.assembled_subdomains}};
-      }
+Json summary_part(const Summary::Times &times)
+{
+  return {
+    {"setup", times.setup}, {"assembly", times.assembly}, {"factorization", times.factorization},
+    {"solve", times.solve}, {"gradient", times.gradient}, {"output", times.output},
+    {"total", times.total}};
+}
+} // namespace
 
-      Json
-      summary_part(const Summary::Times &times)
-      {
-        return {{"setup", times.setup},
-                {"assembly", times.assembly},
-                {"factorization", times.factorization},
-                {"solve", times.solve},
-                {"gradient", times.gradient},
-                {"output", times.output},
-                {"total", times.total}};
-      }
-    } // namespace
+std::string Summary::json() const
+{
+  Json text = {{"program", summary_part(program)},
+               {"mesh", summary_part(mesh)},
+               {"state", summary_part(state)},
+               {"gradient", summary_part(gradient)},
+               {"optimization", summary_part(optimization)},
+               {"work", summary_part(work)},
+               {"times", summary_part(times)},
+               {"task", task},
+               {"warnings", warnings}};
+  if (initial_state)
+    text["initial_state"] = summary_part(*initial_state);
+  for (const auto &load_case : load_cases)
+    text["load_cases"].push_back(summary_part(load_case));
+  // File names in messages need not be UTF-8; JSON must be.
+  return text.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
 
-    std::string
-    Summary::json() const
-    {
-      Json text = {{"program", summary_part(program)},
-                   {"mesh", summary_part(mesh)},
-                   {"state", summary_part(state)},
-                   {"gradient", summary_part(gradient)},
-                   {"optimization", summary_part(optimization)},
-                   {"work", summary_part(work)},
-                   {"times", summary_part(times)},
-                   {"task", task},
-                   {"warnings", warnings}};
-      if (initial_state)
-        text["initial_state"] = summary_part(*initial_state);
-      for (const auto &load_case : load_cases)
-        text["load_cases"].push_back(summary_part(load_case));
-      // File names in messages need not be UTF-8; JSON must be.
-      return text.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-    }
-
-    void
-    Summary::write(const std::string &path) const
-    {
-      write_text_file(path, json());
-    }
-  } // namespace io
-} // namespace snug
+void Summary::write(const std::string &path) const
+{
+  write_text_file(path, json());
+}
+} // namespace snug::io

@@ -17,362 +17,311 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::mesh {
+template <int dim>
+struct BodyMesh<dim>::Data
 {
-  namespace mesh
-  {
-    template <int dim>
-    struct BodyMesh<dim>::Data
-    {
-      Data(MPI_Comm            communicator,
-           unsigned int        degree,
-           const Idealization &idealization)
-        : comm(communicator)
-        , degree(degree)
-        , idealization(idealization)
-        , fe(degree)
-        , triangulation(communicator)
-        , nodes(triangulation)
+  Data(MPI_Comm communicator, unsigned int degree, const Idealization &idealization)
+    : comm(communicator)
+    , degree(degree)
+    , idealization(idealization)
+    , fe(degree)
+    , triangulation(communicator)
+    , nodes(triangulation)
+  {}
+
+  MPI_Comm                                               comm;
+  unsigned int                                           degree;
+  Idealization                                           idealization;
+  dealii::FE_Q<dim>                                      fe;
+  std::vector<std::unique_ptr<BodyGeometry<dim>>>        geometries;
+  dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
+  dealii::DoFHandler<dim>                                nodes;
+
+  dealii::IndexSet                                   relevant;
+  std::vector<unsigned int>                          first_node_of_rank; ///< n_ranks + 1
+  std::vector<unsigned int>                          node_body;
+  std::vector<dealii::Point<dim>>                    logical;
+  Field                                              reference;
+  CoarseCells<dim>                                   coarse;
+  std::vector<unsigned int>                          parts; ///< of cells
+  std::vector<Cell>                                  cells;
+  std::vector<Face>                                  faces;
+  std::vector<Hanging>                               hanging;
+  std::vector<unsigned int>                          hanging_of_node; ///< or n_hanging
+  std::vector<std::pair<unsigned int, unsigned int>> neighbours;
+  unsigned long                                      n_free_nodes = 0;
+
+  unsigned int local(unsigned int global) const { return relevant.index_within_set(global); }
+
+  void triangulate(const std::vector<BodyMeshParameters> &bodies, const TearingParameters &tearing);
+  void number_nodes();
+  void collect_nodes();
+  void collect_hanging();
+  void collect_cells();
+  void snap_to_axis();
+};
+
+template <int dim>
+void BodyMesh<dim>::Data::triangulate(const std::vector<BodyMeshParameters> &bodies,
+                                      const TearingParameters               &tearing)
+{
+  for (const auto &body : bodies)
+    geometries.push_back(make_geometry<dim>(body));
+  dealii::parallel::distributed::Triangulation<dim> refined(comm);
+  create_coarse_mesh(geometries, refined);
+  coarse = CoarseCells<dim>(refined);
+  refine(bodies, geometries, coarse, refined);
+  parts = distribute(geometries, tearing, cells_per_subdomain(dim, degree, idealization), refined,
+                     triangulation);
+}
+
+template <int dim>
+void BodyMesh<dim>::Data::number_nodes()
+{
+  nodes.distribute_dofs(fe);
+  dealii::DoFTools::extract_locally_relevant_dofs(nodes, relevant);
+  relevant.compress();
+  const auto ends =
+    dealii::Utilities::MPI::all_gather(comm,
+                                       static_cast<unsigned int>(nodes.n_locally_owned_dofs()));
+  first_node_of_rank.assign(1, 0);
+  for (const unsigned int n : ends)
+    first_node_of_rank.push_back(first_node_of_rank.back() + n);
+}
+
+template <int dim>
+void BodyMesh<dim>::Data::collect_nodes()
+{
+  logical.resize(relevant.n_elements());
+  node_body.resize(relevant.n_elements());
+  reference.resize(relevant.n_elements());
+  std::vector<bool>                            done(relevant.n_elements());
+  std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
+  for (const auto &cell : nodes.active_cell_iterators())
+    if (!cell->is_artificial())
       {
+        const unsigned int body = cell->material_id();
+        cell->get_dof_indices(indices);
+        for (unsigned int i = 0; i < indices.size(); ++i)
+          {
+            const unsigned int node = local(indices[i]);
+            if (done[node])
+              continue;
+            const auto point = coarse.point(cell->id(), fe.unit_support_point(i));
+            done[node]       = true;
+            node_body[node]  = body;
+            logical[node]    = geometries[body]->logical(point);
+            reference[node]  = geometries[body]->position(point);
+          }
       }
+}
 
-      MPI_Comm                                               comm;
-      unsigned int                                           degree;
-      Idealization                                           idealization;
-      dealii::FE_Q<dim>                                      fe;
-      std::vector<std::unique_ptr<BodyGeometry<dim>>>        geometries;
-      dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
-      dealii::DoFHandler<dim>                                nodes;
+template <int dim>
+void BodyMesh<dim>::Data::collect_hanging()
+{
+  dealii::AffineConstraints<double> constraints(relevant);
+  dealii::DoFTools::make_hanging_node_constraints(nodes, constraints);
+  constraints.close();
+  const unsigned int none = static_cast<unsigned int>(-1);
+  hanging_of_node.assign(relevant.n_elements(), none);
+  unsigned long owned_hanging = 0;
+  for (unsigned int node = 0; node < relevant.n_elements(); ++node)
+    {
+      const unsigned int global = relevant.nth_index_in_set(node);
+      if (!constraints.is_constrained(global))
+        continue;
+      owned_hanging += nodes.locally_owned_dofs().is_element(global);
+      Hanging entry{node, {}};
+      bool    reachable = true;
+      for (const auto &master : *constraints.get_constraint_entries(global))
+        if (relevant.is_element(master.first))
+          entry.masters.emplace_back(local(master.first), master.second);
+        else
+          reachable = false;
+      // Masters out of reach belong to hanging nodes of ghost cells only.
+      if (!reachable)
+        continue;
+      std::sort(entry.masters.begin(), entry.masters.end());
+      hanging_of_node[node] = hanging.size();
+      hanging.push_back(entry);
+    }
+  n_free_nodes = nodes.n_dofs() - dealii::Utilities::MPI::sum(owned_hanging, comm);
+}
 
-      dealii::IndexSet                relevant;
-      std::vector<unsigned int>       first_node_of_rank; ///< n_ranks + 1
-      std::vector<unsigned int>       node_body;
-      std::vector<dealii::Point<dim>> logical;
-      Field                           reference;
-      CoarseCells<dim>                coarse;
-      std::vector<unsigned int>       parts; ///< of cells
-      std::vector<Cell>               cells;
-      std::vector<Face>               faces;
-      std::vector<Hanging>            hanging;
-      std::vector<unsigned int>       hanging_of_node; ///< or n_hanging
-      std::vector<std::pair<unsigned int, unsigned int>> neighbours;
-      unsigned long                                      n_free_nodes = 0;
-
-      unsigned int
-      local(unsigned int global) const
+template <int dim>
+void BodyMesh<dim>::Data::collect_cells()
+{
+  const auto order = dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
+  std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
+  for (const auto &cell : nodes.active_cell_iterators())
+    if (cell->is_locally_owned())
       {
-        return relevant.index_within_set(global);
+        cell->get_dof_indices(indices);
+        const unsigned int body = cell->material_id();
+        Cell               entry{body,
+                   parts[cells.size()],
+                   geometries[body]->region(coarse.coarse_cell(cell->id())),
+                   {}};
+        for (const unsigned int i : order)
+          entry.nodes.push_back(local(indices[i]));
+        cells.push_back(entry);
+        for (const unsigned int f : cell->face_indices())
+          if (cell->at_boundary(f))
+            faces.push_back({entry.body, cell->face(f)->boundary_id(),
+                             static_cast<unsigned int>(cells.size() - 1),
+                             oriented_face_nodes<dim>(entry.nodes, degree, f)});
       }
+  neighbours = owned_neighbours(triangulation);
+}
 
-      void
-      triangulate(const std::vector<BodyMeshParameters> &bodies,
-                  const TearingParameters               &tearing);
-      void
-      number_nodes();
-      void
-      collect_nodes();
-      void
-      collect_hanging();
-      void
-      collect_cells();
-      void
-      snap_to_axis();
-    };
+template <int dim>
+void BodyMesh<dim>::Data::snap_to_axis()
+{
+  const double round_off = 1e-10;
+  double       largest   = 0.;
+  for (const auto &x : reference)
+    largest = std::max(largest, std::abs(x[0]));
+  largest = dealii::Utilities::MPI::max(largest, comm);
+  for (auto &x : reference)
+    if (std::abs(x[0]) <= round_off * largest)
+      x[0] = 0.;
+}
 
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::triangulate(
-      const std::vector<BodyMeshParameters> &bodies,
-      const TearingParameters               &tearing)
+template <int dim>
+BodyMesh<dim>::BodyMesh(MPI_Comm                               communicator,
+                        const std::vector<BodyMeshParameters> &bodies,
+                        unsigned int                           degree,
+                        const Idealization                    &idealization,
+                        const TearingParameters               &tearing)
+  : data(std::make_unique<Data>(communicator, degree, idealization))
+{
+  data->triangulate(bodies, tearing);
+  data->number_nodes();
+  everywhere(communicator, [&]() { data->collect_nodes(); });
+  data->collect_hanging();
+  data->collect_cells();
+  if (idealization.is_axisymmetric())
+    data->snap_to_axis();
+  interpolate_hanging(data->reference);
+}
+
+template <int dim>
+BodyMesh<dim>::~BodyMesh() = default;
+
+template <int dim>
+const Idealization &BodyMesh<dim>::idealization() const
+{
+  return data->idealization;
+}
+
+template <int dim>
+const BodyGeometry<dim> &BodyMesh<dim>::geometry(unsigned int body) const
+{
+  return *data->geometries[body];
+}
+
+template <int dim>
+const std::vector<typename BodyMesh<dim>::Cell> &BodyMesh<dim>::cells() const
+{
+  return data->cells;
+}
+
+template <int dim>
+const std::vector<typename BodyMesh<dim>::Face> &BodyMesh<dim>::boundary_faces() const
+{
+  return data->faces;
+}
+
+template <int dim>
+const std::vector<typename BodyMesh<dim>::Hanging> &BodyMesh<dim>::hanging() const
+{
+  return data->hanging;
+}
+
+template <int dim>
+unsigned int BodyMesh<dim>::global_node(unsigned int node) const
+{
+  return data->relevant.nth_index_in_set(node);
+}
+
+template <int dim>
+unsigned int BodyMesh<dim>::local_node(unsigned int global) const
+{
+  return data->local(global);
+}
+
+template <int dim>
+unsigned int BodyMesh<dim>::owner(unsigned int node) const
+{
+  return owner_of_global(global_node(node));
+}
+
+template <int dim>
+unsigned int BodyMesh<dim>::owner_of_global(unsigned int global) const
+{
+  const auto &first = data->first_node_of_rank;
+  return std::upper_bound(first.begin(), first.end(), global) - first.begin() - 1;
+}
+
+template <int dim>
+bool BodyMesh<dim>::is_hanging(unsigned int node) const
+{
+  return data->hanging_of_node[node] < data->hanging.size();
+}
+
+template <int dim>
+unsigned int BodyMesh<dim>::hanging_index(unsigned int node) const
+{
+  return data->hanging_of_node[node];
+}
+
+template <int dim>
+unsigned int BodyMesh<dim>::body_of_node(unsigned int node) const
+{
+  return data->node_body[node];
+}
+
+template <int dim>
+const std::vector<dealii::Point<dim>> &BodyMesh<dim>::logical_positions() const
+{
+  return data->logical;
+}
+
+template <int dim>
+const typename BodyMesh<dim>::Field &BodyMesh<dim>::reference_positions() const
+{
+  return data->reference;
+}
+
+template <int dim>
+void BodyMesh<dim>::interpolate_hanging(Field &field) const
+{
+  for (const auto &entry : data->hanging)
     {
-      for (const auto &body : bodies)
-        geometries.push_back(make_geometry<dim>(body));
-      dealii::parallel::distributed::Triangulation<dim> refined(comm);
-      create_coarse_mesh(geometries, refined);
-      coarse = CoarseCells<dim>(refined);
-      refine(bodies, geometries, coarse, refined);
-      parts = distribute(geometries,
-                         tearing,
-                         cells_per_subdomain(dim, degree, idealization),
-                         refined,
-                         triangulation);
+      dealii::Tensor<1, dim> value;
+      for (const auto &master : entry.masters)
+        value += master.second * field[master.first];
+      field[entry.node] = value;
     }
+}
 
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::number_nodes()
+template <int dim>
+void BodyMesh<dim>::distribute_hanging(Field &field) const
+{
+  for (const auto &entry : data->hanging)
     {
-      nodes.distribute_dofs(fe);
-      dealii::DoFTools::extract_locally_relevant_dofs(nodes, relevant);
-      relevant.compress();
-      const auto ends = dealii::Utilities::MPI::all_gather(
-        comm, static_cast<unsigned int>(nodes.n_locally_owned_dofs()));
-      first_node_of_rank.assign(1, 0);
-      for (const unsigned int n : ends)
-        first_node_of_rank.push_back(first_node_of_rank.back() + n);
+      for (const auto &master : entry.masters)
+        field[master.first] += master.second * field[entry.node];
+      field[entry.node] = 0.;
     }
+}
 
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::collect_nodes()
-    {
-      logical.resize(relevant.n_elements());
-      node_body.resize(relevant.n_elements());
-      reference.resize(relevant.n_elements());
-      std::vector<bool>                            done(relevant.n_elements());
-      std::vector<dealii::types::global_dof_index> indices(
-        fe.n_dofs_per_cell());
-      for (const auto &cell : nodes.active_cell_iterators())
-        if (!cell->is_artificial())
-          {
-            const unsigned int body = cell->material_id();
-            cell->get_dof_indices(indices);
-            for (unsigned int i = 0; i < indices.size(); ++i)
-              {
-                const unsigned int node = local(indices[i]);
-                if (done[node])
-                  continue;
-                const auto point =
-                  coarse.point(cell->id(), fe.unit_support_point(i));
-                done[node]      = true;
-                node_body[node] = body;
-                logical[node]   = geometries[body]->logical(point);
-                reference[node] = geometries[body]->position(point);
-              }
-          }
-    }
-
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::collect_hanging()
-    {
-      dealii::AffineConstraints<double> constraints(relevant);
-      dealii::DoFTools::make_hanging_node_constraints(nodes, constraints);
-      constraints.close();
-      const unsigned int none = static_cast<unsigned int>(-1);
-      hanging_of_node.assign(relevant.n_elements(), none);
-      unsigned long owned_hanging = 0;
-      for (unsigned int node = 0; node < relevant.n_elements(); ++node)
-        {
-          const unsigned int global = relevant.nth_index_in_set(node);
-          if (!constraints.is_constrained(global))
-            continue;
-          owned_hanging += nodes.locally_owned_dofs().is_element(global);
-          Hanging entry{node, {}};
-          bool    reachable = true;
-          for (const auto &master : *constraints.get_constraint_entries(global))
-            if (relevant.is_element(master.first))
-              entry.masters.emplace_back(local(master.first), master.second);
-            else
-              reachable = false;
-          // Masters out of reach belong to hanging nodes of ghost cells only.
-          if (!reachable)
-            continue;
-          std::sort(entry.masters.begin(), entry.masters.end());
-          hanging_of_node[node] = hanging.size();
-          hanging.push_back(entry);
-        }
-      n_free_nodes =
-        nodes.n_dofs() - dealii::Utilities::MPI::sum(owned_hanging, comm);
-    }
-
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::collect_cells()
-    {
-      const auto order =
-        dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
-      std::vector<dealii::types::global_dof_index> indices(
-        fe.n_dofs_per_cell());
-      for (const auto &cell : nodes.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_indices(indices);
-            const unsigned int body = cell->material_id();
-            Cell               entry{body,
-                       parts[cells.size()],
-                       geometries[body]->region(coarse.coarse_cell(cell->id())),
-                       {}};
-            for (const unsigned int i : order)
-              entry.nodes.push_back(local(indices[i]));
-            cells.push_back(entry);
-            for (const unsigned int f : cell->face_indices())
-              if (cell->at_boundary(f))
-                faces.push_back(
-                  {entry.body,
-                   cell->face(f)->boundary_id(),
-                   static_cast<unsigned int>(cells.size() - 1),
-                   oriented_face_nodes<dim>(entry.nodes, degree, f)});
-          }
-      neighbours = owned_neighbours(triangulation);
-    }
-
-    template <int dim>
-    void
-    BodyMesh<dim>::Data::snap_to_axis()
-    {
-      const double round_off = 1e-10;
-      double       largest   = 0.;
-      for (const auto &x : reference)
-        largest = std::max(largest, std::abs(x[0]));
-      largest = dealii::Utilities::MPI::max(largest, comm);
-      for (auto &x : reference)
-        if (std::abs(x[0]) <= round_off * largest)
-          x[0] = 0.;
-    }
-
-    template <int dim>
-    BodyMesh<dim>::BodyMesh(MPI_Comm                               communicator,
-                            const std::vector<BodyMeshParameters> &bodies,
-                            unsigned int                           degree,
-                            const Idealization                    &idealization,
-                            const TearingParameters               &tearing)
-      : data(std::make_unique<Data>(communicator, degree, idealization))
-    {
-      data->triangulate(bodies, tearing);
-      data->number_nodes();
-      everywhere(communicator, [&]() { data->collect_nodes(); });
-      data->collect_hanging();
-      data->collect_cells();
-      if (idealization.is_axisymmetric())
-        data->snap_to_axis();
-      interpolate_hanging(data->reference);
-    }
-
-    template <int dim>
-    BodyMesh<dim>::~BodyMesh() = default;
-
-    template <int dim>
-    const Idealization &
-    BodyMesh<dim>::idealization() const
-    {
-      return data->idealization;
-    }
-
-    template <int dim>
-    const BodyGeometry<dim> &
-    BodyMesh<dim>::geometry(unsigned int body) const
-    {
-      return *data->geometries[body];
-    }
-
-    template <int dim>
-    const std::vector<typename BodyMesh<dim>::Cell> &
-    BodyMesh<dim>::cells() const
-    {
-      return data->cells;
-    }
-
-    template <int dim>
-    const std::vector<typename BodyMesh<dim>::Face> &
-    BodyMesh<dim>::boundary_faces() const
-    {
-      return data->faces;
-    }
-
-    template <int dim>
-    const std::vector<typename BodyMesh<dim>::Hanging> &
-    BodyMesh<dim>::hanging() const
-    {
-      return data->hanging;
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::global_node(unsigned int node) const
-    {
-      return data->relevant.nth_index_in_set(node);
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::local_node(unsigned int global) const
-    {
-      return data->local(global);
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::owner(unsigned int node) const
-    {
-      return owner_of_global(global_node(node));
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::owner_of_global(unsigned int global) const
-    {
-      const auto &first = data->first_node_of_rank;
-      return std::upper_bound(first.begin(), first.end(), global) -
-             first.begin() - 1;
-    }
-
-    template <int dim>
-    bool
-    BodyMesh<dim>::is_hanging(unsigned int node) const
-    {
-      return data->hanging_of_node[node] < data->hanging.size();
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::hanging_index(unsigned int node) const
-    {
-      return data->hanging_of_node[node];
-    }
-
-    template <int dim>
-    unsigned int
-    BodyMesh<dim>::body_of_node(unsigned int node) const
-    {
-      return data->node_body[node];
-    }
-
-    template <int dim>
-    const std::vector<dealii::Point<dim>> &
-    BodyMesh<dim>::logical_positions() const
-    {
-      return data->logical;
-    }
-
-    template <int dim>
-    const typename BodyMesh<dim>::Field &
-    BodyMesh<dim>::reference_positions() const
-    {
-      return data->reference;
-    }
-
-    template <int dim>
-    void
-    BodyMesh<dim>::interpolate_hanging(Field &field) const
-    {
-      for (const auto &entry : data->hanging)
-        {
-          dealii::Tensor<1, dim> value;
-          for (const auto &master : entry.masters)
-            value += master.second * field[master.first];
-          field[entry.node] = value;
-        }
-    }
-
-    template <int dim>
-    void
-    BodyMesh<dim>::distribute_hanging(Field &field) const
-    {
-      for (const auto &entry : data->hanging)
-        {
-          for (const auto &master : entry.masters)
-            field[master.first] += master.second * field[entry.node];
-          field[entry.node] = 0.;
-        }
-    }
-
-    template <int dim>
-    const std::vector<std::pair<unsigned int, unsigned int>> &
-    BodyMesh<dim>::cell_neighbours() const
-    {
-      return data->neighbours;
-    }
+template <int dim>
+const std::vector<std::pair<unsigned int, unsigned int>> &BodyMesh<dim>::cell_neighbours() const
+{
+  return data->neighbours;
+}
 
 #define SNUG_GETTER(type, name, value) \
   template <int dim>                   \
@@ -380,17 +329,14 @@ namespace snug
   {                                    \
     return value;                      \
   }
-    SNUG_GETTER(MPI_Comm, communicator, data->comm)
-    SNUG_GETTER(unsigned int, degree, data->degree)
-    SNUG_GETTER(unsigned long,
-                n_global_cells,
-                data->triangulation.n_global_active_cells())
-    SNUG_GETTER(unsigned int, n_bodies, data->geometries.size())
-    SNUG_GETTER(unsigned int, n_local_nodes, data->reference.size())
-    SNUG_GETTER(unsigned long, n_global_free_nodes, data->n_free_nodes)
+SNUG_GETTER(MPI_Comm, communicator, data->comm)
+SNUG_GETTER(unsigned int, degree, data->degree)
+SNUG_GETTER(unsigned long, n_global_cells, data->triangulation.n_global_active_cells())
+SNUG_GETTER(unsigned int, n_bodies, data->geometries.size())
+SNUG_GETTER(unsigned int, n_local_nodes, data->reference.size())
+SNUG_GETTER(unsigned long, n_global_free_nodes, data->n_free_nodes)
 #undef SNUG_GETTER
 
-    template class BodyMesh<2>;
-    template class BodyMesh<3>;
-  } // namespace mesh
-} // namespace snug
+template class BodyMesh<2>;
+template class BodyMesh<3>;
+} // namespace snug::mesh

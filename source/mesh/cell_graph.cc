@@ -5,99 +5,90 @@
 #include <algorithm>
 #include <map>
 
-namespace snug
+namespace snug::mesh {
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>>
+owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
 {
-  namespace mesh
-  {
-    template <int dim>
-    std::vector<std::pair<unsigned int, unsigned int>>
-    owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
-    {
-      std::vector<unsigned int> number(triangulation.n_active_cells());
-      unsigned int              n_owned = 0;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          number[cell->active_cell_index()] = n_owned++;
-      std::vector<std::pair<unsigned int, unsigned int>> pairs;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const unsigned int f : cell->face_indices())
-            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
-                cell->neighbor(f)->is_locally_owned())
-              {
-                const unsigned int a = number[cell->active_cell_index()];
-                const unsigned int b =
-                  number[cell->neighbor(f)->active_cell_index()];
-                pairs.emplace_back(std::min(a, b), std::max(a, b));
-              }
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-      return pairs;
-    }
-
-    unsigned int
-    split_into_pieces(const CellGraph &graph, std::vector<unsigned int> &part)
-    {
-      const unsigned int        none = static_cast<unsigned int>(-1);
-      std::vector<unsigned int> piece(graph.size(), none);
-      unsigned int              n_pieces = 0;
-      for (unsigned int seed = 0; seed < graph.size(); ++seed)
-        if (piece[seed] == none)
+  std::vector<unsigned int> number(triangulation.n_active_cells());
+  unsigned int              n_owned = 0;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      number[cell->active_cell_index()] = n_owned++;
+  std::vector<std::pair<unsigned int, unsigned int>> pairs;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const unsigned int f : cell->face_indices())
+        if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
+            cell->neighbor(f)->is_locally_owned())
           {
-            std::vector<unsigned int> front(1, seed);
-            piece[seed] = n_pieces;
-            while (!front.empty())
-              {
-                const unsigned int cell = front.back();
-                front.pop_back();
-                for (const unsigned int next : graph[cell])
-                  if (piece[next] == none && part[next] == part[seed])
-                    {
-                      piece[next] = n_pieces;
-                      front.push_back(next);
-                    }
-              }
-            ++n_pieces;
+            const unsigned int a = number[cell->active_cell_index()];
+            const unsigned int b = number[cell->neighbor(f)->active_cell_index()];
+            pairs.emplace_back(std::min(a, b), std::max(a, b));
           }
-      part = piece;
-      return n_pieces;
-    }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
 
-    unsigned int
-    merge_slivers(const CellGraph           &graph,
-                  std::vector<unsigned int> &part,
-                  unsigned int               n_parts,
-                  double                     cells_each)
+unsigned int split_into_pieces(const CellGraph &graph, std::vector<unsigned int> &part)
+{
+  const unsigned int        none = static_cast<unsigned int>(-1);
+  std::vector<unsigned int> piece(graph.size(), none);
+  unsigned int              n_pieces = 0;
+  for (unsigned int seed = 0; seed < graph.size(); ++seed)
+    if (piece[seed] == none)
+      {
+        std::vector<unsigned int> front(1, seed);
+        piece[seed] = n_pieces;
+        while (!front.empty())
+          {
+            const unsigned int cell = front.back();
+            front.pop_back();
+            for (const unsigned int next : graph[cell])
+              if (piece[next] == none && part[next] == part[seed])
+                {
+                  piece[next] = n_pieces;
+                  front.push_back(next);
+                }
+          }
+        ++n_pieces;
+      }
+  part = piece;
+  return n_pieces;
+}
+
+unsigned int merge_slivers(const CellGraph           &graph,
+                           std::vector<unsigned int> &part,
+                           unsigned int               n_parts,
+                           double                     cells_each)
+{
+  for (unsigned int sliver = 0; sliver < n_parts; ++sliver)
     {
-      for (unsigned int sliver = 0; sliver < n_parts; ++sliver)
-        {
-          std::map<unsigned int, unsigned int> shared;
-          unsigned int                         size = 0;
-          for (unsigned int i = 0; i < graph.size(); ++i)
-            if (part[i] == sliver)
-              {
-                ++size;
-                for (const unsigned int j : graph[i])
-                  if (part[j] != sliver)
-                    ++shared[part[j]];
-              }
-          if (size >= 0.25 * cells_each || shared.empty())
-            continue;
-          const auto best = std::max_element(shared.begin(),
-                                             shared.end(),
-                                             [](const auto &a, const auto &b) {
-                                               return a.second < b.second;
-                                             });
-          for (unsigned int &p : part)
-            if (p == sliver)
-              p = best->first;
-        }
-      return split_into_pieces(graph, part);
+      std::map<unsigned int, unsigned int> shared;
+      unsigned int                         size = 0;
+      for (unsigned int i = 0; i < graph.size(); ++i)
+        if (part[i] == sliver)
+          {
+            ++size;
+            for (const unsigned int j : graph[i])
+              if (part[j] != sliver)
+                ++shared[part[j]];
+          }
+      if (size >= 0.25 * cells_each || shared.empty())
+        continue;
+      const auto best =
+        std::max_element(shared.begin(), shared.end(),
+                         [](const auto &a, const auto &b) { return a.second < b.second; });
+      for (unsigned int &p : part)
+        if (p == sliver)
+          p = best->first;
     }
+  return split_into_pieces(graph, part);
+}
 
-    template std::vector<std::pair<unsigned int, unsigned int>>
-    owned_neighbours(const dealii::Triangulation<2, 2> &);
-    template std::vector<std::pair<unsigned int, unsigned int>>
-    owned_neighbours(const dealii::Triangulation<3, 3> &);
-  } // namespace mesh
-} // namespace snug
+template std::vector<std::pair<unsigned int, unsigned int>>
+owned_neighbours(const dealii::Triangulation<2, 2> &);
+template std::vector<std::pair<unsigned int, unsigned int>>
+owned_neighbours(const dealii::Triangulation<3, 3> &);
+} // namespace snug::mesh

@@ -15,281 +15,245 @@
 #include <map>
 #include <numeric>
 
-namespace snug
+namespace snug::mesh {
+namespace {
+template <int dim>
+using Refined = dealii::parallel::distributed::Triangulation<dim>;
+
+/// {level and coarse cell, path of children}
+template <int dim>
+typename CellSet<dim>::Key key(const typename Refined<dim>::active_cell_iterator &cell)
 {
-  namespace mesh
+  std::uint64_t path   = 0;
+  auto          parent = typename Refined<dim>::cell_iterator(cell);
+  const auto    level  = static_cast<std::uint64_t>(cell->level());
+  for (const auto child : cell->id().get_child_indices())
+    path = path << dim | static_cast<unsigned int>(child);
+  while (parent->level() > 0)
+    parent = parent->parent();
+  return {{level << 32 | static_cast<unsigned int>(parent->index()), path}};
+}
+
+/// Collective.
+template <int dim>
+bool has_one_level(unsigned int body, const Refined<dim> &refined)
+{
+  int levels[2] = {-1, -100}; // largest, and smallest with a minus
+  for (const auto &cell : refined.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->material_id() == body)
+      {
+        levels[0] = std::max(levels[0], cell->level());
+        levels[1] = std::max(levels[1], -cell->level());
+      }
+  MPI_Allreduce(MPI_IN_PLACE, levels, 2, MPI_INT, MPI_MAX, refined.get_communicator());
+  return levels[0] == -levels[1];
+}
+
+template <int dim>
+CellSet<dim> cell_set(const BodyGeometry<dim> &geometry,
+                      unsigned int             body,
+                      const CoarseCells<dim>  &coarse,
+                      const Refined<dim>      &refined)
+{
+  CellSet<dim> set;
+  set.communicator = refined.get_communicator();
+  set.size         = geometry.extent();
+  dealii::Point<dim> centre;
+  for (unsigned int d = 0; d < dim; ++d)
+    centre[d] = 0.5;
+  for (const auto &cell : refined.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->material_id() == body)
+      {
+        const unsigned int number = cell->global_active_cell_index();
+        set.centres.push_back(geometry.logical(coarse.point(cell->id(), centre)));
+        set.numbers.push_back(number);
+        set.keys.push_back(key<dim>(cell));
+        for (const unsigned int f : cell->face_indices())
+          if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
+            {
+              const unsigned int other = cell->neighbor(f)->global_active_cell_index();
+              if (number < other || cell->neighbor_is_coarser(f))
+                set.neighbours.push_back({{number, other}});
+            }
+      }
+  set.n_global = dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(), set.communicator);
+  set.layered  = geometry.has_grid() && has_one_level(body, refined);
+  return set;
+}
+
+/// Numbers of cells of the parts, of all ranks. Collective.
+std::vector<unsigned long> cells_of_parts(const Partition &partition, MPI_Comm communicator)
+{
+  std::vector<unsigned long> cells(partition.n_parts, 0);
+  for (const unsigned int part : partition.part)
+    ++cells[part];
+  dealii::Utilities::MPI::sum(cells, communicator, cells);
+  return cells;
+}
+
+struct Parts
+{
+  std::vector<Partition>                  of_body;
+  std::vector<std::vector<unsigned long>> cells;
+
+  unsigned int n_filled() const
   {
-    namespace
-    {
-      template <int dim>
-      using Refined = dealii::parallel::distributed::Triangulation<dim>;
+    unsigned int n = 0;
+    for (const auto &body : cells)
+      n += body.size() - std::count(body.begin(), body.end(), 0ul);
+    return n;
+  }
+};
 
-      /// {level and coarse cell, path of children}
-      template <int dim>
-      typename CellSet<dim>::Key
-      key(const typename Refined<dim>::active_cell_iterator &cell)
-      {
-        std::uint64_t path   = 0;
-        auto          parent = typename Refined<dim>::cell_iterator(cell);
-        const auto    level  = static_cast<std::uint64_t>(cell->level());
-        for (const auto child : cell->id().get_child_indices())
-          path = path << dim | static_cast<unsigned int>(child);
-        while (parent->level() > 0)
-          parent = parent->parent();
-        return {
-          {level << 32 | static_cast<unsigned int>(parent->index()), path}};
-      }
-
-      /// Collective.
-      template <int dim>
-      bool
-      has_one_level(unsigned int body, const Refined<dim> &refined)
-      {
-        int levels[2] = {-1, -100}; // largest, and smallest with a minus
-        for (const auto &cell : refined.active_cell_iterators())
-          if (cell->is_locally_owned() && cell->material_id() == body)
-            {
-              levels[0] = std::max(levels[0], cell->level());
-              levels[1] = std::max(levels[1], -cell->level());
-            }
-        MPI_Allreduce(MPI_IN_PLACE,
-                      levels,
-                      2,
-                      MPI_INT,
-                      MPI_MAX,
-                      refined.get_communicator());
-        return levels[0] == -levels[1];
-      }
-
-      template <int dim>
-      CellSet<dim>
-      cell_set(const BodyGeometry<dim> &geometry,
-               unsigned int             body,
-               const CoarseCells<dim>  &coarse,
-               const Refined<dim>      &refined)
-      {
-        CellSet<dim> set;
-        set.communicator = refined.get_communicator();
-        set.size         = geometry.extent();
-        dealii::Point<dim> centre;
-        for (unsigned int d = 0; d < dim; ++d)
-          centre[d] = 0.5;
-        for (const auto &cell : refined.active_cell_iterators())
-          if (cell->is_locally_owned() && cell->material_id() == body)
-            {
-              const unsigned int number = cell->global_active_cell_index();
-              set.centres.push_back(
-                geometry.logical(coarse.point(cell->id(), centre)));
-              set.numbers.push_back(number);
-              set.keys.push_back(key<dim>(cell));
-              for (const unsigned int f : cell->face_indices())
-                if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
-                  {
-                    const unsigned int other =
-                      cell->neighbor(f)->global_active_cell_index();
-                    if (number < other || cell->neighbor_is_coarser(f))
-                      set.neighbours.push_back({{number, other}});
-                  }
-            }
-        set.n_global =
-          dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(),
-                                                     set.communicator);
-        set.layered = geometry.has_grid() && has_one_level(body, refined);
-        return set;
-      }
-
-      /// Numbers of cells of the parts, of all ranks. Collective.
-      std::vector<unsigned long>
-      cells_of_parts(const Partition &partition, MPI_Comm communicator)
-      {
-        std::vector<unsigned long> cells(partition.n_parts, 0);
-        for (const unsigned int part : partition.part)
-          ++cells[part];
-        dealii::Utilities::MPI::sum(cells, communicator, cells);
-        return cells;
-      }
-
-      struct Parts
-      {
-        std::vector<Partition>                  of_body;
-        std::vector<std::vector<unsigned long>> cells;
-
-        unsigned int
-        n_filled() const
-        {
-          unsigned int n = 0;
-          for (const auto &body : cells)
-            n += body.size() - std::count(body.begin(), body.end(), 0ul);
-          return n;
-        }
-      };
-
-      template <int dim>
-      Parts
-      decide_parts(const std::vector<CellSet<dim>> &sets,
+template <int dim>
+Parts decide_parts(const std::vector<CellSet<dim>> &sets,
                    const TearingParameters         &parameters,
                    double                           cells_by_size)
-      {
-        const MPI_Comm communicator = sets.front().communicator;
-        unsigned long  n_cells      = 0;
-        for (const auto &set : sets)
-          n_cells += set.n_global;
-        const auto &partition =
-          choose(partition_table<dim>(), parameters.method).make;
-        double              cells_each = parameters.subdomains == 0
-                                           ? cells_by_size
-                                           : double(n_cells) / parameters.subdomains;
-        const unsigned long least      = std::min<unsigned long>(
-          n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
-        Parts parts;
-        do
-          {
-            parts = Parts();
-            for (const auto &set : sets)
-              {
-                parts.of_body.push_back(partition(set, cells_each));
-                parts.cells.push_back(
-                  cells_of_parts(parts.of_body.back(), communicator));
-              }
-            cells_each /= 2.;
-        } while (parts.n_filled() < least && cells_each > 0.1);
-        return parts;
-      }
-
-      /// The same description on every run: deal.II lists coarse cells in the
-      /// order in which other ranks' messages arrive.
-      template <int dim>
-      void
-      order_coarse_cells(
-        const Refined<dim>                                      &refined,
-        dealii::TriangulationDescription::Description<dim, dim> &description)
-      {
-        auto &ids = description.coarse_cell_index_to_coarse_cell_id;
-        std::map<dealii::types::coarse_cell_id, unsigned int> index;
-        for (const auto &cell : refined.cell_iterators_on_level(0))
-          index[cell->id().get_coarse_cell_id()] = cell->index();
-        std::vector<unsigned int> order(ids.size());
-        std::iota(order.begin(), order.end(), 0);
-        std::sort(order.begin(), order.end(), [&](unsigned a, unsigned b) {
-          return index[ids[a]] < index[ids[b]];
-        });
-        const auto old = description;
-        for (unsigned int i = 0; i < order.size(); ++i)
-          {
-            description.coarse_cells[i] = old.coarse_cells[order[i]];
-            ids[i] = old.coarse_cell_index_to_coarse_cell_id[order[i]];
-          }
-      }
-      /// A cell and its part, as ranks send it.
-      using CellPart = std::pair<dealii::CellId::binary_type, unsigned int>;
-
-      /// Parts of the owned cells of @p result, which other ranks have sent.
-      template <int dim>
-      std::vector<unsigned int>
-      received_parts(
-        const dealii::parallel::fullydistributed::Triangulation<dim> &result,
-        const std::map<unsigned int, std::vector<CellPart>>          &sent)
-      {
-        std::map<dealii::CellId::binary_type, unsigned int> part_of_cell;
-        for (const auto &message :
-             dealii::Utilities::MPI::some_to_some(result.get_communicator(),
-                                                  sent))
-          for (const auto &cell : message.second)
-            part_of_cell.insert(cell);
-        std::vector<unsigned int> parts;
-        for (const auto &cell : result.active_cell_iterators())
-          if (cell->is_locally_owned())
-            parts.push_back(
-              part_of_cell.at(cell->id().template to_binary<dim>()));
-        return parts;
-      }
-    } // namespace
-
-    std::vector<std::vector<unsigned int>>
-    ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells,
-                   unsigned int                                   n_ranks)
+{
+  const MPI_Comm communicator = sets.front().communicator;
+  unsigned long  n_cells      = 0;
+  for (const auto &set : sets)
+    n_cells += set.n_global;
+  const auto &partition = choose(partition_table<dim>(), parameters.method).make;
+  double      cells_each =
+    parameters.subdomains == 0 ? cells_by_size : double(n_cells) / parameters.subdomains;
+  const unsigned long least =
+    std::min<unsigned long>(n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
+  Parts parts;
+  do
     {
-      std::vector<std::vector<unsigned int>> ranks;
-      std::vector<double>                    load(n_ranks, 0.);
-      double                                 all = 0.;
-      for (const auto &body : cells)
+      parts = Parts();
+      for (const auto &set : sets)
         {
-          const double own = std::accumulate(body.begin(), body.end(), 0.);
-          all += own;
-          std::vector<double> share;
-          for (const double has : load)
-            share.push_back(std::max(0., all / n_ranks - has));
-          const double shares = std::accumulate(share.begin(), share.end(), 0.);
-          unsigned int rank   = 0;
-          double       end = share[0] * own / shares, before = 0.;
-          ranks.emplace_back();
-          for (const unsigned long part : body)
-            {
-              while (before + 0.5 * part > end && rank + 1 < n_ranks)
-                end += share[++rank] * own / shares;
-              before += part;
-              load[rank] += part;
-              ranks.back().push_back(rank);
-            }
+          parts.of_body.push_back(partition(set, cells_each));
+          parts.cells.push_back(cells_of_parts(parts.of_body.back(), communicator));
         }
-      return ranks;
-    }
+      cells_each /= 2.;
+  } while (parts.n_filled() < least && cells_each > 0.1);
+  return parts;
+}
 
-    double
-    cells_per_subdomain(const unsigned int  dim,
-                        const unsigned int  degree,
-                        const Idealization &idealization)
+/// The same description on every run: deal.II lists coarse cells in the
+/// order in which other ranks' messages arrive.
+template <int dim>
+void order_coarse_cells(const Refined<dim>                                      &refined,
+                        dealii::TriangulationDescription::Description<dim, dim> &description)
+{
+  auto &ids = description.coarse_cell_index_to_coarse_cell_id;
+  std::map<dealii::types::coarse_cell_id, unsigned int> index;
+  for (const auto &cell : refined.cell_iterators_on_level(0))
+    index[cell->id().get_coarse_cell_id()] = cell->index();
+  std::vector<unsigned int> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](unsigned a, unsigned b) { return index[ids[a]] < index[ids[b]]; });
+  const auto old = description;
+  for (unsigned int i = 0; i < order.size(); ++i)
     {
-      const double edge =
-        dim == 3 ? 5. : (idealization.is_axisymmetric() ? 64. : 12.);
-      return std::pow(edge / degree, dim);
+      description.coarse_cells[i] = old.coarse_cells[order[i]];
+      ids[i]                      = old.coarse_cell_index_to_coarse_cell_id[order[i]];
     }
+}
+/// A cell and its part, as ranks send it.
+using CellPart = std::pair<dealii::CellId::binary_type, unsigned int>;
 
-    template <int dim>
-    std::vector<unsigned int>
-    distribute(const Geometries<dim>   &geometries,
-               const TearingParameters &parameters,
-               double                   cells_by_size,
-               const Refined<dim>      &refined,
-               dealii::parallel::fullydistributed::Triangulation<dim> &result)
+/// Parts of the owned cells of @p result, which other ranks have sent.
+template <int dim>
+std::vector<unsigned int>
+received_parts(const dealii::parallel::fullydistributed::Triangulation<dim> &result,
+               const std::map<unsigned int, std::vector<CellPart>>          &sent)
+{
+  std::map<dealii::CellId::binary_type, unsigned int> part_of_cell;
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(result.get_communicator(), sent))
+    for (const auto &cell : message.second)
+      part_of_cell.insert(cell);
+  std::vector<unsigned int> parts;
+  for (const auto &cell : result.active_cell_iterators())
+    if (cell->is_locally_owned())
+      parts.push_back(part_of_cell.at(cell->id().template to_binary<dim>()));
+  return parts;
+}
+} // namespace
+
+std::vector<std::vector<unsigned int>>
+ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned int n_ranks)
+{
+  std::vector<std::vector<unsigned int>> ranks;
+  std::vector<double>                    load(n_ranks, 0.);
+  double                                 all = 0.;
+  for (const auto &body : cells)
     {
-      const CoarseCells<dim>    coarse(refined);
-      std::vector<CellSet<dim>> sets;
-      for (unsigned int body = 0; body < geometries.size(); ++body)
-        sets.push_back(cell_set(*geometries[body], body, coarse, refined));
-      const Parts parts = decide_parts(sets, parameters, cells_by_size);
-      const auto  ranks = ranks_of_parts(parts.cells,
-                                        dealii::Utilities::MPI::n_mpi_processes(
-                                          refined.get_communicator()));
-      std::vector<unsigned int> next(geometries.size(), 0);
-      dealii::LinearAlgebra::distributed::Vector<double> rank_of_cell(
-        refined.global_active_cell_index_partitioner().lock());
-      std::map<unsigned int, std::vector<CellPart>> sent;
-      for (const auto &cell : refined.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            const unsigned int body = cell->material_id();
-            const unsigned int part = parts.of_body[body].part[next[body]++];
-            const unsigned int rank = ranks[body][part];
-            rank_of_cell[cell->global_active_cell_index()] = rank;
-            sent[rank].push_back({cell->id().template to_binary<dim>(), part});
-          }
-      auto description = dealii::TriangulationDescription::Utilities::
-        create_description_from_triangulation(refined, rank_of_cell);
-      order_coarse_cells(refined, description);
-      result.create_triangulation(description);
-      return received_parts(result, sent);
+      const double own = std::accumulate(body.begin(), body.end(), 0.);
+      all += own;
+      std::vector<double> share;
+      for (const double has : load)
+        share.push_back(std::max(0., all / n_ranks - has));
+      const double shares = std::accumulate(share.begin(), share.end(), 0.);
+      unsigned int rank   = 0;
+      double       end = share[0] * own / shares, before = 0.;
+      ranks.emplace_back();
+      for (const unsigned long part : body)
+        {
+          while (before + 0.5 * part > end && rank + 1 < n_ranks)
+            end += share[++rank] * own / shares;
+          before += part;
+          load[rank] += part;
+          ranks.back().push_back(rank);
+        }
     }
+  return ranks;
+}
 
-#define SNUG_INSTANTIATE(dim)                                  \
-  template std::vector<unsigned int> distribute(               \
-    const Geometries<dim> &,                                   \
-    const TearingParameters &,                                 \
-    double,                                                    \
-    const dealii::parallel::distributed::Triangulation<dim> &, \
+double cells_per_subdomain(const unsigned int  dim,
+                           const unsigned int  degree,
+                           const Idealization &idealization)
+{
+  const double edge = dim == 3 ? 5. : (idealization.is_axisymmetric() ? 64. : 12.);
+  return std::pow(edge / degree, dim);
+}
+
+template <int dim>
+std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
+                                     const TearingParameters &parameters,
+                                     double                   cells_by_size,
+                                     const Refined<dim>      &refined,
+                                     dealii::parallel::fullydistributed::Triangulation<dim> &result)
+{
+  const CoarseCells<dim>    coarse(refined);
+  std::vector<CellSet<dim>> sets;
+  for (unsigned int body = 0; body < geometries.size(); ++body)
+    sets.push_back(cell_set(*geometries[body], body, coarse, refined));
+  const Parts parts = decide_parts(sets, parameters, cells_by_size);
+  const auto  ranks =
+    ranks_of_parts(parts.cells,
+                   dealii::Utilities::MPI::n_mpi_processes(refined.get_communicator()));
+  std::vector<unsigned int>                          next(geometries.size(), 0);
+  dealii::LinearAlgebra::distributed::Vector<double> rank_of_cell(
+    refined.global_active_cell_index_partitioner().lock());
+  std::map<unsigned int, std::vector<CellPart>> sent;
+  for (const auto &cell : refined.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        const unsigned int body                        = cell->material_id();
+        const unsigned int part                        = parts.of_body[body].part[next[body]++];
+        const unsigned int rank                        = ranks[body][part];
+        rank_of_cell[cell->global_active_cell_index()] = rank;
+        sent[rank].push_back({cell->id().template to_binary<dim>(), part});
+      }
+  auto description =
+    dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
+      refined, rank_of_cell);
+  order_coarse_cells(refined, description);
+  result.create_triangulation(description);
+  return received_parts(result, sent);
+}
+
+#define SNUG_INSTANTIATE(dim)                                   \
+  template std::vector<unsigned int> distribute(                \
+    const Geometries<dim> &, const TearingParameters &, double, \
+    const dealii::parallel::distributed::Triangulation<dim> &,  \
     dealii::parallel::fullydistributed::Triangulation<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace mesh
-} // namespace snug
+} // namespace snug::mesh

@@ -2,48 +2,38 @@
 
 #include <utility>
 
-namespace snug
+namespace snug::mesh {
+template <int dim>
+std::vector<unsigned int> oriented_face_nodes(const std::vector<unsigned int> &cell_nodes,
+                                              unsigned int                     degree,
+                                              unsigned int                     face)
 {
-  namespace mesh
-  {
-    template <int dim>
-    std::vector<unsigned int>
-    oriented_face_nodes(const std::vector<unsigned int> &cell_nodes,
-                        unsigned int                     degree,
-                        unsigned int                     face)
+  const unsigned int        n         = degree + 1;
+  const unsigned int        normal    = face / 2;
+  const bool                upper     = face % 2 == 1;
+  const unsigned int        stride[3] = {1, n, n * n};
+  const unsigned int        first     = upper ? degree * stride[normal] : 0;
+  std::vector<unsigned int> nodes;
+  if (dim == 2)
     {
-      const unsigned int        n         = degree + 1;
-      const unsigned int        normal    = face / 2;
-      const bool                upper     = face % 2 == 1;
-      const unsigned int        stride[3] = {1, n, n * n};
-      const unsigned int        first     = upper ? degree * stride[normal] : 0;
-      std::vector<unsigned int> nodes;
-      if (dim == 2)
-        {
-          // x+ has t = +y, y+ has t = -x, and the other sides the opposite
-          const unsigned int axis    = 1 - normal;
-          const bool         reverse = (normal == 0) != upper;
-          for (unsigned int i = 0; i < n; ++i)
-            nodes.push_back(
-              cell_nodes[first + (reverse ? degree - i : i) * stride[axis]]);
-          return nodes;
-        }
-      unsigned int a = (normal + 1) % 3, b = (normal + 2) % 3;
-      if (!upper)
-        std::swap(a, b);
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int i = 0; i < n; ++i)
-          nodes.push_back(cell_nodes[first + i * stride[a] + j * stride[b]]);
+      // x+ has t = +y, y+ has t = -x, and the other sides the opposite
+      const unsigned int axis    = 1 - normal;
+      const bool         reverse = (normal == 0) != upper;
+      for (unsigned int i = 0; i < n; ++i)
+        nodes.push_back(cell_nodes[first + (reverse ? degree - i : i) * stride[axis]]);
       return nodes;
     }
+  unsigned int a = (normal + 1) % 3, b = (normal + 2) % 3;
+  if (!upper)
+    std::swap(a, b);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      nodes.push_back(cell_nodes[first + i * stride[a] + j * stride[b]]);
+  return nodes;
+}
 
-    template std::vector<unsigned int>
-    oriented_face_nodes<2>(const std::vector<unsigned int> &,
-                           unsigned int,
-                           unsigned int);
-    template std::vector<unsigned int>
-    oriented_face_nodes<3>(const std::vector<unsigned int> &,
-                           unsigned int,
-                           unsigned int);
-  } // namespace mesh
-} // namespace snug
+template std::vector<unsigned int>
+oriented_face_nodes<2>(const std::vector<unsigned int> &, unsigned int, unsigned int);
+template std::vector<unsigned int>
+oriented_face_nodes<3>(const std::vector<unsigned int> &, unsigned int, unsigned int);
+} // namespace snug::mesh

@@ -12,127 +12,106 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace snug
+namespace snug::mesh {
+namespace {
+using Pairs = std::vector<std::array<unsigned int, 2>>;
+
+/// All ranks' entries, rank after rank; nothing on other ranks.
+template <typename T>
+std::vector<T> on_rank_0(MPI_Comm communicator, const std::vector<T> &values)
 {
-  namespace mesh
-  {
-    namespace
+  std::vector<T> all;
+  for (const auto &of_rank : dealii::Utilities::MPI::gather(communicator, values))
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  return all;
+}
+
+std::vector<unsigned int> metis_parts(const CellGraph &graph, unsigned int n_parts)
+{
+  std::vector<unsigned int> part(graph.size(), 0);
+  if (n_parts <= 1)
+    return part;
+  if (n_parts >= graph.size())
     {
-      using Pairs = std::vector<std::array<unsigned int, 2>>;
-
-      /// All ranks' entries, rank after rank; nothing on other ranks.
-      template <typename T>
-      std::vector<T>
-      on_rank_0(MPI_Comm communicator, const std::vector<T> &values)
-      {
-        std::vector<T> all;
-        for (const auto &of_rank :
-             dealii::Utilities::MPI::gather(communicator, values))
-          all.insert(all.end(), of_rank.begin(), of_rank.end());
-        return all;
-      }
-
-      std::vector<unsigned int>
-      metis_parts(const CellGraph &graph, unsigned int n_parts)
-      {
-        std::vector<unsigned int> part(graph.size(), 0);
-        if (n_parts <= 1)
-          return part;
-        if (n_parts >= graph.size())
-          {
-            std::iota(part.begin(), part.end(), 0);
-            return part;
-          }
-        dealii::DynamicSparsityPattern dynamic(graph.size(), graph.size());
-        for (unsigned int i = 0; i < graph.size(); ++i)
-          for (const unsigned int j : graph[i])
-            dynamic.add(i, j);
-        dealii::SparsityPattern pattern;
-        pattern.copy_from(dynamic);
-        dealii::SparsityTools::partition(
-          pattern, n_parts, part, dealii::SparsityTools::Partitioner::metis);
-        return part;
-      }
-
-      /// The positions of @p keys in ascending order.
-      template <typename Key>
-      std::vector<unsigned int>
-      sorted_order(const std::vector<Key> &keys)
-      {
-        std::vector<unsigned int> order(keys.size());
-        std::iota(order.begin(), order.end(), 0);
-        std::sort(order.begin(),
-                  order.end(),
-                  [&](unsigned int a, unsigned int b) {
-                    return keys[a] < keys[b];
-                  });
-        return order;
-      }
-
-      /// Graph of the cells in the order @p order.
-      CellGraph
-      cell_graph(const std::vector<unsigned int> &order,
-                 const std::vector<unsigned int> &numbers,
-                 const Pairs                     &neighbours)
-      {
-        std::unordered_map<unsigned int, unsigned int> place;
-        for (unsigned int i = 0; i < order.size(); ++i)
-          place[numbers[order[i]]] = i;
-        CellGraph graph(order.size());
-        for (const auto &pair : neighbours)
-          {
-            const unsigned int a = place.at(pair[0]), b = place.at(pair[1]);
-            graph[a].push_back(b);
-            graph[b].push_back(a);
-          }
-        return graph;
-      }
-
-      /// Connected parts without slivers.
-      std::vector<unsigned int>
-      parts_of_graph(const CellGraph &graph, double cells_each)
-      {
-        const unsigned int n_parts =
-          std::max(1l, std::lround(graph.size() / cells_each));
-        auto part = metis_parts(graph, n_parts);
-        merge_slivers(graph, part, split_into_pieces(graph, part), cells_each);
-        return part;
-      }
-    } // namespace
-
-    template <int dim>
-    Partition
-    graph_partition(const CellSet<dim> &set, double cells_each)
-    {
-      const auto        &comm = set.communicator;
-      const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
-      const auto         keys = on_rank_0(comm, set.keys);
-      const auto         numbers    = on_rank_0(comm, set.numbers);
-      const auto         neighbours = on_rank_0(comm, set.neighbours);
-      std::vector<unsigned int> parts(keys.size());
-      if (rank == 0)
-        {
-          const auto order = sorted_order(keys);
-          const auto sorted_parts =
-            parts_of_graph(cell_graph(order, numbers, neighbours), cells_each);
-          for (unsigned int i = 0; i < order.size(); ++i)
-            parts[order[i]] = sorted_parts[i];
-        }
-      parts             = dealii::Utilities::MPI::broadcast(comm, parts);
-      const auto counts = dealii::Utilities::MPI::all_gather(
-        comm, static_cast<unsigned int>(set.numbers.size()));
-      const auto first =
-        parts.begin() +
-        std::accumulate(counts.begin(), counts.begin() + rank, 0u);
-      Partition result;
-      result.part.assign(first, first + counts[rank]);
-      result.n_parts = *std::max_element(parts.begin(), parts.end()) + 1;
-      return result;
+      std::iota(part.begin(), part.end(), 0);
+      return part;
     }
+  dealii::DynamicSparsityPattern dynamic(graph.size(), graph.size());
+  for (unsigned int i = 0; i < graph.size(); ++i)
+    for (const unsigned int j : graph[i])
+      dynamic.add(i, j);
+  dealii::SparsityPattern pattern;
+  pattern.copy_from(dynamic);
+  dealii::SparsityTools::partition(pattern, n_parts, part,
+                                   dealii::SparsityTools::Partitioner::metis);
+  return part;
+}
 
-    template Partition
-    graph_partition(const CellSet<2> &, double);
-    template Partition
-    graph_partition(const CellSet<3> &, double);
-  } // namespace mesh
-} // namespace snug
+/// The positions of @p keys in ascending order.
+template <typename Key>
+std::vector<unsigned int> sorted_order(const std::vector<Key> &keys)
+{
+  std::vector<unsigned int> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](unsigned int a, unsigned int b) { return keys[a] < keys[b]; });
+  return order;
+}
+
+/// Graph of the cells in the order @p order.
+CellGraph cell_graph(const std::vector<unsigned int> &order,
+                     const std::vector<unsigned int> &numbers,
+                     const Pairs                     &neighbours)
+{
+  std::unordered_map<unsigned int, unsigned int> place;
+  for (unsigned int i = 0; i < order.size(); ++i)
+    place[numbers[order[i]]] = i;
+  CellGraph graph(order.size());
+  for (const auto &pair : neighbours)
+    {
+      const unsigned int a = place.at(pair[0]), b = place.at(pair[1]);
+      graph[a].push_back(b);
+      graph[b].push_back(a);
+    }
+  return graph;
+}
+
+/// Connected parts without slivers.
+std::vector<unsigned int> parts_of_graph(const CellGraph &graph, double cells_each)
+{
+  const unsigned int n_parts = std::max(1l, std::lround(graph.size() / cells_each));
+  auto               part    = metis_parts(graph, n_parts);
+  merge_slivers(graph, part, split_into_pieces(graph, part), cells_each);
+  return part;
+}
+} // namespace
+
+template <int dim>
+Partition graph_partition(const CellSet<dim> &set, double cells_each)
+{
+  const auto               &comm       = set.communicator;
+  const unsigned int        rank       = dealii::Utilities::MPI::this_mpi_process(comm);
+  const auto                keys       = on_rank_0(comm, set.keys);
+  const auto                numbers    = on_rank_0(comm, set.numbers);
+  const auto                neighbours = on_rank_0(comm, set.neighbours);
+  std::vector<unsigned int> parts(keys.size());
+  if (rank == 0)
+    {
+      const auto order        = sorted_order(keys);
+      const auto sorted_parts = parts_of_graph(cell_graph(order, numbers, neighbours), cells_each);
+      for (unsigned int i = 0; i < order.size(); ++i)
+        parts[order[i]] = sorted_parts[i];
+    }
+  parts = dealii::Utilities::MPI::broadcast(comm, parts);
+  const auto counts =
+    dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(set.numbers.size()));
+  const auto first = parts.begin() + std::accumulate(counts.begin(), counts.begin() + rank, 0u);
+  Partition  result;
+  result.part.assign(first, first + counts[rank]);
+  result.n_parts = *std::max_element(parts.begin(), parts.end()) + 1;
+  return result;
+}
+
+template Partition graph_partition(const CellSet<2> &, double);
+template Partition graph_partition(const CellSet<3> &, double);
+} // namespace snug::mesh

@@ -5,156 +5,131 @@
 #include <cmath>
 #include <limits>
 
-namespace snug
+namespace snug::mesh {
+namespace {
+/// Numbers of slabs per axis: pieces near cubes, their product near n.
+template <int dim>
+std::array<unsigned int, dim> slab_counts(const dealii::Tensor<1, dim> &size, double n)
 {
-  namespace mesh
+  std::array<unsigned int, dim> best, counts;
+  best.fill(1);
+  counts.fill(1);
+  double             least   = std::numeric_limits<double>::max();
+  const unsigned int largest = std::ceil(1.4 * n);
+  const auto         rate    = [&]() {
+    double product = 1., longest = 0., shortest = std::numeric_limits<double>::max();
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        product *= counts[c];
+        longest  = std::max(longest, size[c] / counts[c]);
+        shortest = std::min(shortest, size[c] / counts[c]);
+      }
+    if (product > 1.4 * n || product < 0.7 * n)
+      return;
+    const double score = std::log(longest / shortest) + 0.5 * std::abs(std::log(product / n));
+    if (score < least - 1e-12)
+      {
+        least = score;
+        best  = counts;
+      }
+  };
+  for (counts[0] = 1; counts[0] <= largest; ++counts[0])
+    for (counts[1] = 1; counts[0] * counts[1] <= largest; ++counts[1])
+      if (dim == 2)
+        rate();
+      else
+        for (counts[dim - 1] = 1; counts[0] * counts[1] * counts[dim - 1] <= largest;
+             ++counts[dim - 1])
+          rate();
+  return best;
+}
+
+/// Numbers of cells in equal bins of logical coordinate @p axis, of all
+/// ranks, and the ends of the range. Collective.
+struct Histogram
+{
+  std::vector<unsigned long> counts;
+  double                     lower, upper;
+
+  double end_of(unsigned int bin) const
   {
-    namespace
+    return lower + (upper - lower) * (bin + 1) / counts.size();
+  }
+};
+
+template <int dim>
+Histogram histogram(const CellSet<dim> &set, unsigned int axis)
+{
+  const unsigned int n_bins   = 4096;
+  const double       infinity = std::numeric_limits<double>::infinity();
+  double             ends[2]  = {-infinity, -infinity};
+  for (const auto &centre : set.centres)
     {
-      /// Numbers of slabs per axis: pieces near cubes, their product near n.
-      template <int dim>
-      std::array<unsigned int, dim>
-      slab_counts(const dealii::Tensor<1, dim> &size, double n)
-      {
-        std::array<unsigned int, dim> best, counts;
-        best.fill(1);
-        counts.fill(1);
-        double             least   = std::numeric_limits<double>::max();
-        const unsigned int largest = std::ceil(1.4 * n);
-        const auto         rate    = [&]() {
-          double product = 1., longest = 0.,
-                 shortest = std::numeric_limits<double>::max();
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              product *= counts[c];
-              longest  = std::max(longest, size[c] / counts[c]);
-              shortest = std::min(shortest, size[c] / counts[c]);
-            }
-          if (product > 1.4 * n || product < 0.7 * n)
-            return;
-          const double score = std::log(longest / shortest) +
-                               0.5 * std::abs(std::log(product / n));
-          if (score < least - 1e-12)
-            {
-              least = score;
-              best  = counts;
-            }
-        };
-        for (counts[0] = 1; counts[0] <= largest; ++counts[0])
-          for (counts[1] = 1; counts[0] * counts[1] <= largest; ++counts[1])
-            if (dim == 2)
-              rate();
-            else
-              for (counts[dim - 1] = 1;
-                   counts[0] * counts[1] * counts[dim - 1] <= largest;
-                   ++counts[dim - 1])
-                rate();
-        return best;
-      }
-
-      /// Numbers of cells in equal bins of logical coordinate @p axis, of all
-      /// ranks, and the ends of the range. Collective.
-      struct Histogram
-      {
-        std::vector<unsigned long> counts;
-        double                     lower, upper;
-
-        double
-        end_of(unsigned int bin) const
-        {
-          return lower + (upper - lower) * (bin + 1) / counts.size();
-        }
-      };
-
-      template <int dim>
-      Histogram
-      histogram(const CellSet<dim> &set, unsigned int axis)
-      {
-        const unsigned int n_bins   = 4096;
-        const double       infinity = std::numeric_limits<double>::infinity();
-        double             ends[2]  = {-infinity, -infinity};
-        for (const auto &centre : set.centres)
-          {
-            ends[0] = std::max(ends[0], -centre[axis]);
-            ends[1] = std::max(ends[1], centre[axis]);
-          }
-        MPI_Allreduce(
-          MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, set.communicator);
-        Histogram    bins{std::vector<unsigned long>(n_bins, 0),
-                       -ends[0],
-                       ends[1]};
-        const double width = std::max(bins.upper - bins.lower, 1e-300);
-        for (const auto &centre : set.centres)
-          ++bins.counts[std::min<unsigned int>(
-            n_bins - 1, (centre[axis] - bins.lower) / width * n_bins)];
-        MPI_Allreduce(MPI_IN_PLACE,
-                      bins.counts.data(),
-                      n_bins,
-                      MPI_UNSIGNED_LONG,
-                      MPI_SUM,
-                      set.communicator);
-        return bins;
-      }
-
-      /**
-       * Coordinates that cut a histogram into @p n slabs of about equal
-       * numbers; a cut moves to the nearest gap between layers of cells if
-       * one is within a quarter of a slab.
-       */
-      std::vector<double>
-      cuts(const Histogram &bins, unsigned int n)
-      {
-        double all = 0.;
-        for (const unsigned long count : bins.counts)
-          all += count;
-        std::vector<double> result;
-        for (unsigned int k = 1; k < n; ++k)
-          {
-            const double wanted = k * all / n, slab = all / n;
-            double       below = 0., best = all, best_rating = 1e300;
-            for (unsigned int bin = 0; bin < bins.counts.size(); ++bin)
-              {
-                below += bins.counts[bin];
-                const bool gap =
-                  bin + 1 < bins.counts.size() && bins.counts[bin + 1] == 0;
-                const double off    = std::abs(below - wanted) / slab;
-                const double rating = off + (gap && off <= 0.25 ? 0. : 1.);
-                if (rating < best_rating - 1e-9)
-                  {
-                    best_rating = rating;
-                    best        = bins.end_of(bin);
-                  }
-              }
-            result.push_back(best);
-          }
-        return result;
-      }
-    } // namespace
-
-    template <int dim>
-    Partition
-    grid_partition(const CellSet<dim> &set, double cells_each)
-    {
-      const double n = std::max(1l, std::lround(set.n_global / cells_each));
-      const auto   counts = slab_counts<dim>(set.size, n);
-      Partition    result;
-      result.part.assign(set.centres.size(), 0);
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        {
-          const auto at = cuts(histogram(set, axis), counts[axis]);
-          result.n_parts *= counts[axis];
-          for (unsigned int cell = 0; cell < set.centres.size(); ++cell)
-            result.part[cell] =
-              result.part[cell] * counts[axis] +
-              (std::upper_bound(at.begin(), at.end(), set.centres[cell][axis]) -
-               at.begin());
-        }
-      return result;
+      ends[0] = std::max(ends[0], -centre[axis]);
+      ends[1] = std::max(ends[1], centre[axis]);
     }
+  MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, set.communicator);
+  Histogram    bins{std::vector<unsigned long>(n_bins, 0), -ends[0], ends[1]};
+  const double width = std::max(bins.upper - bins.lower, 1e-300);
+  for (const auto &centre : set.centres)
+    ++bins.counts[std::min<unsigned int>(n_bins - 1, (centre[axis] - bins.lower) / width * n_bins)];
+  MPI_Allreduce(MPI_IN_PLACE, bins.counts.data(), n_bins, MPI_UNSIGNED_LONG, MPI_SUM,
+                set.communicator);
+  return bins;
+}
 
-    template Partition
-    grid_partition(const CellSet<2> &, double);
-    template Partition
-    grid_partition(const CellSet<3> &, double);
-  } // namespace mesh
-} // namespace snug
+/**
+ * Coordinates that cut a histogram into @p n slabs of about equal
+ * numbers; a cut moves to the nearest gap between layers of cells if
+ * one is within a quarter of a slab.
+ */
+std::vector<double> cuts(const Histogram &bins, unsigned int n)
+{
+  double all = 0.;
+  for (const unsigned long count : bins.counts)
+    all += count;
+  std::vector<double> result;
+  for (unsigned int k = 1; k < n; ++k)
+    {
+      const double wanted = k * all / n, slab = all / n;
+      double       below = 0., best = all, best_rating = 1e300;
+      for (unsigned int bin = 0; bin < bins.counts.size(); ++bin)
+        {
+          below += bins.counts[bin];
+          const bool   gap    = bin + 1 < bins.counts.size() && bins.counts[bin + 1] == 0;
+          const double off    = std::abs(below - wanted) / slab;
+          const double rating = off + (gap && off <= 0.25 ? 0. : 1.);
+          if (rating < best_rating - 1e-9)
+            {
+              best_rating = rating;
+              best        = bins.end_of(bin);
+            }
+        }
+      result.push_back(best);
+    }
+  return result;
+}
+} // namespace
+
+template <int dim>
+Partition grid_partition(const CellSet<dim> &set, double cells_each)
+{
+  const double n      = std::max(1l, std::lround(set.n_global / cells_each));
+  const auto   counts = slab_counts<dim>(set.size, n);
+  Partition    result;
+  result.part.assign(set.centres.size(), 0);
+  for (unsigned int axis = 0; axis < dim; ++axis)
+    {
+      const auto at = cuts(histogram(set, axis), counts[axis]);
+      result.n_parts *= counts[axis];
+      for (unsigned int cell = 0; cell < set.centres.size(); ++cell)
+        result.part[cell] =
+          result.part[cell] * counts[axis] +
+          (std::upper_bound(at.begin(), at.end(), set.centres[cell][axis]) - at.begin());
+    }
+  return result;
+}
+
+template Partition grid_partition(const CellSet<2> &, double);
+template Partition grid_partition(const CellSet<3> &, double);
+} // namespace snug::mesh

@@ -3,27 +3,18 @@
 #include <snug/mesh/body_sources.h>
 #include <snug/mesh/imported_mesh.h>
 
-namespace snug
+namespace snug::mesh {
+template <int dim>
+std::unique_ptr<BodyGeometry<dim>> make_imported(const BodyMeshParameters &parameters)
 {
-  namespace mesh
-  {
-    template <int dim>
-    std::unique_ptr<BodyGeometry<dim>>
-    make_imported(const BodyMeshParameters &parameters)
-    {
-      if (!parameters.imported)
-        throw bad_entry("Mesh file",
-                        parameters.file,
-                        "must be read before a mesh is made of it");
-      if constexpr (dim == 2)
-        return std::make_unique<BlockGeometry<2>>(parameters.imported->flat);
-      else
-        return std::make_unique<BlockGeometry<3>>(parameters.imported->solid);
-    }
+  if (!parameters.imported)
+    throw bad_entry("Mesh file", parameters.file, "must be read before a mesh is made of it");
+  if constexpr (dim == 2)
+    return std::make_unique<BlockGeometry<2>>(parameters.imported->flat);
+  else
+    return std::make_unique<BlockGeometry<3>>(parameters.imported->solid);
+}
 
-    template std::unique_ptr<BodyGeometry<2>>
-    make_imported(const BodyMeshParameters &);
-    template std::unique_ptr<BodyGeometry<3>>
-    make_imported(const BodyMeshParameters &);
-  } // namespace mesh
-} // namespace snug
+template std::unique_ptr<BodyGeometry<2>> make_imported(const BodyMeshParameters &);
+template std::unique_ptr<BodyGeometry<3>> make_imported(const BodyMeshParameters &);
+} // namespace snug::mesh

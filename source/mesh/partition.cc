@@ -1,35 +1,27 @@
 #include <snug/mesh/partition.h>
 
-namespace snug
+namespace snug::mesh {
+template <int dim>
+const ChoiceTable<Partition(const CellSet<dim> &, double)> &partition_table()
 {
-  namespace mesh
-  {
-    template <int dim>
-    const ChoiceTable<Partition(const CellSet<dim> &, double)> &
-    partition_table()
-    {
-      static const ChoiceTable<Partition(const CellSet<dim> &, double)> table =
-        {{"auto",
-          "grid for boxes and rings that are not refined locally, METIS for "
-          "others",
-          [](const CellSet<dim> &set, double cells_each) {
-            return set.layered ? grid_partition(set, cells_each)
-                               : graph_partition(set, cells_each);
-          }},
-         {"grid",
-          "a grid of slabs along the axes, cut between layers of cells; near "
-          "cubes, which need fewest iterations",
-          grid_partition<dim>},
-         {"METIS",
-          "parts of the cell graph with few shared faces, for meshes without "
-          "layers",
-          graph_partition<dim>}};
-      return table;
-    }
+  static const ChoiceTable<Partition(const CellSet<dim> &, double)> table = {
+    {"auto",
+     "grid for boxes and rings that are not refined locally, METIS for "
+     "others",
+     [](const CellSet<dim> &set, double cells_each) {
+       return set.layered ? grid_partition(set, cells_each) : graph_partition(set, cells_each);
+     }},
+    {"grid",
+     "a grid of slabs along the axes, cut between layers of cells; near "
+     "cubes, which need fewest iterations",
+     grid_partition<dim>},
+    {"METIS",
+     "parts of the cell graph with few shared faces, for meshes without "
+     "layers",
+     graph_partition<dim>}};
+  return table;
+}
 
-    template const ChoiceTable<Partition(const CellSet<2> &, double)> &
-    partition_table<2>();
-    template const ChoiceTable<Partition(const CellSet<3> &, double)> &
-    partition_table<3>();
-  } // namespace mesh
-} // namespace snug
+template const ChoiceTable<Partition(const CellSet<2> &, double)> &partition_table<2>();
+template const ChoiceTable<Partition(const CellSet<3> &, double)> &partition_table<3>();
+} // namespace snug::mesh

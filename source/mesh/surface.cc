@@ -8,209 +8,181 @@
 #include <cmath>
 #include <map>
 
-namespace snug
+namespace snug::mesh {
+namespace {
+/// {body, boundary, logical centre in units of 2^-32, global nodes}: as
+/// integers, so that sorting gives an order that does not depend on how
+/// cells and nodes are distributed.
+using FaceRecord = std::vector<long long>;
+
+/// Hanging global node and its masters.
+using HangingRecord = std::pair<unsigned int, std::vector<std::pair<unsigned int, double>>>;
+
+template <int dim>
+FaceRecord face_record(const BodyMesh<dim> &mesh, const typename BodyMesh<dim>::Face &face)
 {
-  namespace mesh
-  {
-    namespace
-    {
-      /// {body, boundary, logical centre in units of 2^-32, global nodes}: as
-      /// integers, so that sorting gives an order that does not depend on how
-      /// cells and nodes are distributed.
-      using FaceRecord = std::vector<long long>;
+  dealii::Tensor<1, dim> centre;
+  for (const unsigned int node : face.nodes)
+    centre += mesh.logical_positions()[node] / double(face.nodes.size());
+  FaceRecord record = {face.body, face.boundary};
+  for (unsigned int d = 0; d < dim; ++d)
+    record.push_back(std::llround(std::ldexp(centre[d], 32)));
+  for (const unsigned int node : face.nodes)
+    record.push_back(mesh.global_node(node));
+  return record;
+}
 
-      /// Hanging global node and its masters.
-      using HangingRecord =
-        std::pair<unsigned int, std::vector<std::pair<unsigned int, double>>>;
+template <int dim>
+HangingRecord hanging_record(const BodyMesh<dim> &mesh, unsigned int node)
+{
+  HangingRecord record(mesh.global_node(node), {});
+  for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
+    record.second.emplace_back(mesh.global_node(master.first), master.second);
+  return record;
+}
 
-      template <int dim>
-      FaceRecord
-      face_record(const BodyMesh<dim>                &mesh,
-                  const typename BodyMesh<dim>::Face &face)
+/// Concatenation over ranks, sorted, each entry once. Collective.
+template <typename T>
+std::vector<T> gathered(MPI_Comm communicator, const std::vector<T> &mine)
+{
+  std::vector<T> all;
+  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, mine))
+    all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// The global nodes of all records, ascending.
+std::vector<unsigned int> nodes_of(const std::vector<FaceRecord>    &faces,
+                                   const std::vector<HangingRecord> &hanging,
+                                   unsigned int                      n_leading)
+{
+  std::vector<unsigned int> nodes;
+  for (const auto &face : faces)
+    nodes.insert(nodes.end(), face.begin() + n_leading, face.end());
+  for (const auto &node : hanging)
+    for (const auto &master : node.second)
+      nodes.push_back(master.first);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+} // namespace
+
+template <int dim>
+Surface<dim>::Surface(const BodyMesh<dim>                                      &mesh,
+                      const std::vector<std::pair<unsigned int, unsigned int>> &boundaries)
+  : mesh(mesh)
+{
+  std::vector<FaceRecord>    faces;
+  std::vector<HangingRecord> hanging;
+  for (const auto &face : mesh.boundary_faces())
+    if (std::find(boundaries.begin(), boundaries.end(), std::make_pair(face.body, face.boundary)) !=
+        boundaries.end())
       {
-        dealii::Tensor<1, dim> centre;
+        faces.push_back(face_record(mesh, face));
         for (const unsigned int node : face.nodes)
-          centre += mesh.logical_positions()[node] / double(face.nodes.size());
-        FaceRecord record = {face.body, face.boundary};
-        for (unsigned int d = 0; d < dim; ++d)
-          record.push_back(std::llround(std::ldexp(centre[d], 32)));
-        for (const unsigned int node : face.nodes)
-          record.push_back(mesh.global_node(node));
-        return record;
+          if (mesh.is_hanging(node))
+            hanging.push_back(hanging_record(mesh, node));
       }
+  faces   = gathered(mesh.communicator(), faces);
+  hanging = gathered(mesh.communicator(), hanging);
 
-      template <int dim>
-      HangingRecord
-      hanging_record(const BodyMesh<dim> &mesh, unsigned int node)
+  const unsigned int n_leading = 2 + dim;
+  global_nodes                 = nodes_of(faces, hanging, n_leading);
+  std::map<unsigned int, unsigned int> index;
+  for (unsigned int node = 0; node < global_nodes.size(); ++node)
+    index[global_nodes[node]] = node;
+  for (const auto &record : faces)
+    {
+      Face face{static_cast<unsigned int>(record[0]), static_cast<unsigned int>(record[1]), {}};
+      for (unsigned int i = n_leading; i < record.size(); ++i)
+        face.nodes.push_back(index.at(record[i]));
+      surface_faces.push_back(face);
+    }
+  node_masters.resize(global_nodes.size());
+  for (const auto &record : hanging)
+    {
+      auto &masters = node_masters[index.at(record.first)];
+      masters.clear();
+      for (const auto &master : record.second)
+        masters.emplace_back(index.at(master.first), master.second);
+    }
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    if (mesh.owner(node) == rank)
       {
-        HangingRecord record(mesh.global_node(node), {});
-        for (const auto &master :
-             mesh.hanging()[mesh.hanging_index(node)].masters)
-          record.second.emplace_back(mesh.global_node(master.first),
-                                     master.second);
-        return record;
+        const auto found = index.find(mesh.global_node(node));
+        if (found != index.end())
+          owned.emplace_back(found->second, node);
       }
+  std::sort(owned.begin(), owned.end());
+}
 
-      /// Concatenation over ranks, sorted, each entry once. Collective.
-      template <typename T>
-      std::vector<T>
-      gathered(MPI_Comm communicator, const std::vector<T> &mine)
+template <int dim>
+const Idealization &Surface<dim>::idealization() const
+{
+  return mesh.idealization();
+}
+
+template <int dim>
+const std::vector<typename Surface<dim>::Face> &Surface<dim>::faces() const
+{
+  return surface_faces;
+}
+
+template <int dim>
+unsigned int Surface<dim>::n_nodes() const
+{
+  return global_nodes.size();
+}
+
+template <int dim>
+unsigned int Surface<dim>::global_node(unsigned int surface_node) const
+{
+  return global_nodes[surface_node];
+}
+
+template <int dim>
+const std::vector<std::pair<unsigned int, double>> &
+Surface<dim>::masters(unsigned int surface_node) const
+{
+  return node_masters[surface_node];
+}
+
+template <int dim>
+typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
+{
+  AssertDimension(field.size(), mesh.n_local_nodes());
+  std::vector<double> mine;
+  for (const auto &node : owned)
+    for (unsigned int d = 0; d < dim; ++d)
+      mine.push_back(field[node.second][d]);
+  // Ranks own ascending ranges of global nodes, so the parts in rank
+  // order are in the order of surface nodes.
+  const auto   parts = dealii::Utilities::MPI::all_gather(mesh.communicator(), mine);
+  Field        result(n_nodes());
+  unsigned int position = 0;
+  for (const auto &part : parts)
+    for (const double value : part)
       {
-        std::vector<T> all;
-        for (const auto &part :
-             dealii::Utilities::MPI::all_gather(communicator, mine))
-          all.insert(all.end(), part.begin(), part.end());
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        return all;
+        result[position / dim][position % dim] = value;
+        ++position;
       }
+  AssertDimension(position, dim * n_nodes());
+  return result;
+}
 
-      /// The global nodes of all records, ascending.
-      std::vector<unsigned int>
-      nodes_of(const std::vector<FaceRecord>    &faces,
-               const std::vector<HangingRecord> &hanging,
-               unsigned int                      n_leading)
-      {
-        std::vector<unsigned int> nodes;
-        for (const auto &face : faces)
-          nodes.insert(nodes.end(), face.begin() + n_leading, face.end());
-        for (const auto &node : hanging)
-          for (const auto &master : node.second)
-            nodes.push_back(master.first);
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        return nodes;
-      }
-    } // namespace
+template <int dim>
+void Surface<dim>::add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const
+{
+  AssertDimension(surface_field.size(), n_nodes());
+  AssertDimension(field.size(), mesh.n_local_nodes());
+  for (const auto &node : owned)
+    field[node.second] += surface_field[node.first];
+}
 
-    template <int dim>
-    Surface<dim>::Surface(
-      const BodyMesh<dim>                                      &mesh,
-      const std::vector<std::pair<unsigned int, unsigned int>> &boundaries)
-      : mesh(mesh)
-    {
-      std::vector<FaceRecord>    faces;
-      std::vector<HangingRecord> hanging;
-      for (const auto &face : mesh.boundary_faces())
-        if (std::find(boundaries.begin(),
-                      boundaries.end(),
-                      std::make_pair(face.body, face.boundary)) !=
-            boundaries.end())
-          {
-            faces.push_back(face_record(mesh, face));
-            for (const unsigned int node : face.nodes)
-              if (mesh.is_hanging(node))
-                hanging.push_back(hanging_record(mesh, node));
-          }
-      faces   = gathered(mesh.communicator(), faces);
-      hanging = gathered(mesh.communicator(), hanging);
-
-      const unsigned int n_leading = 2 + dim;
-      global_nodes                 = nodes_of(faces, hanging, n_leading);
-      std::map<unsigned int, unsigned int> index;
-      for (unsigned int node = 0; node < global_nodes.size(); ++node)
-        index[global_nodes[node]] = node;
-      for (const auto &record : faces)
-        {
-          Face face{static_cast<unsigned int>(record[0]),
-                    static_cast<unsigned int>(record[1]),
-                    {}};
-          for (unsigned int i = n_leading; i < record.size(); ++i)
-            face.nodes.push_back(index.at(record[i]));
-          surface_faces.push_back(face);
-        }
-      node_masters.resize(global_nodes.size());
-      for (const auto &record : hanging)
-        {
-          auto &masters = node_masters[index.at(record.first)];
-          masters.clear();
-          for (const auto &master : record.second)
-            masters.emplace_back(index.at(master.first), master.second);
-        }
-      const unsigned int rank =
-        dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
-      for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-        if (mesh.owner(node) == rank)
-          {
-            const auto found = index.find(mesh.global_node(node));
-            if (found != index.end())
-              owned.emplace_back(found->second, node);
-          }
-      std::sort(owned.begin(), owned.end());
-    }
-
-    template <int dim>
-    const Idealization &
-    Surface<dim>::idealization() const
-    {
-      return mesh.idealization();
-    }
-
-    template <int dim>
-    const std::vector<typename Surface<dim>::Face> &
-    Surface<dim>::faces() const
-    {
-      return surface_faces;
-    }
-
-    template <int dim>
-    unsigned int
-    Surface<dim>::n_nodes() const
-    {
-      return global_nodes.size();
-    }
-
-    template <int dim>
-    unsigned int
-    Surface<dim>::global_node(unsigned int surface_node) const
-    {
-      return global_nodes[surface_node];
-    }
-
-    template <int dim>
-    const std::vector<std::pair<unsigned int, double>> &
-    Surface<dim>::masters(unsigned int surface_node) const
-    {
-      return node_masters[surface_node];
-    }
-
-    template <int dim>
-    typename Surface<dim>::Field
-    Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
-    {
-      AssertDimension(field.size(), mesh.n_local_nodes());
-      std::vector<double> mine;
-      for (const auto &node : owned)
-        for (unsigned int d = 0; d < dim; ++d)
-          mine.push_back(field[node.second][d]);
-      // Ranks own ascending ranges of global nodes, so the parts in rank
-      // order are in the order of surface nodes.
-      const auto parts =
-        dealii::Utilities::MPI::all_gather(mesh.communicator(), mine);
-      Field        result(n_nodes());
-      unsigned int position = 0;
-      for (const auto &part : parts)
-        for (const double value : part)
-          {
-            result[position / dim][position % dim] = value;
-            ++position;
-          }
-      AssertDimension(position, dim * n_nodes());
-      return result;
-    }
-
-    template <int dim>
-    void
-    Surface<dim>::add_owned(const Field                   &surface_field,
-                            typename BodyMesh<dim>::Field &field) const
-    {
-      AssertDimension(surface_field.size(), n_nodes());
-      AssertDimension(field.size(), mesh.n_local_nodes());
-      for (const auto &node : owned)
-        field[node.second] += surface_field[node.first];
-    }
-
-    template class Surface<2>;
-    template class Surface<3>;
-  } // namespace mesh
-} // namespace snug
+template class Surface<2>;
+template class Surface<3>;
+} // namespace snug::mesh

@@ -6,97 +6,81 @@
 #include <algorithm>
 #include <map>
 
-namespace snug
+namespace snug::mesh {
+namespace {
+template <int dim>
+CellGraph cell_graph(const BodyMesh<dim> &mesh, const std::vector<unsigned int> &cells)
 {
-  namespace mesh
-  {
-    namespace
+  std::map<unsigned int, unsigned int> position;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    position[cells[i]] = i;
+  CellGraph graph(cells.size());
+  for (const auto &pair : mesh.cell_neighbours())
     {
-      template <int dim>
-      CellGraph
-      cell_graph(const BodyMesh<dim>             &mesh,
-                 const std::vector<unsigned int> &cells)
-      {
-        std::map<unsigned int, unsigned int> position;
-        for (unsigned int i = 0; i < cells.size(); ++i)
-          position[cells[i]] = i;
-        CellGraph graph(cells.size());
-        for (const auto &pair : mesh.cell_neighbours())
-          {
-            const auto a = position.find(pair.first);
-            const auto b = position.find(pair.second);
-            if (a == position.end() || b == position.end())
-              continue;
-            graph[a->second].push_back(b->second);
-            graph[b->second].push_back(a->second);
-          }
-        return graph;
-      }
-
-      template <int dim>
-      std::vector<unsigned int>
-      reached_nodes(const BodyMesh<dim>             &mesh,
-                    const std::vector<unsigned int> &cells)
-      {
-        std::vector<unsigned int> nodes;
-        for (const unsigned int cell : cells)
-          for (const unsigned int node : mesh.cells()[cell].nodes)
-            if (mesh.is_hanging(node))
-              for (const auto &master :
-                   mesh.hanging()[mesh.hanging_index(node)].masters)
-                nodes.push_back(master.first);
-            else
-              nodes.push_back(node);
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        return nodes;
-      }
-    } // namespace
-
-    template <int dim>
-    Tearing
-    tear(const BodyMesh<dim> &mesh)
-    {
-      Tearing tearing;
-      for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
-        {
-          std::vector<unsigned int> cells, part;
-          for (unsigned int cell = 0; cell < mesh.cells().size(); ++cell)
-            if (mesh.cells()[cell].body == body)
-              {
-                cells.push_back(cell);
-                part.push_back(mesh.cells()[cell].part);
-              }
-          const unsigned int n_parts =
-            split_into_pieces(cell_graph(mesh, cells), part);
-          std::vector<Subdomain> pieces(n_parts);
-          for (unsigned int i = 0; i < cells.size(); ++i)
-            pieces[part[i]].cells.push_back(cells[i]);
-          for (auto &piece : pieces)
-            {
-              piece.body  = body;
-              piece.nodes = reached_nodes(mesh, piece.cells);
-              tearing.subdomains.push_back(piece);
-            }
-        }
-      const auto counts =
-        dealii::Utilities::MPI::all_gather(mesh.communicator(),
-                                           static_cast<unsigned int>(
-                                             tearing.subdomains.size()));
-      tearing.first_id_of_rank.assign(1, 0);
-      for (const unsigned int count : counts)
-        tearing.first_id_of_rank.push_back(tearing.first_id_of_rank.back() +
-                                           count);
-      tearing.n_global = tearing.first_id_of_rank.back();
-      tearing.first_id =
-        tearing.first_id_of_rank[dealii::Utilities::MPI::this_mpi_process(
-          mesh.communicator())];
-      return tearing;
+      const auto a = position.find(pair.first);
+      const auto b = position.find(pair.second);
+      if (a == position.end() || b == position.end())
+        continue;
+      graph[a->second].push_back(b->second);
+      graph[b->second].push_back(a->second);
     }
+  return graph;
+}
 
-    template Tearing
-    tear(const BodyMesh<2> &);
-    template Tearing
-    tear(const BodyMesh<3> &);
-  } // namespace mesh
-} // namespace snug
+template <int dim>
+std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
+                                        const std::vector<unsigned int> &cells)
+{
+  std::vector<unsigned int> nodes;
+  for (const unsigned int cell : cells)
+    for (const unsigned int node : mesh.cells()[cell].nodes)
+      if (mesh.is_hanging(node))
+        for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
+          nodes.push_back(master.first);
+      else
+        nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+} // namespace
+
+template <int dim>
+Tearing tear(const BodyMesh<dim> &mesh)
+{
+  Tearing tearing;
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+    {
+      std::vector<unsigned int> cells, part;
+      for (unsigned int cell = 0; cell < mesh.cells().size(); ++cell)
+        if (mesh.cells()[cell].body == body)
+          {
+            cells.push_back(cell);
+            part.push_back(mesh.cells()[cell].part);
+          }
+      const unsigned int     n_parts = split_into_pieces(cell_graph(mesh, cells), part);
+      std::vector<Subdomain> pieces(n_parts);
+      for (unsigned int i = 0; i < cells.size(); ++i)
+        pieces[part[i]].cells.push_back(cells[i]);
+      for (auto &piece : pieces)
+        {
+          piece.body  = body;
+          piece.nodes = reached_nodes(mesh, piece.cells);
+          tearing.subdomains.push_back(piece);
+        }
+    }
+  const auto counts =
+    dealii::Utilities::MPI::all_gather(mesh.communicator(),
+                                       static_cast<unsigned int>(tearing.subdomains.size()));
+  tearing.first_id_of_rank.assign(1, 0);
+  for (const unsigned int count : counts)
+    tearing.first_id_of_rank.push_back(tearing.first_id_of_rank.back() + count);
+  tearing.n_global = tearing.first_id_of_rank.back();
+  tearing.first_id =
+    tearing.first_id_of_rank[dealii::Utilities::MPI::this_mpi_process(mesh.communicator())];
+  return tearing;
+}
+
+template Tearing tear(const BodyMesh<2> &);
+template Tearing tear(const BodyMesh<3> &);
+} // namespace snug::mesh

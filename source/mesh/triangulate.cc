@@ -6,135 +6,108 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::mesh {
+template <int dim>
+void create_coarse_mesh(const Geometries<dim>                             &geometries,
+                        dealii::parallel::distributed::Triangulation<dim> &triangulation)
 {
-  namespace mesh
-  {
-    template <int dim>
-    void
-    create_coarse_mesh(
-      const Geometries<dim>                             &geometries,
-      dealii::parallel::distributed::Triangulation<dim> &triangulation)
+  std::vector<dealii::Point<dim>>               vertices;
+  std::vector<dealii::CellData<dim>>            coarse_cells;
+  std::map<std::vector<unsigned int>, unsigned> boundary;
+  for (unsigned int body = 0; body < geometries.size(); ++body)
     {
-      std::vector<dealii::Point<dim>>               vertices;
-      std::vector<dealii::CellData<dim>>            coarse_cells;
-      std::map<std::vector<unsigned int>, unsigned> boundary;
-      for (unsigned int body = 0; body < geometries.size(); ++body)
+      const auto         mesh   = geometries[body]->coarse_mesh();
+      const unsigned int offset = vertices.size();
+      for (const auto &vertex : mesh.vertices)
+        vertices.push_back(vertex);
+      for (const auto &cell : mesh.cells)
         {
-          const auto         mesh   = geometries[body]->coarse_mesh();
-          const unsigned int offset = vertices.size();
-          for (const auto &vertex : mesh.vertices)
-            vertices.push_back(vertex);
-          for (const auto &cell : mesh.cells)
-            {
-              dealii::CellData<dim> data(cell.size());
-              for (unsigned int v = 0; v < cell.size(); ++v)
-                data.vertices[v] = cell[v] + offset;
-              data.material_id = body;
-              coarse_cells.push_back(data);
-            }
-          for (const auto &face : mesh.boundary_faces)
-            {
-              std::vector<unsigned int> key = face.first;
-              for (unsigned int &vertex : key)
-                vertex += offset;
-              std::sort(key.begin(), key.end());
-              boundary[key] = face.second;
-            }
+          dealii::CellData<dim> data(cell.size());
+          for (unsigned int v = 0; v < cell.size(); ++v)
+            data.vertices[v] = cell[v] + offset;
+          data.material_id = body;
+          coarse_cells.push_back(data);
         }
-      triangulation.create_triangulation(vertices,
-                                         coarse_cells,
-                                         dealii::SubCellData());
-      for (const auto &cell : triangulation.cell_iterators_on_level(0))
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
-            {
-              std::vector<unsigned int> key;
-              for (const unsigned int v : cell->face(f)->vertex_indices())
-                key.push_back(cell->face(f)->vertex_index(v));
-              std::sort(key.begin(), key.end());
-              cell->face(f)->set_boundary_id(boundary.at(key));
-            }
-    }
-
-    namespace
-    {
-      template <int dim>
-      void
-      refine_step(
-        dealii::parallel::distributed::Triangulation<dim> &triangulation,
-        const std::function<
-          bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
-      {
-        everywhere(triangulation.get_communicator(), [&]() {
-          for (const auto &cell : triangulation.active_cell_iterators())
-            if (cell->is_locally_owned() &&
-                wanted(cell->material_id(), cell->id(), cell->level()))
-              cell->set_refine_flag();
-        });
-        triangulation.execute_coarsening_and_refinement();
-      }
-    } // namespace
-
-    template <int dim>
-    void
-    refine(const std::vector<BodyMeshParameters>             &bodies,
-           const Geometries<dim>                             &geometries,
-           const CoarseCells<dim>                            &coarse,
-           dealii::parallel::distributed::Triangulation<dim> &triangulation)
-    {
-      unsigned int global_steps = 0, local_steps = 0;
-      std::vector<std::unique_ptr<Formula<dim>>> formulas;
-      for (const auto &body : bodies)
+      for (const auto &face : mesh.boundary_faces)
         {
-          const bool local = !body.refine_where.empty();
-          global_steps     = std::max(global_steps, body.refinements);
-          if (local)
-            local_steps = std::max(local_steps, body.local_refinements);
-          formulas.push_back(
-            local ? std::make_unique<Formula<dim>>("Refine where",
-                                                   body.refine_where)
-                  : nullptr);
+          std::vector<unsigned int> key = face.first;
+          for (unsigned int &vertex : key)
+            vertex += offset;
+          std::sort(key.begin(), key.end());
+          boundary[key] = face.second;
         }
-      dealii::Point<dim> centre;
-      for (unsigned int d = 0; d < dim; ++d)
-        centre[d] = 0.5;
-      for (unsigned int step = 0; step < global_steps; ++step)
-        refine_step<dim>(triangulation,
-                         [&](unsigned int body,
-                             const dealii::CellId &,
-                             unsigned int level) {
-                           return level < bodies[body].refinements;
-                         });
-      for (unsigned int step = 0; step < local_steps; ++step)
-        refine_step<dim>(triangulation,
-                         [&](unsigned int          body,
-                             const dealii::CellId &cell,
-                             unsigned int          level) {
-                           return formulas[body] &&
-                                  level < bodies[body].refinements +
-                                            bodies[body].local_refinements &&
-                                  formulas[body]->value(
-                                    geometries[body]->position(
-                                      coarse.point(cell, centre))) > 0.;
-                         });
     }
+  triangulation.create_triangulation(vertices, coarse_cells, dealii::SubCellData());
+  for (const auto &cell : triangulation.cell_iterators_on_level(0))
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary())
+        {
+          std::vector<unsigned int> key;
+          for (const unsigned int v : cell->face(f)->vertex_indices())
+            key.push_back(cell->face(f)->vertex_index(v));
+          std::sort(key.begin(), key.end());
+          cell->face(f)->set_boundary_id(boundary.at(key));
+        }
+}
 
-    template void
-    create_coarse_mesh(const Geometries<2> &,
-                       dealii::parallel::distributed::Triangulation<2> &);
-    template void
-    refine(const std::vector<BodyMeshParameters> &,
-           const Geometries<2> &,
-           const CoarseCells<2> &,
-           dealii::parallel::distributed::Triangulation<2> &);
-    template void
-    create_coarse_mesh(const Geometries<3> &,
-                       dealii::parallel::distributed::Triangulation<3> &);
-    template void
-    refine(const std::vector<BodyMeshParameters> &,
-           const Geometries<3> &,
-           const CoarseCells<3> &,
-           dealii::parallel::distributed::Triangulation<3> &);
-  } // namespace mesh
-} // namespace snug
+namespace {
+template <int dim>
+void refine_step(
+  dealii::parallel::distributed::Triangulation<dim>                             &triangulation,
+  const std::function<bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
+{
+  everywhere(triangulation.get_communicator(), [&]() {
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && wanted(cell->material_id(), cell->id(), cell->level()))
+        cell->set_refine_flag();
+  });
+  triangulation.execute_coarsening_and_refinement();
+}
+} // namespace
+
+template <int dim>
+void refine(const std::vector<BodyMeshParameters>             &bodies,
+            const Geometries<dim>                             &geometries,
+            const CoarseCells<dim>                            &coarse,
+            dealii::parallel::distributed::Triangulation<dim> &triangulation)
+{
+  unsigned int                               global_steps = 0, local_steps = 0;
+  std::vector<std::unique_ptr<Formula<dim>>> formulas;
+  for (const auto &body : bodies)
+    {
+      const bool local = !body.refine_where.empty();
+      global_steps     = std::max(global_steps, body.refinements);
+      if (local)
+        local_steps = std::max(local_steps, body.local_refinements);
+      formulas.push_back(local ? std::make_unique<Formula<dim>>("Refine where", body.refine_where)
+                               : nullptr);
+    }
+  dealii::Point<dim> centre;
+  for (unsigned int d = 0; d < dim; ++d)
+    centre[d] = 0.5;
+  for (unsigned int step = 0; step < global_steps; ++step)
+    refine_step<dim>(triangulation,
+                     [&](unsigned int body, const dealii::CellId &, unsigned int level) {
+                       return level < bodies[body].refinements;
+                     });
+  for (unsigned int step = 0; step < local_steps; ++step)
+    refine_step<dim>(triangulation, [&](unsigned int body, const dealii::CellId &cell,
+                                        unsigned int level) {
+      return formulas[body] && level < bodies[body].refinements + bodies[body].local_refinements &&
+             formulas[body]->value(geometries[body]->position(coarse.point(cell, centre))) > 0.;
+    });
+}
+
+template void create_coarse_mesh(const Geometries<2> &,
+                                 dealii::parallel::distributed::Triangulation<2> &);
+template void refine(const std::vector<BodyMeshParameters> &,
+                     const Geometries<2> &,
+                     const CoarseCells<2> &,
+                     dealii::parallel::distributed::Triangulation<2> &);
+template void create_coarse_mesh(const Geometries<3> &,
+                                 dealii::parallel::distributed::Triangulation<3> &);
+template void refine(const std::vector<BodyMeshParameters> &,
+                     const Geometries<3> &,
+                     const CoarseCells<3> &,
+                     dealii::parallel::distributed::Triangulation<3> &);
+} // namespace snug::mesh

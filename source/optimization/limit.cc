@@ -5,43 +5,36 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace snug
+namespace snug::optimization {
+namespace {
+/// Take @p part off the front of @p text, if it is there, and blanks.
+bool take(std::string &text, const std::string &part)
 {
-  namespace optimization
-  {
-    namespace
-    {
-      /// Take @p part off the front of @p text, if it is there, and blanks.
-      bool
-      take(std::string &text, const std::string &part)
-      {
-        if (text.rfind(part, 0) != 0)
-          return false;
-        text = dealii::Utilities::trim(text.substr(part.size()));
-        return true;
-      }
-    } // namespace
+  if (text.rfind(part, 0) != 0)
+    return false;
+  text = dealii::Utilities::trim(text.substr(part.size()));
+  return true;
+}
+} // namespace
 
-    Limit
-    read_limit(const std::string &text)
-    {
-      auto  rest = dealii::Utilities::trim(text);
-      Limit limit;
-      if (take(rest, "<="))
-        limit.side = Limit::Side::at_most;
-      else if (take(rest, ">="))
-        limit.side = Limit::Side::at_least;
-      else
-        take(rest, "=");
-      if (rest == "initial")
-        return limit;
-      std::size_t end  = 0;
-      limit.value      = std::stod(rest, &end);
-      rest             = dealii::Utilities::trim(rest.substr(end));
-      limit.of_initial = rest == "initial";
-      if (!std::isfinite(limit.value) || !(rest.empty() || limit.of_initial))
-        throw std::invalid_argument("no limit");
-      return limit;
-    }
-  } // namespace optimization
-} // namespace snug
+Limit read_limit(const std::string &text)
+{
+  auto  rest = dealii::Utilities::trim(text);
+  Limit limit;
+  if (take(rest, "<="))
+    limit.side = Limit::Side::at_most;
+  else if (take(rest, ">="))
+    limit.side = Limit::Side::at_least;
+  else
+    take(rest, "=");
+  if (rest == "initial")
+    return limit;
+  std::size_t end  = 0;
+  limit.value      = std::stod(rest, &end);
+  rest             = dealii::Utilities::trim(rest.substr(end));
+  limit.of_initial = rest == "initial";
+  if (!std::isfinite(limit.value) || !(rest.empty() || limit.of_initial))
+    throw std::invalid_argument("no limit");
+  return limit;
+}
+} // namespace snug::optimization

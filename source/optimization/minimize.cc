@@ -3,94 +3,67 @@
 
 #include <sstream>
 
-namespace snug
+namespace snug::optimization {
+namespace {
+std::function<Algorithm> of_nlopt(const NloptAlgorithm algorithm)
 {
-  namespace optimization
-  {
-    namespace
-    {
-      std::function<Algorithm>
-      of_nlopt(const NloptAlgorithm algorithm)
-      {
-        return [algorithm](const DesignProblem          &problem,
-                           const OptimizationParameters &parameters,
-                           const Hooks                  &hooks) {
-          return nlopt_search(algorithm, problem, parameters, hooks);
-        };
-      }
-    } // namespace
+  return
+    [algorithm](const DesignProblem &problem, const OptimizationParameters &parameters,
+                const Hooks &hooks) { return nlopt_search(algorithm, problem, parameters, hooks); };
+}
+} // namespace
 
-    std::string
-    complaint(const OptimizationResult     &result,
-              const OptimizationParameters &parameters)
-    {
-      const bool is_feasible =
-        result.constraint_violation <= parameters.constraint_tolerance;
-      const bool is_cut_short = result.stop_reason == "interrupted" ||
-                                result.stop_reason == "maximum evaluations";
-      if (result.success || (is_feasible && is_cut_short))
-        return "";
-      std::ostringstream text;
-      text << "the optimization is not solved to its tolerance: it stopped by "
-           << result.stop_reason;
-      if (!is_feasible)
-        text << "; the design found violates a constraint by "
-             << result.constraint_violation << " of its limit";
-      return text.str();
-    }
+std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters)
+{
+  const bool is_feasible = result.constraint_violation <= parameters.constraint_tolerance;
+  const bool is_cut_short =
+    result.stop_reason == "interrupted" || result.stop_reason == "maximum evaluations";
+  if (result.success || (is_feasible && is_cut_short))
+    return "";
+  std::ostringstream text;
+  text << "the optimization is not solved to its tolerance: it stopped by " << result.stop_reason;
+  if (!is_feasible)
+    text << "; the design found violates a constraint by " << result.constraint_violation
+         << " of its limit";
+  return text.str();
+}
 
-    const ChoiceTable<Algorithm> &
-    algorithm_table()
-    {
-      static const ChoiceTable<Algorithm> table = {
-        {"SLSQP",
-         "sequential quadratic programming (Kraft) of the NLopt library, for "
-         "all constraints",
-         of_nlopt(NloptAlgorithm::SLSQP)},
-        {"MMA",
-         "method of moving asymptotes (Svanberg) of NLopt, for inequalities",
-         of_nlopt(NloptAlgorithm::MMA)},
-        {"CCSAQ",
-         "its relative with separable quadratic models, for inequalities",
-         of_nlopt(NloptAlgorithm::CCSAQ)},
-        {"AUGLAG",
-         "augmented Lagrangian of NLopt around its L-BFGS, for all constraints",
-         of_nlopt(NloptAlgorithm::AUGLAG)}};
-      return table;
-    }
+const ChoiceTable<Algorithm> &algorithm_table()
+{
+  static const ChoiceTable<Algorithm> table = {
+    {"SLSQP",
+     "sequential quadratic programming (Kraft) of the NLopt library, for "
+     "all constraints",
+     of_nlopt(NloptAlgorithm::SLSQP)},
+    {"MMA", "method of moving asymptotes (Svanberg) of NLopt, for inequalities",
+     of_nlopt(NloptAlgorithm::MMA)},
+    {"CCSAQ", "its relative with separable quadratic models, for inequalities",
+     of_nlopt(NloptAlgorithm::CCSAQ)},
+    {"AUGLAG", "augmented Lagrangian of NLopt around its L-BFGS, for all constraints",
+     of_nlopt(NloptAlgorithm::AUGLAG)}};
+  return table;
+}
 
-    bool
-    takes_equalities(const std::string &algorithm)
-    {
-      return algorithm != "MMA" && algorithm != "CCSAQ";
-    }
+bool takes_equalities(const std::string &algorithm)
+{
+  return algorithm != "MMA" && algorithm != "CCSAQ";
+}
 
-    OptimizationResult
-    minimize(const DesignProblem          &problem,
-             const OptimizationParameters &parameters,
-             const Hooks                  &hooks)
-    {
-      const auto require = [](bool good, const char *entry, auto value) {
-        if (!good)
-          throw bad_entry(entry, std::to_string(value), "must be positive");
-      };
-      require(parameters.maximum_evaluations > 0,
-              "Maximum evaluations",
-              parameters.maximum_evaluations);
-      require(parameters.gradient_tolerance > 0.,
-              "Gradient tolerance",
-              parameters.gradient_tolerance);
-      require(parameters.objective_tolerance > 0.,
-              "Objective tolerance",
-              parameters.objective_tolerance);
-      require(parameters.design_tolerance > 0.,
-              "Design tolerance",
-              parameters.design_tolerance);
-      require(parameters.constraint_tolerance > 0.,
-              "Constraint tolerance",
-              parameters.constraint_tolerance);
-      return choose(algorithm_table(), parameters.algorithm)
-        .make(problem, parameters, hooks);
-    }
-  } // namespace optimization
-} // namespace snug
+OptimizationResult
+minimize(const DesignProblem &problem, const OptimizationParameters &parameters, const Hooks &hooks)
+{
+  const auto require = [](bool good, const char *entry, auto value) {
+    if (!good)
+      throw bad_entry(entry, std::to_string(value), "must be positive");
+  };
+  require(parameters.maximum_evaluations > 0, "Maximum evaluations",
+          parameters.maximum_evaluations);
+  require(parameters.gradient_tolerance > 0., "Gradient tolerance", parameters.gradient_tolerance);
+  require(parameters.objective_tolerance > 0., "Objective tolerance",
+          parameters.objective_tolerance);
+  require(parameters.design_tolerance > 0., "Design tolerance", parameters.design_tolerance);
+  require(parameters.constraint_tolerance > 0., "Constraint tolerance",
+          parameters.constraint_tolerance);
+  return choose(algorithm_table(), parameters.algorithm).make(problem, parameters, hooks);
+}
+} // namespace snug::optimization

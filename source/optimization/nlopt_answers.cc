@@ -3,242 +3,202 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::optimization {
+namespace {
+/// NLopt may repeat a question for ever. More than SLSQP's six line
+/// searches of at most eleven designs before it gives up by itself.
+constexpr unsigned int max_idle_questions = 100;
+} // namespace
+
+NloptAnswers::NloptAnswers(ScaledProblem                &problem,
+                           Progress                     &progress,
+                           const OptimizationParameters &parameters)
+  : progress(progress)
+  , problem(problem)
+  , parameters(parameters)
+  , n_variables(problem.start()->y.size())
+{}
+
+void NloptAnswers::begin_run()
 {
-  namespace optimization
-  {
-    namespace
-    {
-      /// NLopt may repeat a question for ever. More than SLSQP's six line
-      /// searches of at most eleven designs before it gives up by itself.
-      constexpr unsigned int max_idle_questions = 100;
-    } // namespace
+  end            = End::round_off;
+  idle_questions = 0;
+}
 
-    NloptAnswers::NloptAnswers(ScaledProblem                &problem,
-                               Progress                     &progress,
-                               const OptimizationParameters &parameters)
-      : progress(progress)
-      , problem(problem)
-      , parameters(parameters)
-      , n_variables(problem.start()->y.size())
+void NloptAnswers::end_run()
+{
+  guarded([this] { ended(); });
+}
+
+void NloptAnswers::ended() {}
+
+void NloptAnswers::asking(const std::vector<double> &, bool) {}
+
+void NloptAnswers::attach(nlopt::opt &optimizer)
+{
+  optimizer.set_min_objective(&NloptAnswers::call_objective, this);
+  const auto        &relations  = problem.relations();
+  const unsigned int n_equal    = std::count(relations.begin(), relations.end(), Relation::equal);
+  const auto         tolerances = [this](const unsigned int n) {
+    return std::vector<double>(n, parameters.constraint_tolerance);
+  };
+  if (n_equal > 0)
+    optimizer.add_equality_mconstraint(&NloptAnswers::call_constraints<Relation::equal>, this,
+                                       tolerances(n_equal));
+  if (n_equal < relations.size())
+    optimizer.add_inequality_mconstraint(&NloptAnswers::call_constraints<Relation::at_most>, this,
+                                         tolerances(relations.size() - n_equal));
+}
+
+double NloptAnswers::objective(const double *values, double *gradient)
+{
+  const std::vector<double> y(values, values + n_variables);
+  asking(y, gradient != nullptr);
+  const unsigned int before = problem.n_evaluations();
+  const auto         point  = values_at(y);
+  idle_questions            = problem.n_evaluations() > before ? 0 : idle_questions + 1;
+  if (idle_questions > max_idle_questions)
+    stop(End::round_off);
+  asked(y, point, gradient != nullptr);
+  if (gradient != nullptr)
     {
+      const auto g = problem.gradient(point->evaluation);
+      std::copy(g.begin(), g.end(), gradient);
     }
+  return point->evaluation.objective / problem.objective_scale();
+}
 
-    void
-    NloptAnswers::begin_run()
+/// Values and derivatives of the constraints of one relation.
+void NloptAnswers::constraints(const Relation relation,
+                               double        *values,
+                               const double  *y,
+                               double        *jacobian)
+{
+  const auto  point     = values_at(std::vector<double>(y, y + n_variables));
+  const auto  c         = problem.constraints(point->evaluation);
+  const auto  rows      = problem.jacobian(point->evaluation);
+  const auto &relations = problem.relations();
+  for (unsigned int j = 0; j < c.size(); ++j)
+    if (relations[j] == relation)
+      {
+        *values++ = c[j];
+        if (jacobian != nullptr)
+          jacobian = std::copy(rows[j].begin(), rows[j].end(), jacobian);
+      }
+}
+
+Progress::Point NloptAnswers::values_at(const std::vector<double> &y)
+{
+  if (!problem.is_known(y) && problem.n_evaluations() >= parameters.maximum_evaluations)
+    stop(End::evaluations);
+  try
     {
-      end            = End::round_off;
-      idle_questions = 0;
+      const auto point = problem.at(y);
+      progress.consider(point);
+      return point;
     }
-
-    void
-    NloptAnswers::end_run()
+  catch (const SolveError &no_value)
     {
-      guarded([this] { ended(); });
+      failure       = no_value.what();
+      failed_design = y;
+      stop(End::no_value);
     }
+}
 
-    void
-    NloptAnswers::ended()
+void NloptAnswers::stop(const End reason)
+{
+  end = reason;
+  throw nlopt::forced_stop();
+}
+
+/// NLopt forgets the message and type of exceptions: keep them.
+template <typename Function>
+void NloptAnswers::guarded(const Function &work)
+{
+  try
     {
+      work();
     }
-
-    void
-    NloptAnswers::asking(const std::vector<double> &, bool)
+  catch (const nlopt::forced_stop &)
     {
+      throw;
     }
-
-    void
-    NloptAnswers::attach(nlopt::opt &optimizer)
+  catch (const Interrupted &)
     {
-      optimizer.set_min_objective(&NloptAnswers::call_objective, this);
-      const auto        &relations = problem.relations();
-      const unsigned int n_equal =
-        std::count(relations.begin(), relations.end(), Relation::equal);
-      const auto tolerances = [this](const unsigned int n) {
-        return std::vector<double>(n, parameters.constraint_tolerance);
-      };
-      if (n_equal > 0)
-        optimizer.add_equality_mconstraint(
-          &NloptAnswers::call_constraints<Relation::equal>,
-          this,
-          tolerances(n_equal));
-      if (n_equal < relations.size())
-        optimizer.add_inequality_mconstraint(
-          &NloptAnswers::call_constraints<Relation::at_most>,
-          this,
-          tolerances(relations.size() - n_equal));
+      stop(End::interrupted);
     }
-
-    double
-    NloptAnswers::objective(const double *values, double *gradient)
+  catch (...)
     {
-      const std::vector<double> y(values, values + n_variables);
-      asking(y, gradient != nullptr);
-      const unsigned int before = problem.n_evaluations();
-      const auto         point  = values_at(y);
-      idle_questions =
-        problem.n_evaluations() > before ? 0 : idle_questions + 1;
-      if (idle_questions > max_idle_questions)
-        stop(End::round_off);
-      asked(y, point, gradient != nullptr);
-      if (gradient != nullptr)
-        {
-          const auto g = problem.gradient(point->evaluation);
-          std::copy(g.begin(), g.end(), gradient);
-        }
-      return point->evaluation.objective / problem.objective_scale();
-    }
-
-    /// Values and derivatives of the constraints of one relation.
-    void
-    NloptAnswers::constraints(const Relation relation,
-                              double        *values,
-                              const double  *y,
-                              double        *jacobian)
-    {
-      const auto  point = values_at(std::vector<double>(y, y + n_variables));
-      const auto  c     = problem.constraints(point->evaluation);
-      const auto  rows  = problem.jacobian(point->evaluation);
-      const auto &relations = problem.relations();
-      for (unsigned int j = 0; j < c.size(); ++j)
-        if (relations[j] == relation)
-          {
-            *values++ = c[j];
-            if (jacobian != nullptr)
-              jacobian = std::copy(rows[j].begin(), rows[j].end(), jacobian);
-          }
-    }
-
-    Progress::Point
-    NloptAnswers::values_at(const std::vector<double> &y)
-    {
-      if (!problem.is_known(y) &&
-          problem.n_evaluations() >= parameters.maximum_evaluations)
-        stop(End::evaluations);
-      try
-        {
-          const auto point = problem.at(y);
-          progress.consider(point);
-          return point;
-        }
-      catch (const SolveError &no_value)
-        {
-          failure       = no_value.what();
-          failed_design = y;
-          stop(End::no_value);
-        }
-    }
-
-    void
-    NloptAnswers::stop(const End reason)
-    {
-      end = reason;
+      error = std::current_exception();
       throw nlopt::forced_stop();
     }
+}
 
-    /// NLopt forgets the message and type of exceptions: keep them.
-    template <typename Function>
-    void
-    NloptAnswers::guarded(const Function &work)
-    {
-      try
-        {
-          work();
-        }
-      catch (const nlopt::forced_stop &)
-        {
-          throw;
-        }
-      catch (const Interrupted &)
-        {
-          stop(End::interrupted);
-        }
-      catch (...)
-        {
-          error = std::current_exception();
-          throw nlopt::forced_stop();
-        }
-    }
+double NloptAnswers::call_objective(unsigned int, const double *y, double *gradient, void *answers)
+{
+  auto  &self  = *static_cast<NloptAnswers *>(answers);
+  double value = 0.;
+  self.guarded([&] { value = self.objective(y, gradient); });
+  return value;
+}
 
-    double
-    NloptAnswers::call_objective(unsigned int,
-                                 const double *y,
-                                 double       *gradient,
-                                 void         *answers)
-    {
-      auto  &self  = *static_cast<NloptAnswers *>(answers);
-      double value = 0.;
-      self.guarded([&] { value = self.objective(y, gradient); });
-      return value;
-    }
+template <Relation relation>
+void NloptAnswers::call_constraints(unsigned int,
+                                    double *values,
+                                    unsigned int,
+                                    const double *y,
+                                    double       *jacobian,
+                                    void         *answers)
+{
+  auto &self = *static_cast<NloptAnswers *>(answers);
+  self.guarded([&] { self.constraints(relation, values, y, jacobian); });
+}
 
-    template <Relation relation>
-    void
-    NloptAnswers::call_constraints(unsigned int,
-                                   double *values,
-                                   unsigned int,
-                                   const double *y,
-                                   double       *jacobian,
-                                   void         *answers)
-    {
-      auto &self = *static_cast<NloptAnswers *>(answers);
-      self.guarded([&] { self.constraints(relation, values, y, jacobian); });
-    }
+void SlsqpAnswers::begin_run()
+{
+  NloptAnswers::begin_run();
+  full_step.reset();
+  last_design.clear();
+  last_was_full = false;
+}
 
-    void
-    SlsqpAnswers::begin_run()
-    {
-      NloptAnswers::begin_run();
-      full_step.reset();
-      last_design.clear();
-      last_was_full = false;
-    }
+void SlsqpAnswers::ended()
+{
+  // If that was right after a full step, it had accepted it.
+  if (full_step)
+    accept(full_step, true);
+}
 
-    void
-    SlsqpAnswers::ended()
-    {
-      // If that was right after a full step, it had accepted it.
-      if (full_step)
-        accept(full_step, true);
-    }
+void SlsqpAnswers::asking(const std::vector<double> &y, const bool with_gradient)
+{
+  if (with_gradient && y != last_design && full_step)
+    accept(full_step, true);
+  full_step.reset();
+}
 
-    void
-    SlsqpAnswers::asking(const std::vector<double> &y, const bool with_gradient)
-    {
-      if (with_gradient && y != last_design && full_step)
-        accept(full_step, true);
-      full_step.reset();
-    }
+void SlsqpAnswers::asked(const std::vector<double> &y,
+                         const Progress::Point     &point,
+                         const bool                 with_gradient)
+{
+  if (with_gradient && y == last_design && !last_was_full)
+    accept(point, false);
+  else if (with_gradient)
+    full_step = point;
+  last_design   = y;
+  last_was_full = with_gradient;
+}
 
-    void
-    SlsqpAnswers::asked(const std::vector<double> &y,
-                        const Progress::Point     &point,
-                        const bool                 with_gradient)
-    {
-      if (with_gradient && y == last_design && !last_was_full)
-        accept(point, false);
-      else if (with_gradient)
-        full_step = point;
-      last_design   = y;
-      last_was_full = with_gradient;
-    }
+void SlsqpAnswers::accept(const Progress::Point &point, const bool full)
+{
+  const End reached = progress.accept(point, full);
+  if (reached != End::none)
+    stop(reached);
+}
 
-    void
-    SlsqpAnswers::accept(const Progress::Point &point, const bool full)
-    {
-      const End reached = progress.accept(point, full);
-      if (reached != End::none)
-        stop(reached);
-    }
-
-    void
-    BetterDesigns::asked(const std::vector<double> &,
-                         const Progress::Point &point,
-                         bool)
-    {
-      if (progress.is_better(*point, *progress.iterate()) &&
-          progress.accept(point, true) == End::gradient)
-        stop(End::gradient);
-    }
-  } // namespace optimization
-} // namespace snug
+void BetterDesigns::asked(const std::vector<double> &, const Progress::Point &point, bool)
+{
+  if (progress.is_better(*point, *progress.iterate()) &&
+      progress.accept(point, true) == End::gradient)
+    stop(End::gradient);
+}
+} // namespace snug::optimization

@@ -8,249 +8,220 @@
 #include <memory>
 #include <sstream>
 
-namespace snug
+namespace snug::optimization {
+namespace {
+constexpr unsigned int max_failures         = 5;
+constexpr unsigned int max_round_off_starts = 5;
+
+/// Its runs, and what leads from one to the next.
+class Search
 {
-  namespace optimization
-  {
-    namespace
-    {
-      constexpr unsigned int max_failures         = 5;
-      constexpr unsigned int max_round_off_starts = 5;
+public:
+  Search(NloptAlgorithm                algorithm,
+         const DesignProblem          &problem,
+         const OptimizationParameters &parameters,
+         const Hooks                  &hooks);
 
-      /// Its runs, and what leads from one to the next.
-      class Search
-      {
-      public:
-        Search(NloptAlgorithm                algorithm,
-               const DesignProblem          &problem,
+  OptimizationResult run();
+
+private:
+  nlopt::opt make_optimizer() const;
+  void       descend();
+  void       ask_nlopt();
+  bool       begins_again();
+  void       shrink();
+  bool       is_at_move_limit() const;
+
+  const NloptAlgorithm          algorithm;
+  const OptimizationParameters &parameters;
+  const Hooks                  &hooks;
+  ScaledProblem                 problem;
+  Progress                      progress;
+  std::unique_ptr<NloptAnswers> answers;
+
+  std::vector<double> centre; ///< moves are limited to centre +- reach
+  double              reach    = std::numeric_limits<double>::max();
+  unsigned int        failures = 0, round_off_starts = 0;
+};
+
+Search::Search(const NloptAlgorithm          algorithm,
+               const DesignProblem          &design_problem,
                const OptimizationParameters &parameters,
-               const Hooks                  &hooks);
+               const Hooks                  &hooks)
+  : algorithm(algorithm)
+  , parameters(parameters)
+  , hooks(hooks)
+  , problem(design_problem)
+  , progress(problem, parameters, hooks)
+  , centre(problem.start()->y)
+{
+  const auto &relations = problem.relations();
+  if (!takes_equalities(parameters.algorithm) &&
+      std::count(relations.begin(), relations.end(), Relation::equal) > 0)
+    throw InputError(parameters.algorithm + " takes no equality constraints");
+  if (algorithm == NloptAlgorithm::SLSQP)
+    answers = std::make_unique<SlsqpAnswers>(problem, progress, parameters);
+  else
+    answers = std::make_unique<BetterDesigns>(problem, progress, parameters);
+}
 
-        OptimizationResult
-        run();
-
-      private:
-        nlopt::opt
-        make_optimizer() const;
-        void
-        descend();
-        void
-        ask_nlopt();
-        bool
-        begins_again();
-        void
-        shrink();
-        bool
-        is_at_move_limit() const;
-
-        const NloptAlgorithm          algorithm;
-        const OptimizationParameters &parameters;
-        const Hooks                  &hooks;
-        ScaledProblem                 problem;
-        Progress                      progress;
-        std::unique_ptr<NloptAnswers> answers;
-
-        std::vector<double> centre; ///< moves are limited to centre +- reach
-        double              reach    = std::numeric_limits<double>::max();
-        unsigned int        failures = 0, round_off_starts = 0;
-      };
-
-      Search::Search(const NloptAlgorithm          algorithm,
-                     const DesignProblem          &design_problem,
-                     const OptimizationParameters &parameters,
-                     const Hooks                  &hooks)
-        : algorithm(algorithm)
-        , parameters(parameters)
-        , hooks(hooks)
-        , problem(design_problem)
-        , progress(problem, parameters, hooks)
-        , centre(problem.start()->y)
-      {
-        const auto &relations = problem.relations();
-        if (!takes_equalities(parameters.algorithm) &&
-            std::count(relations.begin(), relations.end(), Relation::equal) > 0)
-          throw InputError(parameters.algorithm +
-                           " takes no equality constraints");
-        if (algorithm == NloptAlgorithm::SLSQP)
-          answers =
-            std::make_unique<SlsqpAnswers>(problem, progress, parameters);
-        else
-          answers =
-            std::make_unique<BetterDesigns>(problem, progress, parameters);
-      }
-
-      OptimizationResult
-      Search::run()
-      {
-        try
-          {
-            progress.report();
-          }
-        catch (const Interrupted &)
-          {
-            return progress.result(End::interrupted, "");
-          }
-        if (!centre.empty())
-          do
-            descend();
-          while (begins_again());
-        return progress.result(answers->end, answers->failure);
-      }
-
-      nlopt::opt
-      Search::make_optimizer() const
-      {
-        const unsigned int n = centre.size();
-        if (algorithm == NloptAlgorithm::SLSQP)
-          return nlopt::opt(nlopt::LD_SLSQP, n);
-        const auto with_tolerances = [&](nlopt::opt optimizer, double part) {
-          optimizer.set_ftol_rel(part * parameters.objective_tolerance);
-          optimizer.set_xtol_abs(part * parameters.design_tolerance);
-          return optimizer;
-        };
-        if (algorithm == NloptAlgorithm::MMA)
-          return with_tolerances(nlopt::opt(nlopt::LD_MMA, n), 1.);
-        if (algorithm == NloptAlgorithm::CCSAQ)
-          return with_tolerances(nlopt::opt(nlopt::LD_CCSAQ, n), 1.);
-        auto optimizer = with_tolerances(nlopt::opt(nlopt::AUGLAG, n), 1.);
-        optimizer.set_local_optimizer(
-          with_tolerances(nlopt::opt(nlopt::LD_LBFGS, n), 0.1));
-        return optimizer;
-      }
-
-      /// One run of NLopt from the iterate; the answers say how it ended.
-      void
-      Search::descend()
-      {
-        progress.begin_run();
-        answers->begin_run();
-        try
-          {
-            ask_nlopt();
-            answers->end_run();
-          }
-        catch (const nlopt::forced_stop &)
-          {
-          }
-        if (answers->error)
-          std::rethrow_exception(answers->error);
-      }
-
-      void
-      Search::ask_nlopt()
-      {
-        const unsigned int  n = centre.size();
-        std::vector<double> lower(n), upper(n);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            lower[i] = std::max(problem.lower()[i], centre[i] - reach);
-            upper[i] = std::min(problem.upper()[i], centre[i] + reach);
-          }
-        auto optimizer = make_optimizer();
-        optimizer.set_lower_bounds(lower);
-        optimizer.set_upper_bounds(upper);
-        answers->attach(optimizer);
-        auto   y = progress.iterate()->y;
-        double f = 0.;
-        try
-          {
-            const auto why = optimizer.optimize(y, f);
-            if (algorithm != NloptAlgorithm::SLSQP &&
-                progress.is_feasible(*progress.iterate()))
-              answers->end = why == nlopt::FTOL_REACHED   ? End::objective
-                             : why == nlopt::XTOL_REACHED ? End::design
-                                                          : End::round_off;
-          }
-        catch (const nlopt::forced_stop &)
-          {
-            throw;
-          }
-        catch (const std::runtime_error &)
-          {
-            // Round-off, or NLopt's general failure: its quadratic program has
-            // no solution, as for constraints that exclude one another.
-          }
-      }
-
-      /// Whether another run of NLopt should follow; prepares it.
-      bool
-      Search::begins_again()
-      {
-        switch (answers->end)
-          {
-            case End::no_value:
-              if (failures == max_failures)
-                return false;
-              ++failures;
-              shrink();
-              return true;
-            case End::objective:
-            case End::design:
-              if (!is_at_move_limit())
-                return false;
-              centre = progress.iterate()->y;
-              return true;
-            case End::round_off:
-              if (!progress.has_gained() ||
-                  round_off_starts == max_round_off_starts)
-                return false;
-              ++round_off_starts;
-              centre = progress.iterate()->y;
-              if (hooks.log)
-                hooks.log("stopped by round-off, begun again from "
-                          "iteration " +
-                          std::to_string(progress.n_iterations()));
-              return true;
-            case End::none:
-            case End::gradient:
-            case End::evaluations:
-            case End::interrupted:
-              return false;
-          }
-        return false;
-      }
-
-      /// Limit the moves to half the one that led to a design without value.
-      void
-      Search::shrink()
-      {
-        centre      = progress.iterate()->y;
-        double move = 0.;
-        for (unsigned int i = 0; i < centre.size(); ++i)
-          move =
-            std::max(move, std::abs(answers->failed_design[i] - centre[i]));
-        reach = move / 2.;
-        if (!hooks.log)
-          return;
-        std::ostringstream line;
-        line << "design without a value (" << answers->failure << "): restart "
-             << failures << " of " << max_failures << " from iteration "
-             << progress.n_iterations() << ", moves limited to " << reach
-             << " of the bound widths";
-        hooks.log(line.str());
-      }
-
-      bool
-      Search::is_at_move_limit() const
-      {
-        for (unsigned int i = 0; i < centre.size(); ++i)
-          {
-            const double y = progress.iterate()->y[i];
-            if (std::abs(y - centre[i]) >= reach * (1. - 1e-8) &&
-                y > problem.lower()[i] && y < problem.upper()[i])
-              return true;
-          }
-        return false;
-      }
-    } // namespace
-
-    OptimizationResult
-    nlopt_search(const NloptAlgorithm          algorithm,
-                 const DesignProblem          &problem,
-                 const OptimizationParameters &parameters,
-                 const Hooks                  &hooks)
+OptimizationResult Search::run()
+{
+  try
     {
-      return Search(algorithm, problem, parameters, hooks).run();
+      progress.report();
     }
-  } // namespace optimization
-} // namespace snug
+  catch (const Interrupted &)
+    {
+      return progress.result(End::interrupted, "");
+    }
+  if (!centre.empty())
+    do
+      descend();
+    while (begins_again());
+  return progress.result(answers->end, answers->failure);
+}
+
+nlopt::opt Search::make_optimizer() const
+{
+  const unsigned int n = centre.size();
+  if (algorithm == NloptAlgorithm::SLSQP)
+    return nlopt::opt(nlopt::LD_SLSQP, n);
+  const auto with_tolerances = [&](nlopt::opt optimizer, double part) {
+    optimizer.set_ftol_rel(part * parameters.objective_tolerance);
+    optimizer.set_xtol_abs(part * parameters.design_tolerance);
+    return optimizer;
+  };
+  if (algorithm == NloptAlgorithm::MMA)
+    return with_tolerances(nlopt::opt(nlopt::LD_MMA, n), 1.);
+  if (algorithm == NloptAlgorithm::CCSAQ)
+    return with_tolerances(nlopt::opt(nlopt::LD_CCSAQ, n), 1.);
+  auto optimizer = with_tolerances(nlopt::opt(nlopt::AUGLAG, n), 1.);
+  optimizer.set_local_optimizer(with_tolerances(nlopt::opt(nlopt::LD_LBFGS, n), 0.1));
+  return optimizer;
+}
+
+/// One run of NLopt from the iterate; the answers say how it ended.
+void Search::descend()
+{
+  progress.begin_run();
+  answers->begin_run();
+  try
+    {
+      ask_nlopt();
+      answers->end_run();
+    }
+  catch (const nlopt::forced_stop &)
+    {}
+  if (answers->error)
+    std::rethrow_exception(answers->error);
+}
+
+void Search::ask_nlopt()
+{
+  const unsigned int  n = centre.size();
+  std::vector<double> lower(n), upper(n);
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      lower[i] = std::max(problem.lower()[i], centre[i] - reach);
+      upper[i] = std::min(problem.upper()[i], centre[i] + reach);
+    }
+  auto optimizer = make_optimizer();
+  optimizer.set_lower_bounds(lower);
+  optimizer.set_upper_bounds(upper);
+  answers->attach(optimizer);
+  auto   y = progress.iterate()->y;
+  double f = 0.;
+  try
+    {
+      const auto why = optimizer.optimize(y, f);
+      if (algorithm != NloptAlgorithm::SLSQP && progress.is_feasible(*progress.iterate()))
+        answers->end = why == nlopt::FTOL_REACHED   ? End::objective
+                       : why == nlopt::XTOL_REACHED ? End::design
+                                                    : End::round_off;
+    }
+  catch (const nlopt::forced_stop &)
+    {
+      throw;
+    }
+  catch (const std::runtime_error &)
+    {
+      // Round-off, or NLopt's general failure: its quadratic program has
+      // no solution, as for constraints that exclude one another.
+    }
+}
+
+/// Whether another run of NLopt should follow; prepares it.
+bool Search::begins_again()
+{
+  switch (answers->end)
+    {
+      case End::no_value:
+        if (failures == max_failures)
+          return false;
+        ++failures;
+        shrink();
+        return true;
+      case End::objective:
+      case End::design:
+        if (!is_at_move_limit())
+          return false;
+        centre = progress.iterate()->y;
+        return true;
+      case End::round_off:
+        if (!progress.has_gained() || round_off_starts == max_round_off_starts)
+          return false;
+        ++round_off_starts;
+        centre = progress.iterate()->y;
+        if (hooks.log)
+          hooks.log("stopped by round-off, begun again from "
+                    "iteration " +
+                    std::to_string(progress.n_iterations()));
+        return true;
+      case End::none:
+      case End::gradient:
+      case End::evaluations:
+      case End::interrupted:
+        return false;
+    }
+  return false;
+}
+
+/// Limit the moves to half the one that led to a design without value.
+void Search::shrink()
+{
+  centre      = progress.iterate()->y;
+  double move = 0.;
+  for (unsigned int i = 0; i < centre.size(); ++i)
+    move = std::max(move, std::abs(answers->failed_design[i] - centre[i]));
+  reach = move / 2.;
+  if (!hooks.log)
+    return;
+  std::ostringstream line;
+  line << "design without a value (" << answers->failure << "): restart " << failures << " of "
+       << max_failures << " from iteration " << progress.n_iterations() << ", moves limited to "
+       << reach << " of the bound widths";
+  hooks.log(line.str());
+}
+
+bool Search::is_at_move_limit() const
+{
+  for (unsigned int i = 0; i < centre.size(); ++i)
+    {
+      const double y = progress.iterate()->y[i];
+      if (std::abs(y - centre[i]) >= reach * (1. - 1e-8) && y > problem.lower()[i] &&
+          y < problem.upper()[i])
+        return true;
+    }
+  return false;
+}
+} // namespace
+
+OptimizationResult nlopt_search(const NloptAlgorithm          algorithm,
+                                const DesignProblem          &problem,
+                                const OptimizationParameters &parameters,
+                                const Hooks                  &hooks)
+{
+  return Search(algorithm, problem, parameters, hooks).run();
+}
+} // namespace snug::optimization

@@ -3,169 +3,143 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::optimization {
+Progress::Progress(const ScaledProblem          &problem,
+                   const OptimizationParameters &parameters,
+                   const Hooks                  &hooks)
+  : problem(problem)
+  , parameters(parameters)
+  , hooks(hooks)
+  , last(problem.start())
+  , best(last)
+  , best_before(last)
+{}
+
+const Progress::Point &Progress::iterate() const
 {
-  namespace optimization
-  {
-    Progress::Progress(const ScaledProblem          &problem,
-                       const OptimizationParameters &parameters,
-                       const Hooks                  &hooks)
-      : problem(problem)
-      , parameters(parameters)
-      , hooks(hooks)
-      , last(problem.start())
-      , best(last)
-      , best_before(last)
+  return last;
+}
+
+unsigned int Progress::n_iterations() const
+{
+  return iterations;
+}
+
+bool Progress::is_feasible(const ScaledProblem::Point &point) const
+{
+  return point.violation <= parameters.constraint_tolerance;
+}
+
+bool Progress::is_better(const ScaledProblem::Point &a, const ScaledProblem::Point &b) const
+{
+  if (is_feasible(a) && is_feasible(b))
+    return a.evaluation.objective < b.evaluation.objective;
+  return a.violation < b.violation;
+}
+
+void Progress::consider(const Point &point)
+{
+  if (is_better(*point, *best))
+    best = point;
+}
+
+End Progress::accept(const Point &point, const bool full)
+{
+  if (point->x == last->x)
+    return End::none;
+  const auto previous = last;
+  last                = point;
+  ++iterations;
+  report();
+
+  const bool feasible = is_feasible(*last);
+  if (feasible && problem.projected_gradient(*last) <= parameters.gradient_tolerance)
+    return End::gradient;
+  const double f  = last->evaluation.objective;
+  const double df = std::abs(f - previous->evaluation.objective);
+  double       dy = 0.;
+  for (unsigned int i = 0; i < last->y.size(); ++i)
+    dy = std::max(dy, std::abs(last->y[i] - previous->y[i]));
+
+  const bool by_objective = df <= parameters.objective_tolerance * std::abs(f);
+  const bool by_design    = dy <= parameters.design_tolerance;
+  const bool is_stuck     = !feasible && by_design && last->violation > previous->violation / 2.;
+  const bool is_close     = is_stuck || (feasible && (by_objective || by_design));
+  const bool is_enough    = is_close && (full || was_close);
+  was_close               = is_close;
+  if (!is_enough)
+    return End::none;
+  return is_stuck ? End::round_off : by_objective ? End::objective : End::design;
+}
+
+void Progress::report() const
+{
+  if (!hooks.on_iteration)
+    return;
+  Iteration iteration;
+  iteration.number               = iterations;
+  iteration.x                    = last->x;
+  iteration.evaluation           = last->evaluation;
+  iteration.constraint_violation = last->violation;
+  iteration.projected_gradient   = problem.projected_gradient(*last);
+  iteration.evaluations          = problem.n_evaluations();
+  hooks.on_iteration(iteration);
+}
+
+void Progress::begin_run()
+{
+  best_before = best;
+  was_close   = false;
+}
+
+bool Progress::has_gained() const
+{
+  if (!is_feasible(*best_before))
+    return best->violation < best_before->violation / 2.;
+  const double f = best->evaluation.objective;
+  return best_before->evaluation.objective - f > parameters.objective_tolerance * std::abs(f);
+}
+
+std::string Progress::stop_reason(const End end, const std::string &failure) const
+{
+  switch (end)
     {
+      case End::gradient:
+        return "gradient tolerance";
+      case End::objective:
+        return "objective tolerance";
+      case End::design:
+        return "design tolerance";
+      case End::evaluations:
+        return "maximum evaluations";
+      case End::none:
+      case End::round_off:
+        return is_feasible(*best) ? "round-off" : "constraints violated";
+      case End::no_value:
+        return "restarts exhausted (" + failure + ")";
+      case End::interrupted:
+        return "interrupted";
     }
+  return "";
+}
 
-    const Progress::Point &
-    Progress::iterate() const
-    {
-      return last;
-    }
-
-    unsigned int
-    Progress::n_iterations() const
-    {
-      return iterations;
-    }
-
-    bool
-    Progress::is_feasible(const ScaledProblem::Point &point) const
-    {
-      return point.violation <= parameters.constraint_tolerance;
-    }
-
-    bool
-    Progress::is_better(const ScaledProblem::Point &a,
-                        const ScaledProblem::Point &b) const
-    {
-      if (is_feasible(a) && is_feasible(b))
-        return a.evaluation.objective < b.evaluation.objective;
-      return a.violation < b.violation;
-    }
-
-    void
-    Progress::consider(const Point &point)
-    {
-      if (is_better(*point, *best))
-        best = point;
-    }
-
-    End
-    Progress::accept(const Point &point, const bool full)
-    {
-      if (point->x == last->x)
-        return End::none;
-      const auto previous = last;
-      last                = point;
-      ++iterations;
-      report();
-
-      const bool feasible = is_feasible(*last);
-      if (feasible &&
-          problem.projected_gradient(*last) <= parameters.gradient_tolerance)
-        return End::gradient;
-      const double f  = last->evaluation.objective;
-      const double df = std::abs(f - previous->evaluation.objective);
-      double       dy = 0.;
-      for (unsigned int i = 0; i < last->y.size(); ++i)
-        dy = std::max(dy, std::abs(last->y[i] - previous->y[i]));
-
-      const bool by_objective =
-        df <= parameters.objective_tolerance * std::abs(f);
-      const bool by_design = dy <= parameters.design_tolerance;
-      const bool is_stuck =
-        !feasible && by_design && last->violation > previous->violation / 2.;
-      const bool is_close =
-        is_stuck || (feasible && (by_objective || by_design));
-      const bool is_enough = is_close && (full || was_close);
-      was_close            = is_close;
-      if (!is_enough)
-        return End::none;
-      return is_stuck       ? End::round_off
-             : by_objective ? End::objective
-                            : End::design;
-    }
-
-    void
-    Progress::report() const
-    {
-      if (!hooks.on_iteration)
-        return;
-      Iteration iteration;
-      iteration.number               = iterations;
-      iteration.x                    = last->x;
-      iteration.evaluation           = last->evaluation;
-      iteration.constraint_violation = last->violation;
-      iteration.projected_gradient   = problem.projected_gradient(*last);
-      iteration.evaluations          = problem.n_evaluations();
-      hooks.on_iteration(iteration);
-    }
-
-    void
-    Progress::begin_run()
-    {
-      best_before = best;
-      was_close   = false;
-    }
-
-    bool
-    Progress::has_gained() const
-    {
-      if (!is_feasible(*best_before))
-        return best->violation < best_before->violation / 2.;
-      const double f = best->evaluation.objective;
-      return best_before->evaluation.objective - f >
-             parameters.objective_tolerance * std::abs(f);
-    }
-
-    std::string
-    Progress::stop_reason(const End end, const std::string &failure) const
-    {
-      switch (end)
-        {
-          case End::gradient:
-            return "gradient tolerance";
-          case End::objective:
-            return "objective tolerance";
-          case End::design:
-            return "design tolerance";
-          case End::evaluations:
-            return "maximum evaluations";
-          case End::none:
-          case End::round_off:
-            return is_feasible(*best) ? "round-off" : "constraints violated";
-          case End::no_value:
-            return "restarts exhausted (" + failure + ")";
-          case End::interrupted:
-            return "interrupted";
-        }
-      return "";
-    }
-
-    OptimizationResult
-    Progress::result(const End end, const std::string &failure) const
-    {
-      const bool by_tolerance =
-        end == End::gradient || end == End::objective || end == End::design;
-      const auto        &point = by_tolerance ? last : best;
-      OptimizationResult result;
-      result.x                    = point->x;
-      result.evaluation           = point->evaluation;
-      result.iterations           = iterations;
-      result.evaluations          = problem.n_evaluations();
-      result.objective_initial    = problem.start()->evaluation.objective;
-      result.objective_final      = point->evaluation.objective;
-      result.constraint_violation = point->violation;
-      result.projected_gradient   = problem.projected_gradient(*point);
-      result.stop_reason          = stop_reason(end, failure);
-      const bool by_round_off =
-        end == End::round_off &&
-        result.projected_gradient <= std::sqrt(parameters.objective_tolerance);
-      result.success = is_feasible(*point) && (by_tolerance || by_round_off);
-      return result;
-    }
-  } // namespace optimization
-} // namespace snug
+OptimizationResult Progress::result(const End end, const std::string &failure) const
+{
+  const bool  by_tolerance = end == End::gradient || end == End::objective || end == End::design;
+  const auto &point        = by_tolerance ? last : best;
+  OptimizationResult result;
+  result.x                    = point->x;
+  result.evaluation           = point->evaluation;
+  result.iterations           = iterations;
+  result.evaluations          = problem.n_evaluations();
+  result.objective_initial    = problem.start()->evaluation.objective;
+  result.objective_final      = point->evaluation.objective;
+  result.constraint_violation = point->violation;
+  result.projected_gradient   = problem.projected_gradient(*point);
+  result.stop_reason          = stop_reason(end, failure);
+  const bool by_round_off =
+    end == End::round_off && result.projected_gradient <= std::sqrt(parameters.objective_tolerance);
+  result.success = is_feasible(*point) && (by_tolerance || by_round_off);
+  return result;
+}
+} // namespace snug::optimization

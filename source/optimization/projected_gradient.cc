@@ -5,170 +5,156 @@
 #include <cmath>
 #include <limits>
 
-namespace snug
+namespace snug::optimization {
+namespace {
+using Rows = std::vector<std::vector<double>>;
+
+double dot(const std::vector<double> &a, const std::vector<double> &b)
 {
-  namespace optimization
-  {
-    namespace
+  double sum = 0.;
+  for (unsigned int i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+void add(std::vector<double> &a, double factor, const std::vector<double> &b)
+{
+  for (unsigned int i = 0; i < a.size(); ++i)
+    a[i] += factor * b[i];
+}
+
+std::vector<double> restricted(const std::vector<double> &v, const std::vector<bool> &used)
+{
+  std::vector<double> result(v.size(), 0.);
+  for (unsigned int i = 0; i < v.size(); ++i)
+    if (used[i])
+      result[i] = v[i];
+  return result;
+}
+
+/**
+ * An orthonormal basis q_k of the restricted rows and, with it, the
+ * combinations of the full rows: t_k = sum_j T_kj A_j agrees with q_k on
+ * the used entries; T_kj follow the entries of t_k. Dependent rows are
+ * left out; Gram-Schmidt twice.
+ */
+void orthonormalize(const std::vector<Force> &forces,
+                    const std::vector<bool>  &used,
+                    Rows                     &q,
+                    Rows                     &t)
+{
+  for (unsigned int j = 0; j < forces.size(); ++j)
     {
-      using Rows = std::vector<std::vector<double>>;
-
-      double
-      dot(const std::vector<double> &a, const std::vector<double> &b)
-      {
-        double sum = 0.;
-        for (unsigned int i = 0; i < a.size(); ++i)
-          sum += a[i] * b[i];
-        return sum;
-      }
-
-      void
-      add(std::vector<double> &a, double factor, const std::vector<double> &b)
-      {
-        for (unsigned int i = 0; i < a.size(); ++i)
-          a[i] += factor * b[i];
-      }
-
-      std::vector<double>
-      restricted(const std::vector<double> &v, const std::vector<bool> &used)
-      {
-        std::vector<double> result(v.size(), 0.);
-        for (unsigned int i = 0; i < v.size(); ++i)
-          if (used[i])
-            result[i] = v[i];
-        return result;
-      }
-
-      /**
-       * An orthonormal basis q_k of the restricted rows and, with it, the
-       * combinations of the full rows: t_k = sum_j T_kj A_j agrees with q_k on
-       * the used entries; T_kj follow the entries of t_k. Dependent rows are
-       * left out; Gram-Schmidt twice.
-       */
-      void
-      orthonormalize(const std::vector<Force> &forces,
-                     const std::vector<bool>  &used,
-                     Rows                     &q,
-                     Rows                     &t)
-      {
-        for (unsigned int j = 0; j < forces.size(); ++j)
+      auto v    = restricted(forces[j].gradient, used);
+      auto full = forces[j].gradient;
+      full.resize(v.size() + forces.size(), 0.);
+      full[v.size() + j] = 1.;
+      const double size  = std::sqrt(dot(v, v));
+      for (unsigned int pass = 0; pass < 2; ++pass)
+        for (unsigned int k = 0; k < q.size(); ++k)
           {
-            auto v    = restricted(forces[j].gradient, used);
-            auto full = forces[j].gradient;
-            full.resize(v.size() + forces.size(), 0.);
-            full[v.size() + j] = 1.;
-            const double size  = std::sqrt(dot(v, v));
-            for (unsigned int pass = 0; pass < 2; ++pass)
-              for (unsigned int k = 0; k < q.size(); ++k)
-                {
-                  const double share = dot(v, q[k]);
-                  add(v, -share, q[k]);
-                  add(full, -share, t[k]);
-                }
-            const double rest = std::sqrt(dot(v, v));
-            if (rest <= 1e-12 * size)
-              continue;
-            for (double &entry : v)
-              entry /= rest;
-            for (double &entry : full)
-              entry /= rest;
-            q.push_back(v);
-            t.push_back(full);
+            const double share = dot(v, q[k]);
+            add(v, -share, q[k]);
+            add(full, -share, t[k]);
           }
-      }
-
-      /// r = g + A' mu with the mu that makes its used part smallest.
-      struct Reduced
-      {
-        std::vector<double> r, mu;
-      };
-
-      Reduced
-      reduced_gradient(const std::vector<double> &g,
-                       const std::vector<Force>  &forces,
-                       const std::vector<bool>   &used)
-      {
-        Rows q, t;
-        orthonormalize(forces, used, q, t);
-        auto all = g;
-        all.resize(g.size() + forces.size(), 0.);
-        for (unsigned int pass = 0; pass < 2; ++pass)
-          for (unsigned int k = 0; k < q.size(); ++k)
-            add(all, -dot(q[k], all), t[k]);
-        const auto end = all.begin() + g.size();
-        return {{all.begin(), end}, {end, all.end()}};
-      }
-
-      /// Whether moving against @p r leaves the objective's descent possible.
-      bool
-      counts(const double r, const Place place)
-      {
-        switch (place)
-          {
-            case Place::inside:
-              return true;
-            case Place::at_lower:
-              return r < 0.;
-            case Place::at_upper:
-              return r > 0.;
-            case Place::fixed:
-              return false;
-          }
-        return false;
-      }
-      /// The same with all multipliers free; returns them.
-      std::vector<double>
-      minimize_pieces(const std::vector<double> &g,
-                      const std::vector<Force>  &forces,
-                      const std::vector<Place>  &places,
-                      double                    &smallest)
-      {
-        std::vector<bool> used(g.size());
-        for (unsigned int i = 0; i < g.size(); ++i)
-          used[i] = places[i] == Place::inside;
-        smallest = std::numeric_limits<double>::max();
-        std::vector<double>    mu;
-        constexpr unsigned int max_pieces = 50;
-        for (unsigned int piece = 0; piece < max_pieces; ++piece)
-          {
-            const auto        reduced = reduced_gradient(g, forces, used);
-            std::vector<bool> next(g.size());
-            for (unsigned int i = 0; i < g.size(); ++i)
-              next[i] = counts(reduced.r[i], places[i]);
-            const auto   p    = restricted(reduced.r, next);
-            const double norm = std::sqrt(dot(p, p));
-            if (norm < smallest)
-              {
-                smallest = norm;
-                mu       = reduced.mu;
-              }
-            if (next == used)
-              break;
-            used = next;
-          }
-        return mu;
-      }
-    } // namespace
-
-    double
-    projected_gradient_norm(const std::vector<double> &g,
-                            std::vector<Force>         forces,
-                            const std::vector<Place>  &places)
-    {
-      AssertDimension(g.size(), places.size());
-      for (;;)
-        {
-          double       smallest = 0.;
-          const auto   mu       = minimize_pieces(g, forces, places, smallest);
-          unsigned int worst    = forces.size();
-          for (unsigned int j = 0; j < forces.size(); ++j)
-            if (forces[j].pushes && mu[j] < 0. &&
-                (worst == forces.size() || mu[j] < mu[worst]))
-              worst = j;
-          if (worst == forces.size())
-            return smallest;
-          forces.erase(forces.begin() + worst);
-        }
+      const double rest = std::sqrt(dot(v, v));
+      if (rest <= 1e-12 * size)
+        continue;
+      for (double &entry : v)
+        entry /= rest;
+      for (double &entry : full)
+        entry /= rest;
+      q.push_back(v);
+      t.push_back(full);
     }
-  } // namespace optimization
-} // namespace snug
+}
+
+/// r = g + A' mu with the mu that makes its used part smallest.
+struct Reduced
+{
+  std::vector<double> r, mu;
+};
+
+Reduced reduced_gradient(const std::vector<double> &g,
+                         const std::vector<Force>  &forces,
+                         const std::vector<bool>   &used)
+{
+  Rows q, t;
+  orthonormalize(forces, used, q, t);
+  auto all = g;
+  all.resize(g.size() + forces.size(), 0.);
+  for (unsigned int pass = 0; pass < 2; ++pass)
+    for (unsigned int k = 0; k < q.size(); ++k)
+      add(all, -dot(q[k], all), t[k]);
+  const auto end = all.begin() + g.size();
+  return {{all.begin(), end}, {end, all.end()}};
+}
+
+/// Whether moving against @p r leaves the objective's descent possible.
+bool counts(const double r, const Place place)
+{
+  switch (place)
+    {
+      case Place::inside:
+        return true;
+      case Place::at_lower:
+        return r < 0.;
+      case Place::at_upper:
+        return r > 0.;
+      case Place::fixed:
+        return false;
+    }
+  return false;
+}
+/// The same with all multipliers free; returns them.
+std::vector<double> minimize_pieces(const std::vector<double> &g,
+                                    const std::vector<Force>  &forces,
+                                    const std::vector<Place>  &places,
+                                    double                    &smallest)
+{
+  std::vector<bool> used(g.size());
+  for (unsigned int i = 0; i < g.size(); ++i)
+    used[i] = places[i] == Place::inside;
+  smallest = std::numeric_limits<double>::max();
+  std::vector<double>    mu;
+  constexpr unsigned int max_pieces = 50;
+  for (unsigned int piece = 0; piece < max_pieces; ++piece)
+    {
+      const auto        reduced = reduced_gradient(g, forces, used);
+      std::vector<bool> next(g.size());
+      for (unsigned int i = 0; i < g.size(); ++i)
+        next[i] = counts(reduced.r[i], places[i]);
+      const auto   p    = restricted(reduced.r, next);
+      const double norm = std::sqrt(dot(p, p));
+      if (norm < smallest)
+        {
+          smallest = norm;
+          mu       = reduced.mu;
+        }
+      if (next == used)
+        break;
+      used = next;
+    }
+  return mu;
+}
+} // namespace
+
+double projected_gradient_norm(const std::vector<double> &g,
+                               std::vector<Force>         forces,
+                               const std::vector<Place>  &places)
+{
+  AssertDimension(g.size(), places.size());
+  for (;;)
+    {
+      double       smallest = 0.;
+      const auto   mu       = minimize_pieces(g, forces, places, smallest);
+      unsigned int worst    = forces.size();
+      for (unsigned int j = 0; j < forces.size(); ++j)
+        if (forces[j].pushes && mu[j] < 0. && (worst == forces.size() || mu[j] < mu[worst]))
+          worst = j;
+      if (worst == forces.size())
+        return smallest;
+      forces.erase(forces.begin() + worst);
+    }
+}
+} // namespace snug::optimization

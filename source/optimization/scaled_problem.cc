@@ -8,267 +8,230 @@
 #include <cmath>
 #include <string>
 
-namespace snug
+namespace snug::optimization {
+namespace {
+/// More than the designs of one line search (at most 11).
+constexpr unsigned int n_remembered = 32;
+
+/// A variable closer to a bound, relative to its width, is at it.
+constexpr double at_bound = 1e-8;
+
+/// An inequality with less left, relative to its scale, is active.
+constexpr double at_limit = 1e-6;
+
+/// Designs closer than this, relative to the widths, are one design: in
+/// vain, SLSQP likes to ask for many that differ in their last bits.
+constexpr double resolution = 1e-13;
+
+bool is_same(const std::vector<double> &a, const std::vector<double> &b)
 {
-  namespace optimization
-  {
-    namespace
+  for (unsigned int i = 0; i < a.size(); ++i)
+    if (!(std::abs(a[i] - b[i]) <= resolution))
+      return false;
+  return true;
+}
+
+double norm(const std::vector<double> &v)
+{
+  double sum = 0.;
+  for (const double entry : v)
+    sum += entry * entry;
+  return std::sqrt(sum);
+}
+
+bool all_finite(const std::vector<double> &v)
+{
+  return std::all_of(v.begin(), v.end(), [](double entry) { return std::isfinite(entry); });
+}
+
+void check_bounds(const DesignProblem &problem)
+{
+  AssertDimension(problem.lower.size(), problem.start.size());
+  AssertDimension(problem.upper.size(), problem.start.size());
+  for (unsigned int i = 0; i < problem.start.size(); ++i)
     {
-      /// More than the designs of one line search (at most 11).
-      constexpr unsigned int n_remembered = 32;
-
-      /// A variable closer to a bound, relative to its width, is at it.
-      constexpr double at_bound = 1e-8;
-
-      /// An inequality with less left, relative to its scale, is active.
-      constexpr double at_limit = 1e-6;
-
-      /// Designs closer than this, relative to the widths, are one design: in
-      /// vain, SLSQP likes to ask for many that differ in their last bits.
-      constexpr double resolution = 1e-13;
-
-      bool
-      is_same(const std::vector<double> &a, const std::vector<double> &b)
-      {
-        for (unsigned int i = 0; i < a.size(); ++i)
-          if (!(std::abs(a[i] - b[i]) <= resolution))
-            return false;
-        return true;
-      }
-
-      double
-      norm(const std::vector<double> &v)
-      {
-        double sum = 0.;
-        for (const double entry : v)
-          sum += entry * entry;
-        return std::sqrt(sum);
-      }
-
-      bool
-      all_finite(const std::vector<double> &v)
-      {
-        return std::all_of(v.begin(), v.end(), [](double entry) {
-          return std::isfinite(entry);
-        });
-      }
-
-      void
-      check_bounds(const DesignProblem &problem)
-      {
-        AssertDimension(problem.lower.size(), problem.start.size());
-        AssertDimension(problem.upper.size(), problem.start.size());
-        for (unsigned int i = 0; i < problem.start.size(); ++i)
-          {
-            const double lower = problem.lower[i], upper = problem.upper[i];
-            const auto   variable = "design variable " + std::to_string(i);
-            if (!std::isfinite(lower) || !std::isfinite(upper) || lower > upper)
-              throw InputError(variable + ": bounds " + std::to_string(lower) +
-                               ", " + std::to_string(upper) +
-                               ": must be finite, the lower one first");
-            if (!std::isfinite(problem.start[i]))
-              throw InputError(variable + ": the start must be finite");
-          }
-      }
-
-      void
-      check_values(const Evaluation &evaluation, const unsigned int n_variables)
-      {
-        (void)n_variables;
-        AssertDimension(evaluation.gradient.size(), n_variables);
-        AssertDimension(evaluation.jacobian.size(),
-                        evaluation.constraints.size());
-        bool good = std::isfinite(evaluation.objective) &&
-                    all_finite(evaluation.gradient) &&
-                    all_finite(evaluation.constraints);
-        for (const auto &row : evaluation.jacobian)
-          {
-            AssertDimension(row.size(), n_variables);
-            good = good && all_finite(row);
-          }
-        if (!good)
-          throw SolveError("the objective, a constraint or one of their "
-                           "derivatives is not a finite number");
-      }
-    } // namespace
-
-    ScaledProblem::ScaledProblem(const DesignProblem &problem)
-      : problem(problem)
-      , scales(problem.constraint_scales)
-      , constraint_relations(problem.relations)
-    {
-      check_bounds(problem);
-      for (unsigned int i = 0; i < problem.start.size(); ++i)
-        {
-          const double lower = problem.lower[i], upper = problem.upper[i];
-          x_start.push_back(std::clamp(problem.start[i], lower, upper));
-          width.push_back(upper > lower ? upper - lower : 1.);
-          y_lower.push_back((lower - x_start[i]) / width[i]);
-          y_upper.push_back((upper - x_start[i]) / width[i]);
-        }
-      start_point = at(std::vector<double>(x_start.size(), 0.));
-
-      const double slope = norm(gradient(start_point->evaluation));
-      scale              = std::abs(start_point->evaluation.objective);
-      if (slope > 0.)
-        scale = std::clamp(scale, slope / 100., slope * 100.);
-      else if (scale == 0.)
-        scale = 1.;
-      start_gradient_norm = slope / scale;
+      const double lower = problem.lower[i], upper = problem.upper[i];
+      const auto   variable = "design variable " + std::to_string(i);
+      if (!std::isfinite(lower) || !std::isfinite(upper) || lower > upper)
+        throw InputError(variable + ": bounds " + std::to_string(lower) + ", " +
+                         std::to_string(upper) + ": must be finite, the lower one first");
+      if (!std::isfinite(problem.start[i]))
+        throw InputError(variable + ": the start must be finite");
     }
+}
 
-    std::vector<double>
-    ScaledProblem::design(const std::vector<double> &y) const
+void check_values(const Evaluation &evaluation, const unsigned int n_variables)
+{
+  (void)n_variables;
+  AssertDimension(evaluation.gradient.size(), n_variables);
+  AssertDimension(evaluation.jacobian.size(), evaluation.constraints.size());
+  bool good = std::isfinite(evaluation.objective) && all_finite(evaluation.gradient) &&
+              all_finite(evaluation.constraints);
+  for (const auto &row : evaluation.jacobian)
     {
-      std::vector<double> x(y.size());
-      for (unsigned int i = 0; i < y.size(); ++i)
-        if (y[i] <= y_lower[i])
-          x[i] = problem.lower[i];
-        else if (y[i] >= y_upper[i])
-          x[i] = problem.upper[i];
-        else
-          x[i] = std::clamp(x_start[i] + width[i] * y[i],
-                            problem.lower[i],
-                            problem.upper[i]);
-      return x;
+      AssertDimension(row.size(), n_variables);
+      good = good && all_finite(row);
     }
+  if (!good)
+    throw SolveError("the objective, a constraint or one of their "
+                     "derivatives is not a finite number");
+}
+} // namespace
 
-    bool
-    ScaledProblem::is_known(const std::vector<double> &y) const
+ScaledProblem::ScaledProblem(const DesignProblem &problem)
+  : problem(problem), scales(problem.constraint_scales), constraint_relations(problem.relations)
+{
+  check_bounds(problem);
+  for (unsigned int i = 0; i < problem.start.size(); ++i)
     {
-      return find(y) != nullptr;
+      const double lower = problem.lower[i], upper = problem.upper[i];
+      x_start.push_back(std::clamp(problem.start[i], lower, upper));
+      width.push_back(upper > lower ? upper - lower : 1.);
+      y_lower.push_back((lower - x_start[i]) / width[i]);
+      y_upper.push_back((upper - x_start[i]) / width[i]);
     }
+  start_point = at(std::vector<double>(x_start.size(), 0.));
 
-    std::shared_ptr<const ScaledProblem::Point>
-    ScaledProblem::find(const std::vector<double> &y) const
-    {
-      for (const auto &point : recent)
-        if (is_same(point->y, y))
-          return point;
-      return nullptr;
-    }
+  const double slope = norm(gradient(start_point->evaluation));
+  scale              = std::abs(start_point->evaluation.objective);
+  if (slope > 0.)
+    scale = std::clamp(scale, slope / 100., slope * 100.);
+  else if (scale == 0.)
+    scale = 1.;
+  start_gradient_norm = slope / scale;
+}
 
-    std::shared_ptr<const ScaledProblem::Point>
-    ScaledProblem::at(const std::vector<double> &y)
-    {
-      if (const auto known = find(y))
-        return known;
-      const auto point = std::make_shared<Point>();
-      point->y         = y;
-      point->x         = design(y);
-      ++evaluations;
-      point->evaluation = problem.evaluate(point->x);
-      check_values(point->evaluation, y.size());
-      const auto c = constraints(point->evaluation);
-      if (constraint_relations.empty()) // the first design
-        constraint_relations.resize(c.size(), Relation::equal);
-      AssertDimension(constraint_relations.size(), c.size());
-      for (unsigned int j = 0; j < c.size(); ++j)
-        point->violation =
-          std::max(point->violation,
-                   constraint_relations[j] == Relation::equal ? std::abs(c[j])
-                                                              : c[j]);
-      recent.push_front(point);
-      if (recent.size() > n_remembered)
-        recent.pop_back();
+std::vector<double> ScaledProblem::design(const std::vector<double> &y) const
+{
+  std::vector<double> x(y.size());
+  for (unsigned int i = 0; i < y.size(); ++i)
+    if (y[i] <= y_lower[i])
+      x[i] = problem.lower[i];
+    else if (y[i] >= y_upper[i])
+      x[i] = problem.upper[i];
+    else
+      x[i] = std::clamp(x_start[i] + width[i] * y[i], problem.lower[i], problem.upper[i]);
+  return x;
+}
+
+bool ScaledProblem::is_known(const std::vector<double> &y) const
+{
+  return find(y) != nullptr;
+}
+
+std::shared_ptr<const ScaledProblem::Point> ScaledProblem::find(const std::vector<double> &y) const
+{
+  for (const auto &point : recent)
+    if (is_same(point->y, y))
       return point;
-    }
+  return nullptr;
+}
 
-    std::vector<double>
-    ScaledProblem::gradient(const Evaluation &evaluation) const
-    {
-      std::vector<double> result(width.size());
-      for (unsigned int i = 0; i < width.size(); ++i)
-        result[i] = width[i] * evaluation.gradient[i] / scale;
-      return result;
-    }
+std::shared_ptr<const ScaledProblem::Point> ScaledProblem::at(const std::vector<double> &y)
+{
+  if (const auto known = find(y))
+    return known;
+  const auto point = std::make_shared<Point>();
+  point->y         = y;
+  point->x         = design(y);
+  ++evaluations;
+  point->evaluation = problem.evaluate(point->x);
+  check_values(point->evaluation, y.size());
+  const auto c = constraints(point->evaluation);
+  if (constraint_relations.empty()) // the first design
+    constraint_relations.resize(c.size(), Relation::equal);
+  AssertDimension(constraint_relations.size(), c.size());
+  for (unsigned int j = 0; j < c.size(); ++j)
+    point->violation = std::max(point->violation,
+                                constraint_relations[j] == Relation::equal ? std::abs(c[j]) : c[j]);
+  recent.push_front(point);
+  if (recent.size() > n_remembered)
+    recent.pop_back();
+  return point;
+}
 
-    std::vector<std::vector<double>>
-    ScaledProblem::jacobian(const Evaluation &evaluation) const
-    {
-      auto result = evaluation.jacobian;
-      for (unsigned int j = 0; j < result.size(); ++j)
-        for (unsigned int i = 0; i < width.size(); ++i)
-          result[j][i] *= width[i] / (scales.empty() ? 1. : scales[j]);
-      return result;
-    }
+std::vector<double> ScaledProblem::gradient(const Evaluation &evaluation) const
+{
+  std::vector<double> result(width.size());
+  for (unsigned int i = 0; i < width.size(); ++i)
+    result[i] = width[i] * evaluation.gradient[i] / scale;
+  return result;
+}
 
-    std::vector<double>
-    ScaledProblem::constraints(const Evaluation &evaluation) const
-    {
-      auto result = evaluation.constraints;
-      Assert(scales.empty() || scales.size() == result.size(),
-             dealii::ExcDimensionMismatch(scales.size(), result.size()));
-      for (unsigned int j = 0; j < scales.size(); ++j)
-        {
-          Assert(scales[j] > 0., dealii::ExcMessage("scales are positive"));
-          result[j] /= scales[j];
-        }
-      return result;
-    }
+std::vector<std::vector<double>> ScaledProblem::jacobian(const Evaluation &evaluation) const
+{
+  auto result = evaluation.jacobian;
+  for (unsigned int j = 0; j < result.size(); ++j)
+    for (unsigned int i = 0; i < width.size(); ++i)
+      result[j][i] *= width[i] / (scales.empty() ? 1. : scales[j]);
+  return result;
+}
 
-    double
-    ScaledProblem::projected_gradient(const Point &point) const
+std::vector<double> ScaledProblem::constraints(const Evaluation &evaluation) const
+{
+  auto result = evaluation.constraints;
+  Assert(scales.empty() || scales.size() == result.size(),
+         dealii::ExcDimensionMismatch(scales.size(), result.size()));
+  for (unsigned int j = 0; j < scales.size(); ++j)
     {
-      std::vector<Place> places(width.size(), Place::inside);
-      for (unsigned int i = 0; i < width.size(); ++i)
-        {
-          const bool below = point.y[i] <= y_lower[i] + at_bound;
-          const bool above = point.y[i] >= y_upper[i] - at_bound;
-          if (below || above)
-            places[i] = below && above ? Place::fixed
-                        : below        ? Place::at_lower
-                                       : Place::at_upper;
-        }
-      const auto   g    = gradient(point.evaluation);
-      const double size = std::max(norm(g), start_gradient_norm);
-      if (size == 0.)
-        return 0.;
-      const auto         c = constraints(point.evaluation);
-      const auto         A = jacobian(point.evaluation);
-      std::vector<Force> forces;
-      for (unsigned int j = 0; j < A.size(); ++j)
-        if (constraint_relations[j] == Relation::equal)
-          forces.push_back({A[j], false});
-        else if (c[j] >= -at_limit)
-          forces.push_back({A[j], true});
-      return projected_gradient_norm(g, forces, places) / size;
+      Assert(scales[j] > 0., dealii::ExcMessage("scales are positive"));
+      result[j] /= scales[j];
     }
+  return result;
+}
 
-    const std::vector<Relation> &
-    ScaledProblem::relations() const
+double ScaledProblem::projected_gradient(const Point &point) const
+{
+  std::vector<Place> places(width.size(), Place::inside);
+  for (unsigned int i = 0; i < width.size(); ++i)
     {
-      return constraint_relations;
+      const bool below = point.y[i] <= y_lower[i] + at_bound;
+      const bool above = point.y[i] >= y_upper[i] - at_bound;
+      if (below || above)
+        places[i] = below && above ? Place::fixed : below ? Place::at_lower : Place::at_upper;
     }
+  const auto   g    = gradient(point.evaluation);
+  const double size = std::max(norm(g), start_gradient_norm);
+  if (size == 0.)
+    return 0.;
+  const auto         c = constraints(point.evaluation);
+  const auto         A = jacobian(point.evaluation);
+  std::vector<Force> forces;
+  for (unsigned int j = 0; j < A.size(); ++j)
+    if (constraint_relations[j] == Relation::equal)
+      forces.push_back({A[j], false});
+    else if (c[j] >= -at_limit)
+      forces.push_back({A[j], true});
+  return projected_gradient_norm(g, forces, places) / size;
+}
 
-    const std::vector<double> &
-    ScaledProblem::lower() const
-    {
-      return y_lower;
-    }
+const std::vector<Relation> &ScaledProblem::relations() const
+{
+  return constraint_relations;
+}
 
-    const std::vector<double> &
-    ScaledProblem::upper() const
-    {
-      return y_upper;
-    }
+const std::vector<double> &ScaledProblem::lower() const
+{
+  return y_lower;
+}
 
-    double
-    ScaledProblem::objective_scale() const
-    {
-      return scale;
-    }
+const std::vector<double> &ScaledProblem::upper() const
+{
+  return y_upper;
+}
 
-    const std::shared_ptr<const ScaledProblem::Point> &
-    ScaledProblem::start() const
-    {
-      return start_point;
-    }
+double ScaledProblem::objective_scale() const
+{
+  return scale;
+}
 
-    unsigned int
-    ScaledProblem::n_evaluations() const
-    {
-      return evaluations;
-    }
-  } // namespace optimization
-} // namespace snug
+const std::shared_ptr<const ScaledProblem::Point> &ScaledProblem::start() const
+{
+  return start_point;
+}
+
+unsigned int ScaledProblem::n_evaluations() const
+{
+  return evaluations;
+}
+} // namespace snug::optimization

@@ -12,366 +12,303 @@
 #include <ostream>
 #include <sstream>
 
-namespace snug
+namespace snug::qp {
+namespace {
+/// Part of the load a set may leave unbalanced.
+const double balance_tolerance = 1e-8;
+
+/// Steps in a row that may fail to halve the KKT residual of one set, or
+/// to solve on it.
+const unsigned int allowed_stalls = 3;
+
+/// One solve: the iterate, the set and what belongs to it.
+class ActiveSetRun
 {
-  namespace qp
-  {
-    namespace
+public:
+  ActiveSetRun(const DualProblem      &problem,
+               const SolverParameters &parameters,
+               const ActiveSetOptions &options)
+    : problem(problem)
+    , context(problem.context())
+    , parameters(parameters)
+    , options(options)
+    , history(options)
+    , f_mults_before(context.work.f_mults)
+    , inner_tolerance(options.forcing)
+  {}
+
+  /// False if the set does not settle: go on with another solver from
+  /// start().
+  bool run(const WarmStart &from);
+
+  /// Why it does not.
+  const std::string &reason() const { return history.reason(); }
+
+  WarmStart start() const { return {lambda, mask}; }
+
+  unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
+
+  DualSolution solution() const;
+
+private:
+  void   begin(const WarmStart &from);
+  void   balance_load();
+  void   refresh_residual();
+  void   solve_on_set();
+  bool   finished();
+  RowSet next_set() const;
+  bool   change_set(const RowSet &next);
+  void   count_stall();
+  void   keep_set();
+
+  const DualProblem     &problem;
+  RunContext            &context;
+  const SolverParameters parameters;
+  const ActiveSetOptions options;
+  SetHistory             history;
+  SetHistory::Care       care = SetHistory::none;
+  const unsigned long    f_mults_before;
+
+  MultiVector           lambda, residual;
+  RowSet                mask;
+  std::unique_ptr<Face> face;
+  std::unique_ptr<Pcpg> krylov; // of the face
+  KktResidual           kkt;
+  double                scale = 0.;
+  double                inner_tolerance;
+  double                last_kkt    = 0.; // on the same set
+  unsigned int          recurrences = 0;  // since d - F lambda
+  unsigned int          outer       = 0;
+  bool                  solved      = true; // on the set
+  unsigned int          stalls      = 0;
+};
+
+void ActiveSetRun::begin(const WarmStart &from)
+{
+  const MPI_Comm comm    = context.communicator();
+  const bool     warm    = any(from.lambda.n_rows() > 0, comm);
+  const bool     has_set = any(!from.active.empty(), comm);
+  mask                   = RowSet(problem.n_owned(), 1);
+  lambda                 = warm ? from.lambda : MultiVector(problem.n_owned());
+  AssertDimension(lambda.n_rows(), problem.n_owned());
+  Assert(!has_set || from.active.size() == problem.n_owned(),
+         dealii::ExcDimensionMismatch(from.active.size(), problem.n_owned()));
+  for (unsigned int i = 0; i < problem.n_owned(); ++i)
+    if (problem.bounded()[i] && (warm || has_set))
+      mask[i] = has_set ? from.active[i] != 0 : lambda(i) > 0.;
+  if (warm || has_set)
+    balance_load();
+  residual              = warm || has_set ? lambda : MultiVector(problem.n_owned(), 0);
+  EqualityPart equality = equality_part(problem, residual);
+  scale                 = equality.scale;
+  if (!warm && !has_set)
     {
-      /// Part of the load a set may leave unbalanced.
-      const double balance_tolerance = 1e-8;
+      lambda   = equality.lambda;
+      residual = equality.residual;
+      face     = std::move(equality.face);
+    }
+  krylov = std::make_unique<Pcpg>(problem, *face);
+  history.enter(fingerprint(mask, comm), std::numeric_limits<double>::max());
+}
 
-      /// Steps in a row that may fail to halve the KKT residual of one set, or
-      /// to solve on it.
-      const unsigned int allowed_stalls = 3;
+/// Make lambda feasible on the set; let the set grow until it is.
+void ActiveSetRun::balance_load()
+{
+  const MPI_Comm comm = context.communicator();
+  while (true)
+    {
+      face                    = problem.face(mask);
+      MultiVector  next       = lambda;
+      const double unbalanced = face->make_feasible(next, problem.e())[0];
+      if (unbalanced <= balance_tolerance *
+                          (norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(next)))
+        {
+          lambda = next;
+          return;
+        }
+      const auto rates   = face->closing_rates(problem.e());
+      double     fastest = rates.empty() ? 0. : *std::max_element(rates.begin(), rates.end());
+      MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
+      bool grows = false;
+      for (unsigned int i = 0; i < rates.size(); ++i)
+        if (!mask[i] && rates[i] > 1e-10 * fastest)
+          {
+            mask[i] = 1;
+            grows   = true;
+          }
+      if (!any(grows, comm))
+        throw SolveError("no equilibrium: the contacts cannot balance "
+                         "the loads of a floating body");
+    }
+}
 
-      /// One solve: the iterate, the set and what belongs to it.
-      class ActiveSetRun
+void ActiveSetRun::refresh_residual()
+{
+  residual = problem.d();
+  residual.add(-1., problem.apply(lambda));
+  recurrences = 0;
+}
+
+void ActiveSetRun::solve_on_set()
+{
+  if (f_mults() >= parameters.max_iterations)
+    throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults());
+  const double least = (care == SetHistory::none ? 0.5 : 0.005) * parameters.relative_tolerance;
+  const auto   inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
+                                     parameters.max_iterations - f_mults());
+  recurrences += inner.iterations;
+  solved = inner.converged;
+  kkt    = kkt_residual(problem, *face, lambda, residual, scale);
+  ++outer;
+  std::ostringstream line;
+  line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", " << f_mults()
+       << " F-mults";
+  context.progress(line.str());
+}
+
+/// The tolerance is met by a lambda without pull, and not only by the
+/// recurrence of the residual.
+bool ActiveSetRun::finished()
+{
+  if (kkt.relative > parameters.relative_tolerance)
+    return false;
+  const MPI_Comm comm = context.communicator();
+  clip_rounding(problem.bounded(), lambda, comm);
+  if (any(has_negative(problem.bounded(), lambda), comm))
+    return false;
+  MultiVector parts = problem.d();
+  parts.add(-1., residual);
+  parts.append(problem.d());
+  const auto   sizes = norms(parts, comm); // of F lambda and of d
+  const double drift = std::numeric_limits<double>::epsilon() * recurrences * (sizes[0] + sizes[1]);
+  if (drift < 0.1 * parameters.relative_tolerance * scale)
+    return true;
+  refresh_residual();
+  kkt = kkt_residual(problem, *face, lambda, residual, scale);
+  return kkt.relative <= parameters.relative_tolerance;
+}
+
+RowSet ActiveSetRun::next_set() const
+{
+  RowSet     next(mask.size(), 1);
+  const bool only_drop = kkt.relative <= parameters.relative_tolerance;
+  for (unsigned int i = 0; i < next.size(); ++i)
+    if (problem.bounded()[i])
+      next[i] = only_drop         ? mask[i] && lambda(i) >= 0.
+                : lambda(i) != 0. ? lambda(i) > 0.
+                                  : kkt.w(i) > 0.;
+  if (care == SetHistory::single && !only_drop)
+    return with_one_change(mask, next, context.communicator());
+  return next;
+}
+
+void ActiveSetRun::count_stall()
+{
+  if (++stalls > allowed_stalls)
+    throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults());
+}
+
+/// The set stays: go on with the same directions, more exactly.
+void ActiveSetRun::keep_set()
+{
+  inner_tolerance = std::min(0.1 * inner_tolerance, options.forcing * kkt.relative);
+  if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt)
+    {
+      count_stall();
+      krylov.reset();
+      balance_load();
+      refresh_residual();
+      krylov = std::make_unique<Pcpg>(problem, *face);
+    }
+  last_kkt = kkt.relative;
+}
+
+/// False if the set does not settle.
+bool ActiveSetRun::change_set(const RowSet &next)
+{
+  const MPI_Comm comm    = context.communicator();
+  bool           changed = false;
+  for (unsigned int i = 0; i < next.size(); ++i)
+    if (!next[i] && lambda(i) != 0.)
       {
-      public:
-        ActiveSetRun(const DualProblem      &problem,
-                     const SolverParameters &parameters,
-                     const ActiveSetOptions &options)
-          : problem(problem)
-          , context(problem.context())
-          , parameters(parameters)
-          , options(options)
-          , history(options)
-          , f_mults_before(context.work.f_mults)
-          , inner_tolerance(options.forcing)
-        {
-        }
+        lambda(i) = 0.;
+        changed   = true;
+      }
+  inner_tolerance = std::min(inner_tolerance, options.forcing * kkt.relative);
+  RowSet leaving  = mask;
+  for (unsigned int i = 0; i < next.size(); ++i)
+    leaving[i] = mask[i] && !next[i];
+  DirectionBasis known = krylov->directions().off(leaving, comm);
+  mask                 = next;
+  krylov.reset();
+  if (any(changed, comm))
+    {
+      balance_load();
+      refresh_residual();
+    }
+  else
+    face = problem.face(mask);
+  krylov   = std::make_unique<Pcpg>(problem, *face, std::move(known));
+  last_kkt = 0.;
+  if (solved)
+    stalls = 0;
+  else
+    count_stall();
+  care = history.enter(fingerprint(mask, comm), kkt.relative);
+  if (care != SetHistory::none)
+    inner_tolerance *= 0.01;
+  return care != SetHistory::give_up;
+}
 
-        /// False if the set does not settle: go on with another solver from
-        /// start().
-        bool
-        run(const WarmStart &from);
-
-        /// Why it does not.
-        const std::string &
-        reason() const
-        {
-          return history.reason();
-        }
-
-        WarmStart
-        start() const
-        {
-          return {lambda, mask};
-        }
-
-        unsigned long
-        f_mults() const
-        {
-          return context.work.f_mults - f_mults_before;
-        }
-
-        DualSolution
-        solution() const;
-
-      private:
-        void
-        begin(const WarmStart &from);
-        void
-        balance_load();
-        void
-        refresh_residual();
-        void
-        solve_on_set();
-        bool
-        finished();
-        RowSet
-        next_set() const;
-        bool
-        change_set(const RowSet &next);
-        void
-        count_stall();
-        void
+bool ActiveSetRun::run(const WarmStart &from)
+{
+  begin(from);
+  while (true)
+    {
+      solve_on_set();
+      if (finished())
+        return true;
+      const RowSet next = next_set();
+      if (!any(next != mask, context.communicator()))
         keep_set();
-
-        const DualProblem     &problem;
-        RunContext            &context;
-        const SolverParameters parameters;
-        const ActiveSetOptions options;
-        SetHistory             history;
-        SetHistory::Care       care = SetHistory::none;
-        const unsigned long    f_mults_before;
-
-        MultiVector           lambda, residual;
-        RowSet                mask;
-        std::unique_ptr<Face> face;
-        std::unique_ptr<Pcpg> krylov; // of the face
-        KktResidual           kkt;
-        double                scale = 0.;
-        double                inner_tolerance;
-        double                last_kkt    = 0.; // on the same set
-        unsigned int          recurrences = 0;  // since d - F lambda
-        unsigned int          outer       = 0;
-        bool                  solved      = true; // on the set
-        unsigned int          stalls      = 0;
-      };
-
-      void
-      ActiveSetRun::begin(const WarmStart &from)
-      {
-        const MPI_Comm comm    = context.communicator();
-        const bool     warm    = any(from.lambda.n_rows() > 0, comm);
-        const bool     has_set = any(!from.active.empty(), comm);
-        mask                   = RowSet(problem.n_owned(), 1);
-        lambda = warm ? from.lambda : MultiVector(problem.n_owned());
-        AssertDimension(lambda.n_rows(), problem.n_owned());
-        Assert(!has_set || from.active.size() == problem.n_owned(),
-               dealii::ExcDimensionMismatch(from.active.size(),
-                                            problem.n_owned()));
-        for (unsigned int i = 0; i < problem.n_owned(); ++i)
-          if (problem.bounded()[i] && (warm || has_set))
-            mask[i] = has_set ? from.active[i] != 0 : lambda(i) > 0.;
-        if (warm || has_set)
-          balance_load();
-        residual = warm || has_set ? lambda : MultiVector(problem.n_owned(), 0);
-        EqualityPart equality = equality_part(problem, residual);
-        scale                 = equality.scale;
-        if (!warm && !has_set)
-          {
-            lambda   = equality.lambda;
-            residual = equality.residual;
-            face     = std::move(equality.face);
-          }
-        krylov = std::make_unique<Pcpg>(problem, *face);
-        history.enter(fingerprint(mask, comm),
-                      std::numeric_limits<double>::max());
-      }
-
-      /// Make lambda feasible on the set; let the set grow until it is.
-      void
-      ActiveSetRun::balance_load()
-      {
-        const MPI_Comm comm = context.communicator();
-        while (true)
-          {
-            face                    = problem.face(mask);
-            MultiVector  next       = lambda;
-            const double unbalanced = face->make_feasible(next, problem.e())[0];
-            if (unbalanced <=
-                balance_tolerance * (norms(problem.e(), MPI_COMM_SELF)[0] +
-                                     problem.feasibility_scale(next)))
-              {
-                lambda = next;
-                return;
-              }
-            const auto rates   = face->closing_rates(problem.e());
-            double     fastest = rates.empty()
-                                   ? 0.
-                                   : *std::max_element(rates.begin(), rates.end());
-            MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
-            bool grows = false;
-            for (unsigned int i = 0; i < rates.size(); ++i)
-              if (!mask[i] && rates[i] > 1e-10 * fastest)
-                {
-                  mask[i] = 1;
-                  grows   = true;
-                }
-            if (!any(grows, comm))
-              throw SolveError("no equilibrium: the contacts cannot balance "
-                               "the loads of a floating body");
-          }
-      }
-
-      void
-      ActiveSetRun::refresh_residual()
-      {
-        residual = problem.d();
-        residual.add(-1., problem.apply(lambda));
-        recurrences = 0;
-      }
-
-      void
-      ActiveSetRun::solve_on_set()
-      {
-        if (f_mults() >= parameters.max_iterations)
-          throw not_converged("active set",
-                              kkt.relative,
-                              parameters.relative_tolerance,
-                              f_mults());
-        const double least = (care == SetHistory::none ? 0.5 : 0.005) *
-                             parameters.relative_tolerance;
-        const auto inner =
-          krylov->solve(lambda,
-                        residual,
-                        {std::max(inner_tolerance, least) * scale},
-                        parameters.max_iterations - f_mults());
-        recurrences += inner.iterations;
-        solved = inner.converged;
-        kkt    = kkt_residual(problem, *face, lambda, residual, scale);
-        ++outer;
-        std::ostringstream line;
-        line << "active set, step " << outer << ": KKT residual "
-             << kkt.relative << ", " << f_mults() << " F-mults";
-        context.progress(line.str());
-      }
-
-      /// The tolerance is met by a lambda without pull, and not only by the
-      /// recurrence of the residual.
-      bool
-      ActiveSetRun::finished()
-      {
-        if (kkt.relative > parameters.relative_tolerance)
-          return false;
-        const MPI_Comm comm = context.communicator();
-        clip_rounding(problem.bounded(), lambda, comm);
-        if (any(has_negative(problem.bounded(), lambda), comm))
-          return false;
-        MultiVector parts = problem.d();
-        parts.add(-1., residual);
-        parts.append(problem.d());
-        const auto   sizes = norms(parts, comm); // of F lambda and of d
-        const double drift = std::numeric_limits<double>::epsilon() *
-                             recurrences * (sizes[0] + sizes[1]);
-        if (drift < 0.1 * parameters.relative_tolerance * scale)
-          return true;
-        refresh_residual();
-        kkt = kkt_residual(problem, *face, lambda, residual, scale);
-        return kkt.relative <= parameters.relative_tolerance;
-      }
-
-      RowSet
-      ActiveSetRun::next_set() const
-      {
-        RowSet     next(mask.size(), 1);
-        const bool only_drop = kkt.relative <= parameters.relative_tolerance;
-        for (unsigned int i = 0; i < next.size(); ++i)
-          if (problem.bounded()[i])
-            next[i] = only_drop         ? mask[i] && lambda(i) >= 0.
-                      : lambda(i) != 0. ? lambda(i) > 0.
-                                        : kkt.w(i) > 0.;
-        if (care == SetHistory::single && !only_drop)
-          return with_one_change(mask, next, context.communicator());
-        return next;
-      }
-
-      void
-      ActiveSetRun::count_stall()
-      {
-        if (++stalls > allowed_stalls)
-          throw not_converged("active set",
-                              kkt.relative,
-                              parameters.relative_tolerance,
-                              f_mults());
-      }
-
-      /// The set stays: go on with the same directions, more exactly.
-      void
-      ActiveSetRun::keep_set()
-      {
-        inner_tolerance =
-          std::min(0.1 * inner_tolerance, options.forcing * kkt.relative);
-        if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt)
-          {
-            count_stall();
-            krylov.reset();
-            balance_load();
-            refresh_residual();
-            krylov = std::make_unique<Pcpg>(problem, *face);
-          }
-        last_kkt = kkt.relative;
-      }
-
-      /// False if the set does not settle.
-      bool
-      ActiveSetRun::change_set(const RowSet &next)
-      {
-        const MPI_Comm comm    = context.communicator();
-        bool           changed = false;
-        for (unsigned int i = 0; i < next.size(); ++i)
-          if (!next[i] && lambda(i) != 0.)
-            {
-              lambda(i) = 0.;
-              changed   = true;
-            }
-        inner_tolerance =
-          std::min(inner_tolerance, options.forcing * kkt.relative);
-        RowSet leaving = mask;
-        for (unsigned int i = 0; i < next.size(); ++i)
-          leaving[i] = mask[i] && !next[i];
-        DirectionBasis known = krylov->directions().off(leaving, comm);
-        mask                 = next;
-        krylov.reset();
-        if (any(changed, comm))
-          {
-            balance_load();
-            refresh_residual();
-          }
-        else
-          face = problem.face(mask);
-        krylov   = std::make_unique<Pcpg>(problem, *face, std::move(known));
-        last_kkt = 0.;
-        if (solved)
-          stalls = 0;
-        else
-          count_stall();
-        care = history.enter(fingerprint(mask, comm), kkt.relative);
-        if (care != SetHistory::none)
-          inner_tolerance *= 0.01;
-        return care != SetHistory::give_up;
-      }
-
-      bool
-      ActiveSetRun::run(const WarmStart &from)
-      {
-        begin(from);
-        while (true)
-          {
-            solve_on_set();
-            if (finished())
-              return true;
-            const RowSet next = next_set();
-            if (!any(next != mask, context.communicator()))
-              keep_set();
-            else if (!change_set(next))
-              return false;
-          }
-      }
-
-      DualSolution
-      ActiveSetRun::solution() const
-      {
-        DualSolution result;
-        result.lambda           = lambda;
-        result.directions       = krylov->directions();
-        result.residual         = residual;
-        result.amplitudes       = kkt.amplitudes;
-        result.active           = loaded_rows(problem.bounded(), lambda);
-        result.kkt_residual     = kkt.relative;
-        result.outer_iterations = outer;
-        result.f_mults          = f_mults();
-        result.method           = "active set";
-        return result;
-      }
-    } // namespace
-
-    ActiveSet::ActiveSet(const SolverParameters &parameters,
-                         const ActiveSetOptions &options)
-      : parameters(parameters), options(options)
-    {
+      else if (!change_set(next))
+        return false;
     }
+}
 
-    DualSolution
-    ActiveSet::solve(const DualProblem &problem, const WarmStart &start) const
-    {
-      ActiveSetRun run(problem, parameters, options);
-      if (run.run(start))
-        return run.solution();
-      problem.context().out()
-        << "The active set " << run.reason() << " after " << run.f_mults()
-        << " F-mults; going on with SMALSE-M." << std::endl;
-      SolverParameters remaining = parameters;
-      remaining.max_iterations -=
-        std::min<unsigned long>(run.f_mults(), remaining.max_iterations);
-      const unsigned long spent = run.f_mults();
-      DualSolution result       = Smalse(remaining).solve(problem, run.start());
-      result.f_mults += spent;
-      result.outer_iterations += run.solution().outer_iterations;
-      return result;
-    }
-  } // namespace qp
-} // namespace snug
+DualSolution ActiveSetRun::solution() const
+{
+  DualSolution result;
+  result.lambda           = lambda;
+  result.directions       = krylov->directions();
+  result.residual         = residual;
+  result.amplitudes       = kkt.amplitudes;
+  result.active           = loaded_rows(problem.bounded(), lambda);
+  result.kkt_residual     = kkt.relative;
+  result.outer_iterations = outer;
+  result.f_mults          = f_mults();
+  result.method           = "active set";
+  return result;
+}
+} // namespace
+
+ActiveSet::ActiveSet(const SolverParameters &parameters, const ActiveSetOptions &options)
+  : parameters(parameters), options(options)
+{}
+
+DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start) const
+{
+  ActiveSetRun run(problem, parameters, options);
+  if (run.run(start))
+    return run.solution();
+  problem.context().out() << "The active set " << run.reason() << " after " << run.f_mults()
+                          << " F-mults; going on with SMALSE-M." << std::endl;
+  SolverParameters remaining = parameters;
+  remaining.max_iterations -= std::min<unsigned long>(run.f_mults(), remaining.max_iterations);
+  const unsigned long spent  = run.f_mults();
+  DualSolution        result = Smalse(remaining).solve(problem, run.start());
+  result.f_mults += spent;
+  result.outer_iterations += run.solution().outer_iterations;
+  return result;
+}
+} // namespace snug::qp

@@ -5,110 +5,96 @@
 #include <limits>
 #include <sstream>
 
-namespace snug
+namespace snug::qp {
+namespace {
+double natural_residual(const DualProblem &problem,
+                        const MultiVector &lambda,
+                        const MultiVector &w,
+                        unsigned int       i)
 {
-  namespace qp
-  {
-    namespace
-    {
-      double
-      natural_residual(const DualProblem &problem,
-                       const MultiVector &lambda,
-                       const MultiVector &w,
-                       unsigned int       i)
-      {
-        if (!problem.bounded()[i])
-          return w(i);
-        return -std::min(lambda(i) * problem.diagonal()[i], -w(i));
-      }
-    } // namespace
+  if (!problem.bounded()[i])
+    return w(i);
+  return -std::min(lambda(i) * problem.diagonal()[i], -w(i));
+}
+} // namespace
 
-    KktResidual
-    kkt_residual(const DualProblem &problem,
-                 const Face        &face,
-                 const MultiVector &lambda,
-                 const MultiVector &residual,
-                 double             scale)
-    {
-      const MPI_Comm comm = problem.context().communicator();
-      KktResidual    kkt;
-      kkt.amplitudes = MultiVector(problem.e().n_rows());
-      kkt.amplitudes.add(-1., face.amplitudes(residual));
-      kkt.w = residual;
-      kkt.w.add(1., problem.apply_Gt(kkt.amplitudes));
+KktResidual kkt_residual(const DualProblem &problem,
+                         const Face        &face,
+                         const MultiVector &lambda,
+                         const MultiVector &residual,
+                         double             scale)
+{
+  const MPI_Comm comm = problem.context().communicator();
+  KktResidual    kkt;
+  kkt.amplitudes = MultiVector(problem.e().n_rows());
+  kkt.amplitudes.add(-1., face.amplitudes(residual));
+  kkt.w = residual;
+  kkt.w.add(1., problem.apply_Gt(kkt.amplitudes));
 
-      MultiVector both(problem.n_owned(), 0);
-      both.append(kkt.w);
-      both.append(residual);
-      for (unsigned int i = 0; i < problem.n_owned(); ++i)
-        both(i, 0) = natural_residual(problem, lambda, kkt.w, i);
-      const auto   sizes = norms(both, comm);
-      const double rounding =
-        16. * std::numeric_limits<double>::epsilon() * sizes[1];
+  MultiVector both(problem.n_owned(), 0);
+  both.append(kkt.w);
+  both.append(residual);
+  for (unsigned int i = 0; i < problem.n_owned(); ++i)
+    both(i, 0) = natural_residual(problem, lambda, kkt.w, i);
+  const auto   sizes    = norms(both, comm);
+  const double rounding = 16. * std::numeric_limits<double>::epsilon() * sizes[1];
 
-      MultiVector missing = problem.e();
-      missing.add(-1., problem.apply_G(lambda));
-      const double imbalance = norms(missing, MPI_COMM_SELF)[0];
-      const double load      = norms(problem.e(), MPI_COMM_SELF)[0] +
-                          problem.feasibility_scale(lambda);
-      kkt.feasibility = imbalance > 0. ? imbalance / load : 0.;
-      kkt.relative =
-        kkt.feasibility + (sizes[0] <= rounding ? 0. : sizes[0] / scale);
-      if (!std::isfinite(kkt.relative))
-        throw SolveError("the contact forces are not finite numbers; check "
-                         "stiffness, loads and gaps");
-      return kkt;
-    }
+  MultiVector missing = problem.e();
+  missing.add(-1., problem.apply_G(lambda));
+  const double imbalance = norms(missing, MPI_COMM_SELF)[0];
+  const double load      = norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(lambda);
+  kkt.feasibility        = imbalance > 0. ? imbalance / load : 0.;
+  kkt.relative           = kkt.feasibility + (sizes[0] <= rounding ? 0. : sizes[0] / scale);
+  if (!std::isfinite(kkt.relative))
+    throw SolveError("the contact forces are not finite numbers; check "
+                     "stiffness, loads and gaps");
+  return kkt;
+}
 
-    EqualityPart
-    equality_part(const DualProblem &problem, MultiVector &x)
-    {
-      const std::string escaping = problem.escaping_body();
-      if (!escaping.empty())
-        throw SolveError("no equilibrium: " + escaping);
+EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
+{
+  const std::string escaping = problem.escaping_body();
+  if (!escaping.empty())
+    throw SolveError("no equilibrium: " + escaping);
 
-      EqualityPart part;
-      const RowSet all(problem.n_owned(), 1);
-      part.face   = problem.face(all);
-      part.lambda = MultiVector(problem.n_owned());
-      part.face->make_feasible(part.lambda, problem.e());
+  EqualityPart part;
+  const RowSet all(problem.n_owned(), 1);
+  part.face   = problem.face(all);
+  part.lambda = MultiVector(problem.n_owned());
+  part.face->make_feasible(part.lambda, problem.e());
 
-      MultiVector block = part.lambda;
-      block.append(x);
-      const MultiVector F_block = problem.apply(block);
-      part.residual             = problem.d();
-      part.residual.add(-1., F_block.columns_from(0, 1));
-      for (unsigned int j = 0; j < x.n_columns(); ++j)
-        for (unsigned int i = 0; i < x.n_rows(); ++i)
-          x(i, j) = problem.d()(i) - F_block(i, 1 + j);
+  MultiVector block = part.lambda;
+  block.append(x);
+  const MultiVector F_block = problem.apply(block);
+  part.residual             = problem.d();
+  part.residual.add(-1., F_block.columns_from(0, 1));
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
+    for (unsigned int i = 0; i < x.n_rows(); ++i)
+      x(i, j) = problem.d()(i) - F_block(i, 1 + j);
 
-      MultiVector both = part.residual;
-      part.face->project(both);
-      both.append(part.residual);
-      both.append(x);
-      auto sizes = norms(both, problem.context().communicator());
-      // a projected residual that is rounding is no measure
-      if (sizes[0] <= 16. * std::numeric_limits<double>::epsilon() * sizes[1])
-        sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
-      part.scale = sizes[0] == 0. ? 1. : sizes[0];
-      if (!std::isfinite(part.scale))
-        throw SolveError("the loads or gaps are not finite numbers");
-      return part;
-    }
+  MultiVector both = part.residual;
+  part.face->project(both);
+  both.append(part.residual);
+  both.append(x);
+  auto sizes = norms(both, problem.context().communicator());
+  // a projected residual that is rounding is no measure
+  if (sizes[0] <= 16. * std::numeric_limits<double>::epsilon() * sizes[1])
+    sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
+  part.scale = sizes[0] == 0. ? 1. : sizes[0];
+  if (!std::isfinite(part.scale))
+    throw SolveError("the loads or gaps are not finite numbers");
+  return part;
+}
 
-    SolveError
-    not_converged(const std::string &method,
-                  double             reached,
-                  double             tolerance,
-                  unsigned long      f_mults)
-    {
-      std::ostringstream text;
-      text.precision(2);
-      text << "the " << method << " solver reached a relative KKT residual of "
-           << reached << " instead of " << tolerance << " in " << f_mults
-           << " F-mults; allow more F-mults or a larger relative tolerance, "
-              "or try the other solver";
-      return SolveError(text.str());
-    }
-  } // namespace qp
-} // namespace snug
+SolveError
+not_converged(const std::string &method, double reached, double tolerance, unsigned long f_mults)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << "the " << method << " solver reached a relative KKT residual of " << reached
+       << " instead of " << tolerance << " in " << f_mults
+       << " F-mults; allow more F-mults or a larger relative tolerance, "
+          "or try the other solver";
+  return SolveError(text.str());
+}
+} // namespace snug::qp

@@ -5,310 +5,282 @@
 #include <cmath>
 #include <limits>
 
-namespace snug
+namespace snug::qp {
+namespace {
+/// Longest step of the projected gradient, in 1 / ||A||; below 2.
+const double gradient_step = 1.9;
+
+double step_length(const Mprgp::Sizes &sizes)
 {
-  namespace qp
-  {
-    namespace
-    {
-      /// Longest step of the projected gradient, in 1 / ||A||; below 2.
-      const double gradient_step = 1.9;
+  return gradient_step / std::max(sizes.norm, sizes.rho);
+}
+} // namespace
 
-      double
-      step_length(const Mprgp::Sizes &sizes)
-      {
-        return gradient_step / std::max(sizes.norm, sizes.rho);
-      }
-    } // namespace
-
-    Mprgp::Mprgp(const DualProblem  &problem,
-                 const EqualityPart &equality,
-                 const Sizes        &sizes,
-                 const MultiVector  &lambda)
-      : problem(problem)
-      , equality(equality)
-      , sizes(sizes)
-      , comm(problem.context().communicator())
-      , lambda(lambda)
-      , r(equality.residual)
-      , Qx(problem.n_owned())
-      , q(problem.n_owned())
-      , g(problem.n_owned())
+Mprgp::Mprgp(const DualProblem  &problem,
+             const EqualityPart &equality,
+             const Sizes        &sizes,
+             const MultiVector  &lambda)
+  : problem(problem)
+  , equality(equality)
+  , sizes(sizes)
+  , comm(problem.context().communicator())
+  , lambda(lambda)
+  , r(equality.residual)
+  , Qx(problem.n_owned())
+  , q(problem.n_owned())
+  , g(problem.n_owned())
+{
+  bool other = false;
+  for (unsigned int i = 0; i < problem.n_owned(); ++i)
+    other = other || lambda(i) != equality.lambda(i);
+  if (any(other, comm))
+    recompute();
+  else
     {
-      bool other = false;
-      for (unsigned int i = 0; i < problem.n_owned(); ++i)
-        other = other || lambda(i) != equality.lambda(i);
-      if (any(other, comm))
-        recompute();
-      else
-        {
-          MultiVector Pr = r;
-          equality.face->project(Pr);
-          g.add(-1., Pr);
-        }
-      renew_face();
-    }
-
-    double
-    Mprgp::dot(const MultiVector &x, const MultiVector &y) const
-    {
-      return inner_products(x, y, comm)(0);
-    }
-
-    /// Residual and gradient from scratch: one F-mult.
-    void
-    Mprgp::recompute()
-    {
-      MultiVector Px = lambda;
-      equality.face->project(Px);
-      Qx = lambda;
-      Qx.add(-1., Px);
-      Qx.add(-1., equality.lambda);
-      r = equality.residual;
-      r.add(-1., problem.apply(Px));
       MultiVector Pr = r;
       equality.face->project(Pr);
-      g = q;
-      g.add(sizes.rho, Qx);
       g.add(-1., Pr);
     }
+  renew_face();
+}
 
-    void
-    Mprgp::renew_face()
+double Mprgp::dot(const MultiVector &x, const MultiVector &y) const
+{
+  return inner_products(x, y, comm)(0);
+}
+
+/// Residual and gradient from scratch: one F-mult.
+void Mprgp::recompute()
+{
+  MultiVector Px = lambda;
+  equality.face->project(Px);
+  Qx = lambda;
+  Qx.add(-1., Px);
+  Qx.add(-1., equality.lambda);
+  r = equality.residual;
+  r.add(-1., problem.apply(Px));
+  MultiVector Pr = r;
+  equality.face->project(Pr);
+  g = q;
+  g.add(sizes.rho, Qx);
+  g.add(-1., Pr);
+}
+
+void Mprgp::renew_face()
+{
+  const RowSet rows = loaded_rows(problem.bounded(), lambda);
+  if (any(rows != free || !free_face, comm))
     {
-      const RowSet rows = loaded_rows(problem.bounded(), lambda);
-      if (any(rows != free || !free_face, comm))
-        {
-          free      = rows;
-          free_face = problem.face(free);
-        }
-      direction = MultiVector(problem.n_owned(), 0);
+      free      = rows;
+      free_face = problem.face(free);
     }
+  direction = MultiVector(problem.n_owned(), 0);
+}
 
-    void
-    Mprgp::update_multipliers()
-    {
-      q.add(sizes.rho, Qx);
-      g.add(sizes.rho, Qx);
-      direction = MultiVector(problem.n_owned(), 0);
-    }
+void Mprgp::update_multipliers()
+{
+  q.add(sizes.rho, Qx);
+  g.add(sizes.rho, Qx);
+  direction = MultiVector(problem.n_owned(), 0);
+}
 
-    void
-    Mprgp::set_multipliers(const MultiVector &multipliers)
-    {
-      g.add(1., multipliers);
-      g.add(-1., q);
-      q = multipliers;
-    }
+void Mprgp::set_multipliers(const MultiVector &multipliers)
+{
+  g.add(1., multipliers);
+  g.add(-1., q);
+  q = multipliers;
+}
 
-    double
-    Mprgp::infeasibility() const
-    {
-      return norms(Qx, comm)[0];
-    }
+double Mprgp::infeasibility() const
+{
+  return norms(Qx, comm)[0];
+}
 
-    double
-    Mprgp::value() const
-    {
-      // x'(Ax - 2 (b - q)) / 2 with A x = g + b - q and b = P residual_Im
-      MultiVector x = lambda;
-      x.add(-1., equality.lambda);
-      MultiVector b = equality.residual;
-      equality.face->project(b);
-      MultiVector sum = g;
-      sum.add(1., q);
-      sum.add(-1., b);
-      return 0.5 * dot(x, sum);
-    }
+double Mprgp::value() const
+{
+  // x'(Ax - 2 (b - q)) / 2 with A x = g + b - q and b = P residual_Im
+  MultiVector x = lambda;
+  x.add(-1., equality.lambda);
+  MultiVector b = equality.residual;
+  equality.face->project(b);
+  MultiVector sum = g;
+  sum.add(1., q);
+  sum.add(-1., b);
+  return 0.5 * dot(x, sum);
+}
 
-    MultiVector
-    Mprgp::feasible_lambda() const
-    {
-      MultiVector result = lambda;
-      result.add(-1., Qx);
-      return result;
-    }
+MultiVector Mprgp::feasible_lambda() const
+{
+  MultiVector result = lambda;
+  result.add(-1., Qx);
+  return result;
+}
 
-    Mprgp::Gradient
-    Mprgp::projected_gradient() const
-    {
-      const unsigned int n = problem.n_owned();
-      const double       a = step_length(sizes);
-      Gradient           gradient{MultiVector(n), MultiVector(n)};
-      double             sums[3] = {0., 0., 0.};
-      for (unsigned int i = 0; i < n; ++i)
-        if (free[i])
-          {
-            const double phi = g(i);
-            gradient.phi(i)  = phi;
-            sums[0] +=
-              phi * (problem.bounded()[i] ? std::min(lambda(i) / a, phi) : phi);
-            sums[1] += phi * phi;
-          }
-        else
-          {
-            gradient.beta(i) = std::min(g(i), 0.);
-            sums[2] += gradient.beta(i) * gradient.beta(i);
-          }
-      MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, comm);
-      gradient.phi_reduced = sums[0];
-      gradient.beta_beta   = sums[2];
-      gradient.norm        = std::sqrt(sums[1] + sums[2]);
-      return gradient;
-    }
+Mprgp::Gradient Mprgp::projected_gradient() const
+{
+  const unsigned int n = problem.n_owned();
+  const double       a = step_length(sizes);
+  Gradient           gradient{MultiVector(n), MultiVector(n)};
+  double             sums[3] = {0., 0., 0.};
+  for (unsigned int i = 0; i < n; ++i)
+    if (free[i])
+      {
+        const double phi = g(i);
+        gradient.phi(i)  = phi;
+        sums[0] += phi * (problem.bounded()[i] ? std::min(lambda(i) / a, phi) : phi);
+        sums[1] += phi * phi;
+      }
+    else
+      {
+        gradient.beta(i) = std::min(g(i), 0.);
+        sums[2] += gradient.beta(i) * gradient.beta(i);
+      }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, comm);
+  gradient.phi_reduced = sums[0];
+  gradient.beta_beta   = sums[2];
+  gradient.norm        = std::sqrt(sums[1] + sums[2]);
+  return gradient;
+}
 
-    Mprgp::Image
-    Mprgp::apply(const MultiVector &p) const
-    {
-      MultiVector Pp = p;
-      equality.face->project(Pp);
-      Image image;
-      image.Qp = p;
-      image.Qp.add(-1., Pp);
-      image.FPp = problem.apply(Pp);
-      image.Ap  = image.FPp;
-      equality.face->project(image.Ap);
-      image.Ap.add(sizes.rho, image.Qp);
-      MultiVector both = image.Ap;
-      both.append(g);
-      const MultiVector products = inner_products(p, both, comm);
-      image.p_Ap                 = products(0, 0);
-      image.p_g                  = products(0, 1);
-      return image;
-    }
+Mprgp::Image Mprgp::apply(const MultiVector &p) const
+{
+  MultiVector Pp = p;
+  equality.face->project(Pp);
+  Image image;
+  image.Qp = p;
+  image.Qp.add(-1., Pp);
+  image.FPp = problem.apply(Pp);
+  image.Ap  = image.FPp;
+  equality.face->project(image.Ap);
+  image.Ap.add(sizes.rho, image.Qp);
+  MultiVector both = image.Ap;
+  both.append(g);
+  const MultiVector products = inner_products(p, both, comm);
+  image.p_Ap                 = products(0, 0);
+  image.p_g                  = products(0, 1);
+  return image;
+}
 
-    /// mask_F (P M_F^{-1} P + Q / rho) phi
-    MultiVector
-    Mprgp::precondition(const MultiVector &phi) const
-    {
-      MultiVector Pphi = phi;
-      equality.face->project(Pphi);
-      MultiVector z = free_face->precondition(Pphi);
-      equality.face->project(z);
-      z.add(1. / sizes.rho, phi);
-      z.add(-1. / sizes.rho, Pphi);
-      for (unsigned int i = 0; i < z.n_rows(); ++i)
-        if (!free[i])
-          z(i) = 0.;
-      return z;
-    }
+/// mask_F (P M_F^{-1} P + Q / rho) phi
+MultiVector Mprgp::precondition(const MultiVector &phi) const
+{
+  MultiVector Pphi = phi;
+  equality.face->project(Pphi);
+  MultiVector z = free_face->precondition(Pphi);
+  equality.face->project(z);
+  z.add(1. / sizes.rho, phi);
+  z.add(-1. / sizes.rho, Pphi);
+  for (unsigned int i = 0; i < z.n_rows(); ++i)
+    if (!free[i])
+      z(i) = 0.;
+  return z;
+}
 
-    /// The largest a for which lambda - a p stays feasible.
-    double
-    Mprgp::largest_feasible_step(const MultiVector &p) const
-    {
-      double a = std::numeric_limits<double>::max();
-      for (unsigned int i = 0; i < p.n_rows(); ++i)
-        if (problem.bounded()[i] && p(i) > 0.)
-          a = std::min(a, lambda(i) / p(i));
-      MPI_Allreduce(MPI_IN_PLACE, &a, 1, MPI_DOUBLE, MPI_MIN, comm);
-      return a;
-    }
+/// The largest a for which lambda - a p stays feasible.
+double Mprgp::largest_feasible_step(const MultiVector &p) const
+{
+  double a = std::numeric_limits<double>::max();
+  for (unsigned int i = 0; i < p.n_rows(); ++i)
+    if (problem.bounded()[i] && p(i) > 0.)
+      a = std::min(a, lambda(i) / p(i));
+  MPI_Allreduce(MPI_IN_PLACE, &a, 1, MPI_DOUBLE, MPI_MIN, comm);
+  return a;
+}
 
-    /// x <- x - a p with all that follows it.
-    void
-    Mprgp::step(double a, const MultiVector &p, const Image &image)
+/// x <- x - a p with all that follows it.
+void Mprgp::step(double a, const MultiVector &p, const Image &image)
+{
+  lambda.add(-a, p);
+  for (unsigned int i = 0; i < lambda.n_rows(); ++i)
+    if (problem.bounded()[i])
+      lambda(i) = std::max(lambda(i), 0.);
+  g.add(-a, image.Ap);
+  r.add(a, image.FPp);
+  Qx.add(-a, image.Qp);
+}
+
+/// lambda <- max(lambda - a p, 0); back to a half feasible step and one
+/// along the gradient if that does not lower the function.
+void Mprgp::expand(double a, double a_feasible)
+{
+  const MultiVector old = lambda, old_g = g;
+  const auto        project_step = [&](double length, const MultiVector &p) {
+    lambda = old;
+    lambda.add(-length, p);
+    for (unsigned int i = 0; i < lambda.n_rows(); ++i)
+      if (problem.bounded()[i])
+        lambda(i) = std::max(lambda(i), 0.);
+  };
+  project_step(a, direction);
+  recompute();
+  MultiVector move = lambda, sum = g;
+  move.add(-1., old);
+  sum.add(1., old_g);
+  if (dot(move, sum) > 0.)
     {
-      lambda.add(-a, p);
+      project_step(0.5 * a_feasible, direction);
+      recompute();
+      const Gradient gradient = projected_gradient();
+      lambda.add(-step_length(sizes), gradient.phi);
       for (unsigned int i = 0; i < lambda.n_rows(); ++i)
         if (problem.bounded()[i])
           lambda(i) = std::max(lambda(i), 0.);
-      g.add(-a, image.Ap);
-      r.add(a, image.FPp);
-      Qx.add(-a, image.Qp);
-    }
-
-    /// lambda <- max(lambda - a p, 0); back to a half feasible step and one
-    /// along the gradient if that does not lower the function.
-    void
-    Mprgp::expand(double a, double a_feasible)
-    {
-      const MultiVector old = lambda, old_g = g;
-      const auto project_step = [&](double length, const MultiVector &p) {
-        lambda = old;
-        lambda.add(-length, p);
-        for (unsigned int i = 0; i < lambda.n_rows(); ++i)
-          if (problem.bounded()[i])
-            lambda(i) = std::max(lambda(i), 0.);
-      };
-      project_step(a, direction);
       recompute();
-      MultiVector move = lambda, sum = g;
-      move.add(-1., old);
-      sum.add(1., old_g);
-      if (dot(move, sum) > 0.)
-        {
-          project_step(0.5 * a_feasible, direction);
-          recompute();
-          const Gradient gradient = projected_gradient();
-          lambda.add(-step_length(sizes), gradient.phi);
-          for (unsigned int i = 0; i < lambda.n_rows(); ++i)
-            if (problem.bounded()[i])
-              lambda(i) = std::max(lambda(i), 0.);
-          recompute();
-        }
-      renew_face();
     }
+  renew_face();
+}
 
-    /// One conjugate gradient step; false if no decrease is left to find.
-    bool
-    Mprgp::conjugate_step(const Gradient &gradient)
+/// One conjugate gradient step; false if no decrease is left to find.
+bool Mprgp::conjugate_step(const Gradient &gradient)
+{
+  if (direction.n_columns() == 0)
+    direction = precondition(gradient.phi);
+  const Image image = apply(direction);
+  if (!(image.p_Ap > 0.))
+    return false;
+  const double a          = image.p_g / image.p_Ap;
+  const double a_feasible = largest_feasible_step(direction);
+  if (a > a_feasible)
     {
-      if (direction.n_columns() == 0)
-        direction = precondition(gradient.phi);
-      const Image image = apply(direction);
-      if (!(image.p_Ap > 0.))
-        return false;
-      const double a          = image.p_g / image.p_Ap;
-      const double a_feasible = largest_feasible_step(direction);
-      if (a > a_feasible)
-        {
-          expand(a, a_feasible);
-          return true;
-        }
-      step(a, direction, image);
-      MultiVector phi = g;
-      for (unsigned int i = 0; i < phi.n_rows(); ++i)
-        if (!free[i])
-          phi(i) = 0.;
-      MultiVector z = precondition(phi);
-      z.add(-dot(z, image.Ap) / image.p_Ap, direction);
-      const bool reached_bound =
-        any(loaded_rows(problem.bounded(), lambda) != free, comm);
-      if (reached_bound)
-        renew_face();
-      else
-        direction = z;
+      expand(a, a_feasible);
       return true;
     }
+  step(a, direction, image);
+  MultiVector phi = g;
+  for (unsigned int i = 0; i < phi.n_rows(); ++i)
+    if (!free[i])
+      phi(i) = 0.;
+  MultiVector z = precondition(phi);
+  z.add(-dot(z, image.Ap) / image.p_Ap, direction);
+  const bool reached_bound = any(loaded_rows(problem.bounded(), lambda) != free, comm);
+  if (reached_bound)
+    renew_face();
+  else
+    direction = z;
+  return true;
+}
 
-    void
-    Mprgp::proportion(const Gradient &gradient)
-    {
-      const Image image = apply(gradient.beta);
-      step(image.p_Ap > 0. ? image.p_g / image.p_Ap : step_length(sizes),
-           gradient.beta,
-           image);
-      renew_face();
-    }
+void Mprgp::proportion(const Gradient &gradient)
+{
+  const Image image = apply(gradient.beta);
+  step(image.p_Ap > 0. ? image.p_g / image.p_Ap : step_length(sizes), gradient.beta, image);
+  renew_face();
+}
 
-    void
-    Mprgp::minimize(const Stop &stop)
+void Mprgp::minimize(const Stop &stop)
+{
+  while (problem.context().work.f_mults < stop.f_mults)
     {
-      while (problem.context().work.f_mults < stop.f_mults)
-        {
-          const Gradient gradient = projected_gradient();
-          const double   wanted =
-            std::max(std::min(stop.gradient_factor * infeasibility(),
-                              stop.gradient_cap),
-                     stop.gradient_floor);
-          if (!(gradient.norm > wanted))
-            return;
-          if (gradient.beta_beta > gradient.phi_reduced)
-            proportion(gradient);
-          else if (!conjugate_step(gradient))
-            return;
-        }
+      const Gradient gradient = projected_gradient();
+      const double   wanted =
+        std::max(std::min(stop.gradient_factor * infeasibility(), stop.gradient_cap),
+                 stop.gradient_floor);
+      if (!(gradient.norm > wanted))
+        return;
+      if (gradient.beta_beta > gradient.phi_reduced)
+        proportion(gradient);
+      else if (!conjugate_step(gradient))
+        return;
     }
-  } // namespace qp
-} // namespace snug
+}
+} // namespace snug::qp

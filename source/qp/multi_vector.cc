@@ -8,152 +8,86 @@
 
 #include <cmath>
 
-namespace snug
+namespace snug::qp {
+MultiVector::MultiVector(unsigned int n_rows, unsigned int n_columns)
+  : rows(n_rows), columns(n_columns), values(std::size_t(n_rows) * n_columns, 0.)
+{}
+
+void MultiVector::add(double factor, const MultiVector &x)
 {
-  namespace qp
-  {
-    MultiVector::MultiVector(unsigned int n_rows, unsigned int n_columns)
-      : rows(n_rows)
-      , columns(n_columns)
-      , values(std::size_t(n_rows) * n_columns, 0.)
-    {
-    }
+  Assert(rows == x.rows && columns == x.columns, dealii::ExcDimensionMismatch(columns, x.columns));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] += factor * x.values[i];
+}
 
-    void
-    MultiVector::add(double factor, const MultiVector &x)
-    {
-      Assert(rows == x.rows && columns == x.columns,
-             dealii::ExcDimensionMismatch(columns, x.columns));
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] += factor * x.values[i];
-    }
+void MultiVector::add_product(double factor, const MultiVector &x, const MultiVector &C)
+{
+  Assert(rows == x.rows && x.columns == C.rows && columns == C.columns,
+         dealii::ExcDimensionMismatch(x.columns, C.rows));
+  const PetscBLASInt m = rows, n = columns, k = x.columns, stride = 1;
+  const double       one = 1.;
+  if (m == 0 || n == 0 || k == 0)
+    return;
+  if (n == 1)
+    BLASgemv_("N", &m, &k, &factor, x.column(0), &m, C.column(0), &stride, &one, column(0),
+              &stride);
+  else
+    BLASgemm_("N", "N", &m, &n, &k, &factor, x.column(0), &m, C.column(0), &k, &one, column(0), &m);
+}
 
-    void
-    MultiVector::add_product(double             factor,
-                             const MultiVector &x,
-                             const MultiVector &C)
-    {
-      Assert(rows == x.rows && x.columns == C.rows && columns == C.columns,
-             dealii::ExcDimensionMismatch(x.columns, C.rows));
-      const PetscBLASInt m = rows, n = columns, k = x.columns, stride = 1;
-      const double       one = 1.;
-      if (m == 0 || n == 0 || k == 0)
-        return;
-      if (n == 1)
-        BLASgemv_("N",
-                  &m,
-                  &k,
-                  &factor,
-                  x.column(0),
-                  &m,
-                  C.column(0),
-                  &stride,
-                  &one,
-                  column(0),
-                  &stride);
-      else
-        BLASgemm_("N",
-                  "N",
-                  &m,
-                  &n,
-                  &k,
-                  &factor,
-                  x.column(0),
-                  &m,
-                  C.column(0),
-                  &k,
-                  &one,
-                  column(0),
-                  &m);
-    }
+void MultiVector::append(const MultiVector &x)
+{
+  Assert(rows == x.rows, dealii::ExcDimensionMismatch(rows, x.rows));
+  values.insert(values.end(), x.values.begin(), x.values.end());
+  columns += x.columns;
+}
 
-    void
-    MultiVector::append(const MultiVector &x)
-    {
-      Assert(rows == x.rows, dealii::ExcDimensionMismatch(rows, x.rows));
-      values.insert(values.end(), x.values.begin(), x.values.end());
-      columns += x.columns;
-    }
+void MultiVector::reserve(unsigned int n)
+{
+  values.reserve(std::size_t(n) * rows);
+}
 
-    void
-    MultiVector::reserve(unsigned int n)
-    {
-      values.reserve(std::size_t(n) * rows);
-    }
+MultiVector MultiVector::columns_from(unsigned int first, unsigned int n) const
+{
+  AssertIndexRange(first + n, columns + 1);
+  MultiVector part(rows, n);
+  part.values.assign(column(first), column(first) + std::size_t(n) * rows);
+  return part;
+}
 
-    MultiVector
-    MultiVector::columns_from(unsigned int first, unsigned int n) const
-    {
-      AssertIndexRange(first + n, columns + 1);
-      MultiVector part(rows, n);
-      part.values.assign(column(first), column(first) + std::size_t(n) * rows);
-      return part;
-    }
+MultiVector inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm)
+{
+  MultiVector products(X.n_columns(), Y.n_columns());
+  Assert(X.n_rows() == Y.n_rows(), dealii::ExcDimensionMismatch(X.n_rows(), Y.n_rows()));
+  const PetscBLASInt m = X.n_columns(), n = Y.n_columns(), k = X.n_rows();
+  const PetscBLASInt stride = 1;
+  const double       one = 1., zero = 0.;
+  if (k > 0 && m > 0 && n == 1)
+    BLASgemv_("T", &k, &m, &one, X.column(0), &k, Y.column(0), &stride, &zero, products.column(0),
+              &stride);
+  else if (k > 0 && m > 0 && n > 0)
+    BLASgemm_("T", "N", &m, &n, &k, &one, X.column(0), &k, Y.column(0), &k, &zero,
+              products.column(0), &m);
+  MPI_Allreduce(MPI_IN_PLACE, products.column(0), m * n, MPI_DOUBLE, MPI_SUM, comm);
+  return products;
+}
 
-    MultiVector
-    inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm)
-    {
-      MultiVector products(X.n_columns(), Y.n_columns());
-      Assert(X.n_rows() == Y.n_rows(),
-             dealii::ExcDimensionMismatch(X.n_rows(), Y.n_rows()));
-      const PetscBLASInt m = X.n_columns(), n = Y.n_columns(), k = X.n_rows();
-      const PetscBLASInt stride = 1;
-      const double       one = 1., zero = 0.;
-      if (k > 0 && m > 0 && n == 1)
-        BLASgemv_("T",
-                  &k,
-                  &m,
-                  &one,
-                  X.column(0),
-                  &k,
-                  Y.column(0),
-                  &stride,
-                  &zero,
-                  products.column(0),
-                  &stride);
-      else if (k > 0 && m > 0 && n > 0)
-        BLASgemm_("T",
-                  "N",
-                  &m,
-                  &n,
-                  &k,
-                  &one,
-                  X.column(0),
-                  &k,
-                  Y.column(0),
-                  &k,
-                  &zero,
-                  products.column(0),
-                  &m);
-      MPI_Allreduce(
-        MPI_IN_PLACE, products.column(0), m * n, MPI_DOUBLE, MPI_SUM, comm);
-      return products;
-    }
+std::vector<double> norms(const MultiVector &X, MPI_Comm comm)
+{
+  std::vector<double> squares(X.n_columns(), 0.);
+  for (unsigned int j = 0; j < X.n_columns(); ++j)
+    for (unsigned int i = 0; i < X.n_rows(); ++i)
+      squares[j] += X(i, j) * X(i, j);
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), squares.size(), MPI_DOUBLE, MPI_SUM, comm);
+  for (double &square : squares)
+    square = std::sqrt(square);
+  return squares;
+}
 
-    std::vector<double>
-    norms(const MultiVector &X, MPI_Comm comm)
-    {
-      std::vector<double> squares(X.n_columns(), 0.);
-      for (unsigned int j = 0; j < X.n_columns(); ++j)
-        for (unsigned int i = 0; i < X.n_rows(); ++i)
-          squares[j] += X(i, j) * X(i, j);
-      MPI_Allreduce(MPI_IN_PLACE,
-                    squares.data(),
-                    squares.size(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    comm);
-      for (double &square : squares)
-        square = std::sqrt(square);
-      return squares;
-    }
-
-    MultiVector
-    times(const MultiVector &x, const MultiVector &C)
-    {
-      MultiVector product(x.n_rows(), C.n_columns());
-      product.add_product(1., x, C);
-      return product;
-    }
-  } // namespace qp
-} // namespace snug
+MultiVector times(const MultiVector &x, const MultiVector &C)
+{
+  MultiVector product(x.n_rows(), C.n_columns());
+  product.add_product(1., x, C);
+  return product;
+}
+} // namespace snug::qp

@@ -7,251 +7,219 @@
 #include <cmath>
 #include <limits>
 
-namespace snug
+namespace snug::qp {
+namespace {
+/// Projected residuals below this part of the residual are rounding.
+const double residual_rounding = 16. * std::numeric_limits<double>::epsilon();
+
+/// Directions depend on each other if a pivot of their Gram matrix,
+/// scaled to unit diagonal, is below this.
+const double dependence_cut = 1e-3;
+
+/// A direction is rounding if orthogonalisation leaves less than this
+/// of the square of its F-norm.
+const double noise = 1e-12;
+
+/// A column whose residual is this part of its tolerance from the span
+/// of the others' converges with them.
+const double negligible = 0.5;
+
+/// Columns that stand out by less of the longest than this wait: later
+/// the directions of the others may do.
+const double minor = 0.3;
+
+/// Room is made for the directions of so many beforehand.
+const unsigned int usual_iterations = 32;
+
+/// Iterations without a smaller residual that mean it is at its floor.
+const unsigned int patience = 40;
+
+/// Columns of @p x, divided by @p units, that span the others nearly.
+MultiVector leading_part(const MultiVector               &x,
+                         const std::vector<unsigned int> &columns,
+                         const std::vector<double>       &units,
+                         MPI_Comm                         comm)
 {
-  namespace qp
+  MultiVector scaled(x.n_rows(), 0);
+  for (const unsigned int j : columns)
+    {
+      MultiVector column(x.n_rows());
+      column.add(1. / units[j], x.columns_from(j, 1));
+      scaled.append(column);
+    }
+  MultiVector part(x.n_rows(), 0);
+  for (const unsigned int j :
+       leading_columns(inner_products(scaled, scaled, comm), negligible, minor))
+    part.append(scaled.columns_from(j, 1));
+  return part;
+}
+
+/// Remembers the smallest worst column and when it was reached.
+class StagnationTest
+{
+public:
+  bool stagnates(double worst)
   {
-    namespace
-    {
-      /// Projected residuals below this part of the residual are rounding.
-      const double residual_rounding =
-        16. * std::numeric_limits<double>::epsilon();
-
-      /// Directions depend on each other if a pivot of their Gram matrix,
-      /// scaled to unit diagonal, is below this.
-      const double dependence_cut = 1e-3;
-
-      /// A direction is rounding if orthogonalisation leaves less than this
-      /// of the square of its F-norm.
-      const double noise = 1e-12;
-
-      /// A column whose residual is this part of its tolerance from the span
-      /// of the others' converges with them.
-      const double negligible = 0.5;
-
-      /// Columns that stand out by less of the longest than this wait: later
-      /// the directions of the others may do.
-      const double minor = 0.3;
-
-      /// Room is made for the directions of so many beforehand.
-      const unsigned int usual_iterations = 32;
-
-      /// Iterations without a smaller residual that mean it is at its floor.
-      const unsigned int patience = 40;
-
-      /// Columns of @p x, divided by @p units, that span the others nearly.
-      MultiVector
-      leading_part(const MultiVector               &x,
-                   const std::vector<unsigned int> &columns,
-                   const std::vector<double>       &units,
-                   MPI_Comm                         comm)
+    ++waited;
+    if (worst < 0.99 * best)
       {
-        MultiVector scaled(x.n_rows(), 0);
-        for (const unsigned int j : columns)
-          {
-            MultiVector column(x.n_rows());
-            column.add(1. / units[j], x.columns_from(j, 1));
-            scaled.append(column);
-          }
-        MultiVector part(x.n_rows(), 0);
-        for (const unsigned int j : leading_columns(
-               inner_products(scaled, scaled, comm), negligible, minor))
-          part.append(scaled.columns_from(j, 1));
-        return part;
+        best   = worst;
+        waited = 0;
       }
+    return waited > patience;
+  }
 
-      /// Remembers the smallest worst column and when it was reached.
-      class StagnationTest
-      {
-      public:
-        bool
-        stagnates(double worst)
+private:
+  double       best   = std::numeric_limits<double>::infinity();
+  unsigned int waited = 0;
+};
+} // namespace
+
+Pcpg::Pcpg(const DualProblem &problem, const Face &face, DirectionBasis known)
+  : problem(problem), face(face), comm(problem.context().communicator()), basis(std::move(known))
+{
+  if (basis.P.n_columns() == 0)
+    basis = {MultiVector(problem.n_owned(), 0), MultiVector(problem.n_owned(), 0)};
+  for (const double length : norms(basis.P, comm))
+    largest_rayleigh_quotient = std::max(largest_rayleigh_quotient, basis.unit / (length * length));
+}
+
+void Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
+{
+  if (basis.P.n_columns() == 0)
+    return;
+  const MultiVector a = inner_products(basis.P, residual, comm);
+  lambda.add_product(1. / basis.unit, basis.P, a);
+  residual.add_product(-1. / basis.unit, basis.FP, a);
+}
+
+std::vector<double> Pcpg::orthogonalise(MultiVector &x) const
+{
+  std::vector<double> removed(x.n_columns(), 0.);
+  if (basis.P.n_columns() == 0)
+    return removed;
+  const MultiVector parts = inner_products(basis.FP, x, comm);
+  x.add_product(-1. / basis.unit, basis.P, parts);
+  for (unsigned int j = 0; j < parts.n_columns(); ++j)
+    for (unsigned int i = 0; i < parts.n_rows(); ++i)
+      removed[j] += parts(i, j) * parts(i, j) / basis.unit;
+  return removed;
+}
+
+MultiVector Pcpg::new_directions(const MultiVector &r, std::vector<double> &removed) const
+{
+  MultiVector Z = face.precondition(r);
+  face.project(Z);
+  removed = orthogonalise(Z);
+  if (Z.n_columns() == 1)
+    return Z;
+  // A well conditioned basis first: dependent directions cost no F-mult.
+  // It amplifies round-off, so the directions are projected and made
+  // F-orthogonal once more, or residuals grow again near convergence.
+  std::vector<double> smallest(Z.n_columns(), 0.);
+  for (unsigned int j = 0; j < Z.n_columns(); ++j)
+    if (removed[j] > 0.)
+      smallest[j] = noise * removed[j] / largest_rayleigh_quotient;
+  Z = times(Z, orthonormal_combinations(inner_products(Z, Z, comm), smallest, dependence_cut));
+  face.project(Z);
+  orthogonalise(Z);
+  removed.assign(Z.n_columns(), 0.);
+  return Z;
+}
+
+bool Pcpg::step(const MultiVector         &Z,
+                const std::vector<double> &removed,
+                MultiVector               &lambda,
+                MultiVector               &residual)
+{
+  const unsigned int n = Z.n_columns(), k = residual.n_columns();
+  const MultiVector  FZ    = problem.apply(Z);
+  MultiVector        right = FZ;
+  right.append(Z);
+  right.append(residual);
+  const MultiVector   products = inner_products(Z, right, comm);
+  std::vector<double> smallest(n);
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      const double ZZ = products(j, n + j);
+      if (ZZ > 0.)
+        largest_rayleigh_quotient = std::max(largest_rayleigh_quotient, products(j, j) / ZZ);
+      smallest[j] =
+        std::max(std::numeric_limits<double>::epsilon() * largest_rayleigh_quotient * ZZ,
+                 noise * removed[j]);
+    }
+  if (basis.P.n_columns() == 0 && largest_rayleigh_quotient > 0.)
+    basis.unit = std::ldexp(1., std::ilogb(largest_rayleigh_quotient));
+  MultiVector ZFZ(n, n);
+  ZFZ.add(1. / basis.unit, products.columns_from(0, n));
+  for (double &least : smallest)
+    least /= basis.unit;
+  const MultiVector C = orthonormal_combinations(ZFZ, smallest, dependence_cut);
+  if (C.n_columns() == 0)
+    return false;
+  const MultiVector a     = inner_products(C, products.columns_from(2 * n, k), MPI_COMM_SELF);
+  const MultiVector new_P = times(Z, C), new_FP = times(FZ, C);
+  lambda.add_product(1. / basis.unit, new_P, a);
+  residual.add_product(-1. / basis.unit, new_FP, a);
+  basis.P.append(new_P);
+  basis.FP.append(new_FP);
+  return true;
+}
+
+PcpgResult Pcpg::solve(MultiVector               &lambda,
+                       MultiVector               &residual,
+                       const std::vector<double> &tolerances,
+                       unsigned int               max_iterations)
+{
+  const unsigned int k = lambda.n_columns();
+  AssertDimension(residual.n_columns(), k);
+  AssertDimension(tolerances.size(), k);
+  PcpgResult          result;
+  StagnationTest      test;
+  std::vector<double> first;
+  correct(lambda, residual);
+  for (MultiVector *directions : {&basis.P, &basis.FP})
+    if (directions->n_columns() == 0 || k > 1)
+      directions->reserve(directions->n_columns() + usual_iterations * k);
+  while (true)
+    {
+      MultiVector r = residual;
+      face.project(r);
+      MultiVector both = r;
+      both.append(residual);
+      const auto                sizes = norms(both, comm);
+      std::vector<unsigned int> remaining;
+      std::vector<double>       goals(k);
+      double                    worst = 0.;
+      if (result.iterations == 0)
+        first = sizes;
+      for (unsigned int j = 0; j < k; ++j)
         {
-          ++waited;
-          if (worst < 0.99 * best)
-            {
-              best   = worst;
-              waited = 0;
-            }
-          return waited > patience;
+          goals[j] = std::max(tolerances[j], residual_rounding * sizes[k + j]);
+          if (sizes[j] <= goals[j])
+            continue;
+          remaining.push_back(j);
+          worst = std::max(worst, sizes[j] / first[j]);
         }
-
-      private:
-        double       best   = std::numeric_limits<double>::infinity();
-        unsigned int waited = 0;
-      };
-    } // namespace
-
-    Pcpg::Pcpg(const DualProblem &problem,
-               const Face        &face,
-               DirectionBasis     known)
-      : problem(problem)
-      , face(face)
-      , comm(problem.context().communicator())
-      , basis(std::move(known))
-    {
-      if (basis.P.n_columns() == 0)
-        basis = {MultiVector(problem.n_owned(), 0),
-                 MultiVector(problem.n_owned(), 0)};
-      for (const double length : norms(basis.P, comm))
-        largest_rayleigh_quotient =
-          std::max(largest_rayleigh_quotient, basis.unit / (length * length));
+      result.residual_norms.assign(sizes.begin(), sizes.begin() + k);
+      result.converged = remaining.empty();
+      if (result.converged || result.iterations == max_iterations || test.stagnates(worst))
+        return result;
+      std::vector<double> removed;
+      const MultiVector   Z = new_directions(leading_part(r, remaining, goals, comm), removed);
+      if (Z.n_columns() == 0 || !step(Z, removed, lambda, residual))
+        return result;
+      ++result.iterations;
     }
+}
 
-    void
-    Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
-    {
-      if (basis.P.n_columns() == 0)
-        return;
-      const MultiVector a = inner_products(basis.P, residual, comm);
-      lambda.add_product(1. / basis.unit, basis.P, a);
-      residual.add_product(-1. / basis.unit, basis.FP, a);
-    }
-
-    std::vector<double>
-    Pcpg::orthogonalise(MultiVector &x) const
-    {
-      std::vector<double> removed(x.n_columns(), 0.);
-      if (basis.P.n_columns() == 0)
-        return removed;
-      const MultiVector parts = inner_products(basis.FP, x, comm);
-      x.add_product(-1. / basis.unit, basis.P, parts);
-      for (unsigned int j = 0; j < parts.n_columns(); ++j)
-        for (unsigned int i = 0; i < parts.n_rows(); ++i)
-          removed[j] += parts(i, j) * parts(i, j) / basis.unit;
-      return removed;
-    }
-
-    MultiVector
-    Pcpg::new_directions(const MultiVector   &r,
-                         std::vector<double> &removed) const
-    {
-      MultiVector Z = face.precondition(r);
-      face.project(Z);
-      removed = orthogonalise(Z);
-      if (Z.n_columns() == 1)
-        return Z;
-      // A well conditioned basis first: dependent directions cost no F-mult.
-      // It amplifies round-off, so the directions are projected and made
-      // F-orthogonal once more, or residuals grow again near convergence.
-      std::vector<double> smallest(Z.n_columns(), 0.);
-      for (unsigned int j = 0; j < Z.n_columns(); ++j)
-        if (removed[j] > 0.)
-          smallest[j] = noise * removed[j] / largest_rayleigh_quotient;
-      Z = times(Z,
-                orthonormal_combinations(inner_products(Z, Z, comm),
-                                         smallest,
-                                         dependence_cut));
-      face.project(Z);
-      orthogonalise(Z);
-      removed.assign(Z.n_columns(), 0.);
-      return Z;
-    }
-
-    bool
-    Pcpg::step(const MultiVector         &Z,
-               const std::vector<double> &removed,
-               MultiVector               &lambda,
-               MultiVector               &residual)
-    {
-      const unsigned int n = Z.n_columns(), k = residual.n_columns();
-      const MultiVector  FZ    = problem.apply(Z);
-      MultiVector        right = FZ;
-      right.append(Z);
-      right.append(residual);
-      const MultiVector   products = inner_products(Z, right, comm);
-      std::vector<double> smallest(n);
-      for (unsigned int j = 0; j < n; ++j)
-        {
-          const double ZZ = products(j, n + j);
-          if (ZZ > 0.)
-            largest_rayleigh_quotient =
-              std::max(largest_rayleigh_quotient, products(j, j) / ZZ);
-          smallest[j] = std::max(std::numeric_limits<double>::epsilon() *
-                                   largest_rayleigh_quotient * ZZ,
-                                 noise * removed[j]);
-        }
-      if (basis.P.n_columns() == 0 && largest_rayleigh_quotient > 0.)
-        basis.unit = std::ldexp(1., std::ilogb(largest_rayleigh_quotient));
-      MultiVector ZFZ(n, n);
-      ZFZ.add(1. / basis.unit, products.columns_from(0, n));
-      for (double &least : smallest)
-        least /= basis.unit;
-      const MultiVector C =
-        orthonormal_combinations(ZFZ, smallest, dependence_cut);
-      if (C.n_columns() == 0)
-        return false;
-      const MultiVector a =
-        inner_products(C, products.columns_from(2 * n, k), MPI_COMM_SELF);
-      const MultiVector new_P = times(Z, C), new_FP = times(FZ, C);
-      lambda.add_product(1. / basis.unit, new_P, a);
-      residual.add_product(-1. / basis.unit, new_FP, a);
-      basis.P.append(new_P);
-      basis.FP.append(new_FP);
-      return true;
-    }
-
-    PcpgResult
-    Pcpg::solve(MultiVector               &lambda,
+PcpgResult pcpg(const DualProblem         &problem,
+                const Face                &face,
+                MultiVector               &lambda,
                 MultiVector               &residual,
                 const std::vector<double> &tolerances,
                 unsigned int               max_iterations)
-    {
-      const unsigned int k = lambda.n_columns();
-      AssertDimension(residual.n_columns(), k);
-      AssertDimension(tolerances.size(), k);
-      PcpgResult          result;
-      StagnationTest      test;
-      std::vector<double> first;
-      correct(lambda, residual);
-      for (MultiVector *directions : {&basis.P, &basis.FP})
-        if (directions->n_columns() == 0 || k > 1)
-          directions->reserve(directions->n_columns() + usual_iterations * k);
-      while (true)
-        {
-          MultiVector r = residual;
-          face.project(r);
-          MultiVector both = r;
-          both.append(residual);
-          const auto                sizes = norms(both, comm);
-          std::vector<unsigned int> remaining;
-          std::vector<double>       goals(k);
-          double                    worst = 0.;
-          if (result.iterations == 0)
-            first = sizes;
-          for (unsigned int j = 0; j < k; ++j)
-            {
-              goals[j] =
-                std::max(tolerances[j], residual_rounding * sizes[k + j]);
-              if (sizes[j] <= goals[j])
-                continue;
-              remaining.push_back(j);
-              worst = std::max(worst, sizes[j] / first[j]);
-            }
-          result.residual_norms.assign(sizes.begin(), sizes.begin() + k);
-          result.converged = remaining.empty();
-          if (result.converged || result.iterations == max_iterations ||
-              test.stagnates(worst))
-            return result;
-          std::vector<double> removed;
-          const MultiVector   Z =
-            new_directions(leading_part(r, remaining, goals, comm), removed);
-          if (Z.n_columns() == 0 || !step(Z, removed, lambda, residual))
-            return result;
-          ++result.iterations;
-        }
-    }
-
-    PcpgResult
-    pcpg(const DualProblem         &problem,
-         const Face                &face,
-         MultiVector               &lambda,
-         MultiVector               &residual,
-         const std::vector<double> &tolerances,
-         unsigned int               max_iterations)
-    {
-      return Pcpg(problem, face)
-        .solve(lambda, residual, tolerances, max_iterations);
-    }
-  } // namespace qp
-} // namespace snug
+{
+  return Pcpg(problem, face).solve(lambda, residual, tolerances, max_iterations);
+}
+} // namespace snug::qp

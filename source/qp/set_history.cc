@@ -2,62 +2,50 @@
 
 #include <sstream>
 
-namespace snug
+namespace snug::qp {
+SetHistory::SetHistory(const ActiveSetOptions &options) : options(options) {}
+
+SetHistory::Care SetHistory::enter(const std::uint64_t set, const double kkt_residual)
 {
-  namespace qp
-  {
-    SetHistory::SetHistory(const ActiveSetOptions &options) : options(options)
-    {
-    }
+  count_visits(set);
+  watch_residual(kkt_residual);
+  return care;
+}
 
-    SetHistory::Care
-    SetHistory::enter(const std::uint64_t set, const double kkt_residual)
+void SetHistory::count_visits(const std::uint64_t set)
+{
+  const unsigned int n = ++visits[set];
+  if (care == single && (++single_steps > options.single_steps || n >= options.visits))
     {
-      count_visits(set);
-      watch_residual(kkt_residual);
-      return care;
+      care = give_up;
+      why  = "cycles";
     }
+  else if (care < single && n >= options.visits)
+    {
+      care = n == options.visits ? exact : single;
+      if (care == single)
+        visits.clear();
+    }
+}
 
-    void
-    SetHistory::count_visits(const std::uint64_t set)
+void SetHistory::watch_residual(const double kkt_residual)
+{
+  if (kkt_residual < 0.9 * least_residual)
     {
-      const unsigned int n = ++visits[set];
-      if (care == single &&
-          (++single_steps > options.single_steps || n >= options.visits))
-        {
-          care = give_up;
-          why  = "cycles";
-        }
-      else if (care < single && n >= options.visits)
-        {
-          care = n == options.visits ? exact : single;
-          if (care == single)
-            visits.clear();
-        }
+      least_residual = kkt_residual;
+      idle_steps     = 0;
     }
+  else if (care < single && ++idle_steps >= options.patience)
+    {
+      care = give_up;
+      std::ostringstream text;
+      text << "makes no progress (KKT residual " << least_residual << " at best)";
+      why = text.str();
+    }
+}
 
-    void
-    SetHistory::watch_residual(const double kkt_residual)
-    {
-      if (kkt_residual < 0.9 * least_residual)
-        {
-          least_residual = kkt_residual;
-          idle_steps     = 0;
-        }
-      else if (care < single && ++idle_steps >= options.patience)
-        {
-          care = give_up;
-          std::ostringstream text;
-          text << "makes no progress (KKT residual " << least_residual
-               << " at best)";
-          why = text.str();
-        }
-    }
-
-    const std::string &
-    SetHistory::reason() const
-    {
-      return why;
-    }
-  } // namespace qp
-} // namespace snug
+const std::string &SetHistory::reason() const
+{
+  return why;
+}
+} // namespace snug::qp

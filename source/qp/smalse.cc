@@ -8,211 +8,178 @@
 #include <ostream>
 #include <sstream>
 
-namespace snug
+namespace snug::qp {
+namespace {
+const double       penalty_factor    = 10.; ///< rho / ||P F P||
+const double       balancing_factor  = 1.;  ///< M / ||P F P|| at first
+const double       balancing_descent = 0.1; ///< of M when L falls short
+const double       first_accuracy    = 0.1; ///< of ||g^P||, to ||b||
+const unsigned int power_steps       = 10;
+const unsigned int max_outer         = 1000;
+
+/**
+ * 1.05 times the largest Rayleigh quotient met by power steps with
+ * P F P, which start from @p b and a pattern of the row number.
+ */
+double operator_norm(const DualProblem &problem, const Face &all, MultiVector v)
 {
-  namespace qp
-  {
-    namespace
+  const MPI_Comm comm = problem.context().communicator();
+  const double   size = norms(v, comm)[0];
+  for (unsigned int i = 0; i < v.n_rows(); ++i)
+    v(i) = (size > 0. ? v(i) / size : 0.) + 1e-2 * std::cos(1. + i * i);
+  double norm = 0.;
+  for (unsigned int k = 0; k < power_steps; ++k)
     {
-      const double       penalty_factor    = 10.; ///< rho / ||P F P||
-      const double       balancing_factor  = 1.;  ///< M / ||P F P|| at first
-      const double       balancing_descent = 0.1; ///< of M when L falls short
-      const double       first_accuracy    = 0.1; ///< of ||g^P||, to ||b||
-      const unsigned int power_steps       = 10;
-      const unsigned int max_outer         = 1000;
-
-      /**
-       * 1.05 times the largest Rayleigh quotient met by power steps with
-       * P F P, which start from @p b and a pattern of the row number.
-       */
-      double
-      operator_norm(const DualProblem &problem, const Face &all, MultiVector v)
-      {
-        const MPI_Comm comm = problem.context().communicator();
-        const double   size = norms(v, comm)[0];
-        for (unsigned int i = 0; i < v.n_rows(); ++i)
-          v(i) = (size > 0. ? v(i) / size : 0.) + 1e-2 * std::cos(1. + i * i);
-        double norm = 0.;
-        for (unsigned int k = 0; k < power_steps; ++k)
-          {
-            all.project(v);
-            const double length = norms(v, comm)[0];
-            if (length == 0.)
-              break;
-            MultiVector unit(v.n_rows());
-            unit.add(1. / length, v);
-            v    = problem.apply(unit);
-            norm = std::max(norm, inner_products(unit, v, comm)(0));
-          }
-        if (norm == 0.)
-          for (const double entry : problem.diagonal())
-            norm = std::max(norm, entry);
-        MPI_Allreduce(MPI_IN_PLACE, &norm, 1, MPI_DOUBLE, MPI_MAX, comm);
-        return 1.05 * norm;
-      }
-
-      class SmalseRun
-      {
-      public:
-        SmalseRun(const DualProblem      &problem,
-                  const SolverParameters &parameters)
-          : problem(problem)
-          , context(problem.context())
-          , parameters(parameters)
-          , f_mults_before(context.work.f_mults)
-        {
-        }
-
-        DualSolution
-        run(const WarmStart &start);
-
-      private:
-        void
-        begin(const WarmStart &start);
-        bool
-        certified();
-
-        unsigned long
-        f_mults() const
-        {
-          return context.work.f_mults - f_mults_before;
-        }
-
-        const DualProblem     &problem;
-        RunContext            &context;
-        const SolverParameters parameters;
-        const unsigned long    f_mults_before;
-
-        EqualityPart           equality;
-        Mprgp::Sizes           sizes;
-        std::unique_ptr<Mprgp> inner;
-        DualSolution           solution;
-      };
-
-      void
-      SmalseRun::begin(const WarmStart &start)
-      {
-        const MPI_Comm comm = context.communicator();
-        MultiVector    none(problem.n_owned(), 0);
-        equality         = equality_part(problem, none);
-        MultiVector b    = equality.residual;
-        sizes.norm       = operator_norm(problem, *equality.face, b);
-        sizes.rho        = penalty_factor * sizes.norm;
-        const bool  warm = any(start.lambda.n_rows() > 0, comm);
-        MultiVector lambda =
-          warm && start.lambda.n_rows() > 0 ? start.lambda : equality.lambda;
-        for (unsigned int i = 0; i < lambda.n_rows(); ++i)
-          if (problem.bounded()[i])
-            lambda(i) = std::max(lambda(i), 0.);
-        inner = std::make_unique<Mprgp>(problem, equality, sizes, lambda);
-        if (!warm)
-          return;
-        // -g = w at the solution: q = -Q r - G' alpha
-        MultiVector q = inner->residual();
-        equality.face->project(q);
-        q.add(-1., inner->residual());
-        q.add(1.,
-              problem.apply_Gt(inner->face().amplitudes(inner->residual())));
-        inner->set_multipliers(q);
-      }
-
-      /**
-       * True if the solution is found: the free rows of the iterate carry a
-       * feasible lambda >= 0 that meets the tolerance with a fresh residual.
-       */
-      bool
-      SmalseRun::certified()
-      {
-        const MPI_Comm        comm   = context.communicator();
-        MultiVector           lambda = inner->feasible_lambda();
-        RowSet                rows   = inner->free_rows();
-        std::unique_ptr<Face> face;
-        do
-          {
-            face = problem.face(rows);
-            face->make_feasible(lambda, problem.e());
-            clip_rounding(problem.bounded(), lambda, comm);
-            for (unsigned int i = 0; i < rows.size(); ++i)
-              if (problem.bounded()[i] && lambda(i) < 0.)
-                rows[i] = 0;
-        } while (any(has_negative(problem.bounded(), lambda), comm));
-        MultiVector residual = problem.d();
-        residual.add(-1., problem.apply(lambda));
-        const KktResidual kkt =
-          kkt_residual(problem, *face, lambda, residual, equality.scale);
-        solution.kkt_residual = kkt.relative;
-        if (kkt.relative > parameters.relative_tolerance)
-          return false;
-        solution.lambda     = lambda;
-        solution.residual   = residual;
-        solution.amplitudes = kkt.amplitudes;
-        solution.active     = loaded_rows(problem.bounded(), lambda);
-        return true;
-      }
-
-      DualSolution
-      SmalseRun::run(const WarmStart &start)
-      {
-        begin(start);
-        const double tolerance = parameters.relative_tolerance * equality.scale;
-        Mprgp::Stop  stop;
-        stop.gradient_factor = balancing_factor * sizes.norm;
-        stop.gradient_cap    = first_accuracy * equality.scale;
-        stop.gradient_floor  = 0.3 * tolerance;
-        stop.f_mults         = f_mults_before + parameters.max_iterations;
-        double wanted        = parameters.relative_tolerance;
-        double last_value    = 0.;
-        while (f_mults() < parameters.max_iterations &&
-               solution.outer_iterations < max_outer)
-          {
-            inner->minimize(stop);
-            ++solution.outer_iterations;
-            solution.kkt_residual = kkt_residual(problem,
-                                                 inner->face(),
-                                                 inner->feasible_lambda(),
-                                                 inner->residual(),
-                                                 equality.scale)
-                                      .relative;
-            std::ostringstream line;
-            line << "SMALSE-M, step " << solution.outer_iterations
-                 << ": KKT residual " << solution.kkt_residual << ", "
-                 << f_mults() << " F-mults";
-            context.progress(line.str());
-            if (solution.kkt_residual <= wanted)
-              {
-                if (certified())
-                  {
-                    solution.f_mults = f_mults();
-                    solution.method  = "SMALSE-M";
-                    return solution;
-                  }
-                wanted *= 0.3;
-                stop.gradient_floor *= 0.3;
-              }
-            const double infeasibility = inner->infeasibility();
-            const double value         = inner->value();
-            if (solution.outer_iterations > 1 &&
-                value <
-                  last_value + 0.5 * sizes.rho * infeasibility * infeasibility)
-              stop.gradient_factor *= balancing_descent;
-            inner->update_multipliers();
-            last_value = value;
-          }
-        throw not_converged("SMALSE-M",
-                            solution.kkt_residual,
-                            parameters.relative_tolerance,
-                            f_mults());
-      }
-    } // namespace
-
-    Smalse::Smalse(const SolverParameters &parameters) : parameters(parameters)
-    {
+      all.project(v);
+      const double length = norms(v, comm)[0];
+      if (length == 0.)
+        break;
+      MultiVector unit(v.n_rows());
+      unit.add(1. / length, v);
+      v    = problem.apply(unit);
+      norm = std::max(norm, inner_products(unit, v, comm)(0));
     }
+  if (norm == 0.)
+    for (const double entry : problem.diagonal())
+      norm = std::max(norm, entry);
+  MPI_Allreduce(MPI_IN_PLACE, &norm, 1, MPI_DOUBLE, MPI_MAX, comm);
+  return 1.05 * norm;
+}
 
-    DualSolution
-    Smalse::solve(const DualProblem &problem, const WarmStart &start) const
+class SmalseRun
+{
+public:
+  SmalseRun(const DualProblem &problem, const SolverParameters &parameters)
+    : problem(problem)
+    , context(problem.context())
+    , parameters(parameters)
+    , f_mults_before(context.work.f_mults)
+  {}
+
+  DualSolution run(const WarmStart &start);
+
+private:
+  void begin(const WarmStart &start);
+  bool certified();
+
+  unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
+
+  const DualProblem     &problem;
+  RunContext            &context;
+  const SolverParameters parameters;
+  const unsigned long    f_mults_before;
+
+  EqualityPart           equality;
+  Mprgp::Sizes           sizes;
+  std::unique_ptr<Mprgp> inner;
+  DualSolution           solution;
+};
+
+void SmalseRun::begin(const WarmStart &start)
+{
+  const MPI_Comm comm = context.communicator();
+  MultiVector    none(problem.n_owned(), 0);
+  equality           = equality_part(problem, none);
+  MultiVector b      = equality.residual;
+  sizes.norm         = operator_norm(problem, *equality.face, b);
+  sizes.rho          = penalty_factor * sizes.norm;
+  const bool  warm   = any(start.lambda.n_rows() > 0, comm);
+  MultiVector lambda = warm && start.lambda.n_rows() > 0 ? start.lambda : equality.lambda;
+  for (unsigned int i = 0; i < lambda.n_rows(); ++i)
+    if (problem.bounded()[i])
+      lambda(i) = std::max(lambda(i), 0.);
+  inner = std::make_unique<Mprgp>(problem, equality, sizes, lambda);
+  if (!warm)
+    return;
+  // -g = w at the solution: q = -Q r - G' alpha
+  MultiVector q = inner->residual();
+  equality.face->project(q);
+  q.add(-1., inner->residual());
+  q.add(1., problem.apply_Gt(inner->face().amplitudes(inner->residual())));
+  inner->set_multipliers(q);
+}
+
+/**
+ * True if the solution is found: the free rows of the iterate carry a
+ * feasible lambda >= 0 that meets the tolerance with a fresh residual.
+ */
+bool SmalseRun::certified()
+{
+  const MPI_Comm        comm   = context.communicator();
+  MultiVector           lambda = inner->feasible_lambda();
+  RowSet                rows   = inner->free_rows();
+  std::unique_ptr<Face> face;
+  do
     {
-      return SmalseRun(problem, parameters).run(start);
+      face = problem.face(rows);
+      face->make_feasible(lambda, problem.e());
+      clip_rounding(problem.bounded(), lambda, comm);
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        if (problem.bounded()[i] && lambda(i) < 0.)
+          rows[i] = 0;
+  } while (any(has_negative(problem.bounded(), lambda), comm));
+  MultiVector residual = problem.d();
+  residual.add(-1., problem.apply(lambda));
+  const KktResidual kkt = kkt_residual(problem, *face, lambda, residual, equality.scale);
+  solution.kkt_residual = kkt.relative;
+  if (kkt.relative > parameters.relative_tolerance)
+    return false;
+  solution.lambda     = lambda;
+  solution.residual   = residual;
+  solution.amplitudes = kkt.amplitudes;
+  solution.active     = loaded_rows(problem.bounded(), lambda);
+  return true;
+}
+
+DualSolution SmalseRun::run(const WarmStart &start)
+{
+  begin(start);
+  const double tolerance = parameters.relative_tolerance * equality.scale;
+  Mprgp::Stop  stop;
+  stop.gradient_factor = balancing_factor * sizes.norm;
+  stop.gradient_cap    = first_accuracy * equality.scale;
+  stop.gradient_floor  = 0.3 * tolerance;
+  stop.f_mults         = f_mults_before + parameters.max_iterations;
+  double wanted        = parameters.relative_tolerance;
+  double last_value    = 0.;
+  while (f_mults() < parameters.max_iterations && solution.outer_iterations < max_outer)
+    {
+      inner->minimize(stop);
+      ++solution.outer_iterations;
+      solution.kkt_residual = kkt_residual(problem, inner->face(), inner->feasible_lambda(),
+                                           inner->residual(), equality.scale)
+                                .relative;
+      std::ostringstream line;
+      line << "SMALSE-M, step " << solution.outer_iterations << ": KKT residual "
+           << solution.kkt_residual << ", " << f_mults() << " F-mults";
+      context.progress(line.str());
+      if (solution.kkt_residual <= wanted)
+        {
+          if (certified())
+            {
+              solution.f_mults = f_mults();
+              solution.method  = "SMALSE-M";
+              return solution;
+            }
+          wanted *= 0.3;
+          stop.gradient_floor *= 0.3;
+        }
+      const double infeasibility = inner->infeasibility();
+      const double value         = inner->value();
+      if (solution.outer_iterations > 1 &&
+          value < last_value + 0.5 * sizes.rho * infeasibility * infeasibility)
+        stop.gradient_factor *= balancing_descent;
+      inner->update_multipliers();
+      last_value = value;
     }
-  } // namespace qp
-} // namespace snug
+  throw not_converged("SMALSE-M", solution.kkt_residual, parameters.relative_tolerance, f_mults());
+}
+} // namespace
+
+Smalse::Smalse(const SolverParameters &parameters) : parameters(parameters) {}
+
+DualSolution Smalse::solve(const DualProblem &problem, const WarmStart &start) const
+{
+  return SmalseRun(problem, parameters).run(start);
+}
+} // namespace snug::qp

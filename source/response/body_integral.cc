@@ -3,75 +3,61 @@
 
 #include <deal.II/base/mpi.h>
 
-namespace snug
+namespace snug::response {
+template <int dim>
+BodyIntegral<dim>::BodyIntegral(const ResponseParameters &parameters, const Weight weight)
+  : body(parameters.body), weight(weight)
+{}
+
+template <int dim>
+std::vector<std::string> BodyIntegral<dim>::entries() const
 {
-  namespace response
-  {
-    template <int dim>
-    BodyIntegral<dim>::BodyIntegral(const ResponseParameters &parameters,
-                                    const Weight              weight)
-      : body(parameters.body), weight(weight)
-    {
-    }
+  return {"Body"};
+}
 
-    template <int dim>
-    std::vector<std::string>
-    BodyIntegral<dim>::entries() const
-    {
-      return {"Body"};
-    }
+template <int dim>
+bool BodyIntegral<dim>::needs_solution() const
+{
+  return false;
+}
 
-    template <int dim>
-    bool
-    BodyIntegral<dim>::needs_solution() const
-    {
-      return false;
-    }
+template <int dim>
+double BodyIntegral<dim>::weight_of(const elasticity::Material &material) const
+{
+  return weight == Weight::density ? material.density : 1.;
+}
 
-    template <int dim>
-    double
-    BodyIntegral<dim>::weight_of(const elasticity::Material &material) const
-    {
-      return weight == Weight::density ? material.density : 1.;
-    }
-
-    template <int dim>
-    double
-    BodyIntegral<dim>::value(const state::StateSolver<dim>  &solver,
-                             const state::ContactState<dim> &state) const
-    {
-      double     integral = 0.;
-      const auto add      = [&](unsigned int s, unsigned int i) {
-        const auto &assembler = *solver.assemblers()[s];
-        integral +=
-          weight_of(assembler.material(i)) *
-          assembler.element().volume(assembler.cell_field(i, state.positions));
-      };
-      for_each_cell<dim>(solver, body, add);
-      return dealii::Utilities::MPI::sum(integral,
-                                         solver.context().communicator());
-    }
-
-    template <int dim>
-    Partials<dim>
-    BodyIntegral<dim>::partials(const state::StateSolver<dim>  &solver,
+template <int dim>
+double BodyIntegral<dim>::value(const state::StateSolver<dim>  &solver,
                                 const state::ContactState<dim> &state) const
-    {
-      Partials<dim> result;
-      result.positions.resize(solver.mesh().n_local_nodes());
-      const auto add = [&](unsigned int s, unsigned int i) {
-        const auto &assembler = *solver.assemblers()[s];
-        const auto  X         = assembler.cell_field(i, state.positions);
-        std::vector<dealii::Tensor<1, dim>> values(X.size());
-        assembler.element().add_volume_gradient(
-          X, weight_of(assembler.material(i)), values);
-        add_to_cell_nodes(solver, s, i, values, result.positions);
-      };
-      for_each_cell<dim>(solver, body, add);
-      return result;
-    }
+{
+  double     integral = 0.;
+  const auto add      = [&](unsigned int s, unsigned int i) {
+    const auto &assembler = *solver.assemblers()[s];
+    integral += weight_of(assembler.material(i)) *
+                assembler.element().volume(assembler.cell_field(i, state.positions));
+  };
+  for_each_cell<dim>(solver, body, add);
+  return dealii::Utilities::MPI::sum(integral, solver.context().communicator());
+}
 
-    template class BodyIntegral<2>;
-    template class BodyIntegral<3>;
-  } // namespace response
-} // namespace snug
+template <int dim>
+Partials<dim> BodyIntegral<dim>::partials(const state::StateSolver<dim>  &solver,
+                                          const state::ContactState<dim> &state) const
+{
+  Partials<dim> result;
+  result.positions.resize(solver.mesh().n_local_nodes());
+  const auto add = [&](unsigned int s, unsigned int i) {
+    const auto                         &assembler = *solver.assemblers()[s];
+    const auto                          X         = assembler.cell_field(i, state.positions);
+    std::vector<dealii::Tensor<1, dim>> values(X.size());
+    assembler.element().add_volume_gradient(X, weight_of(assembler.material(i)), values);
+    add_to_cell_nodes(solver, s, i, values, result.positions);
+  };
+  for_each_cell<dim>(solver, body, add);
+  return result;
+}
+
+template class BodyIntegral<2>;
+template class BodyIntegral<3>;
+} // namespace snug::response

@@ -2,111 +2,95 @@
 #include <snug/response/contact_measure.h>
 #include <snug/response/measured_place.h>
 
-namespace snug
+namespace snug::response {
+namespace {
+/// d/dX of sum_i forces_i n_i . e over the rows of one pair. Its rows'
+/// coefficients on the slave side add up to n_i: the energy of the rows
+/// with u = e there, less that with u = 0.
+template <int dim>
+typename mesh::Surface<dim>::Field
+normal_gradient(const state::StateSolver<dim>            &solver,
+                const contact::Pair                      &pair,
+                const typename mesh::Surface<dim>::Field &positions,
+                const std::vector<double>                &forces,
+                const dealii::Tensor<1, dim>             &e)
 {
-  namespace response
-  {
-    namespace
-    {
-      /// d/dX of sum_i forces_i n_i . e over the rows of one pair. Its rows'
-      /// coefficients on the slave side add up to n_i: the energy of the rows
-      /// with u = e there, less that with u = 0.
-      template <int dim>
-      typename mesh::Surface<dim>::Field
-      normal_gradient(const state::StateSolver<dim>            &solver,
-                      const contact::Pair                      &pair,
-                      const typename mesh::Surface<dim>::Field &positions,
-                      const std::vector<double>                &forces,
-                      const dealii::Tensor<1, dim>             &e)
-      {
-        const auto                        &surface = solver.surface();
-        typename mesh::Surface<dim>::Field moved(surface.n_nodes());
-        const auto                         at_rest = moved;
-        for (const auto &face : surface.faces())
-          if (contact::Pair::Side(face.body, face.boundary) == pair.slave)
-            for (const unsigned int node : face.nodes)
-              moved[node] = e;
-        auto gradient =
-          solver.contact().energy_gradient(positions, moved, forces);
-        const auto of_gaps =
-          solver.contact().energy_gradient(positions, at_rest, forces);
-        for (unsigned int node = 0; node < gradient.size(); ++node)
-          gradient[node] -= of_gaps[node];
-        return gradient;
-      }
-    } // namespace
+  const auto                        &surface = solver.surface();
+  typename mesh::Surface<dim>::Field moved(surface.n_nodes());
+  const auto                         at_rest = moved;
+  for (const auto &face : surface.faces())
+    if (contact::Pair::Side(face.body, face.boundary) == pair.slave)
+      for (const unsigned int node : face.nodes)
+        moved[node] = e;
+  auto       gradient = solver.contact().energy_gradient(positions, moved, forces);
+  const auto of_gaps  = solver.contact().energy_gradient(positions, at_rest, forces);
+  for (unsigned int node = 0; node < gradient.size(); ++node)
+    gradient[node] -= of_gaps[node];
+  return gradient;
+}
+} // namespace
 
-    template <int dim>
-    ContactForce<dim>::ContactForce(const ResponseParameters &parameters)
-      : parameters(parameters)
-    {
-    }
+template <int dim>
+ContactForce<dim>::ContactForce(const ResponseParameters &parameters) : parameters(parameters)
+{}
 
-    template <int dim>
-    std::vector<std::string>
-    ContactForce<dim>::entries() const
-    {
-      return {"Pair", "Component"};
-    }
+template <int dim>
+std::vector<std::string> ContactForce<dim>::entries() const
+{
+  return {"Pair", "Component"};
+}
 
-    template <int dim>
-    void
-    ContactForce<dim>::check(const state::StateSolver<dim> &solver) const
-    {
-      rows_of_pair(solver, parameters.pair);
-      if (parameters.component != "normal")
-        unit_vector<dim>(parameters);
-    }
+template <int dim>
+void ContactForce<dim>::check(const state::StateSolver<dim> &solver) const
+{
+  rows_of_pair(solver, parameters.pair);
+  if (parameters.component != "normal")
+    unit_vector<dim>(parameters);
+}
 
-    template <int dim>
-    double
-    ContactForce<dim>::value(const state::StateSolver<dim>  &solver,
-                             const state::ContactState<dim> &state) const
-    {
-      const auto chosen = rows_of_pair(solver, parameters.pair);
-      const auto rows =
-        solver.contact().rows(solver.surface().gather(state.positions));
-      double force = 0.;
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        if (chosen[i])
-          force -= state.contact[i].force *
-                   (parameters.component == "normal"
-                      ? -1.
-                      : rows[i].normal * unit_vector<dim>(parameters));
-      return force;
-    }
-
-    template <int dim>
-    Partials<dim>
-    ContactForce<dim>::partials(const state::StateSolver<dim>  &solver,
+template <int dim>
+double ContactForce<dim>::value(const state::StateSolver<dim>  &solver,
                                 const state::ContactState<dim> &state) const
-    {
-      const auto    chosen = rows_of_pair(solver, parameters.pair);
-      Partials<dim> result;
-      for (const bool row : chosen)
-        result.forces.push_back(row ? 1. : 0.);
-      result.positions.resize(solver.mesh().n_local_nodes());
-      if (parameters.component == "normal")
-        return result;
-      const auto e    = unit_vector<dim>(parameters);
-      const auto x    = solver.surface().gather(state.positions);
-      const auto rows = solver.contact().rows(x);
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        result.forces[i] *= -(rows[i].normal * e);
-      const auto &pairs = solver.contact().pairs();
-      for (unsigned int p = 0; p < pairs.size(); ++p)
-        {
-          std::vector<double> forces(rows.size(), 0.);
-          for (unsigned int i = 0; i < rows.size(); ++i)
-            if (chosen[i] && solver.contact().places()[i].pair == p)
-              forces[i] = -state.contact[i].force;
-          solver.surface().add_owned(
-            normal_gradient(solver, pairs[p], x, forces, e), result.positions);
-        }
-      return result;
-    }
+{
+  const auto chosen = rows_of_pair(solver, parameters.pair);
+  const auto rows   = solver.contact().rows(solver.surface().gather(state.positions));
+  double     force  = 0.;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    if (chosen[i])
+      force -=
+        state.contact[i].force *
+        (parameters.component == "normal" ? -1. : rows[i].normal * unit_vector<dim>(parameters));
+  return force;
+}
 
-    template class ContactForce<2>;
-    template class ContactForce<3>;
-  } // namespace response
-} // namespace snug
+template <int dim>
+Partials<dim> ContactForce<dim>::partials(const state::StateSolver<dim>  &solver,
+                                          const state::ContactState<dim> &state) const
+{
+  const auto    chosen = rows_of_pair(solver, parameters.pair);
+  Partials<dim> result;
+  for (const bool row : chosen)
+    result.forces.push_back(row ? 1. : 0.);
+  result.positions.resize(solver.mesh().n_local_nodes());
+  if (parameters.component == "normal")
+    return result;
+  const auto e    = unit_vector<dim>(parameters);
+  const auto x    = solver.surface().gather(state.positions);
+  const auto rows = solver.contact().rows(x);
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    result.forces[i] *= -(rows[i].normal * e);
+  const auto &pairs = solver.contact().pairs();
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    {
+      std::vector<double> forces(rows.size(), 0.);
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        if (chosen[i] && solver.contact().places()[i].pair == p)
+          forces[i] = -state.contact[i].force;
+      solver.surface().add_owned(normal_gradient(solver, pairs[p], x, forces, e), result.positions);
+    }
+  return result;
+}
+
+template class ContactForce<2>;
+template class ContactForce<3>;
+} // namespace snug::response

@@ -2,127 +2,111 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::response {
+namespace {
+/// Smaller parts of the largest area are round-off, as on the axis of
+/// bodies of revolution with degree 2.
+const double smallest_area = 1e-10;
+
+template <int dim>
+PressureRows pressure_rows(const std::vector<unsigned int> &rows,
+                           const state::ContactState<dim>  &state)
 {
-  namespace response
-  {
-    namespace
+  PressureRows result;
+  for (const unsigned int i : rows)
     {
-      /// Smaller parts of the largest area are round-off, as on the axis of
-      /// bodies of revolution with degree 2.
-      const double smallest_area = 1e-10;
-
-      template <int dim>
-      PressureRows
-      pressure_rows(const std::vector<unsigned int> &rows,
-                    const state::ContactState<dim>  &state)
-      {
-        PressureRows result;
-        for (const unsigned int i : rows)
-          {
-            result.force.push_back(state.contact[i].force);
-            result.area.push_back(state.contact[i].area);
-          }
-        return result;
-      }
-    } // namespace
-
-    template <int dim>
-    std::vector<bool>
-    rows_of_pair(const state::StateSolver<dim> &solver, const std::string &name)
-    {
-      const auto       &pairs = solver.contact().pairs();
-      std::vector<bool> chosen;
-      for (const auto &pair : pairs)
-        chosen.push_back(name.empty() || name == pair.name() ||
-                         name == pair.master_name + ": " + pair.slave_name);
-      if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
-        throw InputError("there is no contact pair '" + name + "'");
-      std::vector<bool> result;
-      for (const auto &place : solver.contact().places())
-        result.push_back(chosen[place.pair]);
-      return result;
+      result.force.push_back(state.contact[i].force);
+      result.area.push_back(state.contact[i].area);
     }
+  return result;
+}
+} // namespace
 
-    template <int dim>
-    ContactMeasure<dim>::ContactMeasure(const ResponseParameters &parameters,
-                                        const Measure            &measure,
-                                        const std::vector<std::string> &entries)
-      : pair(parameters.pair), measure(measure), read(entries)
-    {
-    }
+template <int dim>
+std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std::string &name)
+{
+  const auto       &pairs = solver.contact().pairs();
+  std::vector<bool> chosen;
+  for (const auto &pair : pairs)
+    chosen.push_back(name.empty() || name == pair.name() ||
+                     name == pair.master_name + ": " + pair.slave_name);
+  if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
+    throw InputError("there is no contact pair '" + name + "'");
+  std::vector<bool> result;
+  for (const auto &place : solver.contact().places())
+    result.push_back(chosen[place.pair]);
+  return result;
+}
 
-    template <int dim>
-    std::vector<std::string>
-    ContactMeasure<dim>::entries() const
-    {
-      auto result = read;
-      result.push_back("Pair");
-      return result;
-    }
+template <int dim>
+ContactMeasure<dim>::ContactMeasure(const ResponseParameters       &parameters,
+                                    const Measure                  &measure,
+                                    const std::vector<std::string> &entries)
+  : pair(parameters.pair), measure(measure), read(entries)
+{}
 
-    template <int dim>
-    void
-    ContactMeasure<dim>::check(const state::StateSolver<dim> &solver) const
-    {
-      rows_of_pair(solver, pair);
-    }
+template <int dim>
+std::vector<std::string> ContactMeasure<dim>::entries() const
+{
+  auto result = read;
+  result.push_back("Pair");
+  return result;
+}
 
-    template <int dim>
-    std::vector<unsigned int>
-    ContactMeasure<dim>::counted_rows(
-      const state::StateSolver<dim>  &solver,
-      const state::ContactState<dim> &state) const
-    {
-      const auto chosen  = rows_of_pair(solver, pair);
-      double     largest = 0.;
-      for (unsigned int i = 0; i < chosen.size(); ++i)
-        if (chosen[i])
-          largest = std::max(largest, state.contact[i].area);
-      std::vector<unsigned int> result;
-      for (unsigned int i = 0; i < chosen.size(); ++i)
-        if (chosen[i] && solver.gluing().contact_scales()[i] != 0. &&
-            state.contact[i].area > smallest_area * largest)
-          result.push_back(i);
-      return result;
-    }
+template <int dim>
+void ContactMeasure<dim>::check(const state::StateSolver<dim> &solver) const
+{
+  rows_of_pair(solver, pair);
+}
 
-    template <int dim>
-    double
-    ContactMeasure<dim>::value(const state::StateSolver<dim>  &solver,
-                               const state::ContactState<dim> &state) const
-    {
-      return measure(pressure_rows(counted_rows(solver, state), state)).value;
-    }
-
-    template <int dim>
-    Partials<dim>
-    ContactMeasure<dim>::partials(const state::StateSolver<dim>  &solver,
+template <int dim>
+std::vector<unsigned int>
+ContactMeasure<dim>::counted_rows(const state::StateSolver<dim>  &solver,
                                   const state::ContactState<dim> &state) const
-    {
-      const auto          rows     = counted_rows(solver, state);
-      const auto          measured = measure(pressure_rows(rows, state));
-      std::vector<double> by_area(state.contact.size(), 0.);
-      Partials<dim>       result;
-      result.forces.assign(state.contact.size(), 0.);
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        {
-          result.forces[rows[i]] = measured.by_force[i];
-          by_area[rows[i]]       = measured.by_area[i];
-        }
-      result.positions.resize(solver.mesh().n_local_nodes());
-      solver.surface().add_owned(
-        solver.contact().area_gradient(solver.surface().gather(state.positions),
-                                       by_area),
-        result.positions);
-      return result;
-    }
+{
+  const auto chosen  = rows_of_pair(solver, pair);
+  double     largest = 0.;
+  for (unsigned int i = 0; i < chosen.size(); ++i)
+    if (chosen[i])
+      largest = std::max(largest, state.contact[i].area);
+  std::vector<unsigned int> result;
+  for (unsigned int i = 0; i < chosen.size(); ++i)
+    if (chosen[i] && solver.gluing().contact_scales()[i] != 0. &&
+        state.contact[i].area > smallest_area * largest)
+      result.push_back(i);
+  return result;
+}
 
-    template std::vector<bool>
-    rows_of_pair(const state::StateSolver<2> &, const std::string &);
-    template std::vector<bool>
-    rows_of_pair(const state::StateSolver<3> &, const std::string &);
-    template class ContactMeasure<2>;
-    template class ContactMeasure<3>;
-  } // namespace response
-} // namespace snug
+template <int dim>
+double ContactMeasure<dim>::value(const state::StateSolver<dim>  &solver,
+                                  const state::ContactState<dim> &state) const
+{
+  return measure(pressure_rows(counted_rows(solver, state), state)).value;
+}
+
+template <int dim>
+Partials<dim> ContactMeasure<dim>::partials(const state::StateSolver<dim>  &solver,
+                                            const state::ContactState<dim> &state) const
+{
+  const auto          rows     = counted_rows(solver, state);
+  const auto          measured = measure(pressure_rows(rows, state));
+  std::vector<double> by_area(state.contact.size(), 0.);
+  Partials<dim>       result;
+  result.forces.assign(state.contact.size(), 0.);
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      result.forces[rows[i]] = measured.by_force[i];
+      by_area[rows[i]]       = measured.by_area[i];
+    }
+  result.positions.resize(solver.mesh().n_local_nodes());
+  solver.surface().add_owned(
+    solver.contact().area_gradient(solver.surface().gather(state.positions), by_area),
+    result.positions);
+  return result;
+}
+
+template std::vector<bool> rows_of_pair(const state::StateSolver<2> &, const std::string &);
+template std::vector<bool> rows_of_pair(const state::StateSolver<3> &, const std::string &);
+template class ContactMeasure<2>;
+template class ContactMeasure<3>;
+} // namespace snug::response

@@ -5,241 +5,205 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::response {
+namespace {
+template <int dim>
+using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+/// A face of this rank and the cell it belongs to.
+struct MeasuredFace
 {
-  namespace response
-  {
-    namespace
+  unsigned int index;           ///< of BodyMesh::boundary_faces()
+  unsigned int subdomain, cell; ///< see Assembler::cells()
+  /// place of each of its nodes in the cell
+  std::vector<unsigned int> places;
+};
+
+template <int dim>
+std::vector<MeasuredFace> faces_of(const state::StateSolver<dim> &solver,
+                                   const ResponseParameters      &parameters)
+{
+  const auto                                        &mesh     = solver.mesh();
+  const auto                                         boundary = find_boundary(solver, parameters);
+  std::vector<std::pair<unsigned int, unsigned int>> of_cell(mesh.cells().size());
+  for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
+    for (unsigned int i = 0; i < solver.assemblers()[s]->cells().size(); ++i)
+      of_cell[solver.assemblers()[s]->cells()[i]] = {s, i};
+  std::vector<MeasuredFace> faces;
+  for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
     {
-      template <int dim>
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
-
-      /// A face of this rank and the cell it belongs to.
-      struct MeasuredFace
-      {
-        unsigned int index;           ///< of BodyMesh::boundary_faces()
-        unsigned int subdomain, cell; ///< see Assembler::cells()
-        /// place of each of its nodes in the cell
-        std::vector<unsigned int> places;
-      };
-
-      template <int dim>
-      std::vector<MeasuredFace>
-      faces_of(const state::StateSolver<dim> &solver,
-               const ResponseParameters      &parameters)
-      {
-        const auto &mesh     = solver.mesh();
-        const auto  boundary = find_boundary(solver, parameters);
-        std::vector<std::pair<unsigned int, unsigned int>> of_cell(
-          mesh.cells().size());
-        for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
-          for (unsigned int i = 0; i < solver.assemblers()[s]->cells().size();
-               ++i)
-            of_cell[solver.assemblers()[s]->cells()[i]] = {s, i};
-        std::vector<MeasuredFace> faces;
-        for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
-          {
-            const auto &face = mesh.boundary_faces()[f];
-            if (std::make_pair(face.body, face.boundary) != boundary)
-              continue;
-            const auto &nodes = mesh.cells()[face.cell].nodes;
-            const auto [s, i] = of_cell[face.cell];
-            faces.push_back({f, s, i, {}});
-            for (const unsigned int node : face.nodes)
-              faces.back().places.push_back(
-                std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
-          }
-        return faces;
-      }
-
-      template <int dim>
-      Nodes<dim>
-      at_face(const std::vector<unsigned int> &places, const Nodes<dim> &cell)
-      {
-        Nodes<dim> result;
-        for (const unsigned int place : places)
-          result.push_back(cell[place]);
-        return result;
-      }
-
-      /// The load on a face of @p n Gauss points whose forces f(X) make
-      /// f . u = int u . e dA.
-      template <int dim>
-      elasticity::FaceLoadValues<dim>
-      unit_load(const ResponseParameters &parameters, unsigned int n)
-      {
-        elasticity::FaceLoadValues<dim> load;
-        if (parameters.component == "normal")
-          load.pressure.assign(n, -1.);
-        else
-          load.traction.assign(n, unit_vector<dim>(parameters));
-        return load;
-      }
-
-      /// int u . e dA and int dA over the whole face.
-      struct Average
-      {
-        double integral = 0., area = 0.;
-      };
-
-      template <int dim>
-      Average
-      average(const state::StateSolver<dim>  &solver,
-              const state::ContactState<dim> &state,
-              const ResponseParameters       &parameters)
-      {
-        double sums[2] = {0., 0.};
-        for (const auto &face : faces_of(solver, parameters))
-          {
-            const auto &assembler = *solver.assemblers()[face.subdomain];
-            const auto  X =
-              at_face<dim>(face.places,
-                           assembler.cell_field(face.cell, state.positions));
-            const auto u =
-              at_face<dim>(face.places,
-                           assembler.cell_values(
-                             face.cell, state.u[face.subdomain].column(0)));
-            Nodes<dim> f;
-            solver.face_load().force(X,
-                                     unit_load<dim>(parameters, X.size()),
-                                     f);
-            for (unsigned int a = 0; a < u.size(); ++a)
-              sums[0] += f[a] * u[a];
-            for (const double area : solver.face_load().areas(X))
-              sums[1] += area;
-          }
-        dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 2),
-                                    solver.context().communicator(),
-                                    dealii::ArrayView<double>(sums, 2));
-        return {sums[0], sums[1]};
-      }
-    } // namespace
-
-    template <int dim>
-    Displacement<dim>::Displacement(const ResponseParameters &parameters)
-      : parameters(parameters)
-    {
+      const auto &face = mesh.boundary_faces()[f];
+      if (std::make_pair(face.body, face.boundary) != boundary)
+        continue;
+      const auto &nodes = mesh.cells()[face.cell].nodes;
+      const auto [s, i] = of_cell[face.cell];
+      faces.push_back({f, s, i, {}});
+      for (const unsigned int node : face.nodes)
+        faces.back().places.push_back(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
     }
+  return faces;
+}
 
-    template <int dim>
-    std::vector<std::string>
-    Displacement<dim>::entries() const
+template <int dim>
+Nodes<dim> at_face(const std::vector<unsigned int> &places, const Nodes<dim> &cell)
+{
+  Nodes<dim> result;
+  for (const unsigned int place : places)
+    result.push_back(cell[place]);
+  return result;
+}
+
+/// The load on a face of @p n Gauss points whose forces f(X) make
+/// f . u = int u . e dA.
+template <int dim>
+elasticity::FaceLoadValues<dim> unit_load(const ResponseParameters &parameters, unsigned int n)
+{
+  elasticity::FaceLoadValues<dim> load;
+  if (parameters.component == "normal")
+    load.pressure.assign(n, -1.);
+  else
+    load.traction.assign(n, unit_vector<dim>(parameters));
+  return load;
+}
+
+/// int u . e dA and int dA over the whole face.
+struct Average
+{
+  double integral = 0., area = 0.;
+};
+
+template <int dim>
+Average average(const state::StateSolver<dim>  &solver,
+                const state::ContactState<dim> &state,
+                const ResponseParameters       &parameters)
+{
+  double sums[2] = {0., 0.};
+  for (const auto &face : faces_of(solver, parameters))
     {
-      return {"Body", "Face", "Point", "Component"};
+      const auto &assembler = *solver.assemblers()[face.subdomain];
+      const auto  X = at_face<dim>(face.places, assembler.cell_field(face.cell, state.positions));
+      const auto  u =
+        at_face<dim>(face.places,
+                     assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
+      Nodes<dim> f;
+      solver.face_load().force(X, unit_load<dim>(parameters, X.size()), f);
+      for (unsigned int a = 0; a < u.size(); ++a)
+        sums[0] += f[a] * u[a];
+      for (const double area : solver.face_load().areas(X))
+        sums[1] += area;
     }
+  dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 2),
+                              solver.context().communicator(), dealii::ArrayView<double>(sums, 2));
+  return {sums[0], sums[1]};
+}
+} // namespace
 
-    template <int dim>
-    void
-    Displacement<dim>::check(const state::StateSolver<dim> &solver) const
-    {
-      if (parameters.point.empty())
-        find_boundary(solver, parameters);
-      else
-        find_point(solver, parameters);
-      if (parameters.component != "normal" || !parameters.point.empty())
-        unit_vector<dim>(parameters);
-    }
+template <int dim>
+Displacement<dim>::Displacement(const ResponseParameters &parameters) : parameters(parameters)
+{}
 
-    template <int dim>
-    double
-    Displacement<dim>::value(const state::StateSolver<dim>  &solver,
-                             const state::ContactState<dim> &state) const
-    {
-      if (parameters.point.empty())
-        {
-          const auto of_face = average(solver, state, parameters);
-          return of_face.integral / of_face.area;
-        }
-      const auto e     = unit_vector<dim>(parameters);
-      double     value = 0.;
-      for (const auto &place : find_point(solver, parameters))
-        {
-          const auto u = solver.assemblers()[place.subdomain]->cell_values(
-            place.cell, state.u[place.subdomain].column(0));
-          for (unsigned int a = 0; a < u.size(); ++a)
-            value += place.weights[a] * (u[a] * e);
-        }
-      return dealii::Utilities::MPI::sum(value,
-                                         solver.context().communicator());
-    }
+template <int dim>
+std::vector<std::string> Displacement<dim>::entries() const
+{
+  return {"Body", "Face", "Point", "Component"};
+}
 
-    template <int dim>
-    Partials<dim>
-    Displacement<dim>::partials(const state::StateSolver<dim>  &solver,
+template <int dim>
+void Displacement<dim>::check(const state::StateSolver<dim> &solver) const
+{
+  if (parameters.point.empty())
+    find_boundary(solver, parameters);
+  else
+    find_point(solver, parameters);
+  if (parameters.component != "normal" || !parameters.point.empty())
+    unit_vector<dim>(parameters);
+}
+
+template <int dim>
+double Displacement<dim>::value(const state::StateSolver<dim>  &solver,
                                 const state::ContactState<dim> &state) const
+{
+  if (parameters.point.empty())
     {
-      return parameters.point.empty() ? partials_on_face(solver, state)
-                                      : partials_at_point(solver);
+      const auto of_face = average(solver, state, parameters);
+      return of_face.integral / of_face.area;
     }
-
-    template <int dim>
-    Partials<dim>
-    Displacement<dim>::partials_at_point(
-      const state::StateSolver<dim> &solver) const
+  const auto e     = unit_vector<dim>(parameters);
+  double     value = 0.;
+  for (const auto &place : find_point(solver, parameters))
     {
-      Partials<dim> result;
-      result.positions.resize(solver.mesh().n_local_nodes());
-      for (const auto &assembler : solver.assemblers())
-        result.u.emplace_back(assembler->n_dofs());
-      for (const auto &place : find_point(solver, parameters))
-        {
-          Nodes<dim> r;
-          for (const double weight : place.weights)
-            r.push_back(weight * unit_vector<dim>(parameters));
-          solver.assemblers()[place.subdomain]->add_cell_vector(
-            place.cell, 1., r, result.u[place.subdomain].column(0));
-        }
-      return result;
+      const auto u =
+        solver.assemblers()[place.subdomain]->cell_values(place.cell,
+                                                          state.u[place.subdomain].column(0));
+      for (unsigned int a = 0; a < u.size(); ++a)
+        value += place.weights[a] * (u[a] * e);
     }
+  return dealii::Utilities::MPI::sum(value, solver.context().communicator());
+}
 
-    template <int dim>
-    Partials<dim>
-    Displacement<dim>::partials_on_face(
-      const state::StateSolver<dim>  &solver,
-      const state::ContactState<dim> &state) const
+template <int dim>
+Partials<dim> Displacement<dim>::partials(const state::StateSolver<dim>  &solver,
+                                          const state::ContactState<dim> &state) const
+{
+  return parameters.point.empty() ? partials_on_face(solver, state) : partials_at_point(solver);
+}
+
+template <int dim>
+Partials<dim> Displacement<dim>::partials_at_point(const state::StateSolver<dim> &solver) const
+{
+  Partials<dim> result;
+  result.positions.resize(solver.mesh().n_local_nodes());
+  for (const auto &assembler : solver.assemblers())
+    result.u.emplace_back(assembler->n_dofs());
+  for (const auto &place : find_point(solver, parameters))
     {
-      const auto    whole = average(solver, state, parameters);
-      const double  J     = whole.integral / whole.area;
-      Partials<dim> result;
-      result.positions.resize(solver.mesh().n_local_nodes());
-      for (const auto &assembler : solver.assemblers())
-        result.u.emplace_back(assembler->n_dofs());
-      for (const auto &face : faces_of(solver, parameters))
-        {
-          const auto &assembler = *solver.assemblers()[face.subdomain];
-          const auto &load      = solver.face_load();
-          const auto  cell_X = assembler.cell_field(face.cell, state.positions);
-          const auto  X      = at_face<dim>(face.places, cell_X);
-          const auto  u =
-            at_face<dim>(face.places,
-                         assembler.cell_values(
-                           face.cell, state.u[face.subdomain].column(0)));
-          const auto unit = unit_load<dim>(parameters, X.size());
-          Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
-          load.force(X, unit, f);
-          for (unsigned int a = 0; a < f.size(); ++a)
-            in_cell[face.places[a]] += f[a] / whole.area;
-          assembler.add_cell_vector(face.cell,
-                                    1.,
-                                    in_cell,
-                                    result.u[face.subdomain].column(0));
-          load.add_force_gradient(X, unit, u, 1. / whole.area, gradient);
-          // int dA = int e . e dA
-          dealii::Tensor<1, dim> e;
-          e[0] = 1.;
-          load.add_force_gradient(X,
-                                  {{}, Nodes<dim>(X.size(), e), {}},
-                                  Nodes<dim>(X.size(), e),
-                                  -J / whole.area,
-                                  gradient);
-          const auto &nodes = solver.mesh().boundary_faces()[face.index].nodes;
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            result.positions[nodes[a]] += gradient[a];
-        }
-      return result;
+      Nodes<dim> r;
+      for (const double weight : place.weights)
+        r.push_back(weight * unit_vector<dim>(parameters));
+      solver.assemblers()[place.subdomain]->add_cell_vector(place.cell, 1., r,
+                                                            result.u[place.subdomain].column(0));
     }
+  return result;
+}
 
-    template class Displacement<2>;
-    template class Displacement<3>;
-  } // namespace response
-} // namespace snug
+template <int dim>
+Partials<dim> Displacement<dim>::partials_on_face(const state::StateSolver<dim>  &solver,
+                                                  const state::ContactState<dim> &state) const
+{
+  const auto    whole = average(solver, state, parameters);
+  const double  J     = whole.integral / whole.area;
+  Partials<dim> result;
+  result.positions.resize(solver.mesh().n_local_nodes());
+  for (const auto &assembler : solver.assemblers())
+    result.u.emplace_back(assembler->n_dofs());
+  for (const auto &face : faces_of(solver, parameters))
+    {
+      const auto &assembler = *solver.assemblers()[face.subdomain];
+      const auto &load      = solver.face_load();
+      const auto  cell_X    = assembler.cell_field(face.cell, state.positions);
+      const auto  X         = at_face<dim>(face.places, cell_X);
+      const auto  u =
+        at_face<dim>(face.places,
+                     assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
+      const auto unit = unit_load<dim>(parameters, X.size());
+      Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
+      load.force(X, unit, f);
+      for (unsigned int a = 0; a < f.size(); ++a)
+        in_cell[face.places[a]] += f[a] / whole.area;
+      assembler.add_cell_vector(face.cell, 1., in_cell, result.u[face.subdomain].column(0));
+      load.add_force_gradient(X, unit, u, 1. / whole.area, gradient);
+      // int dA = int e . e dA
+      dealii::Tensor<1, dim> e;
+      e[0] = 1.;
+      load.add_force_gradient(X, {{}, Nodes<dim>(X.size(), e), {}}, Nodes<dim>(X.size(), e),
+                              -J / whole.area, gradient);
+      const auto &nodes = solver.mesh().boundary_faces()[face.index].nodes;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        result.positions[nodes[a]] += gradient[a];
+    }
+  return result;
+}
+
+template class Displacement<2>;
+template class Displacement<3>;
+} // namespace snug::response

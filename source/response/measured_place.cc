@@ -9,184 +9,155 @@
 #include <optional>
 #include <sstream>
 
-namespace snug
+namespace snug::response {
+namespace {
+template <int dim>
+using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+/// Cells reach this part of their size beyond their faces.
+const double tolerance = 1e-6;
+
+/// Whether the cell with nodes @p X may hold @p point: curved ones reach
+/// beyond the box of their nodes.
+template <int dim>
+bool is_near(const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
 {
-  namespace response
-  {
-    namespace
+  const double margin = 0.25;
+  for (unsigned int d = 0; d < dim; ++d)
     {
-      template <int dim>
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+      const auto [low, high] =
+        std::minmax_element(X.begin(), X.end(),
+                            [d](const auto &a, const auto &b) { return a[d] < b[d]; });
+      const double size = (*high)[d] - (*low)[d];
+      if (point[d] < (*low)[d] - margin * size || point[d] > (*high)[d] + margin * size)
+        return false;
+    }
+  return true;
+}
 
-      /// Cells reach this part of their size beyond their faces.
-      const double tolerance = 1e-6;
-
-      /// Whether the cell with nodes @p X may hold @p point: curved ones reach
-      /// beyond the box of their nodes.
-      template <int dim>
-      bool
-      is_near(const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
-      {
-        const double margin = 0.25;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const auto [low, high] =
-              std::minmax_element(X.begin(),
-                                  X.end(),
-                                  [d](const auto &a, const auto &b) {
-                                    return a[d] < b[d];
-                                  });
-            const double size = (*high)[d] - (*low)[d];
-            if (point[d] < (*low)[d] - margin * size ||
-                point[d] > (*high)[d] + margin * size)
-              return false;
-          }
-        return true;
-      }
-
-      /// Shape functions of the cell with nodes @p X at @p point, by Newton's
-      /// method; none if it lies outside.
-      template <int dim>
-      std::optional<std::vector<double>>
-      shape_values(const unsigned int            degree,
-                   const Nodes<dim>             &X,
-                   const dealii::Tensor<1, dim> &point)
-      {
-        dealii::Point<dim> xi;
-        for (unsigned int d = 0; d < dim; ++d)
-          xi[d] = 0.5;
-        for (unsigned int step = 0; step < 20; ++step)
-          {
-            const auto shape = elasticity::lagrange_point<dim>(degree, xi);
-            const auto J     = elasticity::jacobian(shape, X);
-            if (!(std::abs(determinant(J)) > 0.))
-              return {};
-            const dealii::Tensor<1, dim> move =
-              invert(J) * (point - elasticity::value(shape, X));
-            if (move.norm() < 1e-12)
-              {
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (xi[d] < -tolerance || xi[d] > 1. + tolerance)
-                    return {};
-                return shape.values;
-              }
-            xi += move;
-            if (!(xi.norm() < 10.))
-              return {};
-          }
+/// Shape functions of the cell with nodes @p X at @p point, by Newton's
+/// method; none if it lies outside.
+template <int dim>
+std::optional<std::vector<double>>
+shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
+{
+  dealii::Point<dim> xi;
+  for (unsigned int d = 0; d < dim; ++d)
+    xi[d] = 0.5;
+  for (unsigned int step = 0; step < 20; ++step)
+    {
+      const auto shape = elasticity::lagrange_point<dim>(degree, xi);
+      const auto J     = elasticity::jacobian(shape, X);
+      if (!(std::abs(determinant(J)) > 0.))
         return {};
-      }
-
-      std::string
-      listed(const std::vector<double> &point)
-      {
-        std::ostringstream text;
-        for (unsigned int d = 0; d < point.size(); ++d)
-          text << (d == 0 ? "" : ", ") << point[d];
-        return text.str();
-      }
-
-      /// Throw unless exactly one body holds the point.
-      void
-      require_one_body(const ResponseParameters        &parameters,
-                       const std::vector<std::string>  &names,
-                       const std::vector<unsigned int> &holds)
-      {
-        std::string bodies;
-        for (unsigned int b = 0; b < holds.size(); ++b)
-          if (holds[b] != 0)
-            bodies += (bodies.empty() ? "" : ", ") + names[b];
-        const auto n = holds.size() - std::count(holds.begin(), holds.end(), 0);
-        if (n == 0)
-          throw bad_entry(parameters.path("Point"),
-                          listed(parameters.point),
-                          "lies outside the bodies");
-        if (n > 1)
-          throw bad_entry(parameters.path("Point"),
-                          listed(parameters.point),
-                          "lies in the bodies " + bodies +
-                            ": name one with 'Body'");
-      }
-    } // namespace
-
-    template <int dim>
-    dealii::Tensor<1, dim>
-    unit_vector(const ResponseParameters &parameters)
-    {
-      const auto &component = parameters.component;
-      const auto  axis      = std::string("xyz").substr(0, dim).find(component);
-      if (component.size() != 1 || axis == std::string::npos)
-        throw bad_entry(parameters.path("Component"),
-                        component,
-                        dim == 2 ? "must be x or y" : "must be x, y or z");
-      dealii::Tensor<1, dim> result;
-      result[axis] = 1.;
-      return result;
-    }
-
-    template <int dim>
-    std::pair<unsigned int, unsigned int>
-    find_boundary(const state::StateSolver<dim> &solver,
-                  const ResponseParameters      &parameters)
-    {
-      const auto &bodies = solver.model().body_names;
-      for (unsigned int body = 0; body < bodies.size(); ++body)
+      const dealii::Tensor<1, dim> move = invert(J) * (point - elasticity::value(shape, X));
+      if (move.norm() < 1e-12)
         {
-          const auto names = solver.mesh().geometry(body).boundary_names();
-          for (unsigned int boundary = 0; boundary < names.size(); ++boundary)
-            if (parameters.face == bodies[body] + "." + names[boundary])
-              return {body, boundary};
+          for (unsigned int d = 0; d < dim; ++d)
+            if (xi[d] < -tolerance || xi[d] > 1. + tolerance)
+              return {};
+          return shape.values;
         }
-      throw bad_entry(parameters.path("Face"),
-                      parameters.face,
-                      "there is no such face");
+      xi += move;
+      if (!(xi.norm() < 10.))
+        return {};
     }
+  return {};
+}
 
-    template <int dim>
-    std::vector<CellWeights>
-    find_point(const state::StateSolver<dim> &solver,
-               const ResponseParameters      &parameters)
+std::string listed(const std::vector<double> &point)
+{
+  std::ostringstream text;
+  for (unsigned int d = 0; d < point.size(); ++d)
+    text << (d == 0 ? "" : ", ") << point[d];
+  return text.str();
+}
+
+/// Throw unless exactly one body holds the point.
+void require_one_body(const ResponseParameters        &parameters,
+                      const std::vector<std::string>  &names,
+                      const std::vector<unsigned int> &holds)
+{
+  std::string bodies;
+  for (unsigned int b = 0; b < holds.size(); ++b)
+    if (holds[b] != 0)
+      bodies += (bodies.empty() ? "" : ", ") + names[b];
+  const auto n = holds.size() - std::count(holds.begin(), holds.end(), 0);
+  if (n == 0)
+    throw bad_entry(parameters.path("Point"), listed(parameters.point), "lies outside the bodies");
+  if (n > 1)
+    throw bad_entry(parameters.path("Point"), listed(parameters.point),
+                    "lies in the bodies " + bodies + ": name one with 'Body'");
+}
+} // namespace
+
+template <int dim>
+dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters)
+{
+  const auto &component = parameters.component;
+  const auto  axis      = std::string("xyz").substr(0, dim).find(component);
+  if (component.size() != 1 || axis == std::string::npos)
+    throw bad_entry(parameters.path("Component"), component,
+                    dim == 2 ? "must be x or y" : "must be x, y or z");
+  dealii::Tensor<1, dim> result;
+  result[axis] = 1.;
+  return result;
+}
+
+template <int dim>
+std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim> &solver,
+                                                    const ResponseParameters      &parameters)
+{
+  const auto &bodies = solver.model().body_names;
+  for (unsigned int body = 0; body < bodies.size(); ++body)
     {
-      const auto            &mesh = solver.mesh();
-      const MPI_Comm         comm = solver.context().communicator();
-      dealii::Tensor<1, dim> x;
-      std::copy(parameters.point.begin(),
-                parameters.point.end(),
-                x.begin_raw());
-      std::vector<CellWeights>  found;
-      std::vector<unsigned int> holds(mesh.n_bodies(), 0);
-      const auto                look = [&](unsigned int s, unsigned int i) {
-        const auto &assembler = *solver.assemblers()[s];
-        const auto  X = assembler.cell_field(i, mesh.reference_positions());
-        if (!is_near<dim>(X, x))
-          return;
-        const auto weights = shape_values<dim>(mesh.degree(), X, x);
-        if (!weights)
-          return;
-        holds[mesh.cells()[assembler.cells()[i]].body] = 1;
-        if (found.empty())
-          found.push_back({s, i, *weights});
-      };
-      for_each_cell<dim>(solver, parameters.body, look);
-      dealii::Utilities::MPI::max(holds, comm, holds);
-      require_one_body(parameters, solver.model().body_names, holds);
-      const unsigned int n_ranks =
-        dealii::Utilities::MPI::n_mpi_processes(comm);
-      const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
-      if (dealii::Utilities::MPI::min(found.empty() ? n_ranks : rank, comm) !=
-          rank)
-        found.clear();
-      return found;
+      const auto names = solver.mesh().geometry(body).boundary_names();
+      for (unsigned int boundary = 0; boundary < names.size(); ++boundary)
+        if (parameters.face == bodies[body] + "." + names[boundary])
+          return {body, boundary};
     }
+  throw bad_entry(parameters.path("Face"), parameters.face, "there is no such face");
+}
 
-#define SNUG_INSTANTIATE(dim)                                              \
-  template dealii::Tensor<1, dim> unit_vector(const ResponseParameters &); \
-  template std::pair<unsigned int, unsigned int> find_boundary(            \
-    const state::StateSolver<dim> &, const ResponseParameters &);          \
-  template std::vector<CellWeights> find_point(                            \
-    const state::StateSolver<dim> &, const ResponseParameters &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+template <int dim>
+std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
+                                    const ResponseParameters      &parameters)
+{
+  const auto            &mesh = solver.mesh();
+  const MPI_Comm         comm = solver.context().communicator();
+  dealii::Tensor<1, dim> x;
+  std::copy(parameters.point.begin(), parameters.point.end(), x.begin_raw());
+  std::vector<CellWeights>  found;
+  std::vector<unsigned int> holds(mesh.n_bodies(), 0);
+  const auto                look = [&](unsigned int s, unsigned int i) {
+    const auto &assembler = *solver.assemblers()[s];
+    const auto  X         = assembler.cell_field(i, mesh.reference_positions());
+    if (!is_near<dim>(X, x))
+      return;
+    const auto weights = shape_values<dim>(mesh.degree(), X, x);
+    if (!weights)
+      return;
+    holds[mesh.cells()[assembler.cells()[i]].body] = 1;
+    if (found.empty())
+      found.push_back({s, i, *weights});
+  };
+  for_each_cell<dim>(solver, parameters.body, look);
+  dealii::Utilities::MPI::max(holds, comm, holds);
+  require_one_body(parameters, solver.model().body_names, holds);
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
+  if (dealii::Utilities::MPI::min(found.empty() ? n_ranks : rank, comm) != rank)
+    found.clear();
+  return found;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template dealii::Tensor<1, dim>                unit_vector(const ResponseParameters &);       \
+  template std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim> &, \
+                                                               const ResponseParameters &);     \
+  template std::vector<CellWeights>              find_point(const state::StateSolver<dim> &,    \
+                                                            const ResponseParameters &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace response
-} // namespace snug
+} // namespace snug::response

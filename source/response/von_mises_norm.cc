@@ -6,105 +6,86 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::response {
+template <int dim>
+VonMisesNorm<dim>::VonMisesNorm(const ResponseParameters &parameters)
+  : body(parameters.body), p(parameters.exponent)
+{}
+
+template <int dim>
+std::vector<std::string> VonMisesNorm<dim>::entries() const
 {
-  namespace response
-  {
-    template <int dim>
-    VonMisesNorm<dim>::VonMisesNorm(const ResponseParameters &parameters)
-      : body(parameters.body), p(parameters.exponent)
-    {
-    }
+  return {"Body", "Exponent"};
+}
 
-    template <int dim>
-    std::vector<std::string>
-    VonMisesNorm<dim>::entries() const
-    {
-      return {"Body", "Exponent"};
-    }
-
-    template <int dim>
-    typename VonMisesNorm<dim>::Integrals
-    VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
-                                 const state::ContactState<dim> &state) const
-    {
-      using Power         = elasticity::VonMisesPower<dim>;
-      const auto    &mesh = solver.mesh();
-      const MPI_Comm comm = solver.context().communicator();
-      Integrals      result;
-      const Power    stress(mesh.degree(), mesh.idealization(), p, 1.);
-      for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
-        const auto &assembler = *solver.assemblers()[s];
-        const auto  X         = assembler.cell_field(i, state.positions);
-        result.volume += assembler.element().volume(X);
-        result.scale =
-          std::max(result.scale,
-                   stress.largest(X,
-                                  assembler.material(i),
-                                  assembler.cell_values(i,
-                                                        state.u[s].column(0))));
-      });
-      result.scale  = dealii::Utilities::MPI::max(result.scale, comm);
-      result.volume = dealii::Utilities::MPI::sum(result.volume, comm);
-      if (result.scale == 0.)
-        return result;
-      const Power power(mesh.degree(), mesh.idealization(), p, result.scale);
-      for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
-        const auto &assembler = *solver.assemblers()[s];
-        result.power +=
-          power.value(assembler.cell_field(i, state.positions),
-                      assembler.material(i),
-                      assembler.cell_values(i, state.u[s].column(0)));
-      });
-      result.power = dealii::Utilities::MPI::sum(result.power, comm);
-      return result;
-    }
-
-    template <int dim>
-    double
-    VonMisesNorm<dim>::value(const state::StateSolver<dim>  &solver,
+template <int dim>
+typename VonMisesNorm<dim>::Integrals
+VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
                              const state::ContactState<dim> &state) const
-    {
-      const auto of = integrals(solver, state);
-      return of.scale * std::pow(of.power / of.volume, 1. / p);
-    }
+{
+  using Power         = elasticity::VonMisesPower<dim>;
+  const auto    &mesh = solver.mesh();
+  const MPI_Comm comm = solver.context().communicator();
+  Integrals      result;
+  const Power    stress(mesh.degree(), mesh.idealization(), p, 1.);
+  for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+    const auto &assembler = *solver.assemblers()[s];
+    const auto  X         = assembler.cell_field(i, state.positions);
+    result.volume += assembler.element().volume(X);
+    result.scale =
+      std::max(result.scale, stress.largest(X, assembler.material(i),
+                                            assembler.cell_values(i, state.u[s].column(0))));
+  });
+  result.scale  = dealii::Utilities::MPI::max(result.scale, comm);
+  result.volume = dealii::Utilities::MPI::sum(result.volume, comm);
+  if (result.scale == 0.)
+    return result;
+  const Power power(mesh.degree(), mesh.idealization(), p, result.scale);
+  for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+    const auto &assembler = *solver.assemblers()[s];
+    result.power += power.value(assembler.cell_field(i, state.positions), assembler.material(i),
+                                assembler.cell_values(i, state.u[s].column(0)));
+  });
+  result.power = dealii::Utilities::MPI::sum(result.power, comm);
+  return result;
+}
 
-    template <int dim>
-    Partials<dim>
-    VonMisesNorm<dim>::partials(const state::StateSolver<dim>  &solver,
+template <int dim>
+double VonMisesNorm<dim>::value(const state::StateSolver<dim>  &solver,
                                 const state::ContactState<dim> &state) const
-    {
-      const auto    of = integrals(solver, state);
-      Partials<dim> result;
-      result.positions.resize(solver.mesh().n_local_nodes());
-      for (const auto &assembler : solver.assemblers())
-        result.u.emplace_back(assembler->n_dofs());
-      if (of.scale == 0.)
-        return result;
-      // dJ = J/p (dS/S - dV/V)
-      const double J = of.scale * std::pow(of.power / of.volume, 1. / p);
-      const elasticity::VonMisesPower<dim> power(solver.mesh().degree(),
-                                                 solver.mesh().idealization(),
-                                                 p,
-                                                 of.scale);
-      for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
-        const auto &assembler = *solver.assemblers()[s];
-        const auto  X         = assembler.cell_field(i, state.positions);
-        std::vector<dealii::Tensor<1, dim>> by_u(X.size()), by_X(X.size());
-        power.add_gradients(X,
-                            assembler.material(i),
-                            assembler.cell_values(i, state.u[s].column(0)),
-                            J / (p * of.power),
-                            by_u,
-                            by_X);
-        assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
-        assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
-        add_to_cell_nodes(solver, s, i, by_X, result.positions);
-      });
-      return result;
-    }
+{
+  const auto of = integrals(solver, state);
+  return of.scale * std::pow(of.power / of.volume, 1. / p);
+}
 
-    template class VonMisesNorm<2>;
-    template class VonMisesNorm<3>;
-  } // namespace response
-} // namespace snug
+template <int dim>
+Partials<dim> VonMisesNorm<dim>::partials(const state::StateSolver<dim>  &solver,
+                                          const state::ContactState<dim> &state) const
+{
+  const auto    of = integrals(solver, state);
+  Partials<dim> result;
+  result.positions.resize(solver.mesh().n_local_nodes());
+  for (const auto &assembler : solver.assemblers())
+    result.u.emplace_back(assembler->n_dofs());
+  if (of.scale == 0.)
+    return result;
+  // dJ = J/p (dS/S - dV/V)
+  const double                         J = of.scale * std::pow(of.power / of.volume, 1. / p);
+  const elasticity::VonMisesPower<dim> power(solver.mesh().degree(), solver.mesh().idealization(),
+                                             p, of.scale);
+  for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+    const auto                         &assembler = *solver.assemblers()[s];
+    const auto                          X         = assembler.cell_field(i, state.positions);
+    std::vector<dealii::Tensor<1, dim>> by_u(X.size()), by_X(X.size());
+    power.add_gradients(X, assembler.material(i), assembler.cell_values(i, state.u[s].column(0)),
+                        J / (p * of.power), by_u, by_X);
+    assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
+    assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
+    add_to_cell_nodes(solver, s, i, by_X, result.positions);
+  });
+  return result;
+}
+
+template class VonMisesNorm<2>;
+template class VonMisesNorm<3>;
+} // namespace snug::response

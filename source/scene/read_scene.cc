@@ -10,294 +10,258 @@
 #include <ostream>
 #include <sstream>
 
-namespace snug
+namespace snug::scene {
+namespace {
+/// Contents of @p file, or the reason why it cannot be read.
+bool try_to_read(const std::string &file, std::string &text)
 {
-  namespace scene
-  {
-    namespace
+  errno = 0;
+  std::ifstream      in(file, std::ios::binary);
+  std::ostringstream contents;
+  if (in && in.peek() != std::ifstream::traits_type::eof())
+    contents << in.rdbuf();
+  const bool good = in.is_open() && !in.bad() && errno == 0;
+  text            = good ? contents.str() : std::strerror(errno == 0 ? EIO : errno);
+  return good;
+}
+
+/// All statements that count, in the order they are applied.
+std::vector<Statement> statements_of(const SceneSource &source)
+{
+  auto statements = parse_statements(source.text, source.file);
+  for (const auto &set : source.sets)
+    statements.push_back(parse_override(set));
+  if (!source.output_directory.empty())
+    statements.push_back({"", "Output directory", source.output_directory, "--output"});
+  // A value with these would not survive printing and reading again.
+  for (const auto &statement : statements)
+    if (statement.value.find_first_of("#\n\r") != std::string::npos ||
+        (!statement.value.empty() && statement.value.back() == '\\'))
+      throw Origins(statement.origin, {})
+        .error(statement.path(), statement.value,
+               "must not contain '#' or line ends, nor end with '\\'");
+  return statements;
+}
+
+/// The last value of the entry @p path, a list of names.
+std::vector<std::string> names_in(const std::vector<Statement> &statements, const std::string &path)
+{
+  std::string names;
+  for (const auto &statement : statements)
+    if (statement.path() == path)
+      names = statement.value;
+  return dealii::Utilities::split_string_list(names);
+}
+
+/// First pass: bodies, load cases, materials, obstacles, responses and
+/// shapes, without what they are made of.
+void make_named(const std::vector<Statement> &statements, Scene &scene)
+{
+  for (const auto &name : names_in(statements, "Bodies"))
     {
-      /// Contents of @p file, or the reason why it cannot be read.
-      bool
-      try_to_read(const std::string &file, std::string &text)
-      {
-        errno = 0;
-        std::ifstream      in(file, std::ios::binary);
-        std::ostringstream contents;
-        if (in && in.peek() != std::ifstream::traits_type::eof())
-          contents << in.rdbuf();
-        const bool good = in.is_open() && !in.bad() && errno == 0;
-        text = good ? contents.str() : std::strerror(errno == 0 ? EIO : errno);
-        return good;
-      }
-
-      /// All statements that count, in the order they are applied.
-      std::vector<Statement>
-      statements_of(const SceneSource &source)
-      {
-        auto statements = parse_statements(source.text, source.file);
-        for (const auto &set : source.sets)
-          statements.push_back(parse_override(set));
-        if (!source.output_directory.empty())
-          statements.push_back(
-            {"", "Output directory", source.output_directory, "--output"});
-        // A value with these would not survive printing and reading again.
-        for (const auto &statement : statements)
-          if (statement.value.find_first_of("#\n\r") != std::string::npos ||
-              (!statement.value.empty() && statement.value.back() == '\\'))
-            throw Origins(statement.origin, {})
-              .error(statement.path(),
-                     statement.value,
-                     "must not contain '#' or line ends, nor end with '\\'");
-        return statements;
-      }
-
-      /// The last value of the entry @p path, a list of names.
-      std::vector<std::string>
-      names_in(const std::vector<Statement> &statements,
-               const std::string            &path)
-      {
-        std::string names;
-        for (const auto &statement : statements)
-          if (statement.path() == path)
-            names = statement.value;
-        return dealii::Utilities::split_string_list(names);
-      }
-
-      /// First pass: bodies, load cases, materials, obstacles, responses and
-      /// shapes, without what they are made of.
-      void
-      make_named(const std::vector<Statement> &statements, Scene &scene)
-      {
-        for (const auto &name : names_in(statements, "Bodies"))
-          {
-            scene.bodies.emplace_back();
-            scene.bodies.back().name = name;
-          }
-        for (const auto &name : names_in(statements, "Load cases"))
-          {
-            scene.load_cases.emplace_back();
-            scene.load_cases.back().name = name;
-          }
-        for (const auto &name : names_in(statements, "Materials"))
-          scene.materials.push_back({name, {}});
-        for (const auto &name : names_in(statements, "Obstacles"))
-          {
-            scene.obstacles.emplace_back();
-            scene.obstacles.back().name = name;
-          }
-        for (const auto &name : names_in(statements, "Responses"))
-          {
-            scene.responses.emplace_back();
-            scene.responses.back().name     = name;
-            scene.responses.back().quantity = "potential energy";
-          }
-        const auto shapes = names_in(statements, "Shapes");
-        scene.shapes.resize(std::max<std::size_t>(1, shapes.size()));
-        for (unsigned int i = 0; i < shapes.size(); ++i)
-          scene.shapes[i].name = shapes[i];
-      }
-
-      bool
-      belongs_to_pair(const Statement &statement)
-      {
-        return statement.section.rfind("Pair ", 0) == 0;
-      }
-
-      /// Pairs take over what subsection Contact says, but for entries of
-      /// their own, wherever these stand.
-      void
-      assign(const std::vector<Statement> &statements, Scene &scene)
-      {
-        {
-          Entries entries;
-          declare(entries, scene);
-          for (const auto &statement : statements)
-            if (!belongs_to_pair(statement))
-              entries.set(statement);
-        }
-        for (auto &pair : scene.contact.pairs)
-          pair.parameters = scene.contact.defaults;
-        Entries entries;
-        declare(entries, scene);
-        for (const auto &statement : statements)
-          if (belongs_to_pair(statement))
-            entries.set(statement);
-      }
-
-      void
-      fill(std::vector<double> &values,
-           const unsigned int   n,
-           const double         value)
-      {
-        if (values.empty())
-          values.assign(n, value);
-      }
-
-      /// Give lists that were left empty their defaults.
-      void
-      complete(Scene &scene)
-      {
-        if (scene.model == "auto")
-          scene.model = scene.dimension == 2 ? "plane strain" : "solid";
-        for (auto &body : scene.bodies)
-          {
-            fill(body.mesh.corner, scene.dimension, 0.);
-            fill(body.mesh.size, scene.dimension, 1.);
-            fill(body.mesh.grading, scene.dimension, 1.);
-            fill(body.mesh.fine_length, scene.dimension, 0.);
-          }
-        std::vector<double> last(scene.dimension, 0.);
-        last.back() = 1.;
-        for (auto &obstacle : scene.obstacles)
-          {
-            fill(obstacle.point, scene.dimension, 0.);
-            fill(obstacle.displacement, scene.dimension, 0.);
-            for (auto *direction : {&obstacle.normal, &obstacle.axis})
-              if (direction->empty())
-                *direction = last;
-          }
-      }
-
-      /// Read the mesh files of all bodies. Their paths become absolute, so
-      /// that the scene may be printed elsewhere.
-      void
-      read_meshes(const SceneSource &source,
-                  const Origins     &origins,
-                  Scene             &scene)
-      {
-        for (auto &body : scene.bodies)
-          {
-            auto &mesh = body.mesh;
-            if (mesh.source != "file")
-              continue;
-            for (const auto &[region, material] : body.materials)
-              mesh.named_regions.push_back(region);
-            const std::string path = "Body " + body.name + "/Mesh file";
-            if (mesh.file.empty() || !source.read_file)
-              throw origins.error(path, mesh.file, "must be a mesh file");
-            try
-              {
-                namespace fs = std::filesystem;
-                mesh.file =
-                  fs::absolute(fs::path(source.file).parent_path() / mesh.file)
-                    .lexically_normal()
-                    .string();
-                mesh.imported = mesh::import_mesh(source.read_file(mesh.file),
-                                                  mesh,
-                                                  scene.dimension);
-              }
-            catch (const InputError &error)
-              {
-                throw mesh_error(body, origins, error.what());
-              }
-          }
-      }
-
-      std::string
-      table_cell(std::string text)
-      {
-        for (auto bar = text.find('|'); bar != std::string::npos;
-             bar      = text.find('|', bar + 2))
-          text.insert(bar, "\\");
-        return text;
-      }
-
-      /// Its default would be that of the scene the reference is printed from.
-      bool
-      is_name_list(const Entries::Description &entry)
-      {
-        return entry.name == "Bodies" || entry.name == "Obstacles" ||
-               entry.name == "Load cases" || entry.name == "Pairs" ||
-               (entry.name == "Materials" && entry.section.empty()) ||
-               (entry.name == "Responses" && entry.section.empty());
-      }
-    } // namespace
-
-    std::string
-    read_text(const std::string &file, MPI_Comm communicator)
-    {
-      int rank;
-      MPI_Comm_rank(communicator, &rank);
-      std::string   text;
-      unsigned long header[2] = {0, 0}; // success, length
-      if (rank == 0)
-        {
-          header[0] = try_to_read(file, text);
-          header[1] = text.size();
-        }
-      MPI_Bcast(header, 2, MPI_UNSIGNED_LONG, 0, communicator);
-      text.resize(header[1]);
-      MPI_Bcast(&text[0], header[1], MPI_CHAR, 0, communicator);
-      if (header[0] == 0)
-        throw InputError("cannot read the file '" + quotable(file) +
-                         "': " + text);
-      return text;
-    }
-
-    Scene
-    read_scene(const SceneSource &source)
-    {
-      const auto    statements = statements_of(source);
-      const Origins origins(source.file, statements);
-      Scene         scene;
-      scene.file = source.file;
-      make_named(statements, scene);
-      check_names(scene, origins);
-      assign(statements, scene);
-      complete(scene);
-      read_meshes(source, origins, scene);
-      check(scene, origins);
-      return scene;
-    }
-
-    void
-    print(const Scene &scene, std::ostream &out)
-    {
-      Scene   copy = scene;
-      Entries entries;
-      declare(entries, copy);
-      entries.print(out);
-    }
-
-    void
-    print_reference(std::ostream &out)
-    {
-      Scene scene;
       scene.bodies.emplace_back();
-      scene.bodies.front().name = "NAME";
-      scene.materials.push_back({"NAME", {}});
+      scene.bodies.back().name = name;
+    }
+  for (const auto &name : names_in(statements, "Load cases"))
+    {
       scene.load_cases.emplace_back();
-      scene.load_cases.front().name = "NAME";
+      scene.load_cases.back().name = name;
+    }
+  for (const auto &name : names_in(statements, "Materials"))
+    scene.materials.push_back({name, {}});
+  for (const auto &name : names_in(statements, "Obstacles"))
+    {
       scene.obstacles.emplace_back();
-      scene.obstacles.front().name = "NAME";
-      scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});
+      scene.obstacles.back().name = name;
+    }
+  for (const auto &name : names_in(statements, "Responses"))
+    {
       scene.responses.emplace_back();
-      scene.responses.back().name     = "NAME";
+      scene.responses.back().name     = name;
       scene.responses.back().quantity = "potential energy";
-      Entries entries;
-      declare(entries, scene);
-      out << "# Parameters\n\n"
-             "Printed by `snug --print-parameters`. Units are yours, but they "
-             "must be consistent: with mm, N and MPa, energies are N mm.\n";
-      for (const auto &section : entries.sections())
+    }
+  const auto shapes = names_in(statements, "Shapes");
+  scene.shapes.resize(std::max<std::size_t>(1, shapes.size()));
+  for (unsigned int i = 0; i < shapes.size(); ++i)
+    scene.shapes[i].name = shapes[i];
+}
+
+bool belongs_to_pair(const Statement &statement)
+{
+  return statement.section.rfind("Pair ", 0) == 0;
+}
+
+/// Pairs take over what subsection Contact says, but for entries of
+/// their own, wherever these stand.
+void assign(const std::vector<Statement> &statements, Scene &scene)
+{
+  {
+    Entries entries;
+    declare(entries, scene);
+    for (const auto &statement : statements)
+      if (!belongs_to_pair(statement))
+        entries.set(statement);
+  }
+  for (auto &pair : scene.contact.pairs)
+    pair.parameters = scene.contact.defaults;
+  Entries entries;
+  declare(entries, scene);
+  for (const auto &statement : statements)
+    if (belongs_to_pair(statement))
+      entries.set(statement);
+}
+
+void fill(std::vector<double> &values, const unsigned int n, const double value)
+{
+  if (values.empty())
+    values.assign(n, value);
+}
+
+/// Give lists that were left empty their defaults.
+void complete(Scene &scene)
+{
+  if (scene.model == "auto")
+    scene.model = scene.dimension == 2 ? "plane strain" : "solid";
+  for (auto &body : scene.bodies)
+    {
+      fill(body.mesh.corner, scene.dimension, 0.);
+      fill(body.mesh.size, scene.dimension, 1.);
+      fill(body.mesh.grading, scene.dimension, 1.);
+      fill(body.mesh.fine_length, scene.dimension, 0.);
+    }
+  std::vector<double> last(scene.dimension, 0.);
+  last.back() = 1.;
+  for (auto &obstacle : scene.obstacles)
+    {
+      fill(obstacle.point, scene.dimension, 0.);
+      fill(obstacle.displacement, scene.dimension, 0.);
+      for (auto *direction : {&obstacle.normal, &obstacle.axis})
+        if (direction->empty())
+          *direction = last;
+    }
+}
+
+/// Read the mesh files of all bodies. Their paths become absolute, so
+/// that the scene may be printed elsewhere.
+void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene)
+{
+  for (auto &body : scene.bodies)
+    {
+      auto &mesh = body.mesh;
+      if (mesh.source != "file")
+        continue;
+      for (const auto &[region, material] : body.materials)
+        mesh.named_regions.push_back(region);
+      const std::string path = "Body " + body.name + "/Mesh file";
+      if (mesh.file.empty() || !source.read_file)
+        throw origins.error(path, mesh.file, "must be a mesh file");
+      try
         {
-          out << "\n## "
-              << (section.name.empty() ? "Outside of subsections"
-                                       : "subsection " + section.name)
-              << "\n\n";
-          if (!section.meaning.empty())
-            out << section.meaning << "\n\n";
-          out << "| entry | default | allowed | meaning |\n"
-                 "|---|---|---|---|\n";
-          for (const auto &entry : entries.descriptions())
-            if (entry.section == section.name)
-              out << "| `" << entry.name << "` | "
-                  << (entry.initial.empty() || is_name_list(entry)
-                        ? ""
-                        : "`" + entry.initial + "`")
-                  << " | " << table_cell(entry.form.allowed) << " | "
-                  << table_cell(entry.meaning) << " |\n";
+          namespace fs = std::filesystem;
+          mesh.file    = fs::absolute(fs::path(source.file).parent_path() / mesh.file)
+                        .lexically_normal()
+                        .string();
+          mesh.imported = mesh::import_mesh(source.read_file(mesh.file), mesh, scene.dimension);
+        }
+      catch (const InputError &error)
+        {
+          throw mesh_error(body, origins, error.what());
         }
     }
-  } // namespace scene
-} // namespace snug
+}
+
+std::string table_cell(std::string text)
+{
+  for (auto bar = text.find('|'); bar != std::string::npos; bar = text.find('|', bar + 2))
+    text.insert(bar, "\\");
+  return text;
+}
+
+/// Its default would be that of the scene the reference is printed from.
+bool is_name_list(const Entries::Description &entry)
+{
+  return entry.name == "Bodies" || entry.name == "Obstacles" || entry.name == "Load cases" ||
+         entry.name == "Pairs" || (entry.name == "Materials" && entry.section.empty()) ||
+         (entry.name == "Responses" && entry.section.empty());
+}
+} // namespace
+
+std::string read_text(const std::string &file, MPI_Comm communicator)
+{
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  std::string   text;
+  unsigned long header[2] = {0, 0}; // success, length
+  if (rank == 0)
+    {
+      header[0] = try_to_read(file, text);
+      header[1] = text.size();
+    }
+  MPI_Bcast(header, 2, MPI_UNSIGNED_LONG, 0, communicator);
+  text.resize(header[1]);
+  MPI_Bcast(&text[0], header[1], MPI_CHAR, 0, communicator);
+  if (header[0] == 0)
+    throw InputError("cannot read the file '" + quotable(file) + "': " + text);
+  return text;
+}
+
+Scene read_scene(const SceneSource &source)
+{
+  const auto    statements = statements_of(source);
+  const Origins origins(source.file, statements);
+  Scene         scene;
+  scene.file = source.file;
+  make_named(statements, scene);
+  check_names(scene, origins);
+  assign(statements, scene);
+  complete(scene);
+  read_meshes(source, origins, scene);
+  check(scene, origins);
+  return scene;
+}
+
+void print(const Scene &scene, std::ostream &out)
+{
+  Scene   copy = scene;
+  Entries entries;
+  declare(entries, copy);
+  entries.print(out);
+}
+
+void print_reference(std::ostream &out)
+{
+  Scene scene;
+  scene.bodies.emplace_back();
+  scene.bodies.front().name = "NAME";
+  scene.materials.push_back({"NAME", {}});
+  scene.load_cases.emplace_back();
+  scene.load_cases.front().name = "NAME";
+  scene.obstacles.emplace_back();
+  scene.obstacles.front().name = "NAME";
+  scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});
+  scene.responses.emplace_back();
+  scene.responses.back().name     = "NAME";
+  scene.responses.back().quantity = "potential energy";
+  Entries entries;
+  declare(entries, scene);
+  out << "# Parameters\n\n"
+         "Printed by `snug --print-parameters`. Units are yours, but they "
+         "must be consistent: with mm, N and MPa, energies are N mm.\n";
+  for (const auto &section : entries.sections())
+    {
+      out << "\n## "
+          << (section.name.empty() ? "Outside of subsections" : "subsection " + section.name)
+          << "\n\n";
+      if (!section.meaning.empty())
+        out << section.meaning << "\n\n";
+      out << "| entry | default | allowed | meaning |\n"
+             "|---|---|---|---|\n";
+      for (const auto &entry : entries.descriptions())
+        if (entry.section == section.name)
+          out << "| `" << entry.name << "` | "
+              << (entry.initial.empty() || is_name_list(entry) ? "" : "`" + entry.initial + "`")
+              << " | " << table_cell(entry.form.allowed) << " | " << table_cell(entry.meaning)
+              << " |\n";
+    }
+}
+} // namespace snug::scene

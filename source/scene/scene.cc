@@ -7,147 +7,127 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace snug
+namespace snug::scene {
+namespace {
+template <int dim>
+std::vector<std::string> boundary_names_in(const mesh::BodyMeshParameters &parameters)
 {
-  namespace scene
-  {
-    namespace
+  return mesh::make_geometry<dim>(parameters)->boundary_names();
+}
+} // namespace
+
+mesh::Idealization idealization(const Scene &scene)
+{
+  return {choose(mesh::idealization_table(), scene.model).make(), scene.thickness};
+}
+
+std::pair<std::string, std::string> split_face(const std::string &face)
+{
+  const auto dot = face.find('.');
+  if (dot == std::string::npos)
+    return {face, ""};
+  return {face.substr(0, dot), face.substr(dot + 1)};
+}
+
+std::optional<unsigned int> component_number(const std::string &name, const unsigned int dimension)
+{
+  const std::string axes = std::string("xyz").substr(0, dimension);
+  if (name == "normal")
+    return dimension;
+  if (name.size() == 1 && axes.find(name) != std::string::npos)
+    return axes.find(name);
+  return {};
+}
+
+std::vector<unsigned int> component_list(const std::string &words, const unsigned int dimension)
+{
+  std::vector<unsigned int> components;
+  const auto                add = [&](const std::string &name) {
+    const auto number = component_number(name, dimension);
+    if (!number)
+      throw std::invalid_argument("'" + name + "' is no component");
+    if (std::find(components.begin(), components.end(), *number) != components.end())
+      throw std::invalid_argument("'" + name + "' occurs twice");
+    components.push_back(*number);
+  };
+  std::istringstream text(words);
+  for (std::string word; text >> word;)
+    if (word == "normal")
+      add(word);
+    else
+      for (const char name : word)
+        add(std::string(1, name));
+  return components;
+}
+
+std::pair<std::string, std::string> split_displacement(const std::string &text)
+{
+  const auto equals = text.find('=');
+  if (equals == std::string::npos)
+    return {dealii::Utilities::trim(text), ""};
+  return {dealii::Utilities::trim(text.substr(0, equals)),
+          dealii::Utilities::trim(text.substr(equals + 1))};
+}
+
+ConstraintName constraint_name(const Scene &scene, const std::string &name)
+{
+  for (unsigned int c = 0; c < scene.load_cases.size(); ++c)
     {
-      template <int dim>
-      std::vector<std::string>
-      boundary_names_in(const mesh::BodyMeshParameters &parameters)
+      const std::string prefix = scene.load_cases[c].name + ".";
+      if (name.rfind(prefix, 0) == 0)
+        return {name.substr(prefix.size()), c};
+    }
+  return {name, {}};
+}
+
+std::optional<response::ResponseParameters> response_called(const Scene       &scene,
+                                                            const std::string &name)
+{
+  for (const auto &response : scene.responses)
+    if (response.name == name)
+      return response;
+  // The same in 2D and 3D.
+  for (const auto &row : response::response_table<3>())
+    if (row.name == name)
       {
-        return mesh::make_geometry<dim>(parameters)->boundary_names();
+        response::ResponseParameters parameters;
+        parameters.quantity = name;
+        return parameters;
       }
-    } // namespace
+  return {};
+}
 
-    mesh::Idealization
-    idealization(const Scene &scene)
-    {
-      return {choose(mesh::idealization_table(), scene.model).make(),
-              scene.thickness};
-    }
+unsigned int body_index(const Scene &scene, const std::string &name)
+{
+  unsigned int i = 0;
+  while (i < scene.bodies.size() && scene.bodies[i].name != name)
+    ++i;
+  return i;
+}
 
-    std::pair<std::string, std::string>
-    split_face(const std::string &face)
-    {
-      const auto dot = face.find('.');
-      if (dot == std::string::npos)
-        return {face, ""};
-      return {face.substr(0, dot), face.substr(dot + 1)};
-    }
+std::string text_of_materials(const std::map<std::string, std::string> &materials)
+{
+  const auto whole = materials.find("");
+  return whole != materials.end() ? whole->second : to_text(materials);
+}
 
-    std::optional<unsigned int>
-    component_number(const std::string &name, const unsigned int dimension)
+std::vector<elasticity::Material>
+materials_of(const Scene &scene, const Body &body, const std::vector<std::string> &regions)
+{
+  std::vector<elasticity::Material> result;
+  for (const auto &region : regions)
     {
-      const std::string axes = std::string("xyz").substr(0, dimension);
-      if (name == "normal")
-        return dimension;
-      if (name.size() == 1 && axes.find(name) != std::string::npos)
-        return axes.find(name);
-      return {};
+      result.push_back(body.material);
+      for (const auto &[name, material] : body.materials)
+        for (const auto &known : scene.materials)
+          if ((name.empty() || name == region) && known.name == material)
+            result.back() = known.material;
     }
+  return result;
+}
 
-    std::vector<unsigned int>
-    component_list(const std::string &words, const unsigned int dimension)
-    {
-      std::vector<unsigned int> components;
-      const auto                add = [&](const std::string &name) {
-        const auto number = component_number(name, dimension);
-        if (!number)
-          throw std::invalid_argument("'" + name + "' is no component");
-        if (std::find(components.begin(), components.end(), *number) !=
-            components.end())
-          throw std::invalid_argument("'" + name + "' occurs twice");
-        components.push_back(*number);
-      };
-      std::istringstream text(words);
-      for (std::string word; text >> word;)
-        if (word == "normal")
-          add(word);
-        else
-          for (const char name : word)
-            add(std::string(1, name));
-      return components;
-    }
-
-    std::pair<std::string, std::string>
-    split_displacement(const std::string &text)
-    {
-      const auto equals = text.find('=');
-      if (equals == std::string::npos)
-        return {dealii::Utilities::trim(text), ""};
-      return {dealii::Utilities::trim(text.substr(0, equals)),
-              dealii::Utilities::trim(text.substr(equals + 1))};
-    }
-
-    ConstraintName
-    constraint_name(const Scene &scene, const std::string &name)
-    {
-      for (unsigned int c = 0; c < scene.load_cases.size(); ++c)
-        {
-          const std::string prefix = scene.load_cases[c].name + ".";
-          if (name.rfind(prefix, 0) == 0)
-            return {name.substr(prefix.size()), c};
-        }
-      return {name, {}};
-    }
-
-    std::optional<response::ResponseParameters>
-    response_called(const Scene &scene, const std::string &name)
-    {
-      for (const auto &response : scene.responses)
-        if (response.name == name)
-          return response;
-      // The same in 2D and 3D.
-      for (const auto &row : response::response_table<3>())
-        if (row.name == name)
-          {
-            response::ResponseParameters parameters;
-            parameters.quantity = name;
-            return parameters;
-          }
-      return {};
-    }
-
-    unsigned int
-    body_index(const Scene &scene, const std::string &name)
-    {
-      unsigned int i = 0;
-      while (i < scene.bodies.size() && scene.bodies[i].name != name)
-        ++i;
-      return i;
-    }
-
-    std::string
-    text_of_materials(const std::map<std::string, std::string> &materials)
-    {
-      const auto whole = materials.find("");
-      return whole != materials.end() ? whole->second : to_text(materials);
-    }
-
-    std::vector<elasticity::Material>
-    materials_of(const Scene                    &scene,
-                 const Body                     &body,
-                 const std::vector<std::string> &regions)
-    {
-      std::vector<elasticity::Material> result;
-      for (const auto &region : regions)
-        {
-          result.push_back(body.material);
-          for (const auto &[name, material] : body.materials)
-            for (const auto &known : scene.materials)
-              if ((name.empty() || name == region) && known.name == material)
-                result.back() = known.material;
-        }
-      return result;
-    }
-
-    std::vector<std::string>
-    boundary_names(const Body &body, const unsigned int dimension)
-    {
-      return dimension == 2 ? boundary_names_in<2>(body.mesh)
-                            : boundary_names_in<3>(body.mesh);
-    }
-  } // namespace scene
-} // namespace snug
+std::vector<std::string> boundary_names(const Body &body, const unsigned int dimension)
+{
+  return dimension == 2 ? boundary_names_in<2>(body.mesh) : boundary_names_in<3>(body.mesh);
+}
+} // namespace snug::scene

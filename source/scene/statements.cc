@@ -7,249 +7,210 @@
 #include <numeric>
 #include <sstream>
 
-namespace snug
+namespace snug::scene {
+namespace {
+constexpr const char *white_space = " \t\r\n\v\f";
+
+/// Without white space at the ends and with single blanks inside.
+std::string tidy(const std::string &text)
 {
-  namespace scene
+  std::istringstream words(text);
+  std::string        word, result;
+  while (words >> word)
+    result += (result.empty() ? "" : " ") + word;
+  return result;
+}
+
+std::string trim(const std::string &text)
+{
+  const auto first = text.find_first_not_of(white_space);
+  if (first == std::string::npos)
+    return "";
+  return text.substr(first, text.find_last_not_of(white_space) + 1 - first);
+}
+
+std::string joined(const std::vector<std::string> &sections)
+{
+  std::string path;
+  for (const auto &section : sections)
+    path += (path.empty() ? "" : "/") + section;
+  return path;
+}
+
+/// A line without its comment, joined with those it continues on.
+bool next_line(std::istream &in, std::string &line, unsigned int &number)
+{
+  line.clear();
+  std::string piece;
+  bool        found = false;
+  while (std::getline(in, piece))
+    {
+      ++number;
+      found = true;
+      piece = trim(piece.substr(0, piece.find('#')));
+      if (piece.empty() || piece.back() != '\\')
+        {
+          line += piece;
+          break;
+        }
+      piece.pop_back();
+      line += piece;
+    }
+  return found;
+}
+
+/// The rest of @p line after @p keyword and a blank; false if it begins
+/// differently.
+bool begins_with(const std::string &line, const std::string &keyword, std::string &rest)
+{
+  std::string first = line.substr(0, line.find_first_of(white_space));
+  rest              = trim(line.substr(first.size()));
+  std::transform(first.begin(), first.end(), first.begin(), ::tolower);
+  return first == keyword;
+}
+
+unsigned int edit_distance(const std::string &a, const std::string &b)
+{
+  std::vector<unsigned int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0U);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      unsigned int diagonal = row[0]++;
+      for (std::size_t j = 0; j < b.size(); ++j)
+        {
+          const unsigned int replaced = diagonal + (std::tolower(a[i]) != std::tolower(b[j]));
+          diagonal                    = row[j + 1];
+          row[j + 1]                  = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+  return row.back();
+}
+
+/// Collects the statements of a text line by line.
+class StatementParser
+{
+public:
+  explicit StatementParser(const std::string &file) : file(file) {}
+
+  void read(const std::string &line, const unsigned int number)
   {
-    namespace
-    {
-      constexpr const char *white_space = " \t\r\n\v\f";
-
-      /// Without white space at the ends and with single blanks inside.
-      std::string
-      tidy(const std::string &text)
+    place = file + ", line " + std::to_string(number);
+    std::string rest;
+    if (line.empty())
+      return;
+    if (begins_with(line, "subsection", rest) && !rest.empty())
       {
-        std::istringstream words(text);
-        std::string        word, result;
-        while (words >> word)
-          result += (result.empty() ? "" : " ") + word;
-        return result;
+        sections.push_back(tidy(rest));
+        opened_at.push_back(place);
+        statements.push_back({joined(sections), "", "", place});
       }
-
-      std::string
-      trim(const std::string &text)
+    else if (begins_with(line, "end", rest) && rest.empty())
+      close();
+    else if (begins_with(line, "set", rest) && rest.find('=') != std::string::npos &&
+             rest[0] != '=')
       {
-        const auto first = text.find_first_not_of(white_space);
-        if (first == std::string::npos)
-          return "";
-        return text.substr(first,
-                           text.find_last_not_of(white_space) + 1 - first);
+        const auto equals = rest.find('=');
+        statements.push_back(
+          {joined(sections), tidy(rest.substr(0, equals)), trim(rest.substr(equals + 1)), place});
       }
+    else
+      throw InputError(place + ": '" + quotable(line) +
+                       "' must read 'set NAME = VALUE', "
+                       "'subsection NAME', 'end' or '# comment'");
+  }
 
-      std::string
-      joined(const std::vector<std::string> &sections)
-      {
-        std::string path;
-        for (const auto &section : sections)
-          path += (path.empty() ? "" : "/") + section;
-        return path;
-      }
+  std::vector<Statement> finish()
+  {
+    if (!sections.empty())
+      throw InputError(opened_at.back() + ": 'subsection " + quotable(sections.back()) +
+                       "' has no 'end'");
+    return std::move(statements);
+  }
 
-      /// A line without its comment, joined with those it continues on.
-      bool
-      next_line(std::istream &in, std::string &line, unsigned int &number)
-      {
-        line.clear();
-        std::string piece;
-        bool        found = false;
-        while (std::getline(in, piece))
-          {
-            ++number;
-            found = true;
-            piece = trim(piece.substr(0, piece.find('#')));
-            if (piece.empty() || piece.back() != '\\')
-              {
-                line += piece;
-                break;
-              }
-            piece.pop_back();
-            line += piece;
-          }
-        return found;
-      }
+private:
+  void close()
+  {
+    if (sections.empty())
+      throw InputError(place + ": 'end' without a 'subsection'");
+    sections.pop_back();
+    opened_at.pop_back();
+  }
 
-      /// The rest of @p line after @p keyword and a blank; false if it begins
-      /// differently.
-      bool
-      begins_with(const std::string &line,
-                  const std::string &keyword,
-                  std::string       &rest)
-      {
-        std::string first = line.substr(0, line.find_first_of(white_space));
-        rest              = trim(line.substr(first.size()));
-        std::transform(first.begin(), first.end(), first.begin(), ::tolower);
-        return first == keyword;
-      }
+  std::string              file, place;
+  std::vector<std::string> sections, opened_at;
+  std::vector<Statement>   statements;
+};
+} // namespace
 
-      unsigned int
-      edit_distance(const std::string &a, const std::string &b)
-      {
-        std::vector<unsigned int> row(b.size() + 1);
-        std::iota(row.begin(), row.end(), 0U);
-        for (std::size_t i = 0; i < a.size(); ++i)
-          {
-            unsigned int diagonal = row[0]++;
-            for (std::size_t j = 0; j < b.size(); ++j)
-              {
-                const unsigned int replaced =
-                  diagonal + (std::tolower(a[i]) != std::tolower(b[j]));
-                diagonal   = row[j + 1];
-                row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-              }
-          }
-        return row.back();
-      }
+std::string Statement::path() const
+{
+  return section.empty() ? name : section + "/" + name;
+}
 
-      /// Collects the statements of a text line by line.
-      class StatementParser
-      {
-      public:
-        explicit StatementParser(const std::string &file) : file(file)
-        {
-        }
+std::vector<Statement> parse_statements(const std::string &text, const std::string &file)
+{
+  const std::string  byte_order_mark = "\xEF\xBB\xBF";
+  const bool         marked          = text.rfind(byte_order_mark, 0) == 0;
+  std::istringstream in(text.substr(marked ? byte_order_mark.size() : 0));
+  StatementParser    parser(file);
+  std::string        line;
+  unsigned int       number = 0;
+  for (unsigned int first = 1; next_line(in, line, number); first = number + 1)
+    parser.read(line, first);
+  return parser.finish();
+}
 
-        void
-        read(const std::string &line, const unsigned int number)
-        {
-          place = file + ", line " + std::to_string(number);
-          std::string rest;
-          if (line.empty())
-            return;
-          if (begins_with(line, "subsection", rest) && !rest.empty())
-            {
-              sections.push_back(tidy(rest));
-              opened_at.push_back(place);
-              statements.push_back({joined(sections), "", "", place});
-            }
-          else if (begins_with(line, "end", rest) && rest.empty())
-            close();
-          else if (begins_with(line, "set", rest) &&
-                   rest.find('=') != std::string::npos && rest[0] != '=')
-            {
-              const auto equals = rest.find('=');
-              statements.push_back({joined(sections),
-                                    tidy(rest.substr(0, equals)),
-                                    trim(rest.substr(equals + 1)),
-                                    place});
-            }
-          else
-            throw InputError(place + ": '" + quotable(line) +
-                             "' must read 'set NAME = VALUE', "
-                             "'subsection NAME', 'end' or '# comment'");
-        }
+Statement parse_override(const std::string &argument)
+{
+  const auto equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError("--set '" + quotable(argument) +
+                     "': must read --set \"Subsection/Entry=value\"");
+  const std::string path  = argument.substr(0, equals);
+  const auto        slash = path.rfind('/');
+  const bool        top   = slash == std::string::npos;
+  return {top ? "" : tidy(path.substr(0, slash)), tidy(top ? path : path.substr(slash + 1)),
+          trim(argument.substr(equals + 1)), "--set"};
+}
 
-        std::vector<Statement>
-        finish()
-        {
-          if (!sections.empty())
-            throw InputError(opened_at.back() + ": 'subsection " +
-                             quotable(sections.back()) + "' has no 'end'");
-          return std::move(statements);
-        }
+Origins::Origins(const std::string &file, const std::vector<Statement> &statements) : file(file)
+{
+  for (const auto &statement : statements)
+    places[statement.path()] = statement.origin;
+}
 
-      private:
-        void
-        close()
-        {
-          if (sections.empty())
-            throw InputError(place + ": 'end' without a 'subsection'");
-          sections.pop_back();
-          opened_at.pop_back();
-        }
+std::string Origins::of(const std::string &path) const
+{
+  const auto found = places.find(path);
+  if (found != places.end())
+    return found->second + ": ";
+  return file.empty() ? "" : file + ": ";
+}
 
-        std::string              file, place;
-        std::vector<std::string> sections, opened_at;
-        std::vector<Statement>   statements;
-      };
-    } // namespace
+InputError
+Origins::error(const std::string &path, const std::string &value, const std::string &allowed) const
+{
+  return InputError(of(path) + bad_entry(quotable(path), quotable(value), allowed).what());
+}
 
-    std::string
-    Statement::path() const
-    {
-      return section.empty() ? name : section + "/" + name;
-    }
+std::string quotable(const std::string &text)
+{
+  constexpr std::size_t most = 80;
+  std::string           line = text.substr(0, most);
+  std::replace_if(
+    line.begin(), line.end(), [](const unsigned char c) { return c < 32 || c == 127; }, ' ');
+  return text.size() > most ? line + "..." : line;
+}
 
-    std::vector<Statement>
-    parse_statements(const std::string &text, const std::string &file)
-    {
-      const std::string  byte_order_mark = "\xEF\xBB\xBF";
-      const bool         marked          = text.rfind(byte_order_mark, 0) == 0;
-      std::istringstream in(text.substr(marked ? byte_order_mark.size() : 0));
-      StatementParser    parser(file);
-      std::string        line;
-      unsigned int       number = 0;
-      for (unsigned int first = 1; next_line(in, line, number);
-           first              = number + 1)
-        parser.read(line, first);
-      return parser.finish();
-    }
-
-    Statement
-    parse_override(const std::string &argument)
-    {
-      const auto equals = argument.find('=');
-      if (equals == std::string::npos || equals == 0)
-        throw InputError("--set '" + quotable(argument) +
-                         "': must read --set \"Subsection/Entry=value\"");
-      const std::string path  = argument.substr(0, equals);
-      const auto        slash = path.rfind('/');
-      const bool        top   = slash == std::string::npos;
-      return {top ? "" : tidy(path.substr(0, slash)),
-              tidy(top ? path : path.substr(slash + 1)),
-              trim(argument.substr(equals + 1)),
-              "--set"};
-    }
-
-    Origins::Origins(const std::string            &file,
-                     const std::vector<Statement> &statements)
-      : file(file)
-    {
-      for (const auto &statement : statements)
-        places[statement.path()] = statement.origin;
-    }
-
-    std::string
-    Origins::of(const std::string &path) const
-    {
-      const auto found = places.find(path);
-      if (found != places.end())
-        return found->second + ": ";
-      return file.empty() ? "" : file + ": ";
-    }
-
-    InputError
-    Origins::error(const std::string &path,
-                   const std::string &value,
-                   const std::string &allowed) const
-    {
-      return InputError(
-        of(path) + bad_entry(quotable(path), quotable(value), allowed).what());
-    }
-
-    std::string
-    quotable(const std::string &text)
-    {
-      constexpr std::size_t most = 80;
-      std::string           line = text.substr(0, most);
-      std::replace_if(
-        line.begin(),
-        line.end(),
-        [](const unsigned char c) { return c < 32 || c == 127; },
-        ' ');
-      return text.size() > most ? line + "..." : line;
-    }
-
-    std::string
-    did_you_mean(const std::string &word, const std::vector<std::string> &known)
-    {
-      const auto worse = [&word](const std::string &a, const std::string &b) {
-        return edit_distance(word, a) < edit_distance(word, b);
-      };
-      const auto best = std::min_element(known.begin(), known.end(), worse);
-      if (best == known.end() || edit_distance(word, *best) >
-                                   std::max<std::size_t>(2, best->size() / 3))
-        return "";
-      return "; did you mean '" + *best + "'?";
-    }
-  } // namespace scene
-} // namespace snug
+std::string did_you_mean(const std::string &word, const std::vector<std::string> &known)
+{
+  const auto worse = [&word](const std::string &a, const std::string &b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  };
+  const auto best = std::min_element(known.begin(), known.end(), worse);
+  if (best == known.end() ||
+      edit_distance(word, *best) > std::max<std::size_t>(2, best->size() / 3))
+    return "";
+  return "; did you mean '" + *best + "'?";
+}
+} // namespace snug::scene

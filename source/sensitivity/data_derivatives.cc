@@ -6,329 +6,273 @@
 #include <algorithm>
 #include <limits>
 
-namespace snug
+namespace snug::sensitivity {
+namespace {
+template <int dim>
+using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+template <int dim>
+double largest(const Nodes<dim> &V)
 {
-  namespace sensitivity
-  {
-    namespace
+  double norm = 0.;
+  for (const auto &v : V)
+    norm = std::max(norm, v.norm());
+  return norm;
+}
+
+/// The differences of a scheme that is not exact.
+template <int dim>
+elasticity::SemiAnalytic<dim> semi_analytic(const state::StateSolver<dim> &solver,
+                                            const GradientParameters      &parameters)
+{
+  const auto scheme = choose(derivatives_table(), parameters.derivatives).make();
+  return elasticity::SemiAnalytic<dim>(choose(elasticity::stencil_table(), scheme.stencil).make(),
+                                       scheme.refined, parameters.semi_analytic_step,
+                                       solver.mesh().idealization());
+}
+
+/// What the derivatives of one subdomain are taken of.
+template <int dim>
+struct SubdomainDerivative
+{
+  using Field     = typename mesh::BodyMesh<dim>::Field;
+  using Tractions = typename state::ResultantLoads<dim>::Tractions;
+
+  const state::StateSolver<dim>       &solver;
+  const state::ContactState<dim>      &state;
+  const elasticity::SemiAnalytic<dim> *differences; ///< null: exact
+  unsigned int                         s;
+
+  void add_cells(const Field &velocity, double *ft) const;
+  void add_faces(const Field     &velocity,
+                 const Tractions &tractions,
+                 const Tractions &changes,
+                 double          *ft) const;
+};
+
+template <int dim>
+void SubdomainDerivative<dim>::add_cells(const Field &velocity, double *ft) const
+{
+  const auto &assembler = *solver.assemblers()[s];
+  const auto &element   = assembler.element();
+  const bool  loaded    = assembler.has_body_force(state.load_case);
+  for (unsigned int i = 0; i < assembler.cells().size(); ++i)
     {
-      template <int dim>
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
-
-      template <int dim>
-      double
-      largest(const Nodes<dim> &V)
-      {
-        double norm = 0.;
-        for (const auto &v : V)
-          norm = std::max(norm, v.norm());
-        return norm;
-      }
-
-      /// The differences of a scheme that is not exact.
-      template <int dim>
-      elasticity::SemiAnalytic<dim>
-      semi_analytic(const state::StateSolver<dim> &solver,
-                    const GradientParameters      &parameters)
-      {
-        const auto scheme =
-          choose(derivatives_table(), parameters.derivatives).make();
-        return elasticity::SemiAnalytic<dim>(
-          choose(elasticity::stencil_table(), scheme.stencil).make(),
-          scheme.refined,
-          parameters.semi_analytic_step,
-          solver.mesh().idealization());
-      }
-
-      /// What the derivatives of one subdomain are taken of.
-      template <int dim>
-      struct SubdomainDerivative
-      {
-        using Field     = typename mesh::BodyMesh<dim>::Field;
-        using Tractions = typename state::ResultantLoads<dim>::Tractions;
-
-        const state::StateSolver<dim>       &solver;
-        const state::ContactState<dim>      &state;
-        const elasticity::SemiAnalytic<dim> *differences; ///< null: exact
-        unsigned int                         s;
-
-        void
-        add_cells(const Field &velocity, double *ft) const;
-        void
-        add_faces(const Field     &velocity,
-                  const Tractions &tractions,
-                  const Tractions &changes,
-                  double          *ft) const;
-      };
-
-      template <int dim>
-      void
-      SubdomainDerivative<dim>::add_cells(const Field &velocity,
-                                          double      *ft) const
-      {
-        const auto &assembler = *solver.assemblers()[s];
-        const auto &element   = assembler.element();
-        const bool  loaded    = assembler.has_body_force(state.load_case);
-        for (unsigned int i = 0; i < assembler.cells().size(); ++i)
-          {
-            const auto V = assembler.cell_field(i, velocity);
-            if (largest<dim>(V) == 0.)
-              continue;
-            const auto &material = assembler.material(i);
-            const auto  X        = assembler.cell_field(i, state.positions);
-            const auto  u = assembler.cell_values(i, state.u[s].column(0));
-            Nodes<dim>  r;
-            if (differences == nullptr)
-              element.internal_force_derivative(X, V, material, u, r);
-            else
-              differences->internal_force_derivative(
-                element, X, V, material, u, r);
-            assembler.add_cell_vector(i, -1., r, ft);
-            if (!loaded)
-              continue;
-            const auto b = assembler.body_force(i, state.load_case);
-            if (differences == nullptr)
-              element.body_force_derivative(X, V, b, r);
-            else
-              r = differences->load_derivative(
-                [&](const Nodes<dim> &x, Nodes<dim> &f) {
-                  element.body_force(x, b, f);
-                },
-                X,
-                V);
-            assembler.add_cell_vector(i, 1., r, ft);
-          }
-      }
-
-      /// Resultants change the loads of a whole face where any of it moves:
-      /// their tractions are differentiated exactly.
-      template <int dim>
-      void
-      SubdomainDerivative<dim>::add_faces(const Field     &velocity,
-                                          const Tractions &tractions,
-                                          const Tractions &changes,
-                                          double          *ft) const
-      {
-        const auto &assembler = *solver.assemblers()[s];
-        const auto &face_load = solver.face_load();
-        for (unsigned int i = 0; i < assembler.loaded_faces().size(); ++i)
-          {
-            const auto V = assembler.face_field(i, velocity);
-            const auto X = assembler.face_field(i, state.positions);
-            const auto load =
-              assembler.face_load_values(i, state.load_case, tractions);
-            const auto change =
-              assembler.linear_traction(i, state.load_case, changes);
-            Nodes<dim> r;
-            face_load.force_derivative(
-              X, Nodes<dim>(V.size()), load, change, r);
-            assembler.add_face_vector(i, 1., r, ft);
-            if (largest<dim>(V) == 0.)
-              continue;
-            if (differences == nullptr)
-              face_load.force_derivative(X, V, load, {}, r);
-            else
-              r = differences->load_derivative(
-                [&](const Nodes<dim> &x, Nodes<dim> &f) {
-                  face_load.force(x, load, f);
-                },
-                X,
-                V);
-            assembler.add_face_vector(i, 1., r, ft);
-          }
-      }
-
-      /// rows <- rows + weight of; all have the same entries.
-      template <int dim>
-      void
-      add(double                             weight,
-          const state::RowCoefficients<dim> &of,
-          state::RowCoefficients<dim>       &rows)
-      {
-        for (unsigned int i = 0; i < rows.contact.size(); ++i)
-          {
-            auto       &row   = rows.contact[i];
-            const auto &other = of.contact[i];
-            for (unsigned int k = 0; k < row.coefficients.size(); ++k)
-              row.coefficients[k].second +=
-                weight * other.coefficients[k].second;
-            row.gap += weight * other.gap;
-            row.normal += weight * other.normal;
-          }
-        for (unsigned int h = 0; h < rows.held.size(); ++h)
-          for (unsigned int k = 0; k < rows.held[h].directions.size(); ++k)
-            {
-              rows.held[h].directions[k] += weight * of.held[h].directions[k];
-              for (unsigned int c = 0; c < rows.held[h].values[k].size(); ++c)
-                rows.held[h].values[k][c] += weight * of.held[h].values[k][c];
-            }
-      }
-
-      /// Diagonal of the smallest face of the bodies over the largest velocity
-      /// of a face node. Collective.
-      template <int dim>
-      double
-      time_across_face(const state::StateSolver<dim> &solver,
-                       const Nodes<dim>              &X,
-                       const Nodes<dim>              &V)
-      {
-        double size = std::numeric_limits<double>::max(), speed = 0.;
-        for (const auto &face : solver.mesh().boundary_faces())
-          {
-            size =
-              std::min(size, (X[face.nodes.back()] - X[face.nodes[0]]).norm());
-            for (const unsigned int node : face.nodes)
-              speed = std::max(speed, V[node].norm());
-          }
-        const MPI_Comm comm = solver.context().communicator();
-        size                = dealii::Utilities::MPI::min(size, comm);
-        speed               = dealii::Utilities::MPI::max(speed, comm);
-        return speed > 0. ? size / speed : 0.;
-      }
-
-      /// Derivatives of what the rows of B are made of along a velocity.
-      /// Collective.
-      template <int dim>
-      state::RowCoefficients<dim>
-      row_derivatives(const state::StateSolver<dim> &solver,
-                      const Nodes<dim>              &X,
-                      const Nodes<dim>              &V,
-                      const GradientParameters      &parameters)
-      {
-        const auto scheme =
-          choose(derivatives_table(), parameters.derivatives).make();
-        const double time = time_across_face(solver, X, V);
-        if (scheme.stencil.empty() || time == 0.)
-          return solver.row_derivatives(X, V);
-        const auto stencil =
-          choose(elasticity::stencil_table(), scheme.stencil).make();
-        const double                step = parameters.semi_analytic_step * time;
-        state::RowCoefficients<dim> result;
-        for (unsigned int k = 0; k < stencil.places.size(); ++k)
-          {
-            auto x = X;
-            for (unsigned int a = 0; a < X.size(); ++a)
-              x[a] += stencil.places[k] * step * V[a];
-            const auto rows = solver.rows(x);
-            if (k == 0)
-              {
-                result = rows;
-                add(-1., rows, result);
-              }
-            add(stencil.weights[k] / step, rows, result);
-          }
-        return result;
-      }
-
-      /// ft -= B'^T lambda and B' u into the local rows, column j.
-      void
-      add_row_derivatives(const std::vector<feti::BEntry> &B_derivative,
-                          const qp::MultiVector           &lambda,
-                          const qp::MultiVector           &u,
-                          double                          *ft,
-                          double                          *Bu)
-      {
-        for (const auto &entry : B_derivative)
-          {
-            ft[entry.dof] -= entry.value * lambda(entry.row);
-            Bu[entry.row] += entry.value * u(entry.dof);
-          }
-      }
-    } // namespace
-
-    const ChoiceTable<DataScheme()> &
-    derivatives_table()
-    {
-      static const ChoiceTable<DataScheme()> table = {
-        {"exact", "differentiated by hand", []() { return DataScheme(); }},
-        {"forward differences",
-         "of element quantities (semi-analytic)",
-         []() {
-           return DataScheme{"forward", false};
-         }},
-        {"central differences",
-         "the same from both sides",
-         []() {
-           return DataScheme{"central", false};
-         }},
-        {"refined forward differences",
-         "forward ones that take the rigid motion of each element exactly, for "
-         "slender bodies",
-         []() {
-           return DataScheme{"forward", true};
-         }},
-        {"refined central differences", "the same from both sides", []() {
-           return DataScheme{"central", true};
-         }}};
-      return table;
+      const auto V = assembler.cell_field(i, velocity);
+      if (largest<dim>(V) == 0.)
+        continue;
+      const auto &material = assembler.material(i);
+      const auto  X        = assembler.cell_field(i, state.positions);
+      const auto  u        = assembler.cell_values(i, state.u[s].column(0));
+      Nodes<dim>  r;
+      if (differences == nullptr)
+        element.internal_force_derivative(X, V, material, u, r);
+      else
+        differences->internal_force_derivative(element, X, V, material, u, r);
+      assembler.add_cell_vector(i, -1., r, ft);
+      if (!loaded)
+        continue;
+      const auto b = assembler.body_force(i, state.load_case);
+      if (differences == nullptr)
+        element.body_force_derivative(X, V, b, r);
+      else
+        r = differences->load_derivative([&](const Nodes<dim> &x,
+                                             Nodes<dim>       &f) { element.body_force(x, b, f); },
+                                         X, V);
+      assembler.add_cell_vector(i, 1., r, ft);
     }
+}
 
-    template <int dim>
-    KktVectors
-    data_derivatives(
-      const state::StateSolver<dim>                          &solver,
-      const state::ContactState<dim>                         &state,
-      const std::vector<typename mesh::BodyMesh<dim>::Field> &velocities,
-      const GradientParameters                               &parameters)
+/// Resultants change the loads of a whole face where any of it moves:
+/// their tractions are differentiated exactly.
+template <int dim>
+void SubdomainDerivative<dim>::add_faces(const Field     &velocity,
+                                         const Tractions &tractions,
+                                         const Tractions &changes,
+                                         double          *ft) const
+{
+  const auto &assembler = *solver.assemblers()[s];
+  const auto &face_load = solver.face_load();
+  for (unsigned int i = 0; i < assembler.loaded_faces().size(); ++i)
     {
-      const unsigned int k      = velocities.size();
-      const auto        &layout = solver.gluing().layout();
-      const auto         lambda = layout.to_local(state.dual.lambda);
-      const auto         rows   = solver.rows(state.positions);
-      const auto tractions = solver.resultants().tractions(state.positions);
-      KktVectors result;
-      for (const auto &u : state.u)
-        result.primal.emplace_back(u.n_rows(), k);
-      qp::MultiVector Bu(layout.n_local(), k);
-      result.dual = qp::MultiVector(layout.n_owned(), k);
-      std::unique_ptr<elasticity::SemiAnalytic<dim>> differences;
-      if (parameters.derivatives != "exact")
-        differences = std::make_unique<elasticity::SemiAnalytic<dim>>(
-          semi_analytic(solver, parameters));
-      std::vector<feti::BEntry> B_derivative;
-      for (unsigned int j = 0; j < k; ++j)
+      const auto V      = assembler.face_field(i, velocity);
+      const auto X      = assembler.face_field(i, state.positions);
+      const auto load   = assembler.face_load_values(i, state.load_case, tractions);
+      const auto change = assembler.linear_traction(i, state.load_case, changes);
+      Nodes<dim> r;
+      face_load.force_derivative(X, Nodes<dim>(V.size()), load, change, r);
+      assembler.add_face_vector(i, 1., r, ft);
+      if (largest<dim>(V) == 0.)
+        continue;
+      if (differences == nullptr)
+        face_load.force_derivative(X, V, load, {}, r);
+      else
+        r = differences->load_derivative([&](const Nodes<dim> &x,
+                                             Nodes<dim>       &f) { face_load.force(x, load, f); },
+                                         X, V);
+      assembler.add_face_vector(i, 1., r, ft);
+    }
+}
+
+/// rows <- rows + weight of; all have the same entries.
+template <int dim>
+void add(double weight, const state::RowCoefficients<dim> &of, state::RowCoefficients<dim> &rows)
+{
+  for (unsigned int i = 0; i < rows.contact.size(); ++i)
+    {
+      auto       &row   = rows.contact[i];
+      const auto &other = of.contact[i];
+      for (unsigned int k = 0; k < row.coefficients.size(); ++k)
+        row.coefficients[k].second += weight * other.coefficients[k].second;
+      row.gap += weight * other.gap;
+      row.normal += weight * other.normal;
+    }
+  for (unsigned int h = 0; h < rows.held.size(); ++h)
+    for (unsigned int k = 0; k < rows.held[h].directions.size(); ++k)
+      {
+        rows.held[h].directions[k] += weight * of.held[h].directions[k];
+        for (unsigned int c = 0; c < rows.held[h].values[k].size(); ++c)
+          rows.held[h].values[k][c] += weight * of.held[h].values[k][c];
+      }
+}
+
+/// Diagonal of the smallest face of the bodies over the largest velocity
+/// of a face node. Collective.
+template <int dim>
+double
+time_across_face(const state::StateSolver<dim> &solver, const Nodes<dim> &X, const Nodes<dim> &V)
+{
+  double size = std::numeric_limits<double>::max(), speed = 0.;
+  for (const auto &face : solver.mesh().boundary_faces())
+    {
+      size = std::min(size, (X[face.nodes.back()] - X[face.nodes[0]]).norm());
+      for (const unsigned int node : face.nodes)
+        speed = std::max(speed, V[node].norm());
+    }
+  const MPI_Comm comm = solver.context().communicator();
+  size                = dealii::Utilities::MPI::min(size, comm);
+  speed               = dealii::Utilities::MPI::max(speed, comm);
+  return speed > 0. ? size / speed : 0.;
+}
+
+/// Derivatives of what the rows of B are made of along a velocity.
+/// Collective.
+template <int dim>
+state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim> &solver,
+                                            const Nodes<dim>              &X,
+                                            const Nodes<dim>              &V,
+                                            const GradientParameters      &parameters)
+{
+  const auto   scheme = choose(derivatives_table(), parameters.derivatives).make();
+  const double time   = time_across_face(solver, X, V);
+  if (scheme.stencil.empty() || time == 0.)
+    return solver.row_derivatives(X, V);
+  const auto                  stencil = choose(elasticity::stencil_table(), scheme.stencil).make();
+  const double                step    = parameters.semi_analytic_step * time;
+  state::RowCoefficients<dim> result;
+  for (unsigned int k = 0; k < stencil.places.size(); ++k)
+    {
+      auto x = X;
+      for (unsigned int a = 0; a < X.size(); ++a)
+        x[a] += stencil.places[k] * step * V[a];
+      const auto rows = solver.rows(x);
+      if (k == 0)
         {
-          const auto derivative = row_derivatives<dim>(solver,
-                                                       state.positions,
-                                                       velocities[j],
-                                                       parameters);
-          const auto g =
-            solver.gluing().right_hand_side_derivative(rows,
-                                                       derivative,
-                                                       state.load_case);
-          std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
-          const auto changes =
-            solver.resultants().traction_derivatives(state.positions,
-                                                     velocities[j]);
-          for (unsigned int s = 0; s < state.u.size(); ++s)
-            {
-              const SubdomainDerivative<dim> subdomain{solver,
-                                                       state,
-                                                       differences.get(),
-                                                       s};
-              double                        *ft = result.primal[s].column(j);
-              subdomain.add_cells(velocities[j], ft);
-              subdomain.add_faces(velocities[j], tractions, changes, ft);
-              solver.gluing().fill_B_derivative(s,
-                                                rows,
-                                                derivative,
-                                                B_derivative);
-              add_row_derivatives(
-                B_derivative, lambda, state.u[s], ft, Bu.column(j));
-            }
+          result = rows;
+          add(-1., rows, result);
         }
-      result.dual.add(-1., layout.to_owned(Bu));
-      return result;
+      add(stencil.weights[k] / step, rows, result);
     }
+  return result;
+}
 
-#define SNUG_INSTANTIATE(dim)                        \
-  template KktVectors data_derivatives(              \
-    const state::StateSolver<dim> &,                 \
-    const state::ContactState<dim> &,                \
-    const std::vector<mesh::BodyMesh<dim>::Field> &, \
-    const GradientParameters &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+/// ft -= B'^T lambda and B' u into the local rows, column j.
+void add_row_derivatives(const std::vector<feti::BEntry> &B_derivative,
+                         const qp::MultiVector           &lambda,
+                         const qp::MultiVector           &u,
+                         double                          *ft,
+                         double                          *Bu)
+{
+  for (const auto &entry : B_derivative)
+    {
+      ft[entry.dof] -= entry.value * lambda(entry.row);
+      Bu[entry.row] += entry.value * u(entry.dof);
+    }
+}
+} // namespace
+
+const ChoiceTable<DataScheme()> &derivatives_table()
+{
+  static const ChoiceTable<DataScheme()> table = {
+    {"exact", "differentiated by hand", []() { return DataScheme(); }},
+    {"forward differences", "of element quantities (semi-analytic)",
+     []() {
+       return DataScheme{"forward", false};
+     }},
+    {"central differences", "the same from both sides",
+     []() {
+       return DataScheme{"central", false};
+     }},
+    {"refined forward differences",
+     "forward ones that take the rigid motion of each element exactly, for "
+     "slender bodies",
+     []() {
+       return DataScheme{"forward", true};
+     }},
+    {"refined central differences", "the same from both sides", []() {
+       return DataScheme{"central", true};
+     }}};
+  return table;
+}
+
+template <int dim>
+KktVectors data_derivatives(const state::StateSolver<dim>                          &solver,
+                            const state::ContactState<dim>                         &state,
+                            const std::vector<typename mesh::BodyMesh<dim>::Field> &velocities,
+                            const GradientParameters                               &parameters)
+{
+  const unsigned int k         = velocities.size();
+  const auto        &layout    = solver.gluing().layout();
+  const auto         lambda    = layout.to_local(state.dual.lambda);
+  const auto         rows      = solver.rows(state.positions);
+  const auto         tractions = solver.resultants().tractions(state.positions);
+  KktVectors         result;
+  for (const auto &u : state.u)
+    result.primal.emplace_back(u.n_rows(), k);
+  qp::MultiVector Bu(layout.n_local(), k);
+  result.dual = qp::MultiVector(layout.n_owned(), k);
+  std::unique_ptr<elasticity::SemiAnalytic<dim>> differences;
+  if (parameters.derivatives != "exact")
+    differences =
+      std::make_unique<elasticity::SemiAnalytic<dim>>(semi_analytic(solver, parameters));
+  std::vector<feti::BEntry> B_derivative;
+  for (unsigned int j = 0; j < k; ++j)
+    {
+      const auto derivative =
+        row_derivatives<dim>(solver, state.positions, velocities[j], parameters);
+      const auto g = solver.gluing().right_hand_side_derivative(rows, derivative, state.load_case);
+      std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
+      const auto changes = solver.resultants().traction_derivatives(state.positions, velocities[j]);
+      for (unsigned int s = 0; s < state.u.size(); ++s)
+        {
+          const SubdomainDerivative<dim> subdomain{solver, state, differences.get(), s};
+          double                        *ft = result.primal[s].column(j);
+          subdomain.add_cells(velocities[j], ft);
+          subdomain.add_faces(velocities[j], tractions, changes, ft);
+          solver.gluing().fill_B_derivative(s, rows, derivative, B_derivative);
+          add_row_derivatives(B_derivative, lambda, state.u[s], ft, Bu.column(j));
+        }
+    }
+  result.dual.add(-1., layout.to_owned(Bu));
+  return result;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                           \
+  template KktVectors data_derivatives(const state::StateSolver<dim> &,                 \
+                                       const state::ContactState<dim> &,                \
+                                       const std::vector<mesh::BodyMesh<dim>::Field> &, \
+                                       const GradientParameters &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace sensitivity
-} // namespace snug
+} // namespace snug::sensitivity

@@ -1,104 +1,89 @@
 #include <snug/elasticity/finite_difference.h>
 #include <snug/sensitivity/methods.h>
 
-namespace snug
+namespace snug::sensitivity {
+template <int dim>
+typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim>    &mesh,
+                                              const shape::ShapeBasis<dim> &basis,
+                                              const std::vector<double>    &design)
 {
-  namespace sensitivity
+  auto       x = mesh.reference_positions();
+  const auto v = basis.apply(design);
+  for (unsigned int node = 0; node < x.size(); ++node)
+    x[node] += v[node];
+  return x;
+}
+
+namespace {
+/// What is differenced, at one design.
+template <int dim>
+struct Values
+{
+  std::vector<double>                 responses;
+  typename mesh::BodyMesh<dim>::Field displacement;
+
+  Values(const GradientProblem<dim>     &problem,
+         const Responses<dim>           &to_evaluate,
+         const state::ContactState<dim> &state)
+    : displacement(state.displacement)
   {
-    template <int dim>
-    typename mesh::BodyMesh<dim>::Field
-    positions(const mesh::BodyMesh<dim>    &mesh,
-              const shape::ShapeBasis<dim> &basis,
-              const std::vector<double>    &design)
-    {
-      auto       x = mesh.reference_positions();
-      const auto v = basis.apply(design);
-      for (unsigned int node = 0; node < x.size(); ++node)
-        x[node] += v[node];
-      return x;
-    }
+    for (const auto *response : to_evaluate)
+      responses.push_back(response->value(problem.solver, state));
+  }
+};
 
-    namespace
-    {
-      /// What is differenced, at one design.
-      template <int dim>
-      struct Values
-      {
-        std::vector<double>                 responses;
-        typename mesh::BodyMesh<dim>::Field displacement;
+template <int dim>
+Values<dim> values_at(const GradientProblem<dim> &problem,
+                      const Responses<dim>       &responses,
+                      const std::vector<double>  &design)
+{
+  // cold start: a warm one would stop at once and hide u'
+  const auto state = problem.solver.solve(positions(problem.solver.mesh(), problem.basis, design),
+                                          qp::WarmStart(), problem.state.load_case);
+  return Values<dim>(problem, responses, state);
+}
+} // namespace
 
-        Values(const GradientProblem<dim>     &problem,
-               const Responses<dim>           &to_evaluate,
-               const state::ContactState<dim> &state)
-          : displacement(state.displacement)
+template <int dim>
+Gradients<dim> difference_gradients(const GradientProblem<dim> &problem,
+                                    const Responses<dim>       &responses)
+{
+  const auto       &parameters = problem.parameters;
+  const auto        stencil    = choose(elasticity::stencil_table(), parameters.differences).make();
+  const Values<dim> here(problem, responses, problem.state);
+  Gradients<dim>    result;
+  for (unsigned int i = 0; i < responses.size(); ++i)
+    result.of_response.push_back({"finite differences", "", {}});
+  for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
+    {
+      const double                        step = parameters.step * problem.bound_widths[j];
+      std::vector<double>                 slopes(responses.size());
+      typename mesh::BodyMesh<dim>::Field field(here.displacement.size());
+      for (unsigned int k = 0; k < stencil.places.size(); ++k)
         {
-          for (const auto *response : to_evaluate)
-            responses.push_back(response->value(problem.solver, state));
-        }
-      };
-
-      template <int dim>
-      Values<dim>
-      values_at(const GradientProblem<dim> &problem,
-                const Responses<dim>       &responses,
-                const std::vector<double>  &design)
-      {
-        // cold start: a warm one would stop at once and hide u'
-        const auto state = problem.solver.solve(positions(problem.solver.mesh(),
-                                                          problem.basis,
-                                                          design),
-                                                qp::WarmStart(),
-                                                problem.state.load_case);
-        return Values<dim>(problem, responses, state);
-      }
-    } // namespace
-
-    template <int dim>
-    Gradients<dim>
-    difference_gradients(const GradientProblem<dim> &problem,
-                         const Responses<dim>       &responses)
-    {
-      const auto &parameters = problem.parameters;
-      const auto  stencil =
-        choose(elasticity::stencil_table(), parameters.differences).make();
-      const Values<dim> here(problem, responses, problem.state);
-      Gradients<dim>    result;
-      for (unsigned int i = 0; i < responses.size(); ++i)
-        result.of_response.push_back({"finite differences", "", {}});
-      for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
-        {
-          const double        step = parameters.step * problem.bound_widths[j];
-          std::vector<double> slopes(responses.size());
-          typename mesh::BodyMesh<dim>::Field field(here.displacement.size());
-          for (unsigned int k = 0; k < stencil.places.size(); ++k)
-            {
-              auto design = problem.design;
-              design[j] += stencil.places[k] * step;
-              const auto   there  = stencil.places[k] == 0.
-                                      ? here
-                                      : values_at(problem, responses, design);
-              const double weight = stencil.weights[k] / step;
-              for (unsigned int i = 0; i < responses.size(); ++i)
-                slopes[i] += weight * there.responses[i];
-              for (unsigned int node = 0; node < field.size(); ++node)
-                field[node] += weight * there.displacement[node];
-            }
+          auto design = problem.design;
+          design[j] += stencil.places[k] * step;
+          const auto there = stencil.places[k] == 0. ? here : values_at(problem, responses, design);
+          const double weight = stencil.weights[k] / step;
           for (unsigned int i = 0; i < responses.size(); ++i)
-            result.of_response[i].values.push_back(slopes[i]);
-          result.displacement.push_back(field);
+            slopes[i] += weight * there.responses[i];
+          for (unsigned int node = 0; node < field.size(); ++node)
+            field[node] += weight * there.displacement[node];
         }
-      return result;
+      for (unsigned int i = 0; i < responses.size(); ++i)
+        result.of_response[i].values.push_back(slopes[i]);
+      result.displacement.push_back(field);
     }
+  return result;
+}
 
-#define SNUG_INSTANTIATE(dim)                                                \
-  template mesh::BodyMesh<dim>::Field positions(                             \
-    const mesh::BodyMesh<dim> &,                                             \
-    const shape::ShapeBasis<dim> &,                                          \
-    const std::vector<double> &);                                            \
-  template Gradients<dim> difference_gradients(const GradientProblem<dim> &, \
-                                               const Responses<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+#define SNUG_INSTANTIATE(dim)                                                            \
+  template mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &,             \
+                                                const shape::ShapeBasis<dim> &,          \
+                                                const std::vector<double> &);            \
+  template Gradients<dim>             difference_gradients(const GradientProblem<dim> &, \
+                                                           const Responses<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace sensitivity
-} // namespace snug
+} // namespace snug::sensitivity

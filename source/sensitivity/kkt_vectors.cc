@@ -2,25 +2,15 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::sensitivity {
+qp::MultiVector products(const KktVectors &x, const KktVectors &y, MPI_Comm comm)
 {
-  namespace sensitivity
-  {
-    qp::MultiVector
-    products(const KktVectors &x, const KktVectors &y, MPI_Comm comm)
-    {
-      auto       sum = qp::inner_products(x.dual, y.dual, MPI_COMM_SELF);
-      const auto n   = std::min(x.primal.size(), y.primal.size());
-      for (unsigned int s = 0; s < n; ++s)
-        sum.add(1.,
-                qp::inner_products(x.primal[s], y.primal[s], MPI_COMM_SELF));
-      MPI_Allreduce(MPI_IN_PLACE,
-                    sum.column(0),
-                    sum.n_rows() * sum.n_columns(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    comm);
-      return sum;
-    }
-  } // namespace sensitivity
-} // namespace snug
+  auto       sum = qp::inner_products(x.dual, y.dual, MPI_COMM_SELF);
+  const auto n   = std::min(x.primal.size(), y.primal.size());
+  for (unsigned int s = 0; s < n; ++s)
+    sum.add(1., qp::inner_products(x.primal[s], y.primal[s], MPI_COMM_SELF));
+  MPI_Allreduce(MPI_IN_PLACE, sum.column(0), sum.n_rows() * sum.n_columns(), MPI_DOUBLE, MPI_SUM,
+                comm);
+  return sum;
+}
+} // namespace snug::sensitivity

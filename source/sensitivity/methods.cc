@@ -5,213 +5,173 @@
 #include <snug/sensitivity/tangent_system.h>
 #include <snug/state/describe.h>
 
-namespace snug
+namespace snug::sensitivity {
+using response::Partials;
+
+namespace {
+template <int dim>
+TangentSystem tangent_system(const GradientProblem<dim> &problem)
 {
-  namespace sensitivity
-  {
-    using response::Partials;
+  return TangentSystem(problem.solver.feti(), strong_rows(problem.solver, problem.state),
+                       problem.solver.model().solver,
+                       problem.parameters.solves == "block" ? Solves::block : Solves::recycled,
+                       problem.state.dual.directions);
+}
 
-    namespace
+/// values_j += column i of products (adjoint, residual derivatives).
+void add_row(const qp::MultiVector &products, unsigned int i, std::vector<double> &values)
+{
+  for (unsigned int j = 0; j < values.size(); ++j)
+    values[j] += products(i, j);
+}
+} // namespace
+
+template <int dim>
+bool needs_solve(const response::Response<dim> &response)
+{
+  return response.needs_solution() && !response.stationary();
+}
+
+template <int dim>
+std::vector<Partials<dim>> partials_of(const GradientProblem<dim> &problem,
+                                       const Responses<dim>       &responses)
+{
+  std::vector<Partials<dim>> partials;
+  for (const auto *response : responses)
+    partials.push_back(response->partials(problem.solver, problem.state));
+  return partials;
+}
+
+template <int dim>
+KktVectors state_partials(const GradientProblem<dim>       &problem,
+                          const std::vector<Partials<dim>> &partials)
+{
+  const auto  &solver     = problem.solver;
+  const auto  &of_contact = solver.gluing().contact_of_row();
+  const auto  &scales     = solver.gluing().contact_scales();
+  KktVectors   result;
+  unsigned int k = partials.size();
+  result.dual    = qp::MultiVector(solver.feti().n_owned(), k);
+  for (const auto &u : problem.state.u)
+    result.primal.emplace_back(u.n_rows(), k);
+  for (unsigned int j = 0; j < k; ++j)
     {
-      template <int dim>
-      TangentSystem
-      tangent_system(const GradientProblem<dim> &problem)
-      {
-        return TangentSystem(problem.solver.feti(),
-                             strong_rows(problem.solver, problem.state),
-                             problem.solver.model().solver,
-                             problem.parameters.solves == "block"
-                               ? Solves::block
-                               : Solves::recycled,
-                             problem.state.dual.directions);
-      }
-
-      /// values_j += column i of products (adjoint, residual derivatives).
-      void
-      add_row(const qp::MultiVector &products,
-              unsigned int           i,
-              std::vector<double>   &values)
-      {
-        for (unsigned int j = 0; j < values.size(); ++j)
-          values[j] += products(i, j);
-      }
-    } // namespace
-
-    template <int dim>
-    bool
-    needs_solve(const response::Response<dim> &response)
-    {
-      return response.needs_solution() && !response.stationary();
+      for (unsigned int s = 0; s < partials[j].u.size(); ++s)
+        std::copy_n(partials[j].u[s].column(0), partials[j].u[s].n_rows(),
+                    result.primal[s].column(j));
+      if (!partials[j].forces.empty())
+        for (unsigned int i = 0; i < of_contact.size(); ++i)
+          if (of_contact[i] < scales.size())
+            result.dual(i, j) = partials[j].forces[of_contact[i]] / scales[of_contact[i]];
     }
+  return result;
+}
 
-    template <int dim>
-    std::vector<Partials<dim>>
-    partials_of(const GradientProblem<dim> &problem,
-                const Responses<dim>       &responses)
-    {
-      std::vector<Partials<dim>> partials;
-      for (const auto *response : responses)
-        partials.push_back(response->partials(problem.solver, problem.state));
-      return partials;
-    }
+template <int dim>
+KktVectors residual_derivatives(const GradientProblem<dim> &problem)
+{
+  std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
+  for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
+    velocities.push_back(problem.basis.column(j));
+  return data_derivatives(problem.solver, problem.state, velocities, problem.parameters);
+}
 
-    template <int dim>
-    KktVectors
-    state_partials(const GradientProblem<dim>       &problem,
-                   const std::vector<Partials<dim>> &partials)
+template <int dim>
+KktVectors state_derivatives(const GradientProblem<dim> &problem)
+{
+  return tangent_system(problem).solve(residual_derivatives(problem));
+}
+
+template <int dim>
+Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
+                                const Responses<dim>       &responses)
+{
+  const bool     exact = problem.parameters.derivatives == "exact";
+  Gradients<dim> result;
+  for (const auto *response : responses)
     {
-      const auto  &solver     = problem.solver;
-      const auto  &of_contact = solver.gluing().contact_of_row();
-      const auto  &scales     = solver.gluing().contact_scales();
-      KktVectors   result;
-      unsigned int k = partials.size();
-      result.dual    = qp::MultiVector(solver.feti().n_owned(), k);
-      for (const auto &u : problem.state.u)
-        result.primal.emplace_back(u.n_rows(), k);
-      for (unsigned int j = 0; j < k; ++j)
+      if (needs_solve(*response))
+        throw InputError("entry 'Gradient/Method' = 'energy': the "
+                         "response has no gradient without a solve; use "
+                         "'adjoint' or 'direct'");
+      auto field = response->partials(problem.solver, problem.state).positions;
+      if (response->stationary() && exact)
+        response::add_constraint_gradient(problem.solver, problem.state, field);
+      Gradient<dim> gradient{"energy", "", problem.basis.transpose(field)};
+      if (response->stationary() && !exact)
         {
-          for (unsigned int s = 0; s < partials[j].u.size(); ++s)
-            std::copy_n(partials[j].u[s].column(0),
-                        partials[j].u[s].n_rows(),
-                        result.primal[s].column(j));
-          if (!partials[j].forces.empty())
-            for (unsigned int i = 0; i < of_contact.size(); ++i)
-              if (of_contact[i] < scales.size())
-                result.dual(i, j) =
-                  partials[j].forces[of_contact[i]] / scales[of_contact[i]];
+          KktVectors adjoint; // w = 0, eta = -lambda
+          adjoint.dual = qp::MultiVector(problem.solver.feti().n_owned());
+          adjoint.dual.add(-1., problem.state.dual.lambda);
+          add_row(products(adjoint, residual_derivatives(problem),
+                           problem.solver.context().communicator()),
+                  0, gradient.values);
         }
-      return result;
+      else
+        gradient.shape = field;
+      result.of_response.push_back(gradient);
     }
+  return result;
+}
 
-    template <int dim>
-    KktVectors
-    residual_derivatives(const GradientProblem<dim> &problem)
+template <int dim>
+Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,
+                                 const Responses<dim>       &responses)
+{
+  auto            partials = partials_of(problem, responses);
+  const auto      adjoint  = tangent_system(problem).solve(state_partials(problem, partials));
+  const bool      exact    = problem.parameters.derivatives == "exact";
+  qp::MultiVector through_state;
+  if (!exact)
+    through_state =
+      products(adjoint, residual_derivatives(problem), problem.solver.context().communicator());
+  Gradients<dim> result;
+  for (unsigned int i = 0; i < responses.size(); ++i)
     {
-      std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
-      for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
-        velocities.push_back(problem.basis.column(j));
-      return data_derivatives(problem.solver,
-                              problem.state,
-                              velocities,
-                              problem.parameters);
+      auto &field = partials[i].positions;
+      if (exact)
+        add_residual_gradient(problem.solver, problem.state, adjoint, i, field);
+      Gradient<dim> gradient{"adjoint", "", problem.basis.transpose(field)};
+      if (exact)
+        gradient.shape = field;
+      else
+        add_row(through_state, i, gradient.values);
+      result.of_response.push_back(gradient);
     }
+  return result;
+}
 
-    template <int dim>
-    KktVectors
-    state_derivatives(const GradientProblem<dim> &problem)
+template <int dim>
+Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
+                                const Responses<dim>       &responses)
+{
+  const auto     partials      = partials_of(problem, responses);
+  const auto     derivatives   = state_derivatives(problem);
+  const auto     through_state = products(state_partials(problem, partials), derivatives,
+                                          problem.solver.context().communicator());
+  Gradients<dim> result;
+  for (unsigned int i = 0; i < responses.size(); ++i)
     {
-      return tangent_system(problem).solve(residual_derivatives(problem));
+      result.of_response.push_back({"direct", "", problem.basis.transpose(partials[i].positions)});
+      add_row(through_state, i, result.of_response[i].values);
     }
+  for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
+    result.displacement.push_back(state::nodal_values(problem.solver, derivatives.primal, j));
+  return result;
+}
 
-    template <int dim>
-    Gradients<dim>
-    energy_gradients(const GradientProblem<dim> &problem,
-                     const Responses<dim>       &responses)
-    {
-      const bool     exact = problem.parameters.derivatives == "exact";
-      Gradients<dim> result;
-      for (const auto *response : responses)
-        {
-          if (needs_solve(*response))
-            throw InputError("entry 'Gradient/Method' = 'energy': the "
-                             "response has no gradient without a solve; use "
-                             "'adjoint' or 'direct'");
-          auto field =
-            response->partials(problem.solver, problem.state).positions;
-          if (response->stationary() && exact)
-            response::add_constraint_gradient(problem.solver,
-                                              problem.state,
-                                              field);
-          Gradient<dim> gradient{"energy", "", problem.basis.transpose(field)};
-          if (response->stationary() && !exact)
-            {
-              KktVectors adjoint; // w = 0, eta = -lambda
-              adjoint.dual = qp::MultiVector(problem.solver.feti().n_owned());
-              adjoint.dual.add(-1., problem.state.dual.lambda);
-              add_row(products(adjoint,
-                               residual_derivatives(problem),
-                               problem.solver.context().communicator()),
-                      0,
-                      gradient.values);
-            }
-          else
-            gradient.shape = field;
-          result.of_response.push_back(gradient);
-        }
-      return result;
-    }
-
-    template <int dim>
-    Gradients<dim>
-    adjoint_gradients(const GradientProblem<dim> &problem,
-                      const Responses<dim>       &responses)
-    {
-      auto       partials = partials_of(problem, responses);
-      const auto adjoint =
-        tangent_system(problem).solve(state_partials(problem, partials));
-      const bool      exact = problem.parameters.derivatives == "exact";
-      qp::MultiVector through_state;
-      if (!exact)
-        through_state = products(adjoint,
-                                 residual_derivatives(problem),
-                                 problem.solver.context().communicator());
-      Gradients<dim> result;
-      for (unsigned int i = 0; i < responses.size(); ++i)
-        {
-          auto &field = partials[i].positions;
-          if (exact)
-            add_residual_gradient(
-              problem.solver, problem.state, adjoint, i, field);
-          Gradient<dim> gradient{"adjoint", "", problem.basis.transpose(field)};
-          if (exact)
-            gradient.shape = field;
-          else
-            add_row(through_state, i, gradient.values);
-          result.of_response.push_back(gradient);
-        }
-      return result;
-    }
-
-    template <int dim>
-    Gradients<dim>
-    direct_gradients(const GradientProblem<dim> &problem,
-                     const Responses<dim>       &responses)
-    {
-      const auto partials    = partials_of(problem, responses);
-      const auto derivatives = state_derivatives(problem);
-      const auto through_state =
-        products(state_partials(problem, partials),
-                 derivatives,
-                 problem.solver.context().communicator());
-      Gradients<dim> result;
-      for (unsigned int i = 0; i < responses.size(); ++i)
-        {
-          result.of_response.push_back(
-            {"direct", "", problem.basis.transpose(partials[i].positions)});
-          add_row(through_state, i, result.of_response[i].values);
-        }
-      for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
-        result.displacement.push_back(
-          state::nodal_values(problem.solver, derivatives.primal, j));
-      return result;
-    }
-
-#define SNUG_INSTANTIATE(dim)                                                 \
-  template bool needs_solve(const response::Response<dim> &);                 \
-  template std::vector<Partials<dim>> partials_of(                            \
-    const GradientProblem<dim> &, const Responses<dim> &);                    \
-  template KktVectors     state_partials(const GradientProblem<dim> &,        \
-                                         const std::vector<Partials<dim>> &); \
-  template KktVectors     residual_derivatives(const GradientProblem<dim> &); \
-  template KktVectors     state_derivatives(const GradientProblem<dim> &);    \
-  template Gradients<dim> energy_gradients(const GradientProblem<dim> &,      \
-                                           const Responses<dim> &);           \
-  template Gradients<dim> adjoint_gradients(const GradientProblem<dim> &,     \
-                                            const Responses<dim> &);          \
-  template Gradients<dim> direct_gradients(const GradientProblem<dim> &,      \
-                                           const Responses<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+#define SNUG_INSTANTIATE(dim)                                                                      \
+  template bool                       needs_solve(const response::Response<dim> &);                \
+  template std::vector<Partials<dim>> partials_of(const GradientProblem<dim> &,                    \
+                                                  const Responses<dim> &);                         \
+  template KktVectors                 state_partials(const GradientProblem<dim> &,                 \
+                                                     const std::vector<Partials<dim>> &);          \
+  template KktVectors                 residual_derivatives(const GradientProblem<dim> &);          \
+  template KktVectors                 state_derivatives(const GradientProblem<dim> &);             \
+  template Gradients<dim> energy_gradients(const GradientProblem<dim> &, const Responses<dim> &);  \
+  template Gradients<dim> adjoint_gradients(const GradientProblem<dim> &, const Responses<dim> &); \
+  template Gradients<dim> direct_gradients(const GradientProblem<dim> &, const Responses<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace sensitivity
-} // namespace snug
+} // namespace snug::sensitivity

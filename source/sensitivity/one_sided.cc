@@ -3,143 +3,121 @@
 #include <snug/sensitivity/sensitivity_qp.h>
 #include <snug/sensitivity/tangent_system.h>
 
-namespace snug
+namespace snug::sensitivity {
+namespace {
+KktVectors column_of(const KktVectors &x, unsigned int j)
 {
-  namespace sensitivity
-  {
-    namespace
+  KktVectors column;
+  for (const auto &part : x.primal)
+    column.primal.push_back(part.columns_from(j, 1));
+  column.dual = x.dual.columns_from(j, 1);
+  return column;
+}
+
+/// x <- [x, -x].
+void append_negative(qp::MultiVector &x)
+{
+  qp::MultiVector negative(x.n_rows(), x.n_columns());
+  negative.add(-1., x);
+  x.append(negative);
+}
+
+template <int dim>
+qp::RowSet weak_rows(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state)
+{
+  qp::RowSet  rows       = solver.feti().bounded();
+  const auto &of_contact = solver.gluing().contact_of_row();
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    rows[i] = rows[i] && state.contact[of_contact[i]].weak;
+  return rows;
+}
+
+/// The solution of @p problem, started from @p linear, the derivative
+/// where the weak contacts are open.
+KktVectors solve_from(const SensitivityQp        &problem,
+                      const feti::TotalFeti      &feti,
+                      const qp::SolverParameters &parameters,
+                      const KktVectors           &data,
+                      const KktVectors           &linear)
+{
+  auto closing = feti.multiply_B(linear.primal);
+  closing.add(-1., data.dual);
+  closing = problem.restricted(closing);
+  qp::WarmStart start{problem.restricted(linear.dual), {}};
+  for (unsigned int i = 0; i < problem.n_owned(); ++i)
+    start.active.push_back(!problem.bounded()[i] || closing(i) > 0.);
+  const auto solved =
+    choose(qp::solver_table(), parameters.method).make(parameters)->solve(problem, start);
+  KktVectors result;
+  result.dual   = problem.extended(solved.lambda);
+  result.primal = feti.recover(data.primal, result.dual, solved.amplitudes);
+  return result;
+}
+} // namespace
+
+template <int dim>
+KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
+                                   const state::ContactState<dim> &state,
+                                   const KktVectors               &data)
+{
+  const auto &feti       = solver.feti();
+  const auto &parameters = solver.model().solver;
+  const auto  strong     = strong_rows(solver, state);
+  const auto  weak       = weak_rows(solver, state);
+  const auto  linear =
+    TangentSystem(feti, strong, parameters, Solves::block, state.dual.directions).solve(data);
+  if (state.weak_contacts == 0)
+    return linear;
+  KktVectors result;
+  result.dual = qp::MultiVector(feti.n_owned(), 0);
+  for (const auto &part : data.primal)
+    result.primal.emplace_back(part.n_rows(), 0);
+  for (unsigned int j = 0; j < data.dual.n_columns(); ++j)
     {
-      KktVectors
-      column_of(const KktVectors &x, unsigned int j)
-      {
-        KktVectors column;
-        for (const auto &part : x.primal)
-          column.primal.push_back(part.columns_from(j, 1));
-        column.dual = x.dual.columns_from(j, 1);
-        return column;
-      }
-
-      /// x <- [x, -x].
-      void
-      append_negative(qp::MultiVector &x)
-      {
-        qp::MultiVector negative(x.n_rows(), x.n_columns());
-        negative.add(-1., x);
-        x.append(negative);
-      }
-
-      template <int dim>
-      qp::RowSet
-      weak_rows(const state::StateSolver<dim>  &solver,
-                const state::ContactState<dim> &state)
-      {
-        qp::RowSet  rows       = solver.feti().bounded();
-        const auto &of_contact = solver.gluing().contact_of_row();
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          rows[i] = rows[i] && state.contact[of_contact[i]].weak;
-        return rows;
-      }
-
-      /// The solution of @p problem, started from @p linear, the derivative
-      /// where the weak contacts are open.
-      KktVectors
-      solve_from(const SensitivityQp        &problem,
-                 const feti::TotalFeti      &feti,
-                 const qp::SolverParameters &parameters,
-                 const KktVectors           &data,
-                 const KktVectors           &linear)
-      {
-        auto closing = feti.multiply_B(linear.primal);
-        closing.add(-1., data.dual);
-        closing = problem.restricted(closing);
-        qp::WarmStart start{problem.restricted(linear.dual), {}};
-        for (unsigned int i = 0; i < problem.n_owned(); ++i)
-          start.active.push_back(!problem.bounded()[i] || closing(i) > 0.);
-        const auto solved = choose(qp::solver_table(), parameters.method)
-                              .make(parameters)
-                              ->solve(problem, start);
-        KktVectors result;
-        result.dual = problem.extended(solved.lambda);
-        result.primal =
-          feti.recover(data.primal, result.dual, solved.amplitudes);
-        return result;
-      }
-    } // namespace
-
-    template <int dim>
-    KktVectors
-    directional_derivatives(const state::StateSolver<dim>  &solver,
-                            const state::ContactState<dim> &state,
-                            const KktVectors               &data)
-    {
-      const auto &feti       = solver.feti();
-      const auto &parameters = solver.model().solver;
-      const auto  strong     = strong_rows(solver, state);
-      const auto  weak       = weak_rows(solver, state);
-      const auto  linear     = TangentSystem(feti,
-                                        strong,
-                                        parameters,
-                                        Solves::block,
-                                        state.dual.directions)
-                            .solve(data);
-      if (state.weak_contacts == 0)
-        return linear;
-      KktVectors result;
-      result.dual = qp::MultiVector(feti.n_owned(), 0);
-      for (const auto &part : data.primal)
-        result.primal.emplace_back(part.n_rows(), 0);
-      for (unsigned int j = 0; j < data.dual.n_columns(); ++j)
-        {
-          const auto          data_j = column_of(data, j);
-          const SensitivityQp problem(feti, strong, weak, data_j);
-          const auto          column =
-            solve_from(problem, feti, parameters, data_j, column_of(linear, j));
-          result.dual.append(column.dual);
-          for (unsigned int s = 0; s < result.primal.size(); ++s)
-            result.primal[s].append(column.primal[s]);
-        }
-      return result;
+      const auto          data_j = column_of(data, j);
+      const SensitivityQp problem(feti, strong, weak, data_j);
+      const auto column = solve_from(problem, feti, parameters, data_j, column_of(linear, j));
+      result.dual.append(column.dual);
+      for (unsigned int s = 0; s < result.primal.size(); ++s)
+        result.primal[s].append(column.primal[s]);
     }
+  return result;
+}
 
-    template <int dim>
-    std::vector<OneSided>
-    one_sided_gradients(const GradientProblem<dim> &problem,
-                        const Responses<dim>       &responses)
+template <int dim>
+std::vector<OneSided> one_sided_gradients(const GradientProblem<dim> &problem,
+                                          const Responses<dim>       &responses)
+{
+  const unsigned int k    = problem.basis.n_variables();
+  auto               both = residual_derivatives(problem);
+  append_negative(both.dual);
+  for (auto &part : both.primal)
+    append_negative(part);
+  const auto            partials      = partials_of(problem, responses);
+  const auto            through_state = products(state_partials(problem, partials),
+                                                 directional_derivatives(problem.solver, problem.state, both),
+                                                 problem.solver.context().communicator());
+  std::vector<OneSided> result;
+  for (unsigned int i = 0; i < responses.size(); ++i)
     {
-      const unsigned int k    = problem.basis.n_variables();
-      auto               both = residual_derivatives(problem);
-      append_negative(both.dual);
-      for (auto &part : both.primal)
-        append_negative(part);
-      const auto partials = partials_of(problem, responses);
-      const auto through_state =
-        products(state_partials(problem, partials),
-                 directional_derivatives(problem.solver, problem.state, both),
-                 problem.solver.context().communicator());
-      std::vector<OneSided> result;
-      for (unsigned int i = 0; i < responses.size(); ++i)
+      const auto at_fixed_state = problem.basis.transpose(partials[i].positions);
+      result.push_back({at_fixed_state, at_fixed_state});
+      for (unsigned int j = 0; j < k; ++j)
         {
-          const auto at_fixed_state =
-            problem.basis.transpose(partials[i].positions);
-          result.push_back({at_fixed_state, at_fixed_state});
-          for (unsigned int j = 0; j < k; ++j)
-            {
-              result[i].increasing[j] += through_state(i, j);
-              result[i].decreasing[j] -= through_state(i, k + j);
-            }
+          result[i].increasing[j] += through_state(i, j);
+          result[i].decreasing[j] -= through_state(i, k + j);
         }
-      return result;
     }
+  return result;
+}
 
-#define SNUG_INSTANTIATE(dim)                         \
-  template KktVectors directional_derivatives(        \
-    const state::StateSolver<dim> &,                  \
-    const state::ContactState<dim> &,                 \
-    const KktVectors &);                              \
-  template std::vector<OneSided> one_sided_gradients( \
-    const GradientProblem<dim> &, const Responses<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+#define SNUG_INSTANTIATE(dim)                                                              \
+  template KktVectors            directional_derivatives(const state::StateSolver<dim> &,  \
+                                                         const state::ContactState<dim> &, \
+                                                         const KktVectors &);              \
+  template std::vector<OneSided> one_sided_gradients(const GradientProblem<dim> &,         \
+                                                     const Responses<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace sensitivity
-} // namespace snug
+} // namespace snug::sensitivity

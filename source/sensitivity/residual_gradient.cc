@@ -2,99 +2,84 @@
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/state/describe.h>
 
-namespace snug
+namespace snug::sensitivity {
+namespace {
+template <int dim>
+using Field = typename mesh::BodyMesh<dim>::Field;
+
+/// gradient += d/dX (eta'(g - B u) - lambda'B w). Collective.
+template <int dim>
+void add_rows(const state::StateSolver<dim>  &solver,
+              const state::ContactState<dim> &state,
+              const KktVectors               &adjoint,
+              unsigned int                    j,
+              Field<dim>                     &gradient)
 {
-  namespace sensitivity
-  {
-    namespace
+  const auto         &surface = solver.surface();
+  const auto         &scales  = solver.gluing().contact_scales();
+  const auto          X       = surface.gather(state.positions);
+  const auto          eta     = solver.gluing().gather_contact(adjoint.dual.column(j));
+  std::vector<double> of_eta, of_lambda;
+  for (unsigned int i = 0; i < scales.size(); ++i)
     {
-      template <int dim>
-      using Field = typename mesh::BodyMesh<dim>::Field;
-
-      /// gradient += d/dX (eta'(g - B u) - lambda'B w). Collective.
-      template <int dim>
-      void
-      add_rows(const state::StateSolver<dim>  &solver,
-               const state::ContactState<dim> &state,
-               const KktVectors               &adjoint,
-               unsigned int                    j,
-               Field<dim>                     &gradient)
-      {
-        const auto &surface = solver.surface();
-        const auto &scales  = solver.gluing().contact_scales();
-        const auto  X       = surface.gather(state.positions);
-        const auto eta = solver.gluing().gather_contact(adjoint.dual.column(j));
-        std::vector<double> of_eta, of_lambda;
-        for (unsigned int i = 0; i < scales.size(); ++i)
-          {
-            of_eta.push_back(scales[i] == 0. ? 0. : -eta[i] / scales[i]);
-            of_lambda.push_back(state.contact[i].force);
-          }
-        // the contact energy force (c.u - gap) without its gap is linear in u
-        auto       sum  = surface.gather(state.displacement);
-        const auto of_u = solver.contact().energy_gradient(X, sum, of_eta);
-        sum = surface.gather(state::nodal_values(solver, adjoint.primal, j));
-        const auto of_w = solver.contact().energy_gradient(X, sum, of_lambda);
-        sum.assign(sum.size(), {});
-        auto total = solver.contact().energy_gradient(X, sum, of_lambda);
-        for (unsigned int a = 0; a < total.size(); ++a)
-          total[a] += of_u[a] - of_w[a];
-        surface.add_owned(total, gradient);
-      }
-
-      /// The same for what supports hold: q . u = s there, and q . w = 0.
-      template <int dim>
-      void
-      add_held(const state::StateSolver<dim>  &solver,
-               const state::ContactState<dim> &state,
-               const KktVectors               &adjoint,
-               unsigned int                    j,
-               Field<dim>                     &gradient)
-      {
-        if (!solver.held().follow_positions())
-          return;
-        const auto rows = solver.rows(state.positions);
-        Field<dim> sum(gradient.size());
-        solver.held().add_energy_gradient(
-          state.positions,
-          state.displacement,
-          solver.gluing().reactions(adjoint.dual.column(j), rows),
-          sum);
-        solver.held().add_energy_gradient(
-          state.positions,
-          state::nodal_values(solver, adjoint.primal, j),
-          solver.gluing().reactions(state.dual.lambda.column(0), rows),
-          sum);
-        for (unsigned int a = 0; a < sum.size(); ++a)
-          gradient[a] -= sum[a];
-      }
-    } // namespace
-
-    template <int dim>
-    void
-    add_residual_gradient(const state::StateSolver<dim>       &solver,
-                          const state::ContactState<dim>      &state,
-                          const KktVectors                    &adjoint,
-                          unsigned int                         j,
-                          typename mesh::BodyMesh<dim>::Field &gradient)
-    {
-      feti::PrimalVectors w;
-      for (const auto &part : adjoint.primal)
-        w.push_back(part.columns_from(j, 1));
-      response::add_stiffness_gradient(solver, state, w, -1., gradient);
-      response::add_load_gradient(solver, state, w, 1., gradient);
-      add_rows(solver, state, adjoint, j, gradient);
-      add_held(solver, state, adjoint, j, gradient);
+      of_eta.push_back(scales[i] == 0. ? 0. : -eta[i] / scales[i]);
+      of_lambda.push_back(state.contact[i].force);
     }
+  // the contact energy force (c.u - gap) without its gap is linear in u
+  auto       sum  = surface.gather(state.displacement);
+  const auto of_u = solver.contact().energy_gradient(X, sum, of_eta);
+  sum             = surface.gather(state::nodal_values(solver, adjoint.primal, j));
+  const auto of_w = solver.contact().energy_gradient(X, sum, of_lambda);
+  sum.assign(sum.size(), {});
+  auto total = solver.contact().energy_gradient(X, sum, of_lambda);
+  for (unsigned int a = 0; a < total.size(); ++a)
+    total[a] += of_u[a] - of_w[a];
+  surface.add_owned(total, gradient);
+}
 
-#define SNUG_INSTANTIATE(dim)                                           \
-  template void add_residual_gradient(const state::StateSolver<dim> &,  \
-                                      const state::ContactState<dim> &, \
-                                      const KktVectors &,               \
-                                      unsigned int,                     \
-                                      mesh::BodyMesh<dim>::Field &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+/// The same for what supports hold: q . u = s there, and q . w = 0.
+template <int dim>
+void add_held(const state::StateSolver<dim>  &solver,
+              const state::ContactState<dim> &state,
+              const KktVectors               &adjoint,
+              unsigned int                    j,
+              Field<dim>                     &gradient)
+{
+  if (!solver.held().follow_positions())
+    return;
+  const auto rows = solver.rows(state.positions);
+  Field<dim> sum(gradient.size());
+  solver.held().add_energy_gradient(state.positions, state.displacement,
+                                    solver.gluing().reactions(adjoint.dual.column(j), rows), sum);
+  solver.held().add_energy_gradient(state.positions, state::nodal_values(solver, adjoint.primal, j),
+                                    solver.gluing().reactions(state.dual.lambda.column(0), rows),
+                                    sum);
+  for (unsigned int a = 0; a < sum.size(); ++a)
+    gradient[a] -= sum[a];
+}
+} // namespace
+
+template <int dim>
+void add_residual_gradient(const state::StateSolver<dim>       &solver,
+                           const state::ContactState<dim>      &state,
+                           const KktVectors                    &adjoint,
+                           unsigned int                         j,
+                           typename mesh::BodyMesh<dim>::Field &gradient)
+{
+  feti::PrimalVectors w;
+  for (const auto &part : adjoint.primal)
+    w.push_back(part.columns_from(j, 1));
+  response::add_stiffness_gradient(solver, state, w, -1., gradient);
+  response::add_load_gradient(solver, state, w, 1., gradient);
+  add_rows(solver, state, adjoint, j, gradient);
+  add_held(solver, state, adjoint, j, gradient);
+}
+
+#define SNUG_INSTANTIATE(dim)                                                               \
+  template void add_residual_gradient(const state::StateSolver<dim> &,                      \
+                                      const state::ContactState<dim> &, const KktVectors &, \
+                                      unsigned int, mesh::BodyMesh<dim>::Field &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace sensitivity
-} // namespace snug
+} // namespace snug::sensitivity

@@ -1,182 +1,154 @@
 #include <snug/sensitivity/sensitivity_qp.h>
 
-namespace snug
+namespace snug::sensitivity {
+/// A face of the state's problem, seen from the rows of this one.
+class SensitivityQp::PartOfFace : public qp::Face
 {
-  namespace sensitivity
+public:
+  PartOfFace(const SensitivityQp &problem, const qp::RowSet &free) : problem(problem), free(free)
   {
-    /// A face of the state's problem, seen from the rows of this one.
-    class SensitivityQp::PartOfFace : public qp::Face
-    {
-    public:
-      PartOfFace(const SensitivityQp &problem, const qp::RowSet &free)
-        : problem(problem), free(free)
+    qp::RowSet of_all(problem.feti.n_owned(), 0);
+    for (unsigned int i = 0; i < free.size(); ++i)
+      of_all[problem.row[i]] = free[i];
+    whole = problem.feti.face(of_all);
+  }
+
+  const qp::RowSet &rows() const override { return free; }
+
+  void project(qp::MultiVector &x) const override
+  {
+    auto all = problem.extended(x);
+    whole->project(all);
+    x = problem.restricted(all);
+  }
+
+  qp::MultiVector precondition(const qp::MultiVector &r) const override
+  {
+    return problem.restricted(whole->precondition(problem.extended(r)));
+  }
+
+  qp::MultiVector amplitudes(const qp::MultiVector &x) const override
+  {
+    return whole->amplitudes(problem.extended(x));
+  }
+
+  std::vector<double> make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override
+  {
+    auto       all  = problem.extended(x);
+    const auto left = whole->make_feasible(all, e);
+    x               = problem.restricted(all);
+    return left;
+  }
+
+  std::vector<double> closing_rates(const qp::MultiVector &e) const override
+  {
+    const auto          of_all = whole->closing_rates(e);
+    std::vector<double> rates;
+    for (const unsigned int i : problem.row)
+      rates.push_back(of_all[i]);
+    return rates;
+  }
+
+private:
+  const SensitivityQp      &problem;
+  const qp::RowSet          free;
+  std::unique_ptr<qp::Face> whole;
+};
+
+SensitivityQp::SensitivityQp(const feti::TotalFeti &feti,
+                             const qp::RowSet      &strong,
+                             const qp::RowSet      &weak,
+                             const KktVectors      &data)
+  : feti(feti)
+{
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    if (strong[i] || weak[i])
       {
-        qp::RowSet of_all(problem.feti.n_owned(), 0);
-        for (unsigned int i = 0; i < free.size(); ++i)
-          of_all[problem.row[i]] = free[i];
-        whole = problem.feti.face(of_all);
+        row.push_back(i);
+        is_weak.push_back(weak[i]);
+        F_diagonal.push_back(feti.diagonal()[i]);
       }
+  auto d = feti.multiply_B(feti.apply_inverse(data.primal));
+  d.add(-1., data.dual);
+  dual_load  = restricted(d);
+  rigid_load = feti.rigid_part(data.primal);
+}
 
-      const qp::RowSet &
-      rows() const override
-      {
-        return free;
-      }
+qp::MultiVector SensitivityQp::restricted(const qp::MultiVector &x) const
+{
+  qp::MultiVector part(row.size(), x.n_columns());
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
+    for (unsigned int i = 0; i < row.size(); ++i)
+      part(i, j) = x(row[i], j);
+  return part;
+}
 
-      void
-      project(qp::MultiVector &x) const override
-      {
-        auto all = problem.extended(x);
-        whole->project(all);
-        x = problem.restricted(all);
-      }
+qp::MultiVector SensitivityQp::extended(const qp::MultiVector &x) const
+{
+  qp::MultiVector all(feti.n_owned(), x.n_columns());
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
+    for (unsigned int i = 0; i < row.size(); ++i)
+      all(row[i], j) = x(i, j);
+  return all;
+}
 
-      qp::MultiVector
-      precondition(const qp::MultiVector &r) const override
-      {
-        return problem.restricted(whole->precondition(problem.extended(r)));
-      }
+RunContext &SensitivityQp::context() const
+{
+  return feti.context();
+}
 
-      qp::MultiVector
-      amplitudes(const qp::MultiVector &x) const override
-      {
-        return whole->amplitudes(problem.extended(x));
-      }
+unsigned int SensitivityQp::n_owned() const
+{
+  return row.size();
+}
 
-      std::vector<double>
-      make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override
-      {
-        auto       all  = problem.extended(x);
-        const auto left = whole->make_feasible(all, e);
-        x               = problem.restricted(all);
-        return left;
-      }
+const qp::RowSet &SensitivityQp::bounded() const
+{
+  return is_weak;
+}
 
-      std::vector<double>
-      closing_rates(const qp::MultiVector &e) const override
-      {
-        const auto          of_all = whole->closing_rates(e);
-        std::vector<double> rates;
-        for (const unsigned int i : problem.row)
-          rates.push_back(of_all[i]);
-        return rates;
-      }
+const qp::MultiVector &SensitivityQp::d() const
+{
+  return dual_load;
+}
 
-    private:
-      const SensitivityQp      &problem;
-      const qp::RowSet          free;
-      std::unique_ptr<qp::Face> whole;
-    };
+const qp::MultiVector &SensitivityQp::e() const
+{
+  return rigid_load;
+}
 
-    SensitivityQp::SensitivityQp(const feti::TotalFeti &feti,
-                                 const qp::RowSet      &strong,
-                                 const qp::RowSet      &weak,
-                                 const KktVectors      &data)
-      : feti(feti)
-    {
-      for (unsigned int i = 0; i < feti.n_owned(); ++i)
-        if (strong[i] || weak[i])
-          {
-            row.push_back(i);
-            is_weak.push_back(weak[i]);
-            F_diagonal.push_back(feti.diagonal()[i]);
-          }
-      auto d = feti.multiply_B(feti.apply_inverse(data.primal));
-      d.add(-1., data.dual);
-      dual_load  = restricted(d);
-      rigid_load = feti.rigid_part(data.primal);
-    }
+const std::vector<double> &SensitivityQp::diagonal() const
+{
+  return F_diagonal;
+}
 
-    qp::MultiVector
-    SensitivityQp::restricted(const qp::MultiVector &x) const
-    {
-      qp::MultiVector part(row.size(), x.n_columns());
-      for (unsigned int j = 0; j < x.n_columns(); ++j)
-        for (unsigned int i = 0; i < row.size(); ++i)
-          part(i, j) = x(row[i], j);
-      return part;
-    }
+qp::MultiVector SensitivityQp::apply(const qp::MultiVector &x) const
+{
+  return restricted(feti.apply(extended(x)));
+}
 
-    qp::MultiVector
-    SensitivityQp::extended(const qp::MultiVector &x) const
-    {
-      qp::MultiVector all(feti.n_owned(), x.n_columns());
-      for (unsigned int j = 0; j < x.n_columns(); ++j)
-        for (unsigned int i = 0; i < row.size(); ++i)
-          all(row[i], j) = x(i, j);
-      return all;
-    }
+qp::MultiVector SensitivityQp::apply_G(const qp::MultiVector &x) const
+{
+  return feti.apply_G(extended(x));
+}
 
-    RunContext &
-    SensitivityQp::context() const
-    {
-      return feti.context();
-    }
+qp::MultiVector SensitivityQp::apply_Gt(const qp::MultiVector &alpha) const
+{
+  return restricted(feti.apply_Gt(alpha));
+}
 
-    unsigned int
-    SensitivityQp::n_owned() const
-    {
-      return row.size();
-    }
+double SensitivityQp::feasibility_scale(const qp::MultiVector &mu) const
+{
+  return feti.feasibility_scale(rigid_load, extended(mu));
+}
 
-    const qp::RowSet &
-    SensitivityQp::bounded() const
-    {
-      return is_weak;
-    }
+std::unique_ptr<qp::Face> SensitivityQp::face(const qp::RowSet &free) const
+{
+  return std::make_unique<PartOfFace>(*this, free);
+}
 
-    const qp::MultiVector &
-    SensitivityQp::d() const
-    {
-      return dual_load;
-    }
-
-    const qp::MultiVector &
-    SensitivityQp::e() const
-    {
-      return rigid_load;
-    }
-
-    const std::vector<double> &
-    SensitivityQp::diagonal() const
-    {
-      return F_diagonal;
-    }
-
-    qp::MultiVector
-    SensitivityQp::apply(const qp::MultiVector &x) const
-    {
-      return restricted(feti.apply(extended(x)));
-    }
-
-    qp::MultiVector
-    SensitivityQp::apply_G(const qp::MultiVector &x) const
-    {
-      return feti.apply_G(extended(x));
-    }
-
-    qp::MultiVector
-    SensitivityQp::apply_Gt(const qp::MultiVector &alpha) const
-    {
-      return restricted(feti.apply_Gt(alpha));
-    }
-
-    double
-    SensitivityQp::feasibility_scale(const qp::MultiVector &mu) const
-    {
-      return feti.feasibility_scale(rigid_load, extended(mu));
-    }
-
-    std::unique_ptr<qp::Face>
-    SensitivityQp::face(const qp::RowSet &free) const
-    {
-      return std::make_unique<PartOfFace>(*this, free);
-    }
-
-    std::string
-    SensitivityQp::escaping_body() const
-    {
-      return "";
-    }
-  } // namespace sensitivity
-} // namespace snug
+std::string SensitivityQp::escaping_body() const
+{
+  return "";
+}
+} // namespace snug::sensitivity

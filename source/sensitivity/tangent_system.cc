@@ -5,134 +5,112 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::sensitivity {
+namespace {
+/// A residual whose projection is this part of it has none: projecting
+/// leaves that much of it (1e-13 on meshes of 100 cells). To iterate on
+/// rounding spoils the directions of all columns.
+const double rounding = 1e-12;
+} // namespace
+
+template <int dim>
+qp::RowSet strong_rows(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state)
 {
-  namespace sensitivity
-  {
-    namespace
-    {
-      /// A residual whose projection is this part of it has none: projecting
-      /// leaves that much of it (1e-13 on meshes of 100 cells). To iterate on
-      /// rounding spoils the directions of all columns.
-      const double rounding = 1e-12;
-    } // namespace
+  qp::RowSet  rows       = solver.feti().bounded();
+  const auto &of_contact = solver.gluing().contact_of_row();
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
+  return rows;
+}
 
-    template <int dim>
-    qp::RowSet
-    strong_rows(const state::StateSolver<dim>  &solver,
-                const state::ContactState<dim> &state)
+TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
+                             const qp::RowSet           &rows,
+                             const qp::SolverParameters &parameters,
+                             Solves                      solves,
+                             const qp::DirectionBasis   &known)
+  : feti(feti)
+  , parameters(parameters)
+  , solves(solves)
+  , face(feti.face(rows))
+  , known(known.off(qp::complement(rows), feti.context().communicator()))
+{}
+
+/// ||G mu - e|| of every column within the tolerance of ||mu||; B and R
+/// are orthonormal but for a few rows, so ||G|| is near 1.
+bool TangentSystem::balanced(const qp::MultiVector &load, const qp::MultiVector &mu) const
+{
+  auto missing = load;
+  missing.add(-1., feti.apply_G(mu));
+  const auto errors = qp::norms(missing, MPI_COMM_SELF);
+  const auto sizes  = qp::norms(mu, feti.context().communicator());
+  for (unsigned int j = 0; j < errors.size(); ++j)
+    if (errors[j] > parameters.relative_tolerance * sizes[j])
+      return false;
+  return true;
+}
+
+bool TangentSystem::minimize(qp::MultiVector           &mu,
+                             qp::MultiVector           &residual,
+                             const std::vector<double> &tolerances) const
+{
+  qp::Pcpg krylov(feti, *face, known);
+  if (solves == Solves::block)
+    return krylov.solve(mu, residual, tolerances, parameters.max_iterations).converged;
+  qp::MultiVector all_mu(mu.n_rows(), 0), all_residuals(mu.n_rows(), 0);
+  for (unsigned int j = 0; j < mu.n_columns(); ++j)
     {
-      qp::RowSet  rows       = solver.feti().bounded();
-      const auto &of_contact = solver.gluing().contact_of_row();
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
-      return rows;
+      auto mu_j       = mu.columns_from(j, 1);
+      auto residual_j = residual.columns_from(j, 1);
+      if (!krylov.solve(mu_j, residual_j, {tolerances[j]}, parameters.max_iterations).converged)
+        return false;
+      all_mu.append(mu_j);
+      all_residuals.append(residual_j);
     }
+  mu       = all_mu;
+  residual = all_residuals;
+  return true;
+}
 
-    TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
-                                 const qp::RowSet           &rows,
-                                 const qp::SolverParameters &parameters,
-                                 Solves                      solves,
-                                 const qp::DirectionBasis   &known)
-      : feti(feti)
-      , parameters(parameters)
-      , solves(solves)
-      , face(feti.face(rows))
-      , known(known.off(qp::complement(rows), feti.context().communicator()))
-    {
-    }
+/// d - F mu = B K^+ (b - B' mu) - c: with d not formed by itself, its one
+/// application of K^+ is all it takes.
+qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_sides,
+                                              const qp::MultiVector &mu) const
+{
+  auto       unbalanced = right_hand_sides.primal;
+  const auto forces     = feti.multiply_Bt(mu);
+  for (unsigned int s = 0; s < unbalanced.size(); ++s)
+    unbalanced[s].add(-1., forces[s]);
+  auto residual = feti.multiply_B(feti.apply_inverse(unbalanced));
+  residual.add(-1., right_hand_sides.dual);
+  return residual;
+}
 
-    /// ||G mu - e|| of every column within the tolerance of ||mu||; B and R
-    /// are orthonormal but for a few rows, so ||G|| is near 1.
-    bool
-    TangentSystem::balanced(const qp::MultiVector &load,
-                            const qp::MultiVector &mu) const
-    {
-      auto missing = load;
-      missing.add(-1., feti.apply_G(mu));
-      const auto errors = qp::norms(missing, MPI_COMM_SELF);
-      const auto sizes  = qp::norms(mu, feti.context().communicator());
-      for (unsigned int j = 0; j < errors.size(); ++j)
-        if (errors[j] > parameters.relative_tolerance * sizes[j])
-          return false;
-      return true;
-    }
+KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
+{
+  const auto &b    = right_hand_sides.primal;
+  const auto  load = feti.rigid_part(b);
+  KktVectors  result;
+  result.dual = qp::MultiVector(feti.n_owned(), right_hand_sides.dual.n_columns());
+  face->make_feasible(result.dual, load);
+  auto            residual  = start_residual(right_hand_sides, result.dual);
+  qp::MultiVector projected = residual;
+  face->project(projected);
+  auto       tolerances = qp::norms(projected, feti.context().communicator());
+  const auto sizes      = qp::norms(residual, feti.context().communicator());
+  for (unsigned int j = 0; j < sizes.size(); ++j)
+    tolerances[j] = std::max(parameters.relative_tolerance * tolerances[j], rounding * sizes[j]);
+  if (!minimize(result.dual, residual, tolerances) || !balanced(load, result.dual))
+    throw SolveError("the sensitivities were not solved to the relative "
+                     "tolerance; allow a larger 'Solver/Relative "
+                     "tolerance' or more 'Solver/Maximum F-mults'");
+  auto amplitudes = face->amplitudes(residual);
+  for (unsigned int j = 0; j < amplitudes.n_columns(); ++j)
+    for (unsigned int i = 0; i < amplitudes.n_rows(); ++i)
+      amplitudes(i, j) *= -1.;
+  result.primal = feti.recover(b, result.dual, amplitudes);
+  return result;
+}
 
-    bool
-    TangentSystem::minimize(qp::MultiVector           &mu,
-                            qp::MultiVector           &residual,
-                            const std::vector<double> &tolerances) const
-    {
-      qp::Pcpg krylov(feti, *face, known);
-      if (solves == Solves::block)
-        return krylov.solve(mu, residual, tolerances, parameters.max_iterations)
-          .converged;
-      qp::MultiVector all_mu(mu.n_rows(), 0), all_residuals(mu.n_rows(), 0);
-      for (unsigned int j = 0; j < mu.n_columns(); ++j)
-        {
-          auto mu_j       = mu.columns_from(j, 1);
-          auto residual_j = residual.columns_from(j, 1);
-          if (!krylov
-                 .solve(
-                   mu_j, residual_j, {tolerances[j]}, parameters.max_iterations)
-                 .converged)
-            return false;
-          all_mu.append(mu_j);
-          all_residuals.append(residual_j);
-        }
-      mu       = all_mu;
-      residual = all_residuals;
-      return true;
-    }
-
-    /// d - F mu = B K^+ (b - B' mu) - c: with d not formed by itself, its one
-    /// application of K^+ is all it takes.
-    qp::MultiVector
-    TangentSystem::start_residual(const KktVectors      &right_hand_sides,
-                                  const qp::MultiVector &mu) const
-    {
-      auto       unbalanced = right_hand_sides.primal;
-      const auto forces     = feti.multiply_Bt(mu);
-      for (unsigned int s = 0; s < unbalanced.size(); ++s)
-        unbalanced[s].add(-1., forces[s]);
-      auto residual = feti.multiply_B(feti.apply_inverse(unbalanced));
-      residual.add(-1., right_hand_sides.dual);
-      return residual;
-    }
-
-    KktVectors
-    TangentSystem::solve(const KktVectors &right_hand_sides) const
-    {
-      const auto &b    = right_hand_sides.primal;
-      const auto  load = feti.rigid_part(b);
-      KktVectors  result;
-      result.dual =
-        qp::MultiVector(feti.n_owned(), right_hand_sides.dual.n_columns());
-      face->make_feasible(result.dual, load);
-      auto            residual  = start_residual(right_hand_sides, result.dual);
-      qp::MultiVector projected = residual;
-      face->project(projected);
-      auto tolerances  = qp::norms(projected, feti.context().communicator());
-      const auto sizes = qp::norms(residual, feti.context().communicator());
-      for (unsigned int j = 0; j < sizes.size(); ++j)
-        tolerances[j] = std::max(parameters.relative_tolerance * tolerances[j],
-                                 rounding * sizes[j]);
-      if (!minimize(result.dual, residual, tolerances) ||
-          !balanced(load, result.dual))
-        throw SolveError("the sensitivities were not solved to the relative "
-                         "tolerance; allow a larger 'Solver/Relative "
-                         "tolerance' or more 'Solver/Maximum F-mults'");
-      auto amplitudes = face->amplitudes(residual);
-      for (unsigned int j = 0; j < amplitudes.n_columns(); ++j)
-        for (unsigned int i = 0; i < amplitudes.n_rows(); ++i)
-          amplitudes(i, j) *= -1.;
-      result.primal = feti.recover(b, result.dual, amplitudes);
-      return result;
-    }
-
-    template qp::RowSet
-    strong_rows(const state::StateSolver<2> &, const state::ContactState<2> &);
-    template qp::RowSet
-    strong_rows(const state::StateSolver<3> &, const state::ContactState<3> &);
-  } // namespace sensitivity
-} // namespace snug
+template qp::RowSet strong_rows(const state::StateSolver<2> &, const state::ContactState<2> &);
+template qp::RowSet strong_rows(const state::StateSolver<3> &, const state::ContactState<3> &);
+} // namespace snug::sensitivity

@@ -1,59 +1,47 @@
 #include <snug/shape/face_basis.h>
 
-namespace snug
+namespace snug::shape {
+template <int dim>
+FaceBasis<dim>::FaceBasis(std::unique_ptr<ShapedFace<dim>> face,
+                          std::unique_ptr<FaceModes<dim>>  modes,
+                          std::unique_ptr<Interior<dim>>   interior)
+  : face(std::move(face)), modes(std::move(modes)), interior(std::move(interior))
+{}
+
+template <int dim>
+unsigned int FaceBasis<dim>::n_variables() const
 {
-  namespace shape
-  {
-    template <int dim>
-    FaceBasis<dim>::FaceBasis(std::unique_ptr<ShapedFace<dim>> face,
-                              std::unique_ptr<FaceModes<dim>>  modes,
-                              std::unique_ptr<Interior<dim>>   interior)
-      : face(std::move(face))
-      , modes(std::move(modes))
-      , interior(std::move(interior))
-    {
-    }
+  return modes->n_variables();
+}
 
-    template <int dim>
-    unsigned int
-    FaceBasis<dim>::n_variables() const
-    {
-      return modes->n_variables();
-    }
+template <int dim>
+typename FaceBasis<dim>::Field FaceBasis<dim>::apply(const std::vector<double> &alpha) const
+{
+  auto moves = modes->apply(alpha);
+  face->interpolate_hanging(moves);
+  return interior->extend(moves);
+}
 
-    template <int dim>
-    typename FaceBasis<dim>::Field
-    FaceBasis<dim>::apply(const std::vector<double> &alpha) const
-    {
-      auto moves = modes->apply(alpha);
-      face->interpolate_hanging(moves);
-      return interior->extend(moves);
-    }
+template <int dim>
+std::vector<double> FaceBasis<dim>::transpose(const Field &gradient) const
+{
+  auto at_face = interior->transpose(gradient);
+  face->distribute_hanging(at_face);
+  return modes->transpose(at_face);
+}
 
-    template <int dim>
-    std::vector<double>
-    FaceBasis<dim>::transpose(const Field &gradient) const
-    {
-      auto at_face = interior->transpose(gradient);
-      face->distribute_hanging(at_face);
-      return modes->transpose(at_face);
-    }
+template <int dim>
+std::vector<Control<dim>> FaceBasis<dim>::controls() const
+{
+  return modes->controls();
+}
 
-    template <int dim>
-    std::vector<Control<dim>>
-    FaceBasis<dim>::controls() const
-    {
-      return modes->controls();
-    }
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>> FaceBasis<dim>::faces() const
+{
+  return {{face->body(), face->boundary()}};
+}
 
-    template <int dim>
-    std::vector<std::pair<unsigned int, unsigned int>>
-    FaceBasis<dim>::faces() const
-    {
-      return {{face->body(), face->boundary()}};
-    }
-
-    template class FaceBasis<2>;
-    template class FaceBasis<3>;
-  } // namespace shape
-} // namespace snug
+template class FaceBasis<2>;
+template class FaceBasis<3>;
+} // namespace snug::shape

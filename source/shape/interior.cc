@@ -2,40 +2,29 @@
 #include <snug/shape/linear_blending.h>
 #include <snug/shape/solved_interior.h>
 
-namespace snug
+namespace snug::shape {
+template <int dim>
+const ChoiceTable<MakeInterior<dim>> &interior_table()
 {
-  namespace shape
-  {
-    template <int dim>
-    const ChoiceTable<MakeInterior<dim>> &
-    interior_table()
-    {
-      static const ChoiceTable<MakeInterior<dim>> table = {
-        {"linear blending",
-         "in boxes, a share of the face's move that falls linearly to zero at "
-         "the opposite face",
-         [](const auto &face, const auto &parameters) {
-           return std::make_unique<LinearBlending<dim>>(face, parameters);
-         }},
-        {"Laplace",
-         "each component of the move is harmonic",
-         [](const auto &face, const auto &parameters) {
-           return std::make_unique<SolvedInterior<dim>>(face,
-                                                        parameters.reach,
-                                                        InteriorKind::Laplace);
-         }},
-        {"elasticity",
-         "the body is elastic, the stiffer the smaller its cells",
-         [](const auto &face, const auto &parameters) {
-           return std::make_unique<SolvedInterior<dim>>(
-             face, parameters.reach, InteriorKind::elasticity);
-         }}};
-      return table;
-    }
+  static const ChoiceTable<MakeInterior<dim>> table = {
+    {"linear blending",
+     "in boxes, a share of the face's move that falls linearly to zero at "
+     "the opposite face",
+     [](const auto &face, const auto &parameters) {
+       return std::make_unique<LinearBlending<dim>>(face, parameters);
+     }},
+    {"Laplace", "each component of the move is harmonic",
+     [](const auto &face, const auto &parameters) {
+       return std::make_unique<SolvedInterior<dim>>(face, parameters.reach, InteriorKind::Laplace);
+     }},
+    {"elasticity", "the body is elastic, the stiffer the smaller its cells",
+     [](const auto &face, const auto &parameters) {
+       return std::make_unique<SolvedInterior<dim>>(face, parameters.reach,
+                                                    InteriorKind::elasticity);
+     }}};
+  return table;
+}
 
-    template const ChoiceTable<MakeInterior<2>> &
-    interior_table<2>();
-    template const ChoiceTable<MakeInterior<3>> &
-    interior_table<3>();
-  } // namespace shape
-} // namespace snug
+template const ChoiceTable<MakeInterior<2>> &interior_table<2>();
+template const ChoiceTable<MakeInterior<3>> &interior_table<3>();
+} // namespace snug::shape

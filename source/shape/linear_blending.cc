@@ -6,242 +6,217 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::shape {
+namespace {
+/**
+ * The faces of a side of a box as rectangles of the logical square
+ * [0,1]^(dim-1), which they cover, and the weights of their nodes at its
+ * points.
+ */
+template <int dim>
+class LogicalFaces
 {
-  namespace shape
+public:
+  using Place = dealii::Point<dim - 1>;
+
+  explicit LogicalFaces(const ShapedFace<dim> &face)
+    : face(face)
+    , normal(face.boundary() / 2)
+    , shape(face.mesh().degree())
+    , positions(face.surface().gather(logical(face.mesh())))
+    , n_bins(std::ceil(std::pow(face.surface().faces().size(), 1. / (dim - 1))))
+    , bins(dealii::Utilities::pow(n_bins, dim - 1))
   {
-    namespace
-    {
-      /**
-       * The faces of a side of a box as rectangles of the logical square
-       * [0,1]^(dim-1), which they cover, and the weights of their nodes at its
-       * points.
-       */
-      template <int dim>
-      class LogicalFaces
+    const auto &faces = face.surface().faces();
+    for (unsigned int f = 0; f < faces.size(); ++f)
       {
-      public:
-        using Place = dealii::Point<dim - 1>;
-
-        explicit LogicalFaces(const ShapedFace<dim> &face)
-          : face(face)
-          , normal(face.boundary() / 2)
-          , shape(face.mesh().degree())
-          , positions(face.surface().gather(logical(face.mesh())))
-          , n_bins(std::ceil(
-              std::pow(face.surface().faces().size(), 1. / (dim - 1))))
-          , bins(dealii::Utilities::pow(n_bins, dim - 1))
-        {
-          const auto &faces = face.surface().faces();
-          for (unsigned int f = 0; f < faces.size(); ++f)
-            {
-              rectangles.push_back(rectangle(faces[f].nodes));
-              add_to_bins(f);
-            }
-        }
-
-        /// The tangential coordinates of a point of the logical box.
-        Place
-        tangential(const dealii::Tensor<1, dim> &point) const
-        {
-          Place        place;
-          unsigned int t = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            if (d != normal)
-              place[t++] = point[d];
-          return place;
-        }
-
-        /// Surface nodes and their weights at @p place.
-        std::vector<std::pair<unsigned int, double>>
-        weights(const Place &place) const
-        {
-          unsigned int bin = 0;
-          for (unsigned int t = dim - 1; t-- > 0;)
-            bin = bin * n_bins + bin_along(place[t]);
-          unsigned int nearest = bins[bin].front();
-          for (const unsigned int f : bins[bin])
-            if (distance(f, place) < distance(nearest, place))
-              nearest = f;
-          return weights_in(nearest, place);
-        }
-
-      private:
-        struct Rectangle
-        {
-          Place lower, upper;
-        };
-
-        static typename mesh::BodyMesh<dim>::Field
-        logical(const mesh::BodyMesh<dim> &mesh)
-        {
-          return {mesh.logical_positions().begin(),
-                  mesh.logical_positions().end()};
-        }
-
-        Rectangle
-        rectangle(const std::vector<unsigned int> &nodes) const
-        {
-          Rectangle result;
-          result.lower = result.upper = tangential(positions[nodes[0]]);
-          for (const unsigned int node : nodes)
-            {
-              const Place place = tangential(positions[node]);
-              for (unsigned int t = 0; t < dim - 1; ++t)
-                {
-                  result.lower[t] = std::min(result.lower[t], place[t]);
-                  result.upper[t] = std::max(result.upper[t], place[t]);
-                }
-            }
-          return result;
-        }
-
-        unsigned int
-        bin_along(const double coordinate) const
-        {
-          return std::clamp<int>(std::floor(coordinate * n_bins),
-                                 0,
-                                 n_bins - 1);
-        }
-
-        void
-        add_to_bins(const unsigned int f)
-        {
-          unsigned int first[2] = {0, 0}, last[2] = {0, 0};
-          for (unsigned int t = 0; t < dim - 1; ++t)
-            {
-              first[t] = bin_along(rectangles[f].lower[t] - 1e-9);
-              last[t]  = bin_along(rectangles[f].upper[t] + 1e-9);
-            }
-          for (unsigned int j = first[1]; j <= last[1]; ++j)
-            for (unsigned int i = first[0]; i <= last[0]; ++i)
-              bins[i + n_bins * j].push_back(f);
-        }
-
-        /// How far @p place is outside of a rectangle.
-        double
-        distance(const unsigned int f, const Place &place) const
-        {
-          double largest = 0.;
-          for (unsigned int t = 0; t < dim - 1; ++t)
-            largest = std::max({largest,
-                                rectangles[f].lower[t] - place[t],
-                                place[t] - rectangles[f].upper[t]});
-          return largest;
-        }
-
-        std::vector<std::pair<unsigned int, double>>
-        weights_in(const unsigned int f, const Place &place) const
-        {
-          const auto &nodes = face.surface().faces()[f].nodes;
-          const auto &box   = rectangles[f];
-          const auto  xi    = [&](const Place &at) {
-            Place result;
-            for (unsigned int t = 0; t < dim - 1; ++t)
-              result[t] =
-                (at[t] - box.lower[t]) / (box.upper[t] - box.lower[t]);
-            return result;
-          };
-          typename contact::FaceShape<dim>::Values values;
-          shape.evaluate(xi(place), values);
-          std::vector<std::pair<unsigned int, double>> result;
-          // The faces' own coordinates may be turned against the box's.
-          for (const unsigned int node : nodes)
-            {
-              const Place  own = xi(tangential(positions[node]));
-              unsigned int k   = 0;
-              for (unsigned int t = dim - 1; t-- > 0;)
-                k = k * (shape.degree() + 1) +
-                    std::lround(own[t] * shape.degree());
-              if (values.value[k] != 0.)
-                result.emplace_back(node, values.value[k]);
-            }
-          return result;
-        }
-
-        const ShapedFace<dim>                 &face;
-        unsigned int                           normal;
-        contact::FaceShape<dim>                shape;
-        typename mesh::Surface<dim>::Field     positions; ///< logical
-        unsigned int                           n_bins;
-        std::vector<std::vector<unsigned int>> bins;
-        std::vector<Rectangle>                 rectangles;
-      };
-
-      /// b at a node of the box.
-      template <int dim>
-      double
-      blend_factor(const ShapedFace<dim>    &face,
-                   const dealii::Point<dim> &logical,
-                   const double              reach)
-      {
-        const auto        &geometry = face.mesh().geometry(face.body());
-        const unsigned int axis     = face.boundary() / 2;
-        const double       fraction = geometry.box_fraction(logical)[axis];
-        const double       depth =
-          face.boundary() % 2 == 1 ? 1. - fraction : fraction;
-        dealii::Point<dim> far;
-        far[axis]           = 1.;
-        const double height = geometry.box_position(far).distance(
-          geometry.box_position(dealii::Point<dim>()));
-        if (reach == 0.)
-          return 1. - depth;
-        return std::max(0., 1. - depth * height / reach);
+        rectangles.push_back(rectangle(faces[f].nodes));
+        add_to_bins(f);
       }
-    } // namespace
+  }
 
-    template <int dim>
-    LinearBlending<dim>::LinearBlending(const ShapedFace<dim> &face,
-                                        const ShapeParameters &parameters)
-      : face(face)
-    {
-      const auto             &mesh = face.mesh();
-      const LogicalFaces<dim> faces(face);
-      for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-        {
-          if (mesh.body_of_node(node) != face.body() || mesh.is_hanging(node))
-            continue;
-          const auto  &logical = mesh.logical_positions()[node];
-          const double b       = blend_factor(face, logical, parameters.reach);
-          if (b == 0.)
-            continue;
-          rows.push_back({node, faces.weights(faces.tangential(logical))});
-          for (auto &weight : rows.back().weights)
-            weight.second *= b;
-        }
-    }
+  /// The tangential coordinates of a point of the logical box.
+  Place tangential(const dealii::Tensor<1, dim> &point) const
+  {
+    Place        place;
+    unsigned int t = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != normal)
+        place[t++] = point[d];
+    return place;
+  }
 
-    template <int dim>
-    typename LinearBlending<dim>::Field
-    LinearBlending<dim>::extend(const FaceField &moves) const
-    {
-      Field result(face.mesh().n_local_nodes());
-      for (const NodeWeights &row : rows)
-        for (const auto &weight : row.weights)
-          result[row.node] += weight.second * moves[weight.first];
-      face.mesh().interpolate_hanging(result);
+  /// Surface nodes and their weights at @p place.
+  std::vector<std::pair<unsigned int, double>> weights(const Place &place) const
+  {
+    unsigned int bin = 0;
+    for (unsigned int t = dim - 1; t-- > 0;)
+      bin = bin * n_bins + bin_along(place[t]);
+    unsigned int nearest = bins[bin].front();
+    for (const unsigned int f : bins[bin])
+      if (distance(f, place) < distance(nearest, place))
+        nearest = f;
+    return weights_in(nearest, place);
+  }
+
+private:
+  struct Rectangle
+  {
+    Place lower, upper;
+  };
+
+  static typename mesh::BodyMesh<dim>::Field logical(const mesh::BodyMesh<dim> &mesh)
+  {
+    return {mesh.logical_positions().begin(), mesh.logical_positions().end()};
+  }
+
+  Rectangle rectangle(const std::vector<unsigned int> &nodes) const
+  {
+    Rectangle result;
+    result.lower = result.upper = tangential(positions[nodes[0]]);
+    for (const unsigned int node : nodes)
+      {
+        const Place place = tangential(positions[node]);
+        for (unsigned int t = 0; t < dim - 1; ++t)
+          {
+            result.lower[t] = std::min(result.lower[t], place[t]);
+            result.upper[t] = std::max(result.upper[t], place[t]);
+          }
+      }
+    return result;
+  }
+
+  unsigned int bin_along(const double coordinate) const
+  {
+    return std::clamp<int>(std::floor(coordinate * n_bins), 0, n_bins - 1);
+  }
+
+  void add_to_bins(const unsigned int f)
+  {
+    unsigned int first[2] = {0, 0}, last[2] = {0, 0};
+    for (unsigned int t = 0; t < dim - 1; ++t)
+      {
+        first[t] = bin_along(rectangles[f].lower[t] - 1e-9);
+        last[t]  = bin_along(rectangles[f].upper[t] + 1e-9);
+      }
+    for (unsigned int j = first[1]; j <= last[1]; ++j)
+      for (unsigned int i = first[0]; i <= last[0]; ++i)
+        bins[i + n_bins * j].push_back(f);
+  }
+
+  /// How far @p place is outside of a rectangle.
+  double distance(const unsigned int f, const Place &place) const
+  {
+    double largest = 0.;
+    for (unsigned int t = 0; t < dim - 1; ++t)
+      largest =
+        std::max({largest, rectangles[f].lower[t] - place[t], place[t] - rectangles[f].upper[t]});
+    return largest;
+  }
+
+  std::vector<std::pair<unsigned int, double>> weights_in(const unsigned int f,
+                                                          const Place       &place) const
+  {
+    const auto &nodes = face.surface().faces()[f].nodes;
+    const auto &box   = rectangles[f];
+    const auto  xi    = [&](const Place &at) {
+      Place result;
+      for (unsigned int t = 0; t < dim - 1; ++t)
+        result[t] = (at[t] - box.lower[t]) / (box.upper[t] - box.lower[t]);
       return result;
-    }
+    };
+    typename contact::FaceShape<dim>::Values values;
+    shape.evaluate(xi(place), values);
+    std::vector<std::pair<unsigned int, double>> result;
+    // The faces' own coordinates may be turned against the box's.
+    for (const unsigned int node : nodes)
+      {
+        const Place  own = xi(tangential(positions[node]));
+        unsigned int k   = 0;
+        for (unsigned int t = dim - 1; t-- > 0;)
+          k = k * (shape.degree() + 1) + std::lround(own[t] * shape.degree());
+        if (values.value[k] != 0.)
+          result.emplace_back(node, values.value[k]);
+      }
+    return result;
+  }
 
-    template <int dim>
-    typename LinearBlending<dim>::FaceField
-    LinearBlending<dim>::transpose(const Field &gradient) const
+  const ShapedFace<dim>                 &face;
+  unsigned int                           normal;
+  contact::FaceShape<dim>                shape;
+  typename mesh::Surface<dim>::Field     positions; ///< logical
+  unsigned int                           n_bins;
+  std::vector<std::vector<unsigned int>> bins;
+  std::vector<Rectangle>                 rectangles;
+};
+
+/// b at a node of the box.
+template <int dim>
+double
+blend_factor(const ShapedFace<dim> &face, const dealii::Point<dim> &logical, const double reach)
+{
+  const auto        &geometry = face.mesh().geometry(face.body());
+  const unsigned int axis     = face.boundary() / 2;
+  const double       fraction = geometry.box_fraction(logical)[axis];
+  const double       depth    = face.boundary() % 2 == 1 ? 1. - fraction : fraction;
+  dealii::Point<dim> far;
+  far[axis] = 1.;
+  const double height =
+    geometry.box_position(far).distance(geometry.box_position(dealii::Point<dim>()));
+  if (reach == 0.)
+    return 1. - depth;
+  return std::max(0., 1. - depth * height / reach);
+}
+} // namespace
+
+template <int dim>
+LinearBlending<dim>::LinearBlending(const ShapedFace<dim> &face, const ShapeParameters &parameters)
+  : face(face)
+{
+  const auto             &mesh = face.mesh();
+  const LogicalFaces<dim> faces(face);
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     {
-      Field free = gradient;
-      face.mesh().distribute_hanging(free);
-      std::vector<double> sums(dim * face.surface().n_nodes(), 0.);
-      for (const NodeWeights &row : rows)
-        for (const auto &weight : row.weights)
-          for (unsigned int c = 0; c < dim; ++c)
-            sums[dim * weight.first + c] += weight.second * free[row.node][c];
-      dealii::Utilities::MPI::sum(sums, face.mesh().communicator(), sums);
-      FaceField result(face.surface().n_nodes());
-      for (unsigned int i = 0; i < sums.size(); ++i)
-        result[i / dim][i % dim] = sums[i];
-      return result;
+      if (mesh.body_of_node(node) != face.body() || mesh.is_hanging(node))
+        continue;
+      const auto  &logical = mesh.logical_positions()[node];
+      const double b       = blend_factor(face, logical, parameters.reach);
+      if (b == 0.)
+        continue;
+      rows.push_back({node, faces.weights(faces.tangential(logical))});
+      for (auto &weight : rows.back().weights)
+        weight.second *= b;
     }
+}
 
-    template class LinearBlending<2>;
-    template class LinearBlending<3>;
-  } // namespace shape
-} // namespace snug
+template <int dim>
+typename LinearBlending<dim>::Field LinearBlending<dim>::extend(const FaceField &moves) const
+{
+  Field result(face.mesh().n_local_nodes());
+  for (const NodeWeights &row : rows)
+    for (const auto &weight : row.weights)
+      result[row.node] += weight.second * moves[weight.first];
+  face.mesh().interpolate_hanging(result);
+  return result;
+}
+
+template <int dim>
+typename LinearBlending<dim>::FaceField LinearBlending<dim>::transpose(const Field &gradient) const
+{
+  Field free = gradient;
+  face.mesh().distribute_hanging(free);
+  std::vector<double> sums(dim * face.surface().n_nodes(), 0.);
+  for (const NodeWeights &row : rows)
+    for (const auto &weight : row.weights)
+      for (unsigned int c = 0; c < dim; ++c)
+        sums[dim * weight.first + c] += weight.second * free[row.node][c];
+  dealii::Utilities::MPI::sum(sums, face.mesh().communicator(), sums);
+  FaceField result(face.surface().n_nodes());
+  for (unsigned int i = 0; i < sums.size(); ++i)
+    result[i / dim][i % dim] = sums[i];
+  return result;
+}
+
+template class LinearBlending<2>;
+template class LinearBlending<3>;
+} // namespace snug::shape

@@ -7,272 +7,227 @@
 #include <cmath>
 #include <numeric>
 
-namespace snug
+namespace snug::shape {
+namespace {
+/// Two controls are images of each other if they differ by less,
+/// relative to the extent of all and to the length of directions.
+const double image_tolerance = 1e-6;
+
+/// "x: 0.5, y: 1" as users write the planes.
+std::string planes_text(const std::map<std::string, double> &planes)
 {
-  namespace shape
+  std::ostringstream text;
+  for (const auto &plane : planes)
+    text << (text.tellp() == 0 ? "" : ", ") << plane.first << ": " << plane.second;
+  return text.str();
+}
+
+/// Groups of numbers that are equal but for their signs.
+class SignedGroups
+{
+public:
+  explicit SignedGroups(unsigned int n) : parent(n), sign(n, 1.), fixed(n, false)
   {
-    namespace
-    {
-      /// Two controls are images of each other if they differ by less,
-      /// relative to the extent of all and to the length of directions.
-      const double image_tolerance = 1e-6;
+    std::iota(parent.begin(), parent.end(), 0u);
+  }
 
-      /// "x: 0.5, y: 1" as users write the planes.
-      std::string
-      planes_text(const std::map<std::string, double> &planes)
+  /// Number i is sign * number root(i).
+  std::pair<unsigned int, double> root(unsigned int i) const
+  {
+    double product = 1.;
+    while (parent[i] != i)
       {
-        std::ostringstream text;
-        for (const auto &plane : planes)
-          text << (text.tellp() == 0 ? "" : ", ") << plane.first << ": "
-               << plane.second;
-        return text.str();
+        product *= sign[i];
+        i = parent[i];
       }
+    return {i, product};
+  }
 
-      /// Groups of numbers that are equal but for their signs.
-      class SignedGroups
+  /// Let number i be @p factor times number j.
+  void tie(unsigned int i, unsigned int j, double factor)
+  {
+    const auto a = root(i), b = root(j);
+    // a.second * A = factor * b.second * B
+    const double between = a.second * factor * b.second;
+    if (a.first == b.first)
+      fixed[a.first] = fixed[a.first] || between < 0.;
+    else
       {
-      public:
-        explicit SignedGroups(unsigned int n)
-          : parent(n), sign(n, 1.), fixed(n, false)
-        {
-          std::iota(parent.begin(), parent.end(), 0u);
-        }
-
-        /// Number i is sign * number root(i).
-        std::pair<unsigned int, double>
-        root(unsigned int i) const
-        {
-          double product = 1.;
-          while (parent[i] != i)
-            {
-              product *= sign[i];
-              i = parent[i];
-            }
-          return {i, product};
-        }
-
-        /// Let number i be @p factor times number j.
-        void
-        tie(unsigned int i, unsigned int j, double factor)
-        {
-          const auto a = root(i), b = root(j);
-          // a.second * A = factor * b.second * B
-          const double between = a.second * factor * b.second;
-          if (a.first == b.first)
-            fixed[a.first] = fixed[a.first] || between < 0.;
-          else
-            {
-              const unsigned int first = std::min(a.first, b.first);
-              const unsigned int last  = std::max(a.first, b.first);
-              parent[last]             = first;
-              sign[last]               = between;
-              fixed[first]             = fixed[first] || fixed[last];
-            }
-        }
-
-        void
-        fix(unsigned int i)
-        {
-          fixed[root(i).first] = true;
-        }
-
-        bool
-        is_fixed(unsigned int i) const
-        {
-          return fixed[root(i).first];
-        }
-
-      private:
-        std::vector<unsigned int> parent;
-        std::vector<double>       sign; ///< relative to the parent
-        std::vector<bool>         fixed;
-      };
-
-      /// Ties controls to their images across planes.
-      template <int dim>
-      class Mirrors
-      {
-      public:
-        Mirrors(const std::vector<Control<dim>> &controls,
-                const ShapeParameters           &parameters)
-          : controls(controls)
-          , parameters(parameters)
-          , positions(places(controls))
-          , near(positions)
-        {
-          for (const auto &position : positions)
-            extent = std::max(extent, (position - positions[0]).norm());
-        }
-
-        void
-        tie(SignedGroups &groups) const
-        {
-          for (const auto &plane : parameters.symmetry)
-            for (unsigned int i = 0; i < controls.size(); ++i)
-              tie_image(groups, plane.first, plane.second, i);
-        }
-
-      private:
-        static std::vector<dealii::Tensor<1, dim>>
-        places(const std::vector<Control<dim>> &controls)
-        {
-          std::vector<dealii::Tensor<1, dim>> result;
-          for (const auto &control : controls)
-            result.push_back(control.position);
-          return result;
-        }
-
-        void
-        tie_image(SignedGroups      &groups,
-                  const std::string &axis,
-                  const double       coordinate,
-                  const unsigned int i) const
-        {
-          const unsigned int d         = axis[0] - 'x';
-          auto               position  = positions[i];
-          auto               direction = controls[i].direction;
-          position[d]                  = 2. * coordinate - position[d];
-          direction[d]                 = -direction[d];
-          bool found                   = false;
-          near.for_each(position,
-                        image_tolerance * extent,
-                        [&](unsigned int j, double) {
-                          const auto other = controls[j].direction;
-                          for (const double sign : {1., -1.})
-                            if ((direction - sign * other).norm() <=
-                                image_tolerance * other.norm())
-                              {
-                                groups.tie(i, j, sign);
-                                found = true;
-                              }
-                        });
-          if (found)
-            return;
-          std::ostringstream what;
-          what << "control point " << controls[i].point << " at ("
-               << controls[i].position << ") has no image at (" << position
-               << ") that moves along (" << direction << ")";
-          throw bad_entry(parameters.path("Symmetry"),
-                          planes_text(parameters.symmetry),
-                          what.str());
-        }
-
-        const std::vector<Control<dim>>    &controls;
-        const ShapeParameters              &parameters;
-        std::vector<dealii::Tensor<1, dim>> positions;
-        NearPoints<dim>                     near;
-        double                              extent = 0.;
-      };
-
-      /// The index in an item of the entry Fixed, or false.
-      bool
-      read_index(const std::string &text, unsigned int &index)
-      {
-        if (text.empty() || text.size() > 9 ||
-            text.find_first_not_of("0123456789") != std::string::npos)
-          return false;
-        index = std::stoul(text);
-        return true;
+        const unsigned int first = std::min(a.first, b.first);
+        const unsigned int last  = std::max(a.first, b.first);
+        parent[last]             = first;
+        sign[last]               = between;
+        fixed[first]             = fixed[first] || fixed[last];
       }
-    } // namespace
+  }
 
-    template <int dim>
-    std::vector<bool>
-    fixed_points(const std::vector<Control<dim>> &controls,
-                 const ShapeParameters           &parameters)
-    {
-      const unsigned int n_points =
-        controls.empty() ? 0 : controls.back().point + 1;
-      std::vector<bool> listed_points(n_points, false);
-      bool              border = false;
-      for (const auto &item : parameters.fixed)
-        {
-          unsigned int index = 0;
-          if (item == "border")
-            border = true;
-          else if (read_index(item, index) && index < n_points)
-            listed_points[index] = true;
-          else
-            throw bad_entry(parameters.path("Fixed"),
-                            listed(parameters.fixed),
-                            "'" + item + "' must be 'border' or one of the " +
-                              std::to_string(n_points) +
-                              " control points, counted from 0");
-        }
-      std::vector<bool> result;
-      for (const auto &control : controls)
-        result.push_back(control.frozen || (border && control.border) ||
-                         listed_points[control.point]);
-      return result;
-    }
+  void fix(unsigned int i) { fixed[root(i).first] = true; }
 
-    Links::Links(const unsigned int n) : size(n)
-    {
-      for (unsigned int i = 0; i < n; ++i)
-        ties.push_back({i, 1.});
-    }
+  bool is_fixed(unsigned int i) const { return fixed[root(i).first]; }
 
-    template <int dim>
-    Links::Links(const std::vector<Control<dim>> &controls,
-                 const ShapeParameters           &parameters)
-    {
-      SignedGroups groups(controls.size());
-      Mirrors<dim>(controls, parameters).tie(groups);
-      const auto fixed = fixed_points(controls, parameters);
+private:
+  std::vector<unsigned int> parent;
+  std::vector<double>       sign; ///< relative to the parent
+  std::vector<bool>         fixed;
+};
+
+/// Ties controls to their images across planes.
+template <int dim>
+class Mirrors
+{
+public:
+  Mirrors(const std::vector<Control<dim>> &controls, const ShapeParameters &parameters)
+    : controls(controls), parameters(parameters), positions(places(controls)), near(positions)
+  {
+    for (const auto &position : positions)
+      extent = std::max(extent, (position - positions[0]).norm());
+  }
+
+  void tie(SignedGroups &groups) const
+  {
+    for (const auto &plane : parameters.symmetry)
       for (unsigned int i = 0; i < controls.size(); ++i)
-        if (fixed[i])
-          groups.fix(i);
-      std::vector<unsigned int> variable(controls.size());
-      for (unsigned int i = 0; i < controls.size(); ++i)
-        {
-          const auto root = groups.root(i);
-          if (root.first == i && !groups.is_fixed(i))
-            variable[i] = size++;
-          // roots come first in their groups
-          ties.push_back(
-            {variable[root.first], groups.is_fixed(i) ? 0. : root.second});
-        }
-      if (size == 0)
-        throw bad_entry(parameters.path("Fixed"),
-                        listed(parameters.fixed),
-                        "all control points are fixed or frozen: nothing is "
-                        "left to move");
-    }
+        tie_image(groups, plane.first, plane.second, i);
+  }
 
-    unsigned int
-    Links::n_variables() const
-    {
-      return size;
-    }
+private:
+  static std::vector<dealii::Tensor<1, dim>> places(const std::vector<Control<dim>> &controls)
+  {
+    std::vector<dealii::Tensor<1, dim>> result;
+    for (const auto &control : controls)
+      result.push_back(control.position);
+    return result;
+  }
 
-    std::vector<double>
-    Links::expand(const std::vector<double> &alpha) const
-    {
-      AssertDimension(alpha.size(), size);
-      std::vector<double> result;
-      for (const Tie &tie : ties)
-        result.push_back(tie.sign == 0. ? 0. : tie.sign * alpha[tie.variable]);
-      return result;
-    }
+  void tie_image(SignedGroups      &groups,
+                 const std::string &axis,
+                 const double       coordinate,
+                 const unsigned int i) const
+  {
+    const unsigned int d         = axis[0] - 'x';
+    auto               position  = positions[i];
+    auto               direction = controls[i].direction;
+    position[d]                  = 2. * coordinate - position[d];
+    direction[d]                 = -direction[d];
+    bool found                   = false;
+    near.for_each(position, image_tolerance * extent, [&](unsigned int j, double) {
+      const auto other = controls[j].direction;
+      for (const double sign : {1., -1.})
+        if ((direction - sign * other).norm() <= image_tolerance * other.norm())
+          {
+            groups.tie(i, j, sign);
+            found = true;
+          }
+    });
+    if (found)
+      return;
+    std::ostringstream what;
+    what << "control point " << controls[i].point << " at (" << controls[i].position
+         << ") has no image at (" << position << ") that moves along (" << direction << ")";
+    throw bad_entry(parameters.path("Symmetry"), planes_text(parameters.symmetry), what.str());
+  }
 
-    std::vector<double>
-    Links::collect(const std::vector<double> &gradient) const
+  const std::vector<Control<dim>>    &controls;
+  const ShapeParameters              &parameters;
+  std::vector<dealii::Tensor<1, dim>> positions;
+  NearPoints<dim>                     near;
+  double                              extent = 0.;
+};
+
+/// The index in an item of the entry Fixed, or false.
+bool read_index(const std::string &text, unsigned int &index)
+{
+  if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+    return false;
+  index = std::stoul(text);
+  return true;
+}
+} // namespace
+
+template <int dim>
+std::vector<bool> fixed_points(const std::vector<Control<dim>> &controls,
+                               const ShapeParameters           &parameters)
+{
+  const unsigned int n_points = controls.empty() ? 0 : controls.back().point + 1;
+  std::vector<bool>  listed_points(n_points, false);
+  bool               border = false;
+  for (const auto &item : parameters.fixed)
     {
-      AssertDimension(gradient.size(), ties.size());
-      std::vector<double> result(size, 0.);
-      for (unsigned int i = 0; i < ties.size(); ++i)
-        if (ties[i].sign != 0.)
-          result[ties[i].variable] += ties[i].sign * gradient[i];
-      return result;
+      unsigned int index = 0;
+      if (item == "border")
+        border = true;
+      else if (read_index(item, index) && index < n_points)
+        listed_points[index] = true;
+      else
+        throw bad_entry(parameters.path("Fixed"), listed(parameters.fixed),
+                        "'" + item + "' must be 'border' or one of the " +
+                          std::to_string(n_points) + " control points, counted from 0");
     }
+  std::vector<bool> result;
+  for (const auto &control : controls)
+    result.push_back(control.frozen || (border && control.border) || listed_points[control.point]);
+  return result;
+}
+
+Links::Links(const unsigned int n) : size(n)
+{
+  for (unsigned int i = 0; i < n; ++i)
+    ties.push_back({i, 1.});
+}
+
+template <int dim>
+Links::Links(const std::vector<Control<dim>> &controls, const ShapeParameters &parameters)
+{
+  SignedGroups groups(controls.size());
+  Mirrors<dim>(controls, parameters).tie(groups);
+  const auto fixed = fixed_points(controls, parameters);
+  for (unsigned int i = 0; i < controls.size(); ++i)
+    if (fixed[i])
+      groups.fix(i);
+  std::vector<unsigned int> variable(controls.size());
+  for (unsigned int i = 0; i < controls.size(); ++i)
+    {
+      const auto root = groups.root(i);
+      if (root.first == i && !groups.is_fixed(i))
+        variable[i] = size++;
+      // roots come first in their groups
+      ties.push_back({variable[root.first], groups.is_fixed(i) ? 0. : root.second});
+    }
+  if (size == 0)
+    throw bad_entry(parameters.path("Fixed"), listed(parameters.fixed),
+                    "all control points are fixed or frozen: nothing is "
+                    "left to move");
+}
+
+unsigned int Links::n_variables() const
+{
+  return size;
+}
+
+std::vector<double> Links::expand(const std::vector<double> &alpha) const
+{
+  AssertDimension(alpha.size(), size);
+  std::vector<double> result;
+  for (const Tie &tie : ties)
+    result.push_back(tie.sign == 0. ? 0. : tie.sign * alpha[tie.variable]);
+  return result;
+}
+
+std::vector<double> Links::collect(const std::vector<double> &gradient) const
+{
+  AssertDimension(gradient.size(), ties.size());
+  std::vector<double> result(size, 0.);
+  for (unsigned int i = 0; i < ties.size(); ++i)
+    if (ties[i].sign != 0.)
+      result[ties[i].variable] += ties[i].sign * gradient[i];
+  return result;
+}
 
 #define SNUG_INSTANTIATE(dim)                                                \
   template std::vector<bool> fixed_points(const std::vector<Control<dim>> &, \
                                           const ShapeParameters &);          \
-  template Links::Links(const std::vector<Control<dim>> &,                   \
-                        const ShapeParameters &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+  template Links::Links(const std::vector<Control<dim>> &, const ShapeParameters &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace shape
-} // namespace snug
+} // namespace snug::shape

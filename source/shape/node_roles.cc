@@ -7,171 +7,148 @@
 #include <algorithm>
 #include <map>
 
-namespace snug
+namespace snug::shape {
+namespace {
+/// Sine of the angle from which on two faces count as different planes
+/// and not as one curved surface.
+const double least_edge_sine = 0.5;
+
+/// P <- P without the part along n, unless little of n is left in P.
+template <int dim>
+void remove_direction(const dealii::Tensor<1, dim> &n, dealii::Tensor<2, dim> &P)
 {
-  namespace shape
-  {
-    namespace
-    {
-      /// Sine of the angle from which on two faces count as different planes
-      /// and not as one curved surface.
-      const double least_edge_sine = 0.5;
+  const auto   left   = P * n;
+  const double length = left.norm();
+  if (length >= least_edge_sine)
+    P -= outer_product(left, left) / (length * length);
+}
 
-      /// P <- P without the part along n, unless little of n is left in P.
-      template <int dim>
-      void
-      remove_direction(const dealii::Tensor<1, dim> &n,
-                       dealii::Tensor<2, dim>       &P)
+/// Unit normals, one or several at a node, of the faces of a surface:
+/// faces that turn little are averaged.
+template <int dim>
+std::vector<std::vector<dealii::Tensor<1, dim>>>
+plane_normals(const mesh::Surface<dim>                 &surface,
+              const typename mesh::Surface<dim>::Field &positions,
+              const unsigned int                        degree)
+{
+  const contact::FaceShape<dim>                    shape(degree);
+  std::vector<std::vector<dealii::Tensor<1, dim>>> sums(surface.n_nodes());
+  for (const auto &face : surface.faces())
+    for (unsigned int k = 0; k < face.nodes.size(); ++k)
       {
-        const auto   left   = P * n;
-        const double length = left.norm();
-        if (length >= least_edge_sine)
-          P -= outer_product(left, left) / (length * length);
+        const auto area =
+          contact::area_vector(contact::tangents<dim>(shape.at_node(k), face.nodes, positions));
+        auto      &planes = sums[face.nodes[k]];
+        const auto same   = std::find_if(planes.begin(), planes.end(), [&area](const auto &plane) {
+          const double cosine = plane * area / (plane.norm() * area.norm());
+          return cosine * cosine > 1. - least_edge_sine * least_edge_sine && cosine > 0.;
+        });
+        if (same == planes.end())
+          planes.push_back(area);
+        else
+          *same += area;
       }
+  for (auto &planes : sums)
+    for (auto &plane : planes)
+      plane /= plane.norm();
+  return sums;
+}
+} // namespace
 
-      /// Unit normals, one or several at a node, of the faces of a surface:
-      /// faces that turn little are averaged.
-      template <int dim>
-      std::vector<std::vector<dealii::Tensor<1, dim>>>
-      plane_normals(const mesh::Surface<dim>                 &surface,
-                    const typename mesh::Surface<dim>::Field &positions,
-                    const unsigned int                        degree)
-      {
-        const contact::FaceShape<dim>                    shape(degree);
-        std::vector<std::vector<dealii::Tensor<1, dim>>> sums(
-          surface.n_nodes());
-        for (const auto &face : surface.faces())
-          for (unsigned int k = 0; k < face.nodes.size(); ++k)
-            {
-              const auto area   = contact::area_vector(contact::tangents<dim>(
-                shape.at_node(k), face.nodes, positions));
-              auto      &planes = sums[face.nodes[k]];
-              const auto same   = std::find_if(
-                planes.begin(), planes.end(), [&area](const auto &plane) {
-                  const double cosine =
-                    plane * area / (plane.norm() * area.norm());
-                  return cosine * cosine >
-                           1. - least_edge_sine * least_edge_sine &&
-                         cosine > 0.;
-                });
-              if (same == planes.end())
-                planes.push_back(area);
-              else
-                *same += area;
-            }
-        for (auto &planes : sums)
-          for (auto &plane : planes)
-            plane /= plane.norm();
-        return sums;
-      }
-    } // namespace
+template <int dim>
+NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
+  : face(face), drivers(face.mesh().n_local_nodes(), none), projectors(face.mesh().n_local_nodes())
+{
+  find_drivers();
+  free_nodes(reach);
+  hold_or_slide();
+  for (unsigned int node = 0; node < drivers.size(); ++node)
+    if (drivers[node] != none)
+      projectors[node] = 0.;
+}
 
-    template <int dim>
-    NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
-      : face(face)
-      , drivers(face.mesh().n_local_nodes(), none)
-      , projectors(face.mesh().n_local_nodes())
+template <int dim>
+void NodeRoles<dim>::find_drivers()
+{
+  const auto                          &surface = face.surface();
+  std::map<unsigned int, unsigned int> surface_node;
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    surface_node[surface.global_node(node)] = node;
+  for (unsigned int node = 0; node < drivers.size(); ++node)
     {
-      find_drivers();
-      free_nodes(reach);
-      hold_or_slide();
-      for (unsigned int node = 0; node < drivers.size(); ++node)
+      const auto found = surface_node.find(face.mesh().global_node(node));
+      if (found != surface_node.end())
+        drivers[node] = found->second;
+    }
+}
+
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const bool touching) const
+{
+  const auto               &mesh = face.mesh();
+  const unsigned int        n    = mesh.geometry(face.body()).boundary_names().size();
+  std::vector<unsigned int> touches(n, 0);
+  for (const auto &other : mesh.boundary_faces())
+    if (other.body == face.body())
+      for (const unsigned int node : other.nodes)
         if (drivers[node] != none)
-          projectors[node] = 0.;
-    }
+          touches[other.boundary] = 1;
+  dealii::Utilities::MPI::max(touches, mesh.communicator(), touches);
+  std::vector<std::pair<unsigned int, unsigned int>> result;
+  for (unsigned int boundary = 0; boundary < n; ++boundary)
+    if (boundary != face.boundary() && (touches[boundary] == 1) == touching)
+      result.emplace_back(face.body(), boundary);
+  return result;
+}
 
-    template <int dim>
-    void
-    NodeRoles<dim>::find_drivers()
+template <int dim>
+void NodeRoles<dim>::free_nodes(const double reach)
+{
+  const auto           &mesh = face.mesh();
+  const NearPoints<dim> near(face.positions());
+  for (unsigned int node = 0; node < projectors.size(); ++node)
+    if (mesh.body_of_node(node) == face.body() && !mesh.is_hanging(node) &&
+        (reach == 0. || near.distance(mesh.reference_positions()[node], reach) < reach))
+      projectors[node] = dealii::unit_symmetric_tensor<dim>();
+}
+
+template <int dim>
+void NodeRoles<dim>::hold_or_slide()
+{
+  const auto              &mesh = face.mesh();
+  const mesh::Surface<dim> held(mesh, others(false));
+  const mesh::Surface<dim> sliding(mesh, others(true));
+  const auto               normals =
+    plane_normals(sliding, sliding.gather(mesh.reference_positions()), mesh.degree());
+  std::map<unsigned int, unsigned int> slides, holds;
+  for (unsigned int node = 0; node < held.n_nodes(); ++node)
+    holds[held.global_node(node)] = node;
+  for (unsigned int node = 0; node < sliding.n_nodes(); ++node)
+    slides[sliding.global_node(node)] = node;
+  for (unsigned int node = 0; node < projectors.size(); ++node)
     {
-      const auto                          &surface = face.surface();
-      std::map<unsigned int, unsigned int> surface_node;
-      for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-        surface_node[surface.global_node(node)] = node;
-      for (unsigned int node = 0; node < drivers.size(); ++node)
-        {
-          const auto found = surface_node.find(face.mesh().global_node(node));
-          if (found != surface_node.end())
-            drivers[node] = found->second;
-        }
+      const unsigned int global = mesh.global_node(node);
+      if (holds.count(global) != 0)
+        projectors[node] = 0.;
+      const auto found = slides.find(global);
+      if (found != slides.end())
+        for (const auto &normal : normals[found->second])
+          remove_direction(normal, projectors[node]);
     }
+}
 
-    template <int dim>
-    std::vector<std::pair<unsigned int, unsigned int>>
-    NodeRoles<dim>::others(const bool touching) const
-    {
-      const auto        &mesh = face.mesh();
-      const unsigned int n = mesh.geometry(face.body()).boundary_names().size();
-      std::vector<unsigned int> touches(n, 0);
-      for (const auto &other : mesh.boundary_faces())
-        if (other.body == face.body())
-          for (const unsigned int node : other.nodes)
-            if (drivers[node] != none)
-              touches[other.boundary] = 1;
-      dealii::Utilities::MPI::max(touches, mesh.communicator(), touches);
-      std::vector<std::pair<unsigned int, unsigned int>> result;
-      for (unsigned int boundary = 0; boundary < n; ++boundary)
-        if (boundary != face.boundary() && (touches[boundary] == 1) == touching)
-          result.emplace_back(face.body(), boundary);
-      return result;
-    }
+template <int dim>
+unsigned int NodeRoles<dim>::driver(const unsigned int node) const
+{
+  return drivers[node];
+}
 
-    template <int dim>
-    void
-    NodeRoles<dim>::free_nodes(const double reach)
-    {
-      const auto           &mesh = face.mesh();
-      const NearPoints<dim> near(face.positions());
-      for (unsigned int node = 0; node < projectors.size(); ++node)
-        if (mesh.body_of_node(node) == face.body() && !mesh.is_hanging(node) &&
-            (reach == 0. ||
-             near.distance(mesh.reference_positions()[node], reach) < reach))
-          projectors[node] = dealii::unit_symmetric_tensor<dim>();
-    }
+template <int dim>
+const dealii::Tensor<2, dim> &NodeRoles<dim>::freedom(const unsigned int node) const
+{
+  return projectors[node];
+}
 
-    template <int dim>
-    void
-    NodeRoles<dim>::hold_or_slide()
-    {
-      const auto              &mesh = face.mesh();
-      const mesh::Surface<dim> held(mesh, others(false));
-      const mesh::Surface<dim> sliding(mesh, others(true));
-      const auto               normals =
-        plane_normals(sliding,
-                      sliding.gather(mesh.reference_positions()),
-                      mesh.degree());
-      std::map<unsigned int, unsigned int> slides, holds;
-      for (unsigned int node = 0; node < held.n_nodes(); ++node)
-        holds[held.global_node(node)] = node;
-      for (unsigned int node = 0; node < sliding.n_nodes(); ++node)
-        slides[sliding.global_node(node)] = node;
-      for (unsigned int node = 0; node < projectors.size(); ++node)
-        {
-          const unsigned int global = mesh.global_node(node);
-          if (holds.count(global) != 0)
-            projectors[node] = 0.;
-          const auto found = slides.find(global);
-          if (found != slides.end())
-            for (const auto &normal : normals[found->second])
-              remove_direction(normal, projectors[node]);
-        }
-    }
-
-    template <int dim>
-    unsigned int
-    NodeRoles<dim>::driver(const unsigned int node) const
-    {
-      return drivers[node];
-    }
-
-    template <int dim>
-    const dealii::Tensor<2, dim> &
-    NodeRoles<dim>::freedom(const unsigned int node) const
-    {
-      return projectors[node];
-    }
-
-    template class NodeRoles<2>;
-    template class NodeRoles<3>;
-  } // namespace shape
-} // namespace snug
+template class NodeRoles<2>;
+template class NodeRoles<3>;
+} // namespace snug::shape

@@ -8,206 +8,177 @@
 #include <algorithm>
 #include <numeric>
 
-namespace snug
+namespace snug::shape {
+template <int dim>
+std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
+                                                const BodyNames           &bodies,
+                                                const ShapeParameters     &parameters)
 {
-  namespace shape
-  {
-    template <int dim>
-    std::pair<unsigned int, unsigned int>
-    find_face(const mesh::BodyMesh<dim> &mesh,
-              const BodyNames           &bodies,
-              const ShapeParameters     &parameters)
-    {
-      AssertDimension(bodies.names.size(), mesh.n_bodies());
-      const std::string &face = parameters.face;
-      const auto         dot  = face.rfind('.');
-      const std::string  name = face.substr(0, dot);
-      const auto         found =
-        std::find(bodies.names.begin(), bodies.names.end(), name);
-      if (dot == std::string::npos || found == bodies.names.end())
-        throw bad_entry(parameters.path("Face"),
-                        face,
-                        "must be body.face with one of the bodies " +
-                          listed(bodies.names));
-      const unsigned int body  = found - bodies.names.begin();
-      const auto        &known = mesh.geometry(body).boundary_names();
-      const auto         boundary =
-        std::find(known.begin(), known.end(), face.substr(dot + 1));
-      if (boundary == known.end())
-        throw bad_entry(parameters.path("Face"),
-                        face,
-                        "the faces of " + name + " are " + listed(known));
-      return {body, boundary - known.begin()};
-    }
+  AssertDimension(bodies.names.size(), mesh.n_bodies());
+  const std::string &face  = parameters.face;
+  const auto         dot   = face.rfind('.');
+  const std::string  name  = face.substr(0, dot);
+  const auto         found = std::find(bodies.names.begin(), bodies.names.end(), name);
+  if (dot == std::string::npos || found == bodies.names.end())
+    throw bad_entry(parameters.path("Face"), face,
+                    "must be body.face with one of the bodies " + listed(bodies.names));
+  const unsigned int body     = found - bodies.names.begin();
+  const auto        &known    = mesh.geometry(body).boundary_names();
+  const auto         boundary = std::find(known.begin(), known.end(), face.substr(dot + 1));
+  if (boundary == known.end())
+    throw bad_entry(parameters.path("Face"), face,
+                    "the faces of " + name + " are " + listed(known));
+  return {body, boundary - known.begin()};
+}
 
-    template <int dim>
-    ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
-                                const BodyNames           &bodies,
-                                const ShapeParameters     &parameters)
-      : body_mesh(mesh)
-      , place(find_face(mesh, bodies, parameters))
-      , nodes(mesh, {place})
-      , reference(nodes.gather(mesh.reference_positions()))
-    {
-      if (nodes.n_nodes() == 0)
-        throw bad_entry(parameters.path("Face"),
-                        parameters.face,
-                        "the mesh has no such faces");
-      measure();
-      find_border();
-    }
+template <int dim>
+ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
+                            const BodyNames           &bodies,
+                            const ShapeParameters     &parameters)
+  : body_mesh(mesh)
+  , place(find_face(mesh, bodies, parameters))
+  , nodes(mesh, {place})
+  , reference(nodes.gather(mesh.reference_positions()))
+{
+  if (nodes.n_nodes() == 0)
+    throw bad_entry(parameters.path("Face"), parameters.face, "the mesh has no such faces");
+  measure();
+  find_border();
+}
 
-    template <int dim>
-    void
-    ShapedFace<dim>::measure()
-    {
-      const contact::FaceShape<dim> shape(body_mesh.degree());
-      std::vector<unsigned int>     all(nodes.faces().size());
-      std::iota(all.begin(), all.end(), 0u);
-      unit_normals =
-        contact::NodalNormals<dim>(nodes, all, shape, reference).normals();
-      Field weights(nodes.n_nodes());
-      for (const auto &face : nodes.faces())
-        for (unsigned int k = 0; k < face.nodes.size(); ++k)
-          weights[face.nodes[k]][0] +=
-            contact::area_vector(
-              contact::tangents<dim>(shape.at_node(k), face.nodes, reference))
-              .norm() /
-            face.nodes.size();
-      distribute_hanging(weights);
-      for (const auto &weight : weights)
-        node_areas.push_back(weight[0]);
-      dealii::Tensor<1, dim> lower = reference[0], upper = reference[0];
-      for (const auto &position : reference)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] = std::min(lower[d], position[d]);
-            upper[d] = std::max(upper[d], position[d]);
-          }
-      diagonal = (upper - lower).norm();
-    }
+template <int dim>
+void ShapedFace<dim>::measure()
+{
+  const contact::FaceShape<dim> shape(body_mesh.degree());
+  std::vector<unsigned int>     all(nodes.faces().size());
+  std::iota(all.begin(), all.end(), 0u);
+  unit_normals = contact::NodalNormals<dim>(nodes, all, shape, reference).normals();
+  Field weights(nodes.n_nodes());
+  for (const auto &face : nodes.faces())
+    for (unsigned int k = 0; k < face.nodes.size(); ++k)
+      weights[face.nodes[k]][0] +=
+        contact::area_vector(contact::tangents<dim>(shape.at_node(k), face.nodes, reference))
+          .norm() /
+        face.nodes.size();
+  distribute_hanging(weights);
+  for (const auto &weight : weights)
+    node_areas.push_back(weight[0]);
+  dealii::Tensor<1, dim> lower = reference[0], upper = reference[0];
+  for (const auto &position : reference)
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::min(lower[d], position[d]);
+        upper[d] = std::max(upper[d], position[d]);
+      }
+  diagonal = (upper - lower).norm();
+}
 
-    template <int dim>
-    void
-    ShapedFace<dim>::find_border()
-    {
-      std::vector<unsigned int> elsewhere; // global nodes of other boundaries
-      for (const auto &face : body_mesh.boundary_faces())
-        if (face.body == place.first && face.boundary != place.second)
-          for (const unsigned int node : face.nodes)
-            elsewhere.push_back(body_mesh.global_node(node));
-      std::sort(elsewhere.begin(), elsewhere.end());
-      std::vector<unsigned int> marks(nodes.n_nodes(), 0);
-      for (unsigned int node = 0; node < marks.size(); ++node)
-        marks[node] = std::binary_search(elsewhere.begin(),
-                                         elsewhere.end(),
-                                         nodes.global_node(node));
-      dealii::Utilities::MPI::max(marks, body_mesh.communicator(), marks);
-      on_border.assign(marks.begin(), marks.end());
-    }
+template <int dim>
+void ShapedFace<dim>::find_border()
+{
+  std::vector<unsigned int> elsewhere; // global nodes of other boundaries
+  for (const auto &face : body_mesh.boundary_faces())
+    if (face.body == place.first && face.boundary != place.second)
+      for (const unsigned int node : face.nodes)
+        elsewhere.push_back(body_mesh.global_node(node));
+  std::sort(elsewhere.begin(), elsewhere.end());
+  std::vector<unsigned int> marks(nodes.n_nodes(), 0);
+  for (unsigned int node = 0; node < marks.size(); ++node)
+    marks[node] = std::binary_search(elsewhere.begin(), elsewhere.end(), nodes.global_node(node));
+  dealii::Utilities::MPI::max(marks, body_mesh.communicator(), marks);
+  on_border.assign(marks.begin(), marks.end());
+}
 
-    template <int dim>
-    const mesh::BodyMesh<dim> &
-    ShapedFace<dim>::mesh() const
-    {
-      return body_mesh;
-    }
+template <int dim>
+const mesh::BodyMesh<dim> &ShapedFace<dim>::mesh() const
+{
+  return body_mesh;
+}
 
-    template <int dim>
-    unsigned int
-    ShapedFace<dim>::body() const
-    {
-      return place.first;
-    }
+template <int dim>
+unsigned int ShapedFace<dim>::body() const
+{
+  return place.first;
+}
 
-    template <int dim>
-    unsigned int
-    ShapedFace<dim>::boundary() const
-    {
-      return place.second;
-    }
+template <int dim>
+unsigned int ShapedFace<dim>::boundary() const
+{
+  return place.second;
+}
 
-    template <int dim>
-    const mesh::Surface<dim> &
-    ShapedFace<dim>::surface() const
-    {
-      return nodes;
-    }
+template <int dim>
+const mesh::Surface<dim> &ShapedFace<dim>::surface() const
+{
+  return nodes;
+}
 
-    template <int dim>
-    const typename ShapedFace<dim>::Field &
-    ShapedFace<dim>::positions() const
-    {
-      return reference;
-    }
+template <int dim>
+const typename ShapedFace<dim>::Field &ShapedFace<dim>::positions() const
+{
+  return reference;
+}
 
-    template <int dim>
-    const typename ShapedFace<dim>::Field &
-    ShapedFace<dim>::normals() const
-    {
-      return unit_normals;
-    }
+template <int dim>
+const typename ShapedFace<dim>::Field &ShapedFace<dim>::normals() const
+{
+  return unit_normals;
+}
 
-    template <int dim>
-    const std::vector<double> &
-    ShapedFace<dim>::areas() const
-    {
-      return node_areas;
-    }
+template <int dim>
+const std::vector<double> &ShapedFace<dim>::areas() const
+{
+  return node_areas;
+}
 
-    template <int dim>
-    const std::vector<bool> &
-    ShapedFace<dim>::border() const
-    {
-      return on_border;
-    }
+template <int dim>
+const std::vector<bool> &ShapedFace<dim>::border() const
+{
+  return on_border;
+}
 
-    template <int dim>
-    double
-    ShapedFace<dim>::diameter() const
-    {
-      return diagonal;
-    }
+template <int dim>
+double ShapedFace<dim>::diameter() const
+{
+  return diagonal;
+}
 
-    template <int dim>
-    bool
-    ShapedFace<dim>::is_hanging(const unsigned int surface_node) const
-    {
-      return !nodes.masters(surface_node).empty();
-    }
+template <int dim>
+bool ShapedFace<dim>::is_hanging(const unsigned int surface_node) const
+{
+  return !nodes.masters(surface_node).empty();
+}
 
-    template <int dim>
-    void
-    ShapedFace<dim>::interpolate_hanging(Field &field) const
-    {
-      for (unsigned int node = 0; node < field.size(); ++node)
-        if (is_hanging(node))
-          {
-            field[node] = 0.;
-            for (const auto &master : nodes.masters(node))
-              field[node] += master.second * field[master.first];
-          }
-    }
+template <int dim>
+void ShapedFace<dim>::interpolate_hanging(Field &field) const
+{
+  for (unsigned int node = 0; node < field.size(); ++node)
+    if (is_hanging(node))
+      {
+        field[node] = 0.;
+        for (const auto &master : nodes.masters(node))
+          field[node] += master.second * field[master.first];
+      }
+}
 
-    template <int dim>
-    void
-    ShapedFace<dim>::distribute_hanging(Field &field) const
-    {
-      for (unsigned int node = 0; node < field.size(); ++node)
-        if (is_hanging(node))
-          {
-            for (const auto &master : nodes.masters(node))
-              field[master.first] += master.second * field[node];
-            field[node] = 0.;
-          }
-    }
+template <int dim>
+void ShapedFace<dim>::distribute_hanging(Field &field) const
+{
+  for (unsigned int node = 0; node < field.size(); ++node)
+    if (is_hanging(node))
+      {
+        for (const auto &master : nodes.masters(node))
+          field[master.first] += master.second * field[node];
+        field[node] = 0.;
+      }
+}
 
-#define SNUG_INSTANTIATE(dim)                                    \
-  template class ShapedFace<dim>;                                \
-  template std::pair<unsigned int, unsigned int> find_face<dim>( \
-    const mesh::BodyMesh<dim> &, const BodyNames &, const ShapeParameters &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+#define SNUG_INSTANTIATE(dim)                                                                \
+  template class ShapedFace<dim>;                                                            \
+  template std::pair<unsigned int, unsigned int> find_face<dim>(const mesh::BodyMesh<dim> &, \
+                                                                const BodyNames &,           \
+                                                                const ShapeParameters &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace shape
-} // namespace snug
+} // namespace snug::shape

@@ -5,190 +5,162 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::shape {
+namespace {
+template <int dim>
+Links make_links(const Shape<dim> &basis, const ShapeParameters &parameters)
 {
-  namespace shape
-  {
-    namespace
-    {
-      template <int dim>
-      Links
-      make_links(const Shape<dim> &basis, const ShapeParameters &parameters)
-      {
-        const auto controls = basis.controls();
-        if (!controls.empty())
-          return Links(controls, parameters);
-        if (!parameters.fixed.empty())
-          throw bad_entry(parameters.path("Fixed"),
-                          listed(parameters.fixed),
-                          "must be empty: " + parameters.basis +
-                            " have no control points");
-        if (!parameters.symmetry.empty())
-          throw bad_entry(parameters.path("Symmetry"),
-                          parameters.symmetry.begin()->first,
-                          "must be empty: " + parameters.basis +
-                            " have no control points");
-        return Links(basis.n_variables());
-      }
-    } // namespace
+  const auto controls = basis.controls();
+  if (!controls.empty())
+    return Links(controls, parameters);
+  if (!parameters.fixed.empty())
+    throw bad_entry(parameters.path("Fixed"), listed(parameters.fixed),
+                    "must be empty: " + parameters.basis + " have no control points");
+  if (!parameters.symmetry.empty())
+    throw bad_entry(parameters.path("Symmetry"), parameters.symmetry.begin()->first,
+                    "must be empty: " + parameters.basis + " have no control points");
+  return Links(basis.n_variables());
+}
+} // namespace
 
-    template <int dim>
-    Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
-                        const BodyNames                    &bodies,
-                        const std::vector<ShapeParameters> &parameters)
-      : mesh(mesh)
+template <int dim>
+Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
+                    const BodyNames                    &bodies,
+                    const std::vector<ShapeParameters> &parameters)
+  : mesh(mesh)
+{
+  for (const auto &one : parameters)
     {
-      for (const auto &one : parameters)
+      auto basis = choose(shape_basis_table<dim>(), one.basis).make(mesh, bodies, one);
+      const unsigned int first = lower.size();
+      Links              links = make_links(*basis, one);
+      add_variables(one, links.n_variables());
+      parts.push_back({one.name, first, std::move(basis), std::move(links)});
+    }
+}
+
+template <int dim>
+void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigned int n)
+{
+  if (n == 0)
+    return;
+  const auto &bounds = parameters.bounds;
+  if (bounds.size() != 2 || !std::isfinite(bounds[0]) || !std::isfinite(bounds[1]) ||
+      bounds[0] >= bounds[1])
+    throw bad_entry(parameters.path("Bounds"), listed(bounds),
+                    "must be two numbers, the lower one first");
+  auto start = parameters.initial;
+  if (start.empty())
+    start = {0.};
+  if (start.size() == 1)
+    start.resize(n, start.front());
+  if (start.size() != n)
+    throw bad_entry(parameters.path("Initial"), listed(start),
+                    "must have 1 number or " + std::to_string(n) +
+                      " numbers separated by commas, one per variable");
+  for (const double value : start)
+    if (!(value >= bounds[0] && value <= bounds[1]))
+      throw bad_entry(parameters.path("Initial"), listed(parameters.initial),
+                      "must lie within the bounds " + listed(bounds));
+  lower.insert(lower.end(), n, bounds[0]);
+  upper.insert(upper.end(), n, bounds[1]);
+  initial.insert(initial.end(), start.begin(), start.end());
+}
+
+template <int dim>
+unsigned int Shapes<dim>::n_variables() const
+{
+  return lower.size();
+}
+
+template <int dim>
+std::vector<double> Shapes<dim>::expanded(const Part &part, const std::vector<double> &alpha)
+{
+  const auto first = alpha.begin() + part.first;
+  return part.links.expand({first, first + part.links.n_variables()});
+}
+
+template <int dim>
+typename Shapes<dim>::Field Shapes<dim>::apply(const std::vector<double> &alpha) const
+{
+  AssertDimension(alpha.size(), n_variables());
+  Field result(mesh.n_local_nodes());
+  for (const Part &part : parts)
+    {
+      const Field moves = part.basis->apply(expanded(part, alpha));
+      for (unsigned int node = 0; node < result.size(); ++node)
+        result[node] += moves[node];
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<double> Shapes<dim>::transpose(const Field &gradient) const
+{
+  std::vector<double> result;
+  for (const Part &part : parts)
+    {
+      const auto values = part.links.collect(part.basis->transpose(gradient));
+      result.insert(result.end(), values.begin(), values.end());
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>> Shapes<dim>::faces() const
+{
+  std::vector<std::pair<unsigned int, unsigned int>> result;
+  for (const Part &part : parts)
+    for (const auto &face : part.basis->faces())
+      result.push_back(face);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+template <int dim>
+const std::vector<double> &Shapes<dim>::lower_bounds() const
+{
+  return lower;
+}
+
+template <int dim>
+const std::vector<double> &Shapes<dim>::upper_bounds() const
+{
+  return upper;
+}
+
+template <int dim>
+const std::vector<double> &Shapes<dim>::start() const
+{
+  return initial;
+}
+
+template <int dim>
+std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<double> &alpha) const
+{
+  AssertDimension(alpha.size(), n_variables());
+  std::vector<MovedPoint<dim>> points;
+  for (const Part &part : parts)
+    {
+      const auto         controls = part.basis->controls();
+      const auto         values   = expanded(part, alpha);
+      const unsigned int first    = points.size();
+      for (unsigned int i = 0; i < controls.size(); ++i)
         {
-          auto basis =
-            choose(shape_basis_table<dim>(), one.basis).make(mesh, bodies, one);
-          const unsigned int first = lower.size();
-          Links              links = make_links(*basis, one);
-          add_variables(one, links.n_variables());
-          parts.push_back(
-            {one.name, first, std::move(basis), std::move(links)});
+          const auto &control = controls[i];
+          // several variables may move one point
+          if (first + control.point == points.size())
+            points.push_back({part.name, control.point, control.position, {}});
+          auto      &point = points[first + control.point];
+          const auto move  = values[i] * control.direction;
+          point.position += move;
+          point.move += move;
         }
     }
+  return points;
+}
 
-    template <int dim>
-    void
-    Shapes<dim>::add_variables(const ShapeParameters &parameters,
-                               const unsigned int     n)
-    {
-      if (n == 0)
-        return;
-      const auto &bounds = parameters.bounds;
-      if (bounds.size() != 2 || !std::isfinite(bounds[0]) ||
-          !std::isfinite(bounds[1]) || bounds[0] >= bounds[1])
-        throw bad_entry(parameters.path("Bounds"),
-                        listed(bounds),
-                        "must be two numbers, the lower one first");
-      auto start = parameters.initial;
-      if (start.empty())
-        start = {0.};
-      if (start.size() == 1)
-        start.resize(n, start.front());
-      if (start.size() != n)
-        throw bad_entry(parameters.path("Initial"),
-                        listed(start),
-                        "must have 1 number or " + std::to_string(n) +
-                          " numbers separated by commas, one per variable");
-      for (const double value : start)
-        if (!(value >= bounds[0] && value <= bounds[1]))
-          throw bad_entry(parameters.path("Initial"),
-                          listed(parameters.initial),
-                          "must lie within the bounds " + listed(bounds));
-      lower.insert(lower.end(), n, bounds[0]);
-      upper.insert(upper.end(), n, bounds[1]);
-      initial.insert(initial.end(), start.begin(), start.end());
-    }
-
-    template <int dim>
-    unsigned int
-    Shapes<dim>::n_variables() const
-    {
-      return lower.size();
-    }
-
-    template <int dim>
-    std::vector<double>
-    Shapes<dim>::expanded(const Part &part, const std::vector<double> &alpha)
-    {
-      const auto first = alpha.begin() + part.first;
-      return part.links.expand({first, first + part.links.n_variables()});
-    }
-
-    template <int dim>
-    typename Shapes<dim>::Field
-    Shapes<dim>::apply(const std::vector<double> &alpha) const
-    {
-      AssertDimension(alpha.size(), n_variables());
-      Field result(mesh.n_local_nodes());
-      for (const Part &part : parts)
-        {
-          const Field moves = part.basis->apply(expanded(part, alpha));
-          for (unsigned int node = 0; node < result.size(); ++node)
-            result[node] += moves[node];
-        }
-      return result;
-    }
-
-    template <int dim>
-    std::vector<double>
-    Shapes<dim>::transpose(const Field &gradient) const
-    {
-      std::vector<double> result;
-      for (const Part &part : parts)
-        {
-          const auto values =
-            part.links.collect(part.basis->transpose(gradient));
-          result.insert(result.end(), values.begin(), values.end());
-        }
-      return result;
-    }
-
-    template <int dim>
-    std::vector<std::pair<unsigned int, unsigned int>>
-    Shapes<dim>::faces() const
-    {
-      std::vector<std::pair<unsigned int, unsigned int>> result;
-      for (const Part &part : parts)
-        for (const auto &face : part.basis->faces())
-          result.push_back(face);
-      std::sort(result.begin(), result.end());
-      result.erase(std::unique(result.begin(), result.end()), result.end());
-      return result;
-    }
-
-    template <int dim>
-    const std::vector<double> &
-    Shapes<dim>::lower_bounds() const
-    {
-      return lower;
-    }
-
-    template <int dim>
-    const std::vector<double> &
-    Shapes<dim>::upper_bounds() const
-    {
-      return upper;
-    }
-
-    template <int dim>
-    const std::vector<double> &
-    Shapes<dim>::start() const
-    {
-      return initial;
-    }
-
-    template <int dim>
-    std::vector<MovedPoint<dim>>
-    Shapes<dim>::control_points(const std::vector<double> &alpha) const
-    {
-      AssertDimension(alpha.size(), n_variables());
-      std::vector<MovedPoint<dim>> points;
-      for (const Part &part : parts)
-        {
-          const auto         controls = part.basis->controls();
-          const auto         values   = expanded(part, alpha);
-          const unsigned int first    = points.size();
-          for (unsigned int i = 0; i < controls.size(); ++i)
-            {
-              const auto &control = controls[i];
-              // several variables may move one point
-              if (first + control.point == points.size())
-                points.push_back(
-                  {part.name, control.point, control.position, {}});
-              auto      &point = points[first + control.point];
-              const auto move  = values[i] * control.direction;
-              point.position += move;
-              point.move += move;
-            }
-        }
-      return points;
-    }
-
-    template class Shapes<2>;
-    template class Shapes<3>;
-  } // namespace shape
-} // namespace snug
+template class Shapes<2>;
+template class Shapes<3>;
+} // namespace snug::shape

@@ -4,141 +4,125 @@
 
 #include <algorithm>
 
-namespace snug
+namespace snug::shape {
+Spline::Spline(const unsigned int n, const unsigned int degree)
+  : size(n), degree(degree), knots(degree + 1, 0.)
 {
-  namespace shape
-  {
-    Spline::Spline(const unsigned int n, const unsigned int degree)
-      : size(n), degree(degree), knots(degree + 1, 0.)
-    {
-      Assert(degree < n, dealii::ExcMessage("A spline needs more points."));
-      const unsigned int n_spans = n - degree;
-      for (unsigned int i = 1; i < n_spans; ++i)
-        knots.push_back(double(i) / n_spans);
-      knots.insert(knots.end(), degree + 1, 1.);
-    }
+  Assert(degree < n, dealii::ExcMessage("A spline needs more points."));
+  const unsigned int n_spans = n - degree;
+  for (unsigned int i = 1; i < n_spans; ++i)
+    knots.push_back(double(i) / n_spans);
+  knots.insert(knots.end(), degree + 1, 1.);
+}
 
-    unsigned int
-    Spline::n() const
-    {
-      return size;
-    }
+unsigned int Spline::n() const
+{
+  return size;
+}
 
-    std::pair<unsigned int, std::vector<double>>
-    Spline::values(const double s) const
+std::pair<unsigned int, std::vector<double>> Spline::values(const double s) const
+{
+  // The span knots[span] <= s < knots[span + 1]; the last one holds 1.
+  const unsigned int span =
+    std::upper_bound(knots.begin() + degree, knots.begin() + size, s) - knots.begin() - 1;
+  std::vector<double> values(degree + 1, 0.);
+  values[0] = 1.;
+  for (unsigned int p = 1; p <= degree; ++p)
     {
-      // The span knots[span] <= s < knots[span + 1]; the last one holds 1.
-      const unsigned int span =
-        std::upper_bound(knots.begin() + degree, knots.begin() + size, s) -
-        knots.begin() - 1;
-      std::vector<double> values(degree + 1, 0.);
-      values[0] = 1.;
-      for (unsigned int p = 1; p <= degree; ++p)
+      double saved = 0.;
+      for (unsigned int r = 0; r < p; ++r)
         {
-          double saved = 0.;
-          for (unsigned int r = 0; r < p; ++r)
-            {
-              const double left  = knots[span + 1 + r - p];
-              const double right = knots[span + 1 + r];
-              const double part  = values[r] / (right - left);
-              values[r]          = saved + (right - s) * part;
-              saved              = (s - left) * part;
-            }
-          values[p] = saved;
+          const double left  = knots[span + 1 + r - p];
+          const double right = knots[span + 1 + r];
+          const double part  = values[r] / (right - left);
+          values[r]          = saved + (right - s) * part;
+          saved              = (s - left) * part;
         }
-      return {span - degree, values};
+      values[p] = saved;
     }
+  return {span - degree, values};
+}
 
-    double
-    Spline::greville(const unsigned int i) const
-    {
-      if (degree == 0)
-        return (knots[i] + knots[i + 1]) / 2.;
-      double sum = 0.;
-      for (unsigned int k = 1; k <= degree; ++k)
-        sum += knots[i + k];
-      return sum / degree;
-    }
+double Spline::greville(const unsigned int i) const
+{
+  if (degree == 0)
+    return (knots[i] + knots[i + 1]) / 2.;
+  double sum = 0.;
+  for (unsigned int k = 1; k <= degree; ++k)
+    sum += knots[i + k];
+  return sum / degree;
+}
 
-    SplineNet::SplineNet(const std::vector<unsigned int> &n,
-                         const unsigned int               degree)
-    {
-      for (const unsigned int points : n)
-        axes.emplace_back(points, degree == 0 ? points - 1 : degree);
-    }
+SplineNet::SplineNet(const std::vector<unsigned int> &n, const unsigned int degree)
+{
+  for (const unsigned int points : n)
+    axes.emplace_back(points, degree == 0 ? points - 1 : degree);
+}
 
-    unsigned int
-    SplineNet::n_axes() const
-    {
-      return axes.size();
-    }
+unsigned int SplineNet::n_axes() const
+{
+  return axes.size();
+}
 
-    unsigned int
-    SplineNet::n_points() const
-    {
-      unsigned int product = 1;
-      for (const Spline &axis : axes)
-        product *= axis.n();
-      return product;
-    }
+unsigned int SplineNet::n_points() const
+{
+  unsigned int product = 1;
+  for (const Spline &axis : axes)
+    product *= axis.n();
+  return product;
+}
 
-    std::vector<std::pair<unsigned int, double>>
-    SplineNet::values(const std::vector<double> &s) const
+std::vector<std::pair<unsigned int, double>> SplineNet::values(const std::vector<double> &s) const
+{
+  AssertDimension(s.size(), n_axes());
+  std::vector<std::pair<unsigned int, double>> products = {{0, 1.}};
+  unsigned int                                 stride   = 1;
+  for (unsigned int axis = 0; axis < n_axes(); ++axis)
     {
-      AssertDimension(s.size(), n_axes());
-      std::vector<std::pair<unsigned int, double>> products = {{0, 1.}};
-      unsigned int                                 stride   = 1;
-      for (unsigned int axis = 0; axis < n_axes(); ++axis)
-        {
-          const auto along = axes[axis].values(s[axis]);
-          std::vector<std::pair<unsigned int, double>> longer;
-          for (unsigned int k = 0; k < along.second.size(); ++k)
-            for (const auto &product : products)
-              longer.emplace_back(product.first + stride * (along.first + k),
-                                  product.second * along.second[k]);
-          products = longer;
-          stride *= axes[axis].n();
-        }
-      return products;
+      const auto                                   along = axes[axis].values(s[axis]);
+      std::vector<std::pair<unsigned int, double>> longer;
+      for (unsigned int k = 0; k < along.second.size(); ++k)
+        for (const auto &product : products)
+          longer.emplace_back(product.first + stride * (along.first + k),
+                              product.second * along.second[k]);
+      products = longer;
+      stride *= axes[axis].n();
     }
+  return products;
+}
 
-    std::vector<unsigned int>
-    SplineNet::indices(unsigned int i) const
+std::vector<unsigned int> SplineNet::indices(unsigned int i) const
+{
+  std::vector<unsigned int> result;
+  for (const Spline &axis : axes)
     {
-      std::vector<unsigned int> result;
-      for (const Spline &axis : axes)
-        {
-          result.push_back(i % axis.n());
-          i /= axis.n();
-        }
-      return result;
+      result.push_back(i % axis.n());
+      i /= axis.n();
     }
+  return result;
+}
 
-    std::vector<double>
-    SplineNet::greville(const unsigned int i) const
-    {
-      const auto          at = indices(i);
-      std::vector<double> result;
-      for (unsigned int axis = 0; axis < n_axes(); ++axis)
-        result.push_back(axes[axis].greville(at[axis]));
-      return result;
-    }
+std::vector<double> SplineNet::greville(const unsigned int i) const
+{
+  const auto          at = indices(i);
+  std::vector<double> result;
+  for (unsigned int axis = 0; axis < n_axes(); ++axis)
+    result.push_back(axes[axis].greville(at[axis]));
+  return result;
+}
 
-    bool
-    SplineNet::on_border(const unsigned int i) const
-    {
-      for (unsigned int axis = 0; axis < n_axes(); ++axis)
-        if (on_side(i, axis, 0) || on_side(i, axis, 1))
-          return true;
-      return false;
-    }
+bool SplineNet::on_border(const unsigned int i) const
+{
+  for (unsigned int axis = 0; axis < n_axes(); ++axis)
+    if (on_side(i, axis, 0) || on_side(i, axis, 1))
+      return true;
+  return false;
+}
 
-    bool
-    SplineNet::on_side(const unsigned int i,
-                       const unsigned int axis,
-                       const unsigned int side) const
-    {
-      return indices(i)[axis] == (side == 0 ? 0 : axes[axis].n() - 1);
-    }
-  } // namespace shape
-} // namespace snug
+bool SplineNet::on_side(const unsigned int i,
+                        const unsigned int axis,
+                        const unsigned int side) const
+{
+  return indices(i)[axis] == (side == 0 ? 0 : axes[axis].n() - 1);
+}
+} // namespace snug::shape

@@ -5,384 +5,321 @@
 #include <array>
 #include <cmath>
 
-namespace snug
+namespace snug::state {
+template <int dim>
+Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
+                          const mesh::Subdomain           &subdomain,
+                          const Model<dim>                &model,
+                          const elasticity::Element<dim>  &element,
+                          const elasticity::FaceLoad<dim> &face_load)
+  : mesh(mesh), subdomain(subdomain), model(model), the_element(element), face_load(face_load)
 {
-  namespace state
-  {
-    template <int dim>
-    Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
-                              const mesh::Subdomain           &subdomain,
-                              const Model<dim>                &model,
-                              const elasticity::Element<dim>  &element,
-                              const elasticity::FaceLoad<dim> &face_load)
-      : mesh(mesh)
-      , subdomain(subdomain)
-      , model(model)
-      , the_element(element)
-      , face_load(face_load)
+  for (const unsigned int cell : subdomain.cells)
+    cell_reach.emplace_back(mesh, subdomain, mesh.cells()[cell].nodes);
+  std::vector<unsigned int> cells = subdomain.cells;
+  std::sort(cells.begin(), cells.end());
+  for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
     {
-      for (const unsigned int cell : subdomain.cells)
-        cell_reach.emplace_back(mesh, subdomain, mesh.cells()[cell].nodes);
-      std::vector<unsigned int> cells = subdomain.cells;
-      std::sort(cells.begin(), cells.end());
-      for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
+      const auto &face      = mesh.boundary_faces()[f];
+      const auto  is_loaded = [&](const LoadCase<dim> &load_case) {
+        return load_case.bodies[subdomain.body].boundaries.count(face.boundary) == 1;
+      };
+      if (std::binary_search(cells.begin(), cells.end(), face.cell) &&
+          std::any_of(model.load_cases.begin(), model.load_cases.end(), is_loaded))
         {
-          const auto &face      = mesh.boundary_faces()[f];
-          const auto  is_loaded = [&](const LoadCase<dim> &load_case) {
-            return load_case.bodies[subdomain.body].boundaries.count(
-                     face.boundary) == 1;
-          };
-          if (std::binary_search(cells.begin(), cells.end(), face.cell) &&
-              std::any_of(model.load_cases.begin(),
-                          model.load_cases.end(),
-                          is_loaded))
-            {
-              faces.push_back(f);
-              face_reach.emplace_back(mesh, subdomain, face.nodes);
-            }
-        }
-      build_pattern();
-    }
-
-    template <int dim>
-    void
-    Assembler<dim>::build_pattern()
-    {
-      node_neighbours.resize(subdomain.nodes.size());
-      for (const NodeReach<dim> &cell : cell_reach)
-        for (const unsigned int a : cell.slots())
-          node_neighbours[a].insert(node_neighbours[a].end(),
-                                    cell.slots().begin(),
-                                    cell.slots().end());
-      for (auto &neighbours : node_neighbours)
-        {
-          std::sort(neighbours.begin(), neighbours.end());
-          neighbours.erase(std::unique(neighbours.begin(), neighbours.end()),
-                           neighbours.end());
-        }
-      for (const NodeReach<dim> &cell : cell_reach)
-        {
-          places.emplace_back();
-          for (const unsigned int a : cell.slots())
-            for (const unsigned int b : cell.slots())
-              places.back().push_back(
-                std::lower_bound(node_neighbours[a].begin(),
-                                 node_neighbours[a].end(),
-                                 b) -
-                node_neighbours[a].begin());
+          faces.push_back(f);
+          face_reach.emplace_back(mesh, subdomain, face.nodes);
         }
     }
+  build_pattern();
+}
 
-    template <int dim>
-    unsigned int
-    Assembler<dim>::n_dofs() const
+template <int dim>
+void Assembler<dim>::build_pattern()
+{
+  node_neighbours.resize(subdomain.nodes.size());
+  for (const NodeReach<dim> &cell : cell_reach)
+    for (const unsigned int a : cell.slots())
+      node_neighbours[a].insert(node_neighbours[a].end(), cell.slots().begin(), cell.slots().end());
+  for (auto &neighbours : node_neighbours)
     {
-      return dim * subdomain.nodes.size();
+      std::sort(neighbours.begin(), neighbours.end());
+      neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     }
-
-    template <int dim>
-    feti::CsrMatrix
-    Assembler<dim>::sparsity() const
+  for (const NodeReach<dim> &cell : cell_reach)
     {
-      std::vector<std::vector<PetscInt>> rows;
-      for (const auto &neighbours : node_neighbours)
+      places.emplace_back();
+      for (const unsigned int a : cell.slots())
+        for (const unsigned int b : cell.slots())
+          places.back().push_back(
+            std::lower_bound(node_neighbours[a].begin(), node_neighbours[a].end(), b) -
+            node_neighbours[a].begin());
+    }
+}
+
+template <int dim>
+unsigned int Assembler<dim>::n_dofs() const
+{
+  return dim * subdomain.nodes.size();
+}
+
+template <int dim>
+feti::CsrMatrix Assembler<dim>::sparsity() const
+{
+  std::vector<std::vector<PetscInt>> rows;
+  for (const auto &neighbours : node_neighbours)
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        rows.emplace_back();
+        for (const unsigned int b : neighbours)
+          for (unsigned int d = 0; d < dim; ++d)
+            rows.back().push_back(dim * b + d);
+      }
+  return feti::CsrMatrix::from_rows(rows, n_dofs());
+}
+
+template <int dim>
+void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
+{
+  std::fill(K.values.begin(), K.values.end(), 0.);
+  std::vector<double> cell_matrix;
+  for (unsigned int i = 0; i < cell_reach.size(); ++i)
+    {
+      const NodeReach<dim> &cell = cell_reach[i];
+      the_element.stiffness(cell_field(i, positions), material(i), cell_matrix);
+      const unsigned int m = cell.slots().size();
+      cell.condense(cell_matrix);
+      for (unsigned int a = 0; a < m; ++a)
         for (unsigned int c = 0; c < dim; ++c)
           {
-            rows.emplace_back();
-            for (const unsigned int b : neighbours)
+            double             *row   = K.values.data() + K.row_start[dim * cell.slots()[a] + c];
+            const double       *from  = cell_matrix.data() + std::size_t(a * dim + c) * m * dim;
+            const unsigned int *place = places[i].data() + a * m;
+            for (unsigned int b = 0; b < m; ++b)
               for (unsigned int d = 0; d < dim; ++d)
-                rows.back().push_back(dim * b + d);
+                row[dim * place[b] + d] += from[b * dim + d];
           }
-      return feti::CsrMatrix::from_rows(rows, n_dofs());
     }
+}
 
-    template <int dim>
-    void
-    Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
+template <int dim>
+std::vector<double> Assembler<dim>::load(const Field     &positions,
+                                         unsigned int     load_case,
+                                         const Tractions &tractions) const
+{
+  std::vector<double> f(n_dofs(), 0.);
+  Nodes               r;
+  if (has_body_force(load_case))
+    for (unsigned int i = 0; i < cell_reach.size(); ++i)
+      {
+        the_element.body_force(cell_field(i, positions), body_force(i, load_case), r);
+        add_cell_vector(i, 1., r, f.data());
+      }
+  for (unsigned int i = 0; i < faces.size(); ++i)
     {
-      std::fill(K.values.begin(), K.values.end(), 0.);
-      std::vector<double> cell_matrix;
-      for (unsigned int i = 0; i < cell_reach.size(); ++i)
-        {
-          const NodeReach<dim> &cell = cell_reach[i];
-          the_element.stiffness(cell_field(i, positions),
-                                material(i),
-                                cell_matrix);
-          const unsigned int m = cell.slots().size();
-          cell.condense(cell_matrix);
-          for (unsigned int a = 0; a < m; ++a)
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                double *row =
-                  K.values.data() + K.row_start[dim * cell.slots()[a] + c];
-                const double *from =
-                  cell_matrix.data() + std::size_t(a * dim + c) * m * dim;
-                const unsigned int *place = places[i].data() + a * m;
-                for (unsigned int b = 0; b < m; ++b)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    row[dim * place[b] + d] += from[b * dim + d];
-              }
-        }
+      face_load.force(face_field(i, positions), face_load_values(i, load_case, tractions), r);
+      add_face_vector(i, 1., r, f.data());
     }
+  return f;
+}
 
-    template <int dim>
-    std::vector<double>
-    Assembler<dim>::load(const Field     &positions,
-                         unsigned int     load_case,
-                         const Tractions &tractions) const
+template <int dim>
+void Assembler<dim>::rigid_modes(const Field                  &positions,
+                                 const dealii::Tensor<1, dim> &centre,
+                                 double                        length,
+                                 qp::MultiVector              &R,
+                                 qp::MultiVector              &Z) const
+{
+  Nodes                  x;
+  dealii::Tensor<1, dim> mean;
+  for (const unsigned int node : subdomain.nodes)
     {
-      std::vector<double> f(n_dofs(), 0.);
-      Nodes               r;
-      if (has_body_force(load_case))
-        for (unsigned int i = 0; i < cell_reach.size(); ++i)
-          {
-            the_element.body_force(cell_field(i, positions),
-                                   body_force(i, load_case),
-                                   r);
-            add_cell_vector(i, 1., r, f.data());
-          }
-      for (unsigned int i = 0; i < faces.size(); ++i)
-        {
-          face_load.force(face_field(i, positions),
-                          face_load_values(i, load_case, tractions),
-                          r);
-          add_face_vector(i, 1., r, f.data());
-        }
-      return f;
+      x.push_back(positions[node]);
+      mean += positions[node] / double(subdomain.nodes.size());
     }
+  double radius = 0.;
+  for (const auto &point : x)
+    radius = std::max(radius, (point - mean).norm());
+  R = rigid_motions<dim>(mesh.idealization(), x, mean, radius);
+  orthonormalise(R);
+  const auto whole = rigid_motions<dim>(mesh.idealization(), x, centre, length);
+  Z                = qp::inner_products(R, whole, MPI_COMM_SELF);
+}
 
-    template <int dim>
-    void
-    Assembler<dim>::rigid_modes(const Field                  &positions,
-                                const dealii::Tensor<1, dim> &centre,
-                                double                        length,
-                                qp::MultiVector              &R,
-                                qp::MultiVector              &Z) const
+template <int dim>
+std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) const
+{
+  const unsigned int     n_fixing = dim == 2 ? 4 : 6;
+  const unsigned int     first    = mesh.idealization().is_axisymmetric() ? 1 : 0;
+  const unsigned int     n        = subdomain.nodes.size();
+  dealii::Tensor<1, dim> mean;
+  for (const unsigned int node : subdomain.nodes)
+    mean += positions[node] / double(n);
+  std::vector<double> distance(n);
+  for (unsigned int a = 0; a < n; ++a)
+    distance[a] = (positions[subdomain.nodes[a]] - mean).norm();
+  std::vector<unsigned int> dofs;
+  for (unsigned int k = 0; k < std::min(n_fixing, n); ++k)
     {
-      Nodes                  x;
-      dealii::Tensor<1, dim> mean;
-      for (const unsigned int node : subdomain.nodes)
-        {
-          x.push_back(positions[node]);
-          mean += positions[node] / double(subdomain.nodes.size());
-        }
-      double radius = 0.;
-      for (const auto &point : x)
-        radius = std::max(radius, (point - mean).norm());
-      R = rigid_motions<dim>(mesh.idealization(), x, mean, radius);
-      orthonormalise(R);
-      const auto whole =
-        rigid_motions<dim>(mesh.idealization(), x, centre, length);
-      Z = qp::inner_products(R, whole, MPI_COMM_SELF);
-    }
-
-    template <int dim>
-    std::vector<unsigned int>
-    Assembler<dim>::fixing_dofs(const Field &positions) const
-    {
-      const unsigned int n_fixing = dim == 2 ? 4 : 6;
-      const unsigned int first = mesh.idealization().is_axisymmetric() ? 1 : 0;
-      const unsigned int n     = subdomain.nodes.size();
-      dealii::Tensor<1, dim> mean;
-      for (const unsigned int node : subdomain.nodes)
-        mean += positions[node] / double(n);
-      std::vector<double> distance(n);
+      const unsigned int farthest =
+        std::max_element(distance.begin(), distance.end()) - distance.begin();
+      for (unsigned int c = first; c < dim; ++c)
+        dofs.push_back(dim * farthest + c);
       for (unsigned int a = 0; a < n; ++a)
-        distance[a] = (positions[subdomain.nodes[a]] - mean).norm();
-      std::vector<unsigned int> dofs;
-      for (unsigned int k = 0; k < std::min(n_fixing, n); ++k)
         {
-          const unsigned int farthest =
-            std::max_element(distance.begin(), distance.end()) -
-            distance.begin();
-          for (unsigned int c = first; c < dim; ++c)
-            dofs.push_back(dim * farthest + c);
-          for (unsigned int a = 0; a < n; ++a)
-            {
-              const double d = (positions[subdomain.nodes[a]] -
-                                positions[subdomain.nodes[farthest]])
-                                 .norm();
-              distance[a] = k == 0 ? d : std::min(distance[a], d);
-            }
+          const double d =
+            (positions[subdomain.nodes[a]] - positions[subdomain.nodes[farthest]]).norm();
+          distance[a] = k == 0 ? d : std::min(distance[a], d);
         }
-      std::sort(dofs.begin(), dofs.end());
-      return dofs;
     }
+  std::sort(dofs.begin(), dofs.end());
+  return dofs;
+}
 
-    template <int dim>
-    const std::vector<unsigned int> &
-    Assembler<dim>::cells() const
+template <int dim>
+const std::vector<unsigned int> &Assembler<dim>::cells() const
+{
+  return subdomain.cells;
+}
+
+template <int dim>
+const std::vector<unsigned int> &Assembler<dim>::loaded_faces() const
+{
+  return faces;
+}
+
+template <int dim>
+typename Assembler<dim>::Nodes Assembler<dim>::cell_field(unsigned int i, const Field &field) const
+{
+  Nodes result;
+  for (const unsigned int node : mesh.cells()[subdomain.cells[i]].nodes)
+    result.push_back(field[node]);
+  return result;
+}
+
+template <int dim>
+typename Assembler<dim>::Nodes Assembler<dim>::face_field(unsigned int i, const Field &field) const
+{
+  Nodes result;
+  for (const unsigned int node : mesh.boundary_faces()[faces[i]].nodes)
+    result.push_back(field[node]);
+  return result;
+}
+
+template <int dim>
+typename Assembler<dim>::Nodes Assembler<dim>::cell_values(unsigned int i, const double *u) const
+{
+  return cell_reach[i].values(u);
+}
+
+template <int dim>
+void Assembler<dim>::add_cell_vector(unsigned int i, double factor, const Nodes &r, double *u) const
+{
+  cell_reach[i].add(factor, r, u);
+}
+
+template <int dim>
+typename Assembler<dim>::Nodes Assembler<dim>::face_values(unsigned int i, const double *u) const
+{
+  return face_reach[i].values(u);
+}
+
+template <int dim>
+void Assembler<dim>::add_face_vector(unsigned int i, double factor, const Nodes &r, double *u) const
+{
+  face_reach[i].add(factor, r, u);
+}
+
+template <int dim>
+const BodyLoads<dim> &Assembler<dim>::loads(unsigned int load_case) const
+{
+  return model.load_cases[load_case].bodies[subdomain.body];
+}
+
+template <int dim>
+const BoundaryLoad<dim> *Assembler<dim>::boundary_load(unsigned int i, unsigned int load_case) const
+{
+  const auto &boundaries = loads(load_case).boundaries;
+  const auto  found      = boundaries.find(mesh.boundary_faces()[faces[i]].boundary);
+  return found == boundaries.end() ? nullptr : &found->second;
+}
+
+template <int dim>
+elasticity::FaceLoadValues<dim> Assembler<dim>::face_load_values(unsigned int     i,
+                                                                 unsigned int     load_case,
+                                                                 const Tractions &tractions) const
+{
+  elasticity::FaceLoadValues<dim> values;
+  const auto                     *load = boundary_load(i, load_case);
+  if (load == nullptr)
+    return values;
+  const auto reference = face_load.quadrature_points(face_field(i, mesh.reference_positions()));
+  for (const auto &x : reference)
     {
-      return subdomain.cells;
+      if (load->pressure)
+        values.pressure.push_back(load->pressure(dealii::Point<dim>(x)));
+      if (load->traction)
+        values.traction.push_back(load->traction(dealii::Point<dim>(x)));
     }
+  values.linear = linear_traction(i, load_case, tractions);
+  return values;
+}
 
-    template <int dim>
-    const std::vector<unsigned int> &
-    Assembler<dim>::loaded_faces() const
-    {
-      return faces;
-    }
+template <int dim>
+elasticity::LinearTraction<dim> Assembler<dim>::linear_traction(unsigned int     i,
+                                                                unsigned int     load_case,
+                                                                const Tractions &tractions) const
+{
+  const auto &face  = mesh.boundary_faces()[faces[i]];
+  const auto  found = tractions[load_case].find({face.body, face.boundary});
+  return found == tractions[load_case].end() ? elasticity::LinearTraction<dim>() : found->second;
+}
 
-    template <int dim>
-    typename Assembler<dim>::Nodes
-    Assembler<dim>::cell_field(unsigned int i, const Field &field) const
-    {
-      Nodes result;
-      for (const unsigned int node : mesh.cells()[subdomain.cells[i]].nodes)
-        result.push_back(field[node]);
-      return result;
-    }
+template <int dim>
+bool Assembler<dim>::has_resultants() const
+{
+  for (unsigned int c = 0; c < model.load_cases.size(); ++c)
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      {
+        const auto *load = boundary_load(i, c);
+        if (load != nullptr && load->has_resultant())
+          return true;
+      }
+  return false;
+}
 
-    template <int dim>
-    typename Assembler<dim>::Nodes
-    Assembler<dim>::face_field(unsigned int i, const Field &field) const
-    {
-      Nodes result;
-      for (const unsigned int node : mesh.boundary_faces()[faces[i]].nodes)
-        result.push_back(field[node]);
-      return result;
-    }
+template <int dim>
+bool Assembler<dim>::has_body_force(unsigned int load_case) const
+{
+  return loads(load_case).body_force || loads(load_case).gravity.norm() > 0.;
+}
 
-    template <int dim>
-    typename Assembler<dim>::Nodes
-    Assembler<dim>::cell_values(unsigned int i, const double *u) const
-    {
-      return cell_reach[i].values(u);
-    }
+template <int dim>
+typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
+                                                          unsigned int load_case) const
+{
+  const auto &of_body = loads(load_case);
+  Nodes       b(the_element.n_nodes(), material(i).density * of_body.gravity);
+  if (!of_body.body_force)
+    return b;
+  const auto reference = the_element.quadrature_points(cell_field(i, mesh.reference_positions()));
+  for (unsigned int q = 0; q < b.size(); ++q)
+    b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));
+  return b;
+}
 
-    template <int dim>
-    void
-    Assembler<dim>::add_cell_vector(unsigned int i,
-                                    double       factor,
-                                    const Nodes &r,
-                                    double      *u) const
-    {
-      cell_reach[i].add(factor, r, u);
-    }
+template <int dim>
+const elasticity::Material &Assembler<dim>::material(unsigned int i) const
+{
+  return model.bodies[subdomain.body].material(mesh.cells()[subdomain.cells[i]]);
+}
 
-    template <int dim>
-    typename Assembler<dim>::Nodes
-    Assembler<dim>::face_values(unsigned int i, const double *u) const
-    {
-      return face_reach[i].values(u);
-    }
+template <int dim>
+const elasticity::Element<dim> &Assembler<dim>::element() const
+{
+  return the_element;
+}
 
-    template <int dim>
-    void
-    Assembler<dim>::add_face_vector(unsigned int i,
-                                    double       factor,
-                                    const Nodes &r,
-                                    double      *u) const
-    {
-      face_reach[i].add(factor, r, u);
-    }
-
-    template <int dim>
-    const BodyLoads<dim> &
-    Assembler<dim>::loads(unsigned int load_case) const
-    {
-      return model.load_cases[load_case].bodies[subdomain.body];
-    }
-
-    template <int dim>
-    const BoundaryLoad<dim> *
-    Assembler<dim>::boundary_load(unsigned int i, unsigned int load_case) const
-    {
-      const auto &boundaries = loads(load_case).boundaries;
-      const auto  found =
-        boundaries.find(mesh.boundary_faces()[faces[i]].boundary);
-      return found == boundaries.end() ? nullptr : &found->second;
-    }
-
-    template <int dim>
-    elasticity::FaceLoadValues<dim>
-    Assembler<dim>::face_load_values(unsigned int     i,
-                                     unsigned int     load_case,
-                                     const Tractions &tractions) const
-    {
-      elasticity::FaceLoadValues<dim> values;
-      const auto                     *load = boundary_load(i, load_case);
-      if (load == nullptr)
-        return values;
-      const auto reference =
-        face_load.quadrature_points(face_field(i, mesh.reference_positions()));
-      for (const auto &x : reference)
-        {
-          if (load->pressure)
-            values.pressure.push_back(load->pressure(dealii::Point<dim>(x)));
-          if (load->traction)
-            values.traction.push_back(load->traction(dealii::Point<dim>(x)));
-        }
-      values.linear = linear_traction(i, load_case, tractions);
-      return values;
-    }
-
-    template <int dim>
-    elasticity::LinearTraction<dim>
-    Assembler<dim>::linear_traction(unsigned int     i,
-                                    unsigned int     load_case,
-                                    const Tractions &tractions) const
-    {
-      const auto &face  = mesh.boundary_faces()[faces[i]];
-      const auto  found = tractions[load_case].find({face.body, face.boundary});
-      return found == tractions[load_case].end()
-               ? elasticity::LinearTraction<dim>()
-               : found->second;
-    }
-
-    template <int dim>
-    bool
-    Assembler<dim>::has_resultants() const
-    {
-      for (unsigned int c = 0; c < model.load_cases.size(); ++c)
-        for (unsigned int i = 0; i < faces.size(); ++i)
-          {
-            const auto *load = boundary_load(i, c);
-            if (load != nullptr && load->has_resultant())
-              return true;
-          }
-      return false;
-    }
-
-    template <int dim>
-    bool
-    Assembler<dim>::has_body_force(unsigned int load_case) const
-    {
-      return loads(load_case).body_force ||
-             loads(load_case).gravity.norm() > 0.;
-    }
-
-    template <int dim>
-    typename Assembler<dim>::Nodes
-    Assembler<dim>::body_force(unsigned int i, unsigned int load_case) const
-    {
-      const auto &of_body = loads(load_case);
-      Nodes b(the_element.n_nodes(), material(i).density * of_body.gravity);
-      if (!of_body.body_force)
-        return b;
-      const auto reference = the_element.quadrature_points(
-        cell_field(i, mesh.reference_positions()));
-      for (unsigned int q = 0; q < b.size(); ++q)
-        b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));
-      return b;
-    }
-
-    template <int dim>
-    const elasticity::Material &
-    Assembler<dim>::material(unsigned int i) const
-    {
-      return model.bodies[subdomain.body].material(
-        mesh.cells()[subdomain.cells[i]]);
-    }
-
-    template <int dim>
-    const elasticity::Element<dim> &
-    Assembler<dim>::element() const
-    {
-      return the_element;
-    }
-
-    template class Assembler<2>;
-    template class Assembler<3>;
-  } // namespace state
-} // namespace snug
+template class Assembler<2>;
+template class Assembler<3>;
+} // namespace snug::state

@@ -7,148 +7,112 @@
 #include <cmath>
 #include <sstream>
 
-namespace snug
+namespace snug::state {
+namespace {
+/// The matrix G that fits u = u_mean + G (x - x_mean) best at the nodes.
+template <int dim>
+dealii::Tensor<2, dim> fitted_gradient(const std::vector<unsigned int>           &nodes,
+                                       const std::vector<dealii::Tensor<1, dim>> &x,
+                                       const std::vector<dealii::Tensor<1, dim>> &u)
 {
-  namespace state
-  {
-    namespace
+  dealii::Tensor<1, dim> x_mean;
+  for (const unsigned int node : nodes)
+    x_mean += x[node];
+  x_mean /= double(nodes.size());
+  dealii::Tensor<2, dim> xx, ux;
+  for (const unsigned int node : nodes)
     {
-      /// The matrix G that fits u = u_mean + G (x - x_mean) best at the nodes.
-      template <int dim>
-      dealii::Tensor<2, dim>
-      fitted_gradient(const std::vector<unsigned int>           &nodes,
-                      const std::vector<dealii::Tensor<1, dim>> &x,
-                      const std::vector<dealii::Tensor<1, dim>> &u)
+      xx += outer_product(x[node] - x_mean, x[node] - x_mean);
+      ux += outer_product(u[node], x[node] - x_mean);
+    }
+  return ux * invert(xx);
+}
+
+std::string
+line(const std::string &what, double value, const std::string &unit, const std::string &advice)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << what << " up to " << value << unit << advice;
+  return text.str();
+}
+} // namespace
+
+template <int dim>
+Assumptions assess(const StateSolver<dim>               &solver,
+                   const std::vector<contact::Row<dim>> &contact_rows,
+                   const ContactState<dim>              &state)
+{
+  Assumptions result;
+  for (const auto &subdomain : solver.tearing().subdomains)
+    for (const unsigned int cell : subdomain.cells)
       {
-        dealii::Tensor<1, dim> x_mean;
-        for (const unsigned int node : nodes)
-          x_mean += x[node];
-        x_mean /= double(nodes.size());
-        dealii::Tensor<2, dim> xx, ux;
-        for (const unsigned int node : nodes)
-          {
-            xx += outer_product(x[node] - x_mean, x[node] - x_mean);
-            ux += outer_product(u[node], x[node] - x_mean);
-          }
-        return ux * invert(xx);
+        const auto G    = fitted_gradient<dim>(solver.mesh().cells()[cell].nodes, state.positions,
+                                            state.displacement);
+        const auto part = [&](double sign) { return (0.5 * (G + sign * transpose(G))).norm(); };
+        result.strain   = std::max(result.strain, part(1.));
+        result.rotation = std::max(result.rotation, part(-1.) / std::sqrt(2.));
       }
+  const MPI_Comm comm = solver.context().communicator();
+  result.strain       = dealii::Utilities::MPI::max(result.strain, comm);
+  result.rotation     = dealii::Utilities::MPI::max(result.rotation, comm);
 
-      std::string
-      line(const std::string &what,
-           double             value,
-           const std::string &unit,
-           const std::string &advice)
-      {
-        std::ostringstream text;
-        text.precision(2);
-        text << what << " up to " << value << unit << advice;
-        return text.str();
-      }
-    } // namespace
-
-    template <int dim>
-    Assumptions
-    assess(const StateSolver<dim>               &solver,
-           const std::vector<contact::Row<dim>> &contact_rows,
-           const ContactState<dim>              &state)
+  const auto &surface = solver.surface();
+  const auto  x       = surface.gather(state.positions);
+  const auto  slips   = solver.contact().slips(x, contact_rows, surface.gather(state.displacement));
+  const auto  drifts  = solver.contact().drifts(x, contact_rows);
+  for (unsigned int i = 0; i < contact_rows.size(); ++i)
     {
-      Assumptions result;
-      for (const auto &subdomain : solver.tearing().subdomains)
-        for (const unsigned int cell : subdomain.cells)
-          {
-            const auto G =
-              fitted_gradient<dim>(solver.mesh().cells()[cell].nodes,
-                                   state.positions,
-                                   state.displacement);
-            const auto part = [&](double sign) {
-              return (0.5 * (G + sign * transpose(G))).norm();
-            };
-            result.strain = std::max(result.strain, part(1.));
-            result.rotation =
-              std::max(result.rotation, part(-1.) / std::sqrt(2.));
-          }
-      const MPI_Comm comm = solver.context().communicator();
-      result.strain       = dealii::Utilities::MPI::max(result.strain, comm);
-      result.rotation     = dealii::Utilities::MPI::max(result.rotation, comm);
-
-      const auto &surface = solver.surface();
-      const auto  x       = surface.gather(state.positions);
-      const auto  slips =
-        solver.contact().slips(x,
-                               contact_rows,
-                               surface.gather(state.displacement));
-      const auto drifts = solver.contact().drifts(x, contact_rows);
-      for (unsigned int i = 0; i < contact_rows.size(); ++i)
-        {
-          result.drift = std::max(result.drift, drifts[i]);
-          if (state.contact[i].strong)
-            result.slip = std::max(result.slip, slips[i]);
-        }
-      return result;
+      result.drift = std::max(result.drift, drifts[i]);
+      if (state.contact[i].strong)
+        result.slip = std::max(result.slip, slips[i]);
     }
+  return result;
+}
 
-    std::vector<std::string>
-    warnings(const Assumptions &assumptions)
-    {
-      std::vector<std::string> lines;
-      if (assumptions.rotation > large_rotation)
-        lines.push_back(line("cells turn by",
-                             assumptions.rotation,
-                             " rad",
-                             ": small rotations are assumed"));
-      if (assumptions.strain > large_strain)
-        lines.push_back(line(
-          "strains are", assumptions.strain, "", ": small ones are assumed"));
-      if (assumptions.slip > large_slip)
-        lines.push_back(line("active contacts slide by",
-                             assumptions.slip,
-                             " of a face",
-                             ": small sliding is assumed"));
-      if (assumptions.drift > large_drift)
-        lines.push_back(
-          line("the design moved slave nodes off the points they were paired "
-               "with by",
-               assumptions.drift,
-               " of a face",
-               ": see 'Contact/Update pairing'"));
-      return lines;
-    }
+std::vector<std::string> warnings(const Assumptions &assumptions)
+{
+  std::vector<std::string> lines;
+  if (assumptions.rotation > large_rotation)
+    lines.push_back(
+      line("cells turn by", assumptions.rotation, " rad", ": small rotations are assumed"));
+  if (assumptions.strain > large_strain)
+    lines.push_back(line("strains are", assumptions.strain, "", ": small ones are assumed"));
+  if (assumptions.slip > large_slip)
+    lines.push_back(line("active contacts slide by", assumptions.slip, " of a face",
+                         ": small sliding is assumed"));
+  if (assumptions.drift > large_drift)
+    lines.push_back(line("the design moved slave nodes off the points they were paired "
+                         "with by",
+                         assumptions.drift, " of a face", ": see 'Contact/Update pairing'"));
+  return lines;
+}
 
-    void
-    check_overlaps(const std::vector<contact::Pair> &pairs,
-                   const std::vector<double>        &overlaps)
-    {
-      for (unsigned int p = 0; p < pairs.size(); ++p)
-        if (overlaps[p] > absurd_overlap && !pairs[p].parameters.interference)
-          throw bad_entry("Contact/Pairs",
-                          pairs[p].name(),
-                          line("the sides overlap at first by",
-                               overlaps[p],
-                               " faces",
-                               ": if they are the right ones, set the pair's "
-                               "'Interference'"));
-    }
+void check_overlaps(const std::vector<contact::Pair> &pairs, const std::vector<double> &overlaps)
+{
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    if (overlaps[p] > absurd_overlap && !pairs[p].parameters.interference)
+      throw bad_entry("Contact/Pairs", pairs[p].name(),
+                      line("the sides overlap at first by", overlaps[p], " faces",
+                           ": if they are the right ones, set the pair's "
+                           "'Interference'"));
+}
 
-    std::vector<std::string>
-    overlap_warnings(const std::vector<contact::Pair> &pairs,
-                     const std::vector<double>        &overlaps)
-    {
-      std::vector<std::string> lines;
-      for (unsigned int p = 0; p < pairs.size(); ++p)
-        if (overlaps[p] > large_overlap && !pairs[p].parameters.interference)
-          lines.push_back(line("'" + pairs[p].name() + "' overlaps at first by",
-                               overlaps[p],
-                               " of a face",
-                               ": if that is wanted, set its 'Interference'"));
-      return lines;
-    }
+std::vector<std::string> overlap_warnings(const std::vector<contact::Pair> &pairs,
+                                          const std::vector<double>        &overlaps)
+{
+  std::vector<std::string> lines;
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    if (overlaps[p] > large_overlap && !pairs[p].parameters.interference)
+      lines.push_back(line("'" + pairs[p].name() + "' overlaps at first by", overlaps[p],
+                           " of a face", ": if that is wanted, set its 'Interference'"));
+  return lines;
+}
 
-#define SNUG_INSTANTIATE(dim)                                         \
-  template Assumptions assess(const StateSolver<dim> &,               \
-                              const std::vector<contact::Row<dim>> &, \
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template Assumptions assess(const StateSolver<dim> &, const std::vector<contact::Row<dim>> &, \
                               const ContactState<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace state
-} // namespace snug
+} // namespace snug::state

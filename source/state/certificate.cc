@@ -4,210 +4,168 @@
 #include <cmath>
 #include <limits>
 
-namespace snug
+namespace snug::state {
+namespace {
+/// Errors below this part of the terms they are differences of are zero:
+/// where prescribed displacements move a body, nothing else measures
+/// them.
+const double round_off = 16. * std::numeric_limits<double>::epsilon();
+
+/// a / b, 0 for 0 / 0; NaN stays NaN.
+double relative(double a, double b)
 {
-  namespace state
-  {
-    namespace
+  return a == 0. ? 0. : a / b;
+}
+
+/// sum_j |K_ij| |u_j|: what the rounding of (K u)_i is a part of.
+double absolute_product(const feti::CsrMatrix &K, const qp::MultiVector &u, unsigned int i)
+{
+  double sum = 0.;
+  for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
+    sum += std::abs(K.values[p] * u(K.columns[p]));
+  return sum;
+}
+
+/// The worst over bodies of ||Ku - f + B'lambda|| / (||f|| +
+/// ||B'lambda||), zero where it is round-off of K u.
+double equilibrium_error(const feti::TotalFeti     &feti,
+                         const qp::MultiVector     &lambda,
+                         const feti::PrimalVectors &u)
+{
+  const auto          forces   = feti.multiply_Bt(lambda);
+  const unsigned int  n_bodies = feti.n_bodies();
+  std::vector<double> squares(4 * n_bodies, 0.);
+  for (unsigned int s = 0; s < u.size(); ++s)
     {
-      /// Errors below this part of the terms they are differences of are zero:
-      /// where prescribed displacements move a body, nothing else measures
-      /// them.
-      const double round_off = 16. * std::numeric_limits<double>::epsilon();
-
-      /// a / b, 0 for 0 / 0; NaN stays NaN.
-      double
-      relative(double a, double b)
-      {
-        return a == 0. ? 0. : a / b;
-      }
-
-      /// sum_j |K_ij| |u_j|: what the rounding of (K u)_i is a part of.
-      double
-      absolute_product(const feti::CsrMatrix &K,
-                       const qp::MultiVector &u,
-                       unsigned int           i)
-      {
-        double sum = 0.;
-        for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
-          sum += std::abs(K.values[p] * u(K.columns[p]));
-        return sum;
-      }
-
-      /// The worst over bodies of ||Ku - f + B'lambda|| / (||f|| +
-      /// ||B'lambda||), zero where it is round-off of K u.
-      double
-      equilibrium_error(const feti::TotalFeti     &feti,
-                        const qp::MultiVector     &lambda,
-                        const feti::PrimalVectors &u)
-      {
-        const auto          forces   = feti.multiply_Bt(lambda);
-        const unsigned int  n_bodies = feti.n_bodies();
-        std::vector<double> squares(4 * n_bodies, 0.);
-        for (unsigned int s = 0; s < u.size(); ++s)
-          {
-            const auto     &system = feti.subdomains()[s];
-            double         *of     = &squares[4 * system.body];
-            qp::MultiVector r      = forces[s];
-            system.K.multiply_add(1., u[s], r);
-            for (unsigned int i = 0; i < system.n_dofs(); ++i)
-              {
-                const double error = r(i) - system.f[i];
-                of[0] += error * error;
-                of[1] += system.f[i] * system.f[i];
-                of[2] += forces[s](i) * forces[s](i);
-                const double terms = absolute_product(system.K, u[s], i);
-                of[3] += terms * terms;
-              }
-          }
-        MPI_Allreduce(MPI_IN_PLACE,
-                      squares.data(),
-                      squares.size(),
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      feti.context().communicator());
-        double worst = 0.;
-        for (unsigned int body = 0; body < n_bodies; ++body)
-          {
-            const double *of = &squares[4 * body];
-            if (std::sqrt(of[0]) <= round_off * std::sqrt(of[3]))
-              continue;
-            const double error =
-              relative(std::sqrt(of[0]), std::sqrt(of[1]) + std::sqrt(of[2]));
-            worst = error > worst || std::isnan(error) ? error : worst;
-          }
-        return worst;
-      }
-      /// F_ii |lambda_i| of the row with the largest estimate, @p largest, of
-      /// it: exact for that row, so a lower bound of the maximum over rows.
-      double
-      largest_product(const feti::TotalFeti &feti,
-                      const qp::MultiVector &lambda,
-                      double                 largest)
-      {
-        const MPI_Comm comm = feti.context().communicator();
-        int rank = feti.context().rank(), owner = feti.context().n_ranks();
-        unsigned int row = feti.n_owned();
-        for (unsigned int i = 0; i < feti.n_owned(); ++i)
-          if (feti.diagonal()[i] * std::abs(lambda(i)) == largest)
-            row = std::min(row, i);
-        const int candidate = row < feti.n_owned() ? rank : owner;
-        MPI_Allreduce(&candidate, &owner, 1, MPI_INT, MPI_MIN, comm);
-        qp::MultiVector unit(feti.n_owned());
-        if (rank == owner)
-          unit(row) = 1.;
-        const auto column =
-          feti.multiply_B(feti.apply_inverse(feti.multiply_Bt(unit)));
-        double product =
-          rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
-        MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
-        return product;
-      }
-
-      /// w_i <- 0 where it is round-off of B u - g; rows of B have lengths of
-      /// about one, and the coarse problem spreads round-off over all of them.
-      void
-      set_round_off_to_zero(const feti::TotalFeti     &feti,
-                            const feti::PrimalVectors &u,
-                            qp::MultiVector           &w)
-      {
-        double largest[2] = {0., 0.}; // |u|, |g|
-        for (const auto &part : u)
-          for (unsigned int i = 0; i < part.n_rows(); ++i)
-            largest[0] = std::max(largest[0], std::abs(part(i)));
-        for (unsigned int i = 0; i < w.n_rows(); ++i)
-          largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
-        MPI_Allreduce(MPI_IN_PLACE,
-                      largest,
-                      2,
-                      MPI_DOUBLE,
-                      MPI_MAX,
-                      feti.context().communicator());
-        for (unsigned int i = 0; i < w.n_rows(); ++i)
-          if (std::abs(w(i)) <= round_off * (largest[0] + largest[1]))
-            w(i) = 0.;
-      }
-    } // namespace
-
-    double
-    Certificate::worst() const
-    {
-      double worst = 0.;
-      for (const double error : {equilibrium,
-                                 continuity,
-                                 penetration,
-                                 negative_pressure,
-                                 complementarity})
-        if (!(error <= worst))
-          worst = std::isnan(error) ? INFINITY : error;
-      return worst;
-    }
-
-    Certificate
-    certify(const feti::TotalFeti     &feti,
-            const qp::MultiVector     &lambda,
-            const feti::PrimalVectors &u)
-    {
-      auto w = feti.multiply_B(u);
-      w.add(-1., feti.g());
-      set_round_off_to_zero(feti, u, w);
-      // continuity, penetration, most negative and largest contact force,
-      // largest F_ii |lambda_i|
-      double largest[5] = {0., 0., 0., 0., 0.};
-      double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
-      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+      const auto     &system = feti.subdomains()[s];
+      double         *of     = &squares[4 * system.body];
+      qp::MultiVector r      = forces[s];
+      system.K.multiply_add(1., u[s], r);
+      for (unsigned int i = 0; i < system.n_dofs(); ++i)
         {
-          largest[4] =
-            std::max(largest[4], feti.diagonal()[i] * std::abs(lambda(i)));
-          if (!feti.bounded()[i])
-            {
-              largest[0] = std::max(largest[0], std::abs(w(i)));
-              continue;
-            }
-          largest[1] = std::max(largest[1], w(i));
-          largest[2] = std::max(largest[2], -lambda(i));
-          largest[3] = std::max(largest[3], lambda(i));
-          sums[0] += lambda(i) * w(i);
+          const double error = r(i) - system.f[i];
+          of[0] += error * error;
+          of[1] += system.f[i] * system.f[i];
+          of[2] += forces[s](i) * forces[s](i);
+          const double terms = absolute_product(system.K, u[s], i);
+          of[3] += terms * terms;
         }
-      for (unsigned int s = 0; s < u.size(); ++s)
-        {
-          qp::MultiVector Ku(u[s].n_rows());
-          feti.subdomains()[s].K.multiply_add(1., u[s], Ku);
-          for (unsigned int i = 0; i < u[s].n_rows(); ++i)
-            sums[1] += Ku(i) * u[s](i);
-        }
-      const MPI_Comm comm = feti.context().communicator();
-      MPI_Allreduce(MPI_IN_PLACE, largest, 5, MPI_DOUBLE, MPI_MAX, comm);
-      MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
-      const double size = largest_product(feti, lambda, largest[4]);
-      Certificate  certificate;
-      certificate.equilibrium       = equilibrium_error(feti, lambda, u);
-      certificate.continuity        = relative(largest[0], size);
-      certificate.penetration       = relative(largest[1], size);
-      certificate.negative_pressure = relative(largest[2], largest[3]);
-      certificate.complementarity =
-        relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
-      return certificate;
     }
-
-    bool
-    is_nearly_unloaded(const feti::TotalFeti &feti,
-                       const qp::MultiVector &lambda)
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), squares.size(), MPI_DOUBLE, MPI_SUM,
+                feti.context().communicator());
+  double worst = 0.;
+  for (unsigned int body = 0; body < n_bodies; ++body)
     {
-      double largest[2] = {0., 0.};
-      for (unsigned int i = 0; i < feti.n_owned(); ++i)
-        {
-          largest[0] =
-            std::max(largest[0], feti.diagonal()[i] * std::abs(lambda(i)));
-          largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
-        }
-      MPI_Allreduce(MPI_IN_PLACE,
-                    largest,
-                    2,
-                    MPI_DOUBLE,
-                    MPI_MAX,
-                    feti.context().communicator());
-      return largest[0] < 1e-3 * largest[1];
+      const double *of = &squares[4 * body];
+      if (std::sqrt(of[0]) <= round_off * std::sqrt(of[3]))
+        continue;
+      const double error = relative(std::sqrt(of[0]), std::sqrt(of[1]) + std::sqrt(of[2]));
+      worst              = error > worst || std::isnan(error) ? error : worst;
     }
-  } // namespace state
-} // namespace snug
+  return worst;
+}
+/// F_ii |lambda_i| of the row with the largest estimate, @p largest, of
+/// it: exact for that row, so a lower bound of the maximum over rows.
+double largest_product(const feti::TotalFeti &feti, const qp::MultiVector &lambda, double largest)
+{
+  const MPI_Comm comm = feti.context().communicator();
+  int            rank = feti.context().rank(), owner = feti.context().n_ranks();
+  unsigned int   row = feti.n_owned();
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    if (feti.diagonal()[i] * std::abs(lambda(i)) == largest)
+      row = std::min(row, i);
+  const int candidate = row < feti.n_owned() ? rank : owner;
+  MPI_Allreduce(&candidate, &owner, 1, MPI_INT, MPI_MIN, comm);
+  qp::MultiVector unit(feti.n_owned());
+  if (rank == owner)
+    unit(row) = 1.;
+  const auto column  = feti.multiply_B(feti.apply_inverse(feti.multiply_Bt(unit)));
+  double     product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
+  MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
+  return product;
+}
+
+/// w_i <- 0 where it is round-off of B u - g; rows of B have lengths of
+/// about one, and the coarse problem spreads round-off over all of them.
+void set_round_off_to_zero(const feti::TotalFeti     &feti,
+                           const feti::PrimalVectors &u,
+                           qp::MultiVector           &w)
+{
+  double largest[2] = {0., 0.}; // |u|, |g|
+  for (const auto &part : u)
+    for (unsigned int i = 0; i < part.n_rows(); ++i)
+      largest[0] = std::max(largest[0], std::abs(part(i)));
+  for (unsigned int i = 0; i < w.n_rows(); ++i)
+    largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
+  MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
+  for (unsigned int i = 0; i < w.n_rows(); ++i)
+    if (std::abs(w(i)) <= round_off * (largest[0] + largest[1]))
+      w(i) = 0.;
+}
+} // namespace
+
+double Certificate::worst() const
+{
+  double worst = 0.;
+  for (const double error :
+       {equilibrium, continuity, penetration, negative_pressure, complementarity})
+    if (!(error <= worst))
+      worst = std::isnan(error) ? INFINITY : error;
+  return worst;
+}
+
+Certificate
+certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::PrimalVectors &u)
+{
+  auto w = feti.multiply_B(u);
+  w.add(-1., feti.g());
+  set_round_off_to_zero(feti, u, w);
+  // continuity, penetration, most negative and largest contact force,
+  // largest F_ii |lambda_i|
+  double largest[5] = {0., 0., 0., 0., 0.};
+  double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    {
+      largest[4] = std::max(largest[4], feti.diagonal()[i] * std::abs(lambda(i)));
+      if (!feti.bounded()[i])
+        {
+          largest[0] = std::max(largest[0], std::abs(w(i)));
+          continue;
+        }
+      largest[1] = std::max(largest[1], w(i));
+      largest[2] = std::max(largest[2], -lambda(i));
+      largest[3] = std::max(largest[3], lambda(i));
+      sums[0] += lambda(i) * w(i);
+    }
+  for (unsigned int s = 0; s < u.size(); ++s)
+    {
+      qp::MultiVector Ku(u[s].n_rows());
+      feti.subdomains()[s].K.multiply_add(1., u[s], Ku);
+      for (unsigned int i = 0; i < u[s].n_rows(); ++i)
+        sums[1] += Ku(i) * u[s](i);
+    }
+  const MPI_Comm comm = feti.context().communicator();
+  MPI_Allreduce(MPI_IN_PLACE, largest, 5, MPI_DOUBLE, MPI_MAX, comm);
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
+  const double size = largest_product(feti, lambda, largest[4]);
+  Certificate  certificate;
+  certificate.equilibrium       = equilibrium_error(feti, lambda, u);
+  certificate.continuity        = relative(largest[0], size);
+  certificate.penetration       = relative(largest[1], size);
+  certificate.negative_pressure = relative(largest[2], largest[3]);
+  certificate.complementarity   = relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
+  return certificate;
+}
+
+bool is_nearly_unloaded(const feti::TotalFeti &feti, const qp::MultiVector &lambda)
+{
+  double largest[2] = {0., 0.};
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    {
+      largest[0] = std::max(largest[0], feti.diagonal()[i] * std::abs(lambda(i)));
+      largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
+  return largest[0] < 1e-3 * largest[1];
+}
+} // namespace snug::state

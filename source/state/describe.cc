@@ -4,181 +4,157 @@
 #include <algorithm>
 #include <cmath>
 
-namespace snug
+namespace snug::state {
+template <int dim>
+typename mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim>    &solver,
+                                                 const feti::PrimalVectors &u,
+                                                 const unsigned int         column)
 {
-  namespace state
-  {
-    template <int dim>
-    typename mesh::BodyMesh<dim>::Field
-    nodal_values(const StateSolver<dim>    &solver,
-                 const feti::PrimalVectors &u,
-                 const unsigned int         column)
+  const auto                         &mesh = solver.mesh();
+  std::vector<bool>                   set(mesh.n_local_nodes(), false);
+  typename mesh::BodyMesh<dim>::Field values(mesh.n_local_nodes());
+  for (unsigned int s = 0; s < u.size(); ++s)
     {
-      const auto                         &mesh = solver.mesh();
-      std::vector<bool>                   set(mesh.n_local_nodes(), false);
-      typename mesh::BodyMesh<dim>::Field values(mesh.n_local_nodes());
-      for (unsigned int s = 0; s < u.size(); ++s)
+      const auto &nodes = solver.tearing().subdomains[s].nodes;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        if (!set[nodes[a]])
+          {
+            set[nodes[a]] = true;
+            for (unsigned int c = 0; c < dim; ++c)
+              values[nodes[a]][c] = u[s](dim * a + c, column);
+          }
+    }
+  mesh.interpolate_hanging(values);
+  return values;
+}
+
+namespace {
+/// A contact force above this part of the largest is strong; below, and
+/// with a gap below the same part of the largest F_ii lambda_i, weak.
+const double strong_part = 1e-6;
+
+template <int dim>
+void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
+{
+  const auto &feti = solver.feti();
+  const auto  f    = feti.loads();
+  const auto  Kf   = feti.apply_inverse(f);
+  // u'Ku, f'u, f'K^+f and lambda'(d + residual)
+  double sums[4] = {0., 0., 0., 0.};
+  for (unsigned int s = 0; s < state.u.size(); ++s)
+    {
+      qp::MultiVector Ku(state.u[s].n_rows());
+      feti.subdomains()[s].K.multiply_add(1., state.u[s], Ku);
+      for (unsigned int i = 0; i < Ku.n_rows(); ++i)
         {
-          const auto &nodes = solver.tearing().subdomains[s].nodes;
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            if (!set[nodes[a]])
-              {
-                set[nodes[a]] = true;
-                for (unsigned int c = 0; c < dim; ++c)
-                  values[nodes[a]][c] = u[s](dim * a + c, column);
-              }
+          sums[0] += Ku(i) * state.u[s](i);
+          sums[1] += f[s](i) * state.u[s](i);
+          sums[2] += f[s](i) * Kf[s](i);
         }
-      mesh.interpolate_hanging(values);
-      return values;
     }
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    sums[3] += state.dual.lambda(i) * (feti.d()(i) + state.dual.residual(i));
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, solver.context().communicator());
+  state.strain_energy = sums[0] / 2;
+  state.compliance    = sums[1];
+  // dual value: its error is the square of the residual's
+  state.energy = sums[3] / 2 - sums[2] / 2;
+}
 
-    namespace
+template <int dim>
+void describe_contact(const StateSolver<dim>     &solver,
+                      const RowCoefficients<dim> &rows,
+                      ContactState<dim>          &state)
+{
+  const auto &feti  = solver.feti();
+  auto        slack = feti.g();
+  slack.add(-1., feti.multiply_B(state.u));
+  const std::vector<double> flags(state.dual.active.begin(), state.dual.active.end());
+  const auto               &gluing = solver.gluing();
+  const auto                lambda = gluing.gather_contact(state.dual.lambda.column(0));
+  const auto                gaps   = gluing.gather_contact(slack.column(0));
+  const auto                F_ii   = gluing.gather_contact(feti.diagonal().data());
+  const auto                active = gluing.gather_contact(flags.data());
+  const auto areas   = solver.contact().areas(solver.surface().gather(state.positions));
+  double     largest = 0., largest_gap = 0., largest_area = 0.;
+  for (unsigned int i = 0; i < lambda.size(); ++i)
     {
-      /// A contact force above this part of the largest is strong; below, and
-      /// with a gap below the same part of the largest F_ii lambda_i, weak.
-      const double strong_part = 1e-6;
-
-      template <int dim>
-      void
-      describe_energies(const StateSolver<dim> &solver,
-                        ContactState<dim>      &state)
-      {
-        const auto &feti = solver.feti();
-        const auto  f    = feti.loads();
-        const auto  Kf   = feti.apply_inverse(f);
-        // u'Ku, f'u, f'K^+f and lambda'(d + residual)
-        double sums[4] = {0., 0., 0., 0.};
-        for (unsigned int s = 0; s < state.u.size(); ++s)
-          {
-            qp::MultiVector Ku(state.u[s].n_rows());
-            feti.subdomains()[s].K.multiply_add(1., state.u[s], Ku);
-            for (unsigned int i = 0; i < Ku.n_rows(); ++i)
-              {
-                sums[0] += Ku(i) * state.u[s](i);
-                sums[1] += f[s](i) * state.u[s](i);
-                sums[2] += f[s](i) * Kf[s](i);
-              }
-          }
-        for (unsigned int i = 0; i < feti.n_owned(); ++i)
-          sums[3] +=
-            state.dual.lambda(i) * (feti.d()(i) + state.dual.residual(i));
-        MPI_Allreduce(MPI_IN_PLACE,
-                      sums,
-                      4,
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      solver.context().communicator());
-        state.strain_energy = sums[0] / 2;
-        state.compliance    = sums[1];
-        // dual value: its error is the square of the residual's
-        state.energy = sums[3] / 2 - sums[2] / 2;
-      }
-
-      template <int dim>
-      void
-      describe_contact(const StateSolver<dim>     &solver,
-                       const RowCoefficients<dim> &rows,
-                       ContactState<dim>          &state)
-      {
-        const auto &feti  = solver.feti();
-        auto        slack = feti.g();
-        slack.add(-1., feti.multiply_B(state.u));
-        const std::vector<double> flags(state.dual.active.begin(),
-                                        state.dual.active.end());
-        const auto               &gluing = solver.gluing();
-        const auto lambda = gluing.gather_contact(state.dual.lambda.column(0));
-        const auto gaps   = gluing.gather_contact(slack.column(0));
-        const auto F_ii   = gluing.gather_contact(feti.diagonal().data());
-        const auto active = gluing.gather_contact(flags.data());
-        const auto areas =
-          solver.contact().areas(solver.surface().gather(state.positions));
-        double largest = 0., largest_gap = 0., largest_area = 0.;
-        for (unsigned int i = 0; i < lambda.size(); ++i)
-          {
-            largest_area = std::max(largest_area, areas[i]);
-            largest      = std::max(largest, lambda[i]);
-            largest_gap  = std::max(largest_gap, F_ii[i] * lambda[i]);
-          }
-        state.contact.resize(lambda.size());
-        for (unsigned int i = 0; i < lambda.size(); ++i)
-          {
-            ContactPoint &point = state.contact[i];
-            const double  scale = gluing.contact_scales()[i];
-            point.area          = areas[i];
-            point.gap = scale == 0. ? gluing.gap(i, rows, state.load_case)
-                                    : gaps[i] * scale;
-            if (scale == 0.)
-              continue;
-            point.force = lambda[i] / scale;
-            // an area may be round-off, as on the axis with degree 2
-            if (areas[i] > 1e-10 * largest_area)
-              point.pressure = point.force / areas[i];
-            point.active = active[i] != 0.;
-            point.strong = lambda[i] > strong_part * largest;
-            point.weak =
-              !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
-            if (largest > 0.)
-              state.degeneracy_distance =
-                std::min(state.degeneracy_distance,
-                         std::max(lambda[i] / largest,
-                                  std::abs(gaps[i]) / largest_gap));
-          }
-      }
-
-      template <int dim>
-      void
-      sum_up_contact(const contact::Contact<dim> &contact,
-                     const RowCoefficients<dim>  &rows,
-                     ContactState<dim>           &state)
-      {
-        for (const auto &pair : contact.pairs())
-          {
-            state.pairs.emplace_back();
-            state.pairs.back().name = pair.name();
-          }
-        for (unsigned int i = 0; i < state.contact.size(); ++i)
-          {
-            const ContactPoint &point = state.contact[i];
-            PairState<dim>     &pair  = state.pairs[contact.places()[i].pair];
-            ++pair.rows;
-            pair.force -= point.force * rows.contact[i].normal;
-            pair.contact_area += point.strong ? point.area : 0.;
-            pair.max_pressure = std::max(pair.max_pressure, point.pressure);
-            pair.active_contacts += point.strong;
-            state.weak_contacts += point.weak;
-          }
-        for (const auto &pair : state.pairs)
-          {
-            state.contact_force += pair.force;
-            state.contact_area += pair.contact_area;
-            state.max_pressure =
-              std::max(state.max_pressure, pair.max_pressure);
-            state.active_contacts += pair.active_contacts;
-          }
-      }
-    } // namespace
-
-    template <int dim>
-    void
-    describe(const StateSolver<dim>     &solver,
-             const RowCoefficients<dim> &rows,
-             ContactState<dim>          &state)
-    {
-      state.displacement = nodal_values(solver, state.u, 0);
-      describe_energies(solver, state);
-      describe_contact(solver, rows, state);
-      sum_up_contact(solver.contact(), rows, state);
-      state.assumptions = assess(solver, rows.contact, state);
+      largest_area = std::max(largest_area, areas[i]);
+      largest      = std::max(largest, lambda[i]);
+      largest_gap  = std::max(largest_gap, F_ii[i] * lambda[i]);
     }
+  state.contact.resize(lambda.size());
+  for (unsigned int i = 0; i < lambda.size(); ++i)
+    {
+      ContactPoint &point = state.contact[i];
+      const double  scale = gluing.contact_scales()[i];
+      point.area          = areas[i];
+      point.gap           = scale == 0. ? gluing.gap(i, rows, state.load_case) : gaps[i] * scale;
+      if (scale == 0.)
+        continue;
+      point.force = lambda[i] / scale;
+      // an area may be round-off, as on the axis with degree 2
+      if (areas[i] > 1e-10 * largest_area)
+        point.pressure = point.force / areas[i];
+      point.active = active[i] != 0.;
+      point.strong = lambda[i] > strong_part * largest;
+      point.weak   = !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
+      if (largest > 0.)
+        state.degeneracy_distance =
+          std::min(state.degeneracy_distance,
+                   std::max(lambda[i] / largest, std::abs(gaps[i]) / largest_gap));
+    }
+}
 
-#define SNUG_INSTANTIATE(dim)                                             \
-  template mesh::BodyMesh<dim>::Field nodal_values(                       \
-    const StateSolver<dim> &, const feti::PrimalVectors &, unsigned int); \
-  template void describe(const StateSolver<dim> &,                        \
-                         const RowCoefficients<dim> &,                    \
+template <int dim>
+void sum_up_contact(const contact::Contact<dim> &contact,
+                    const RowCoefficients<dim>  &rows,
+                    ContactState<dim>           &state)
+{
+  for (const auto &pair : contact.pairs())
+    {
+      state.pairs.emplace_back();
+      state.pairs.back().name = pair.name();
+    }
+  for (unsigned int i = 0; i < state.contact.size(); ++i)
+    {
+      const ContactPoint &point = state.contact[i];
+      PairState<dim>     &pair  = state.pairs[contact.places()[i].pair];
+      ++pair.rows;
+      pair.force -= point.force * rows.contact[i].normal;
+      pair.contact_area += point.strong ? point.area : 0.;
+      pair.max_pressure = std::max(pair.max_pressure, point.pressure);
+      pair.active_contacts += point.strong;
+      state.weak_contacts += point.weak;
+    }
+  for (const auto &pair : state.pairs)
+    {
+      state.contact_force += pair.force;
+      state.contact_area += pair.contact_area;
+      state.max_pressure = std::max(state.max_pressure, pair.max_pressure);
+      state.active_contacts += pair.active_contacts;
+    }
+}
+} // namespace
+
+template <int dim>
+void describe(const StateSolver<dim>     &solver,
+              const RowCoefficients<dim> &rows,
+              ContactState<dim>          &state)
+{
+  state.displacement = nodal_values(solver, state.u, 0);
+  describe_energies(solver, state);
+  describe_contact(solver, rows, state);
+  sum_up_contact(solver.contact(), rows, state);
+  state.assumptions = assess(solver, rows.contact, state);
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                  \
+  template mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim> &,                   \
+                                                   const feti::PrimalVectors &, unsigned int); \
+  template void describe(const StateSolver<dim> &, const RowCoefficients<dim> &,               \
                          ContactState<dim> &);
-    SNUG_INSTANTIATE(2)
-    SNUG_INSTANTIATE(3)
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-  } // namespace state
-} // namespace snug
+} // namespace snug::state

@@ -1,289 +1,243 @@
 #include <snug/state/gluing.h>
 
-namespace snug
+namespace snug::state {
+namespace {
+/// One direction held at a node, q . u = s, with its derivatives.
+template <int dim>
+struct HeldDirection
 {
-  namespace state
-  {
-    namespace
-    {
-      /// One direction held at a node, q . u = s, with its derivatives.
-      template <int dim>
-      struct HeldDirection
-      {
-        dealii::Tensor<1, dim> q, dq;
-        double                 s, ds;
-      };
+  dealii::Tensor<1, dim> q, dq;
+  double                 s, ds;
+};
 
-      template <int dim>
-      std::vector<HeldDirection<dim>>
-      held_directions(const HeldFrame<dim> &frame,
-                      const HeldFrame<dim> &derivative,
-                      unsigned int          load_case)
-      {
-        std::vector<HeldDirection<dim>> held;
-        for (unsigned int k = 0; k < frame.directions.size(); ++k)
-          {
-            held.push_back(
-              {frame.directions[k], {}, frame.values[k][load_case], 0.});
-            if (derivative.directions.empty())
-              continue;
-            held[k].dq = derivative.directions[k];
-            held[k].ds = derivative.values[k][load_case];
-          }
-        return held;
-      }
-    } // namespace
-
-    template <int dim>
-    Gluing<dim>::Gluing(const mesh::BodyMesh<dim>  &mesh,
-                        const mesh::Tearing        &tearing,
-                        const mesh::Surface<dim>   &surface,
-                        const HeldNodes<dim>       &held,
-                        const RowCoefficients<dim> &reference)
-      : held(held), rows(mesh, tearing, surface, held, reference)
+template <int dim>
+std::vector<HeldDirection<dim>> held_directions(const HeldFrame<dim> &frame,
+                                                const HeldFrame<dim> &derivative,
+                                                unsigned int          load_case)
+{
+  std::vector<HeldDirection<dim>> held;
+  for (unsigned int k = 0; k < frame.directions.size(); ++k)
     {
-      for (const auto &row : rows.owned)
-        owned_contact.push_back(
-          row.source == Source::contact ? row.index : n_contact_rows());
+      held.push_back({frame.directions[k], {}, frame.values[k][load_case], 0.});
+      if (derivative.directions.empty())
+        continue;
+      held[k].dq = derivative.directions[k];
+      held[k].ds = derivative.values[k][load_case];
     }
+  return held;
+}
+} // namespace
 
-    template <int dim>
-    const feti::RowLayout &
-    Gluing<dim>::layout() const
-    {
-      return *rows.layout;
-    }
+template <int dim>
+Gluing<dim>::Gluing(const mesh::BodyMesh<dim>  &mesh,
+                    const mesh::Tearing        &tearing,
+                    const mesh::Surface<dim>   &surface,
+                    const HeldNodes<dim>       &held,
+                    const RowCoefficients<dim> &reference)
+  : held(held), rows(mesh, tearing, surface, held, reference)
+{
+  for (const auto &row : rows.owned)
+    owned_contact.push_back(row.source == Source::contact ? row.index : n_contact_rows());
+}
 
-    template <int dim>
-    unsigned int
-    Gluing<dim>::n_rows() const
-    {
-      return rows.n_global;
-    }
+template <int dim>
+const feti::RowLayout &Gluing<dim>::layout() const
+{
+  return *rows.layout;
+}
 
-    template <int dim>
-    unsigned int
-    Gluing<dim>::n_contact_rows() const
-    {
-      return rows.scales.size();
-    }
+template <int dim>
+unsigned int Gluing<dim>::n_rows() const
+{
+  return rows.n_global;
+}
 
-    template <int dim>
-    const std::vector<double> &
-    Gluing<dim>::contact_scales() const
-    {
-      return rows.scales;
-    }
+template <int dim>
+unsigned int Gluing<dim>::n_contact_rows() const
+{
+  return rows.scales.size();
+}
 
-    template <int dim>
-    const std::vector<unsigned int> &
-    Gluing<dim>::contact_of_row() const
-    {
-      return owned_contact;
-    }
+template <int dim>
+const std::vector<double> &Gluing<dim>::contact_scales() const
+{
+  return rows.scales;
+}
 
-    template <int dim>
-    std::vector<unsigned int>
-    Gluing<dim>::vanished_rows() const
-    {
-      std::vector<unsigned int> vanished;
-      for (unsigned int i = 0; i < rows.scales.size(); ++i)
-        if (rows.scales[i] == 0.)
-          vanished.push_back(i);
-      return vanished;
-    }
+template <int dim>
+const std::vector<unsigned int> &Gluing<dim>::contact_of_row() const
+{
+  return owned_contact;
+}
 
-    template <int dim>
-    void
-    Gluing<dim>::fill_B(unsigned int                s,
-                        const RowCoefficients<dim> &now,
-                        std::vector<feti::BEntry>  &B) const
+template <int dim>
+std::vector<unsigned int> Gluing<dim>::vanished_rows() const
+{
+  std::vector<unsigned int> vanished;
+  for (unsigned int i = 0; i < rows.scales.size(); ++i)
+    if (rows.scales[i] == 0.)
+      vanished.push_back(i);
+  return vanished;
+}
+
+template <int dim>
+void Gluing<dim>::fill_B(unsigned int                s,
+                         const RowCoefficients<dim> &now,
+                         std::vector<feti::BEntry>  &B) const
+{
+  B.clear();
+  for (const auto &entry : rows.entries[s])
     {
-      B.clear();
-      for (const auto &entry : rows.entries[s])
+      double value = entry.factor;
+      if (entry.source == Source::held)
+        value *= now.held[entry.index].directions[entry.item][entry.dof % dim];
+      else if (entry.source == Source::contact)
         {
-          double value = entry.factor;
-          if (entry.source == Source::held)
-            value *=
-              now.held[entry.index].directions[entry.item][entry.dof % dim];
-          else if (entry.source == Source::contact)
-            {
-              const auto &c = now.contact[entry.index].coefficients[entry.item];
-              value *=
-                rows.projected(c.first, c.second, now.held)[entry.dof % dim];
-            }
-          B.push_back({entry.local_row, entry.dof, value});
+          const auto &c = now.contact[entry.index].coefficients[entry.item];
+          value *= rows.projected(c.first, c.second, now.held)[entry.dof % dim];
         }
+      B.push_back({entry.local_row, entry.dof, value});
     }
+}
 
-    template <int dim>
-    void
-    Gluing<dim>::fill_B_derivative(unsigned int                s,
+template <int dim>
+void Gluing<dim>::fill_B_derivative(unsigned int                s,
+                                    const RowCoefficients<dim> &now,
+                                    const RowCoefficients<dim> &derivative,
+                                    std::vector<feti::BEntry>  &B) const
+{
+  B.clear();
+  for (const auto &entry : rows.entries[s])
+    {
+      double value = 0.;
+      if (entry.source == Source::held)
+        value = derivative.held[entry.index].directions[entry.item][entry.dof % dim];
+      else if (entry.source == Source::contact)
+        {
+          const auto        &c  = now.contact[entry.index].coefficients[entry.item];
+          const auto        &dc = derivative.contact[entry.index].coefficients[entry.item].second;
+          auto               result = dc;
+          const unsigned int h      = rows.held_of_surface[c.first];
+          if (h < held.n_nodes())
+            for (const auto &d : held_directions(now.held[h], derivative.held[h], 0))
+              result -= (dc * d.q + c.second * d.dq) * d.q + (c.second * d.q) * d.dq;
+          value = result[entry.dof % dim];
+        }
+      B.push_back({entry.local_row, entry.dof, entry.factor * value});
+    }
+}
+
+template <int dim>
+double
+Gluing<dim>::gap(unsigned int i, const RowCoefficients<dim> &now, unsigned int load_case) const
+{
+  double gap = now.contact[i].gap;
+  for (const auto &c : now.contact[i].coefficients)
+    {
+      const unsigned int h = rows.held_of_surface[c.first];
+      if (h == held.n_nodes())
+        continue;
+      const auto &frame = now.held[h];
+      for (unsigned int k = 0; k < frame.directions.size(); ++k)
+        gap -= (c.second * frame.directions[k]) * frame.values[k][load_case];
+    }
+  return gap;
+}
+
+template <int dim>
+double Gluing<dim>::gap_derivative(unsigned int                i,
                                    const RowCoefficients<dim> &now,
                                    const RowCoefficients<dim> &derivative,
-                                   std::vector<feti::BEntry>  &B) const
+                                   unsigned int                load_case) const
+{
+  double result = derivative.contact[i].gap;
+  for (unsigned int a = 0; a < now.contact[i].coefficients.size(); ++a)
     {
-      B.clear();
-      for (const auto &entry : rows.entries[s])
-        {
-          double value = 0.;
-          if (entry.source == Source::held)
-            value = derivative.held[entry.index]
-                      .directions[entry.item][entry.dof % dim];
-          else if (entry.source == Source::contact)
-            {
-              const auto &c = now.contact[entry.index].coefficients[entry.item];
-              const auto &dc =
-                derivative.contact[entry.index].coefficients[entry.item].second;
-              auto               result = dc;
-              const unsigned int h      = rows.held_of_surface[c.first];
-              if (h < held.n_nodes())
-                for (const auto &d :
-                     held_directions(now.held[h], derivative.held[h], 0))
-                  result -= (dc * d.q + c.second * d.dq) * d.q +
-                            (c.second * d.q) * d.dq;
-              value = result[entry.dof % dim];
-            }
-          B.push_back({entry.local_row, entry.dof, entry.factor * value});
-        }
+      const auto        &c  = now.contact[i].coefficients[a];
+      const auto        &dc = derivative.contact[i].coefficients[a].second;
+      const unsigned int h  = rows.held_of_surface[c.first];
+      if (h == held.n_nodes())
+        continue;
+      for (const auto &d : held_directions(now.held[h], derivative.held[h], load_case))
+        result -= (dc * d.q + c.second * d.dq) * d.s + (c.second * d.q) * d.ds;
     }
+  return result;
+}
 
-    template <int dim>
-    double
-    Gluing<dim>::gap(unsigned int                i,
-                     const RowCoefficients<dim> &now,
-                     unsigned int                load_case) const
+template <int dim>
+qp::MultiVector Gluing<dim>::right_hand_side(const RowCoefficients<dim> &now,
+                                             unsigned int                load_case) const
+{
+  qp::MultiVector g(rows.layout->n_owned());
+  for (unsigned int i = 0; i < g.n_rows(); ++i)
     {
-      double gap = now.contact[i].gap;
-      for (const auto &c : now.contact[i].coefficients)
-        {
-          const unsigned int h = rows.held_of_surface[c.first];
-          if (h == held.n_nodes())
-            continue;
-          const auto &frame = now.held[h];
-          for (unsigned int k = 0; k < frame.directions.size(); ++k)
-            gap -=
-              (c.second * frame.directions[k]) * frame.values[k][load_case];
-        }
-      return gap;
+      const auto &row = rows.owned[i];
+      if (row.source == Source::contact)
+        g(i) = row.factor * gap(row.index, now, load_case);
+      else if (row.source == Source::held)
+        g(i) = row.factor * now.held[row.index].values[row.item][load_case];
     }
+  return g;
+}
 
-    template <int dim>
-    double
-    Gluing<dim>::gap_derivative(unsigned int                i,
-                                const RowCoefficients<dim> &now,
-                                const RowCoefficients<dim> &derivative,
-                                unsigned int                load_case) const
+template <int dim>
+qp::MultiVector Gluing<dim>::right_hand_side_derivative(const RowCoefficients<dim> &now,
+                                                        const RowCoefficients<dim> &derivative,
+                                                        unsigned int                load_case) const
+{
+  qp::MultiVector g(rows.layout->n_owned());
+  for (unsigned int i = 0; i < g.n_rows(); ++i)
     {
-      double result = derivative.contact[i].gap;
-      for (unsigned int a = 0; a < now.contact[i].coefficients.size(); ++a)
-        {
-          const auto        &c  = now.contact[i].coefficients[a];
-          const auto        &dc = derivative.contact[i].coefficients[a].second;
-          const unsigned int h  = rows.held_of_surface[c.first];
-          if (h == held.n_nodes())
-            continue;
-          for (const auto &d :
-               held_directions(now.held[h], derivative.held[h], load_case))
-            result -=
-              (dc * d.q + c.second * d.dq) * d.s + (c.second * d.q) * d.ds;
-        }
-      return result;
+      const auto &row = rows.owned[i];
+      if (row.source == Source::contact)
+        g(i) = row.factor * gap_derivative(row.index, now, derivative, load_case);
+      else if (row.source == Source::held && held.follows_positions(row.index))
+        g(i) = row.factor * derivative.held[row.index].values[row.item][load_case];
     }
+  return g;
+}
 
-    template <int dim>
-    qp::MultiVector
-    Gluing<dim>::right_hand_side(const RowCoefficients<dim> &now,
-                                 unsigned int                load_case) const
-    {
-      qp::MultiVector g(rows.layout->n_owned());
-      for (unsigned int i = 0; i < g.n_rows(); ++i)
-        {
-          const auto &row = rows.owned[i];
-          if (row.source == Source::contact)
-            g(i) = row.factor * gap(row.index, now, load_case);
-          else if (row.source == Source::held)
-            g(i) = row.factor * now.held[row.index].values[row.item][load_case];
-        }
-      return g;
-    }
+template <int dim>
+std::vector<double> Gluing<dim>::gather_contact(const double *owned_values) const
+{
+  std::vector<double> values(rows.scales.size(), 0.);
+  for (unsigned int row = 0; row < rows.layout->n_owned(); ++row)
+    if (owned_contact[row] < rows.scales.size())
+      values[owned_contact[row]] = owned_values[row];
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
+                rows.layout->communicator());
+  return values;
+}
 
-    template <int dim>
-    qp::MultiVector
-    Gluing<dim>::right_hand_side_derivative(
-      const RowCoefficients<dim> &now,
-      const RowCoefficients<dim> &derivative,
-      unsigned int                load_case) const
-    {
-      qp::MultiVector g(rows.layout->n_owned());
-      for (unsigned int i = 0; i < g.n_rows(); ++i)
-        {
-          const auto &row = rows.owned[i];
-          if (row.source == Source::contact)
-            g(i) = row.factor *
-                   gap_derivative(row.index, now, derivative, load_case);
-          else if (row.source == Source::held &&
-                   held.follows_positions(row.index))
-            g(i) = row.factor *
-                   derivative.held[row.index].values[row.item][load_case];
-        }
-      return g;
-    }
+template <int dim>
+std::vector<std::vector<double>> Gluing<dim>::reactions(const double               *owned_lambda,
+                                                        const RowCoefficients<dim> &now) const
+{
+  std::vector<double> values(dim * held.n_nodes(), 0.);
+  for (unsigned int row = 0; row < rows.owned.size(); ++row)
+    if (rows.owned[row].source == Source::held)
+      values[dim * rows.owned[row].index + rows.owned[row].item] =
+        rows.owned[row].factor * owned_lambda[row];
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
+                rows.layout->communicator());
+  const auto lambda = gather_contact(owned_lambda);
+  for (unsigned int i = 0; i < lambda.size(); ++i)
+    for (const auto &c : now.contact[i].coefficients)
+      {
+        const unsigned int h = rows.held_of_surface[c.first];
+        if (h == held.n_nodes() || rows.scales[i] == 0.)
+          continue;
+        const auto &directions = now.held[h].directions;
+        for (unsigned int k = 0; k < directions.size(); ++k)
+          values[dim * h + k] -= lambda[i] / rows.scales[i] * (c.second * directions[k]);
+      }
+  std::vector<std::vector<double>> result;
+  for (unsigned int h = 0; h < held.n_nodes(); ++h)
+    result.emplace_back(values.begin() + dim * h,
+                        values.begin() + dim * h + now.held[h].directions.size());
+  return result;
+}
 
-    template <int dim>
-    std::vector<double>
-    Gluing<dim>::gather_contact(const double *owned_values) const
-    {
-      std::vector<double> values(rows.scales.size(), 0.);
-      for (unsigned int row = 0; row < rows.layout->n_owned(); ++row)
-        if (owned_contact[row] < rows.scales.size())
-          values[owned_contact[row]] = owned_values[row];
-      MPI_Allreduce(MPI_IN_PLACE,
-                    values.data(),
-                    values.size(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    rows.layout->communicator());
-      return values;
-    }
-
-    template <int dim>
-    std::vector<std::vector<double>>
-    Gluing<dim>::reactions(const double               *owned_lambda,
-                           const RowCoefficients<dim> &now) const
-    {
-      std::vector<double> values(dim * held.n_nodes(), 0.);
-      for (unsigned int row = 0; row < rows.owned.size(); ++row)
-        if (rows.owned[row].source == Source::held)
-          values[dim * rows.owned[row].index + rows.owned[row].item] =
-            rows.owned[row].factor * owned_lambda[row];
-      MPI_Allreduce(MPI_IN_PLACE,
-                    values.data(),
-                    values.size(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    rows.layout->communicator());
-      const auto lambda = gather_contact(owned_lambda);
-      for (unsigned int i = 0; i < lambda.size(); ++i)
-        for (const auto &c : now.contact[i].coefficients)
-          {
-            const unsigned int h = rows.held_of_surface[c.first];
-            if (h == held.n_nodes() || rows.scales[i] == 0.)
-              continue;
-            const auto &directions = now.held[h].directions;
-            for (unsigned int k = 0; k < directions.size(); ++k)
-              values[dim * h + k] -=
-                lambda[i] / rows.scales[i] * (c.second * directions[k]);
-          }
-      std::vector<std::vector<double>> result;
-      for (unsigned int h = 0; h < held.n_nodes(); ++h)
-        result.emplace_back(values.begin() + dim * h,
-                            values.begin() + dim * h +
-                              now.held[h].directions.size());
-      return result;
-    }
-
-    template class Gluing<2>;
-    template class Gluing<3>;
-  } // namespace state
-} // namespace snug
+template class Gluing<2>;
+template class Gluing<3>;
+} // namespace snug::state

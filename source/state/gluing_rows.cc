@@ -7,331 +7,284 @@
 #include <cmath>
 #include <numeric>
 
-namespace snug
+namespace snug::state {
+template <int dim>
+struct GluingRows<dim>::Message
 {
-  namespace state
+  unsigned int           subdomain, node, row;
+  Source                 source = Source::constant;
+  unsigned int           index = 0, item = 0;
+  dealii::Tensor<1, dim> factor;
+
+  static const unsigned int size = 6 + dim;
+
+  void append_to(std::vector<double> &buffer) const
   {
-    template <int dim>
-    struct GluingRows<dim>::Message
+    for (const unsigned int n :
+         {subdomain, node, row, static_cast<unsigned int>(source), index, item})
+      buffer.push_back(n);
+    for (unsigned int c = 0; c < dim; ++c)
+      buffer.push_back(factor[c]);
+  }
+
+  explicit Message(const double *buffer)
+    : subdomain(buffer[0])
+    , node(buffer[1])
+    , row(buffer[2])
+    , source(static_cast<Source>(static_cast<unsigned int>(buffer[3])))
+    , index(buffer[4])
+    , item(buffer[5])
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      factor[c] = buffer[6 + c];
+  }
+
+  Message(unsigned int subdomain, unsigned int node, unsigned int row)
+    : subdomain(subdomain), node(node), row(row)
+  {}
+};
+
+template <int dim>
+GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>  &mesh,
+                            const mesh::Tearing        &tearing,
+                            const mesh::Surface<dim>   &surface,
+                            const HeldNodes<dim>       &held,
+                            const RowCoefficients<dim> &reference)
+  : mesh(mesh), surface(surface), held(held)
+{
+  collect_surface(tearing);
+  scale_rows(reference);
+  const auto           ranks = cluster_ranks(reference.contact);
+  const auto           nodes = collect_copies(tearing, ranks);
+  std::vector<Message> messages;
+  number_node_rows(nodes, reference, messages);
+  number_contact_rows(nodes, reference.contact, ranks, messages);
+  deliver(messages, tearing);
+}
+
+template <int dim>
+dealii::Tensor<1, dim> GluingRows<dim>::projected(unsigned int                       surface_node,
+                                                  const dealii::Tensor<1, dim>      &coefficient,
+                                                  const std::vector<HeldFrame<dim>> &frames) const
+{
+  dealii::Tensor<1, dim> result = coefficient;
+  if (held_of_surface[surface_node] < frames.size())
+    for (const auto &q : frames[held_of_surface[surface_node]].directions)
+      result -= (result * q) * q;
+  return result;
+}
+
+template <int dim>
+void GluingRows<dim>::scale_rows(const RowCoefficients<dim> &reference)
+{
+  // a row whose projection is round-off of a unit normal has vanished
+  const double vanishing = 1e-12;
+  for (const auto &row : reference.contact)
     {
-      unsigned int           subdomain, node, row;
-      Source                 source = Source::constant;
-      unsigned int           index = 0, item = 0;
-      dealii::Tensor<1, dim> factor;
+      double square = 0.;
+      for (const auto &c : row.coefficients)
+        square += projected(c.first, c.second, reference.held).norm_square() / copies[c.first];
+      scales.push_back(square < vanishing ? 0. : std::sqrt(square));
+    }
+}
 
-      static const unsigned int size = 6 + dim;
-
-      void
-      append_to(std::vector<double> &buffer) const
+template <int dim>
+void GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
+{
+  std::map<unsigned int, unsigned int> surface_of_global;
+  for (unsigned int i = 0; i < surface.n_nodes(); ++i)
+    {
+      surface_of_global[surface.global_node(i)] = i;
+      held_of_surface.push_back(held.find(surface.global_node(i)));
+    }
+  copies.assign(surface.n_nodes(), 0);
+  for (const auto &subdomain : tearing.subdomains)
+    for (const unsigned int node : subdomain.nodes)
       {
-        for (const unsigned int n : {subdomain,
-                                     node,
-                                     row,
-                                     static_cast<unsigned int>(source),
-                                     index,
-                                     item})
-          buffer.push_back(n);
-        for (unsigned int c = 0; c < dim; ++c)
-          buffer.push_back(factor[c]);
+        const auto found = surface_of_global.find(mesh.global_node(node));
+        if (found != surface_of_global.end())
+          ++copies[found->second];
       }
+  MPI_Allreduce(MPI_IN_PLACE, copies.data(), copies.size(), MPI_UNSIGNED, MPI_SUM,
+                mesh.communicator());
+}
 
-      explicit Message(const double *buffer)
-        : subdomain(buffer[0])
-        , node(buffer[1])
-        , row(buffer[2])
-        , source(static_cast<Source>(static_cast<unsigned int>(buffer[3])))
-        , index(buffer[4])
-        , item(buffer[5])
+template <int dim>
+std::vector<unsigned int>
+GluingRows<dim>::cluster_ranks(const std::vector<contact::Row<dim>> &contact_rows) const
+{
+  // Contact rows that share nodes form clusters; the rank of a cluster's
+  // first node owns all rows at its nodes, so that B D^-1 B' is block
+  // diagonal over ranks.
+  std::vector<unsigned int> root(surface.n_nodes());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](unsigned int i) {
+    while (root[i] != i)
+      i = root[i] = root[root[i]];
+    return i;
+  };
+  for (const auto &row : contact_rows)
+    for (const auto &c : row.coefficients)
       {
-        for (unsigned int c = 0; c < dim; ++c)
-          factor[c] = buffer[6 + c];
+        const unsigned int a = find(row.coefficients.front().first);
+        const unsigned int b = find(c.first);
+        root[std::max(a, b)] = std::min(a, b);
       }
+  std::vector<unsigned int> ranks;
+  for (unsigned int i = 0; i < surface.n_nodes(); ++i)
+    ranks.push_back(mesh.owner_of_global(surface.global_node(find(i))));
+  return ranks;
+}
 
-      Message(unsigned int subdomain, unsigned int node, unsigned int row)
-        : subdomain(subdomain), node(node), row(row)
+template <int dim>
+typename GluingRows<dim>::Copies
+GluingRows<dim>::collect_copies(const mesh::Tearing             &tearing,
+                                const std::vector<unsigned int> &rank_of_contact) const
+{
+  std::map<unsigned int, unsigned int> special;
+  for (unsigned int i = 0; i < surface.n_nodes(); ++i)
+    special[surface.global_node(i)] = rank_of_contact[i];
+  // to the rank that owns the node's rows: (node, subdomain)
+  std::map<unsigned int, std::vector<unsigned int>> out;
+  for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
+    for (const unsigned int local : tearing.subdomains[s].nodes)
       {
+        const unsigned int node   = mesh.global_node(local);
+        const auto         found  = special.find(node);
+        auto              &buffer = out[found == special.end() ? mesh.owner(local) : found->second];
+        buffer.insert(buffer.end(), {node, tearing.first_id + s});
       }
-    };
+  Copies nodes;
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(mesh.communicator(), out))
+    for (std::size_t i = 0; i < message.second.size(); i += 2)
+      nodes[message.second[i]].push_back(message.second[i + 1]);
+  for (auto &node : nodes)
+    std::sort(node.second.begin(), node.second.end());
+  return nodes;
+}
 
-    template <int dim>
-    GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>  &mesh,
-                                const mesh::Tearing        &tearing,
-                                const mesh::Surface<dim>   &surface,
-                                const HeldNodes<dim>       &held,
-                                const RowCoefficients<dim> &reference)
-      : mesh(mesh), surface(surface), held(held)
+template <int dim>
+void GluingRows<dim>::number_node_rows(const Copies               &nodes,
+                                       const RowCoefficients<dim> &reference,
+                                       std::vector<Message>       &messages)
+{
+  for (const auto &entry : nodes)
     {
-      collect_surface(tearing);
-      scale_rows(reference);
-      const auto           ranks = cluster_ranks(reference.contact);
-      const auto           nodes = collect_copies(tearing, ranks);
-      std::vector<Message> messages;
-      number_node_rows(nodes, reference, messages);
-      number_contact_rows(nodes, reference.contact, ranks, messages);
-      deliver(messages, tearing);
-    }
-
-    template <int dim>
-    dealii::Tensor<1, dim>
-    GluingRows<dim>::projected(unsigned int                       surface_node,
-                               const dealii::Tensor<1, dim>      &coefficient,
-                               const std::vector<HeldFrame<dim>> &frames) const
-    {
-      dealii::Tensor<1, dim> result = coefficient;
-      if (held_of_surface[surface_node] < frames.size())
-        for (const auto &q : frames[held_of_surface[surface_node]].directions)
-          result -= (result * q) * q;
-      return result;
-    }
-
-    template <int dim>
-    void
-    GluingRows<dim>::scale_rows(const RowCoefficients<dim> &reference)
-    {
-      // a row whose projection is round-off of a unit normal has vanished
-      const double vanishing = 1e-12;
-      for (const auto &row : reference.contact)
-        {
-          double square = 0.;
-          for (const auto &c : row.coefficients)
-            square +=
-              projected(c.first, c.second, reference.held).norm_square() /
-              copies[c.first];
-          scales.push_back(square < vanishing ? 0. : std::sqrt(square));
-        }
-    }
-
-    template <int dim>
-    void
-    GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
-    {
-      std::map<unsigned int, unsigned int> surface_of_global;
-      for (unsigned int i = 0; i < surface.n_nodes(); ++i)
-        {
-          surface_of_global[surface.global_node(i)] = i;
-          held_of_surface.push_back(held.find(surface.global_node(i)));
-        }
-      copies.assign(surface.n_nodes(), 0);
-      for (const auto &subdomain : tearing.subdomains)
-        for (const unsigned int node : subdomain.nodes)
+      const unsigned int node       = entry.first;
+      const auto        &subdomains = entry.second;
+      const unsigned int m          = subdomains.size();
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int i = 1; i < m; ++i)
           {
-            const auto found = surface_of_global.find(mesh.global_node(node));
-            if (found != surface_of_global.end())
-              ++copies[found->second];
-          }
-      MPI_Allreduce(MPI_IN_PLACE,
-                    copies.data(),
-                    copies.size(),
-                    MPI_UNSIGNED,
-                    MPI_SUM,
-                    mesh.communicator());
-    }
-
-    template <int dim>
-    std::vector<unsigned int>
-    GluingRows<dim>::cluster_ranks(
-      const std::vector<contact::Row<dim>> &contact_rows) const
-    {
-      // Contact rows that share nodes form clusters; the rank of a cluster's
-      // first node owns all rows at its nodes, so that B D^-1 B' is block
-      // diagonal over ranks.
-      std::vector<unsigned int> root(surface.n_nodes());
-      std::iota(root.begin(), root.end(), 0);
-      const auto find = [&](unsigned int i) {
-        while (root[i] != i)
-          i = root[i] = root[root[i]];
-        return i;
-      };
-      for (const auto &row : contact_rows)
-        for (const auto &c : row.coefficients)
-          {
-            const unsigned int a = find(row.coefficients.front().first);
-            const unsigned int b = find(c.first);
-            root[std::max(a, b)] = std::min(a, b);
-          }
-      std::vector<unsigned int> ranks;
-      for (unsigned int i = 0; i < surface.n_nodes(); ++i)
-        ranks.push_back(mesh.owner_of_global(surface.global_node(find(i))));
-      return ranks;
-    }
-
-    template <int dim>
-    typename GluingRows<dim>::Copies
-    GluingRows<dim>::collect_copies(
-      const mesh::Tearing             &tearing,
-      const std::vector<unsigned int> &rank_of_contact) const
-    {
-      std::map<unsigned int, unsigned int> special;
-      for (unsigned int i = 0; i < surface.n_nodes(); ++i)
-        special[surface.global_node(i)] = rank_of_contact[i];
-      // to the rank that owns the node's rows: (node, subdomain)
-      std::map<unsigned int, std::vector<unsigned int>> out;
-      for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
-        for (const unsigned int local : tearing.subdomains[s].nodes)
-          {
-            const unsigned int node  = mesh.global_node(local);
-            const auto         found = special.find(node);
-            auto              &buffer =
-              out[found == special.end() ? mesh.owner(local) : found->second];
-            buffer.insert(buffer.end(), {node, tearing.first_id + s});
-          }
-      Copies nodes;
-      for (const auto &message :
-           dealii::Utilities::MPI::some_to_some(mesh.communicator(), out))
-        for (std::size_t i = 0; i < message.second.size(); i += 2)
-          nodes[message.second[i]].push_back(message.second[i + 1]);
-      for (auto &node : nodes)
-        std::sort(node.second.begin(), node.second.end());
-      return nodes;
-    }
-
-    template <int dim>
-    void
-    GluingRows<dim>::number_node_rows(const Copies               &nodes,
-                                      const RowCoefficients<dim> &reference,
-                                      std::vector<Message>       &messages)
-    {
-      for (const auto &entry : nodes)
-        {
-          const unsigned int node       = entry.first;
-          const auto        &subdomains = entry.second;
-          const unsigned int m          = subdomains.size();
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int i = 1; i < m; ++i)
+            const double norm = std::sqrt(i * (i + 1.));
+            for (unsigned int j = 0; j <= i; ++j)
               {
-                const double norm = std::sqrt(i * (i + 1.));
-                for (unsigned int j = 0; j <= i; ++j)
-                  {
-                    messages.emplace_back(subdomains[j], node, owned.size());
-                    messages.back().factor[c] = (j < i ? 1. : -1. * i) / norm;
-                  }
-                owned.push_back({Source::constant, 0, 0, 0.});
+                messages.emplace_back(subdomains[j], node, owned.size());
+                messages.back().factor[c] = (j < i ? 1. : -1. * i) / norm;
               }
-          const unsigned int h = held.find(node);
-          if (h == held.n_nodes())
-            continue;
-          const auto &directions = reference.held[h].directions;
-          for (unsigned int k = 0; k < directions.size(); ++k)
+            owned.push_back({Source::constant, 0, 0, 0.});
+          }
+      const unsigned int h = held.find(node);
+      if (h == held.n_nodes())
+        continue;
+      const auto &directions = reference.held[h].directions;
+      for (unsigned int k = 0; k < directions.size(); ++k)
+        {
+          for (const unsigned int subdomain : subdomains)
             {
-              for (const unsigned int subdomain : subdomains)
-                {
-                  messages.emplace_back(subdomain, node, owned.size());
-                  Message &message = messages.back();
-                  message.source =
-                    held.follows_positions(h) ? Source::held : Source::constant;
-                  message.index = h;
-                  message.item  = k;
-                  for (unsigned int c = 0; c < dim; ++c)
-                    message.factor[c] =
-                      (held.follows_positions(h) ? 1. : directions[k][c]) /
-                      std::sqrt(double(m));
-                }
-              owned.push_back({Source::held, h, k, std::sqrt(double(m))});
+              messages.emplace_back(subdomain, node, owned.size());
+              Message &message = messages.back();
+              message.source   = held.follows_positions(h) ? Source::held : Source::constant;
+              message.index    = h;
+              message.item     = k;
+              for (unsigned int c = 0; c < dim; ++c)
+                message.factor[c] =
+                  (held.follows_positions(h) ? 1. : directions[k][c]) / std::sqrt(double(m));
+            }
+          owned.push_back({Source::held, h, k, std::sqrt(double(m))});
+        }
+    }
+}
+
+template <int dim>
+void GluingRows<dim>::number_contact_rows(const Copies                         &nodes,
+                                          const std::vector<contact::Row<dim>> &reference_rows,
+                                          const std::vector<unsigned int>      &rank_of_contact,
+                                          std::vector<Message>                 &messages)
+{
+  const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
+  for (unsigned int i = 0; i < reference_rows.size(); ++i)
+    {
+      const auto &coefficients = reference_rows[i].coefficients;
+      if (scales[i] == 0. || rank_of_contact[coefficients.front().first] != my_rank)
+        continue;
+      for (unsigned int k = 0; k < coefficients.size(); ++k)
+        {
+          const unsigned int node       = surface.global_node(coefficients[k].first);
+          const auto        &subdomains = nodes.at(node);
+          for (const unsigned int subdomain : subdomains)
+            {
+              messages.emplace_back(subdomain, node, owned.size());
+              Message &message = messages.back();
+              message.source   = Source::contact;
+              message.index    = i;
+              message.item     = k;
+              for (unsigned int c = 0; c < dim; ++c)
+                message.factor[c] = 1. / (scales[i] * subdomains.size());
             }
         }
+      owned.push_back({Source::contact, i, 0, 1. / scales[i]});
     }
+}
 
-    template <int dim>
-    void
-    GluingRows<dim>::number_contact_rows(
-      const Copies                         &nodes,
-      const std::vector<contact::Row<dim>> &reference_rows,
-      const std::vector<unsigned int>      &rank_of_contact,
-      std::vector<Message>                 &messages)
+template <int dim>
+void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::Tearing &tearing)
+{
+  const MPI_Comm     comm    = mesh.communicator();
+  const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(comm);
+  const auto         counts =
+    dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(owned.size()));
+  const unsigned int first_row = std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
+  n_global                     = std::accumulate(counts.begin(), counts.end(), 0u);
+
+  std::map<unsigned int, std::vector<double>> out;
+  const auto                                 &first = tearing.first_id_of_rank;
+  for (Message message : messages)
     {
-      const unsigned int my_rank =
-        dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
-      for (unsigned int i = 0; i < reference_rows.size(); ++i)
-        {
-          const auto &coefficients = reference_rows[i].coefficients;
-          if (scales[i] == 0. ||
-              rank_of_contact[coefficients.front().first] != my_rank)
-            continue;
-          for (unsigned int k = 0; k < coefficients.size(); ++k)
-            {
-              const unsigned int node =
-                surface.global_node(coefficients[k].first);
-              const auto &subdomains = nodes.at(node);
-              for (const unsigned int subdomain : subdomains)
-                {
-                  messages.emplace_back(subdomain, node, owned.size());
-                  Message &message = messages.back();
-                  message.source   = Source::contact;
-                  message.index    = i;
-                  message.item     = k;
-                  for (unsigned int c = 0; c < dim; ++c)
-                    message.factor[c] = 1. / (scales[i] * subdomains.size());
-                }
-            }
-          owned.push_back({Source::contact, i, 0, 1. / scales[i]});
-        }
+      message.row += first_row;
+      const unsigned int rank =
+        std::upper_bound(first.begin(), first.end(), message.subdomain) - first.begin() - 1;
+      message.append_to(out[rank]);
     }
-
-    template <int dim>
-    void
-    GluingRows<dim>::deliver(const std::vector<Message> &messages,
-                             const mesh::Tearing        &tearing)
-    {
-      const MPI_Comm     comm = mesh.communicator();
-      const unsigned int my_rank =
-        dealii::Utilities::MPI::this_mpi_process(comm);
-      const auto counts = dealii::Utilities::MPI::all_gather(
-        comm, static_cast<unsigned int>(owned.size()));
-      const unsigned int first_row =
-        std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
-      n_global = std::accumulate(counts.begin(), counts.end(), 0u);
-
-      std::map<unsigned int, std::vector<double>> out;
-      const auto &first = tearing.first_id_of_rank;
-      for (Message message : messages)
-        {
-          message.row += first_row;
-          const unsigned int rank =
-            std::upper_bound(first.begin(), first.end(), message.subdomain) -
-            first.begin() - 1;
-          message.append_to(out[rank]);
-        }
-      std::vector<std::vector<feti::RowLayout::Entry>> layout_entries(
-        tearing.subdomains.size());
-      entries.resize(tearing.subdomains.size());
-      for (const auto &received :
-           dealii::Utilities::MPI::some_to_some(comm, out))
-        for (std::size_t i = 0; i < received.second.size(); i += Message::size)
+  std::vector<std::vector<feti::RowLayout::Entry>> layout_entries(tearing.subdomains.size());
+  entries.resize(tearing.subdomains.size());
+  for (const auto &received : dealii::Utilities::MPI::some_to_some(comm, out))
+    for (std::size_t i = 0; i < received.second.size(); i += Message::size)
+      {
+        const Message      message(received.second.data() + i);
+        const unsigned int s     = message.subdomain - tearing.first_id;
+        const auto        &nodes = tearing.subdomains[s].nodes;
+        const unsigned int slot =
+          std::lower_bound(nodes.begin(), nodes.end(), mesh.local_node(message.node)) -
+          nodes.begin();
+        for (unsigned int c = 0; c < dim; ++c)
           {
-            const Message      message(received.second.data() + i);
-            const unsigned int s     = message.subdomain - tearing.first_id;
-            const auto        &nodes = tearing.subdomains[s].nodes;
-            const unsigned int slot =
-              std::lower_bound(nodes.begin(),
-                               nodes.end(),
-                               mesh.local_node(message.node)) -
-              nodes.begin();
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                if (message.factor[c] == 0.)
-                  continue;
-                layout_entries[s].push_back({message.row, dim * slot + c});
-                entries[s].push_back({message.row,
-                                      dim * slot + c,
-                                      message.factor[c],
-                                      message.source,
-                                      message.index,
-                                      message.item});
-              }
+            if (message.factor[c] == 0.)
+              continue;
+            layout_entries[s].push_back({message.row, dim * slot + c});
+            entries[s].push_back({message.row, dim * slot + c, message.factor[c], message.source,
+                                  message.index, message.item});
           }
-      qp::RowSet bounded;
-      for (const OwnedRow &row : owned)
-        bounded.push_back(row.source == Source::contact);
-      layout = std::make_unique<feti::RowLayout>(comm,
-                                                 bounded,
-                                                 layout_entries,
-                                                 tearing.first_id);
-      for (auto &of_subdomain : entries)
-        for (Entry &entry : of_subdomain)
-          entry.local_row = layout->local_row(entry.local_row);
-    }
+      }
+  qp::RowSet bounded;
+  for (const OwnedRow &row : owned)
+    bounded.push_back(row.source == Source::contact);
+  layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id);
+  for (auto &of_subdomain : entries)
+    for (Entry &entry : of_subdomain)
+      entry.local_row = layout->local_row(entry.local_row);
+}
 
-    template class GluingRows<2>;
-    template class GluingRows<3>;
-  } // namespace state
-} // namespace snug
+template class GluingRows<2>;
+template class GluingRows<3>;
+} // namespace snug::state

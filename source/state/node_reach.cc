@@ -3,116 +3,104 @@
 #include <algorithm>
 #include <map>
 
-namespace snug
+namespace snug::state {
+template <int dim>
+NodeReach<dim>::NodeReach(const mesh::BodyMesh<dim>       &mesh,
+                          const mesh::Subdomain           &subdomain,
+                          const std::vector<unsigned int> &nodes)
+  : n_nodes(nodes.size())
 {
-  namespace state
-  {
-    template <int dim>
-    NodeReach<dim>::NodeReach(const mesh::BodyMesh<dim>       &mesh,
-                              const mesh::Subdomain           &subdomain,
-                              const std::vector<unsigned int> &nodes)
-      : n_nodes(nodes.size())
+  const auto slot = [&](unsigned int node) {
+    return static_cast<unsigned int>(
+      std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), node) -
+      subdomain.nodes.begin());
+  };
+  bool hanging = false;
+  for (const unsigned int node : nodes)
+    hanging = hanging || mesh.is_hanging(node);
+  if (!hanging)
     {
-      const auto slot = [&](unsigned int node) {
-        return static_cast<unsigned int>(
-          std::lower_bound(subdomain.nodes.begin(),
-                           subdomain.nodes.end(),
-                           node) -
-          subdomain.nodes.begin());
-      };
-      bool hanging = false;
       for (const unsigned int node : nodes)
-        hanging = hanging || mesh.is_hanging(node);
-      if (!hanging)
-        {
-          for (const unsigned int node : nodes)
-            reached.push_back(slot(node));
-          return;
-        }
-      std::vector<std::map<unsigned int, double>> rows;
-      for (const unsigned int node : nodes)
-        {
-          rows.emplace_back();
-          if (mesh.is_hanging(node))
-            for (const auto &master :
-                 mesh.hanging()[mesh.hanging_index(node)].masters)
-              rows.back()[slot(master.first)] += master.second;
-          else
-            rows.back()[slot(node)] = 1.;
-          for (const auto &entry : rows.back())
-            reached.push_back(entry.first);
-        }
-      std::sort(reached.begin(), reached.end());
-      reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
-      for (const auto &row : rows)
-        for (const unsigned int s : reached)
-          T.push_back(row.count(s) ? row.at(s) : 0.);
+        reached.push_back(slot(node));
+      return;
     }
-
-    template <int dim>
-    const std::vector<unsigned int> &
-    NodeReach<dim>::slots() const
+  std::vector<std::map<unsigned int, double>> rows;
+  for (const unsigned int node : nodes)
     {
-      return reached;
+      rows.emplace_back();
+      if (mesh.is_hanging(node))
+        for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
+          rows.back()[slot(master.first)] += master.second;
+      else
+        rows.back()[slot(node)] = 1.;
+      for (const auto &entry : rows.back())
+        reached.push_back(entry.first);
     }
+  std::sort(reached.begin(), reached.end());
+  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+  for (const auto &row : rows)
+    for (const unsigned int s : reached)
+      T.push_back(row.count(s) ? row.at(s) : 0.);
+}
 
-    template <int dim>
-    typename NodeReach<dim>::Nodes
-    NodeReach<dim>::values(const double *u) const
-    {
-      Nodes              result(n_nodes);
-      const unsigned int m = reached.size();
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (T.empty())
-            result[a][c] = u[dim * reached[a] + c];
-          else
-            for (unsigned int s = 0; s < m; ++s)
-              result[a][c] += T[a * m + s] * u[dim * reached[s] + c];
-      return result;
-    }
+template <int dim>
+const std::vector<unsigned int> &NodeReach<dim>::slots() const
+{
+  return reached;
+}
 
-    template <int dim>
-    void
-    NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
-    {
-      const unsigned int m = reached.size();
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (T.empty())
-            u[dim * reached[a] + c] += factor * r[a][c];
-          else
-            for (unsigned int s = 0; s < m; ++s)
-              u[dim * reached[s] + c] += factor * T[a * m + s] * r[a][c];
-    }
-
-    template <int dim>
-    void
-    NodeReach<dim>::condense(std::vector<double> &K) const
-    {
+template <int dim>
+typename NodeReach<dim>::Nodes NodeReach<dim>::values(const double *u) const
+{
+  Nodes              result(n_nodes);
+  const unsigned int m = reached.size();
+  for (unsigned int a = 0; a < n_nodes; ++a)
+    for (unsigned int c = 0; c < dim; ++c)
       if (T.empty())
-        return;
-      const unsigned int  n = n_nodes, m = reached.size();
-      std::vector<double> KT(std::size_t(n) * dim * m * dim, 0.);
-      for (unsigned int row = 0; row < n * dim; ++row)
-        for (unsigned int b = 0; b < n; ++b)
-          for (unsigned int s = 0; s < m; ++s)
-            if (T[b * m + s] != 0.)
-              for (unsigned int d = 0; d < dim; ++d)
-                KT[row * m * dim + s * dim + d] +=
-                  K[row * n * dim + b * dim + d] * T[b * m + s];
-      std::vector<double> result(std::size_t(m) * dim * m * dim, 0.);
-      for (unsigned int a = 0; a < n; ++a)
+        result[a][c] = u[dim * reached[a] + c];
+      else
         for (unsigned int s = 0; s < m; ++s)
-          if (T[a * m + s] != 0.)
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int column = 0; column < m * dim; ++column)
-                result[(s * dim + c) * m * dim + column] +=
-                  T[a * m + s] * KT[(a * dim + c) * m * dim + column];
-      K = result;
-    }
+          result[a][c] += T[a * m + s] * u[dim * reached[s] + c];
+  return result;
+}
 
-    template class NodeReach<2>;
-    template class NodeReach<3>;
-  } // namespace state
-} // namespace snug
+template <int dim>
+void NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
+{
+  const unsigned int m = reached.size();
+  for (unsigned int a = 0; a < n_nodes; ++a)
+    for (unsigned int c = 0; c < dim; ++c)
+      if (T.empty())
+        u[dim * reached[a] + c] += factor * r[a][c];
+      else
+        for (unsigned int s = 0; s < m; ++s)
+          u[dim * reached[s] + c] += factor * T[a * m + s] * r[a][c];
+}
+
+template <int dim>
+void NodeReach<dim>::condense(std::vector<double> &K) const
+{
+  if (T.empty())
+    return;
+  const unsigned int  n = n_nodes, m = reached.size();
+  std::vector<double> KT(std::size_t(n) * dim * m * dim, 0.);
+  for (unsigned int row = 0; row < n * dim; ++row)
+    for (unsigned int b = 0; b < n; ++b)
+      for (unsigned int s = 0; s < m; ++s)
+        if (T[b * m + s] != 0.)
+          for (unsigned int d = 0; d < dim; ++d)
+            KT[row * m * dim + s * dim + d] += K[row * n * dim + b * dim + d] * T[b * m + s];
+  std::vector<double> result(std::size_t(m) * dim * m * dim, 0.);
+  for (unsigned int a = 0; a < n; ++a)
+    for (unsigned int s = 0; s < m; ++s)
+      if (T[a * m + s] != 0.)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int column = 0; column < m * dim; ++column)
+            result[(s * dim + c) * m * dim + column] +=
+              T[a * m + s] * KT[(a * dim + c) * m * dim + column];
+  K = result;
+}
+
+template class NodeReach<2>;
+template class NodeReach<3>;
+} // namespace snug::state

@@ -8,289 +8,238 @@
 #include <algorithm>
 #include <sstream>
 
-namespace snug
+namespace snug::state {
+namespace {
+/// Cells below this quality are not solved (see Element::quality).
+const double least_quality = 0.02;
+
+/// What is wrong with a cell at @p x of these numbers; empty: nothing.
+template <int dim>
+std::string flaw(const std::string            &body,
+                 const dealii::Tensor<1, dim> &x,
+                 const double                  quality,
+                 const double                  jacobian,
+                 const double                  least_jacobian)
 {
-  namespace state
-  {
-    namespace
+  if (quality >= least_quality && jacobian >= least_jacobian)
+    return "";
+  std::ostringstream text;
+  text << "the mesh of body " << body << " is tangled near (" << x << "): ";
+  if (quality < least_quality)
+    text << "cell quality " << quality << " is below " << least_quality;
+  else
+    text << "scaled Jacobian " << jacobian
+         << " is below 'Least scaled Jacobian' = " << least_jacobian;
+  return text.str();
+}
+
+/// What no design has moved is the input's fault.
+template <int dim>
+void check_reference(const StateProblem<dim> &problem)
+{
+  const auto &mesh  = problem.mesh;
+  const auto &model = problem.model;
+  for (const auto &cell : mesh.cells())
     {
-      /// Cells below this quality are not solved (see Element::quality).
-      const double least_quality = 0.02;
+      std::vector<dealii::Tensor<1, dim>> X;
+      for (const unsigned int node : cell.nodes)
+        X.push_back(mesh.reference_positions()[node]);
+      const auto &element = problem.elements[cell.body];
+      const auto  found   = flaw(model.body_names[cell.body], X.front(), element.quality(X),
+                                 element.scaled_jacobian(X), model.least_scaled_jacobian);
+      if (!found.empty())
+        throw InputError(found + " before any design; see its 'Warp' and 'Curved faces'");
+    }
+}
+} // namespace
 
-      /// What is wrong with a cell at @p x of these numbers; empty: nothing.
-      template <int dim>
-      std::string
-      flaw(const std::string            &body,
-           const dealii::Tensor<1, dim> &x,
-           const double                  quality,
-           const double                  jacobian,
-           const double                  least_jacobian)
-      {
-        if (quality >= least_quality && jacobian >= least_jacobian)
-          return "";
-        std::ostringstream text;
-        text << "the mesh of body " << body << " is tangled near (" << x
-             << "): ";
-        if (quality < least_quality)
-          text << "cell quality " << quality << " is below " << least_quality;
-        else
-          text << "scaled Jacobian " << jacobian
-               << " is below 'Least scaled Jacobian' = " << least_jacobian;
-        return text.str();
-      }
+template <int dim>
+StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
+                                const mesh::Tearing       &tearing,
+                                const Model<dim>          &the_model,
+                                const Field               &positions,
+                                RunContext                &context)
+  : mesh(mesh)
+  , tearing(tearing)
+  , model(the_model)
+  , context(context)
+  , face_load(mesh.degree(), mesh.idealization())
+  , resultants(mesh, face_load, model.load_cases)
+  , surface(mesh, contact::boundaries_of(model.pairs))
+{
+  for (const auto &body : model.bodies)
+    elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
+  const RunContext::Timer timer(context, "setup");
+  boxes = body_boxes(mesh);
+  if (mesh.idealization().is_axisymmetric())
+    check_radii(mesh, model.body_names);
+  everywhere(context.communicator(), [&]() { check_reference(*this); });
+  held = std::make_unique<HeldNodes<dim>>(mesh, model.supports, model.load_cases.size(), positions);
+  contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
+                                                    surface.gather(positions),
+                                                    held->directions(surface, positions));
+  systems.resize(tearing.subdomains.size());
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto &subdomain = tearing.subdomains[s];
+      assemblers.push_back(std::make_unique<Assembler<dim>>(mesh, subdomain, model,
+                                                            elements[subdomain.body], face_load));
+      systems[s].body        = subdomain.body;
+      systems[s].K           = assemblers[s]->sparsity();
+      systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
+    }
+  glue(positions);
+}
 
-      /// What no design has moved is the input's fault.
-      template <int dim>
-      void
-      check_reference(const StateProblem<dim> &problem)
+/// Everything that depends on which nodes are paired.
+template <int dim>
+void StateProblem<dim>::glue(const Field &positions)
+{
+  const auto reference = rows(positions);
+  feti.reset();
+  gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, reference);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    gluing->fill_B(s, reference, systems[s].B);
+  feti = std::make_unique<feti::TotalFeti>(systems, gluing->layout(),
+                                           subdomain_table(mesh, tearing, model.body_names),
+                                           model.feti, context);
+  last_positions.clear();
+}
+
+template <int dim>
+void StateProblem<dim>::pair(const Field &positions)
+{
+  const RunContext::Timer timer(context, "setup");
+  contact->pair(surface.gather(positions), held->directions(surface, positions));
+  glue(positions);
+}
+
+template <int dim>
+std::vector<bool> StateProblem<dim>::moved_subdomains(const Field &positions) const
+{
+  std::vector<bool> moved(systems.size(), last_positions.empty());
+  if (last_positions.empty())
+    return moved;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (const unsigned int cell : tearing.subdomains[s].cells)
+      for (const unsigned int node : mesh.cells()[cell].nodes)
+        if (positions[node] != last_positions[node])
+          moved[s] = true;
+  return moved;
+}
+
+template <int dim>
+void StateProblem<dim>::check_quality(const Field &positions, const std::vector<bool> &moved)
+{
+  if (mesh.idealization().is_axisymmetric())
+    check_axis(mesh, positions, boxes);
+  scaled_jacobians.resize(systems.size());
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    if (moved[s])
       {
-        const auto &mesh  = problem.mesh;
-        const auto &model = problem.model;
-        for (const auto &cell : mesh.cells())
+        const auto &element = assemblers[s]->element();
+        double      quality = 1., jacobian = 1.;
+        for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
           {
-            std::vector<dealii::Tensor<1, dim>> X;
-            for (const unsigned int node : cell.nodes)
-              X.push_back(mesh.reference_positions()[node]);
-            const auto &element = problem.elements[cell.body];
-            const auto  found   = flaw(model.body_names[cell.body],
-                                    X.front(),
-                                    element.quality(X),
-                                    element.scaled_jacobian(X),
+            const auto X     = assemblers[s]->cell_field(i, positions);
+            quality          = std::min(quality, element.quality(X));
+            jacobian         = std::min(jacobian, element.scaled_jacobian(X));
+            const auto found = flaw(model.body_names[systems[s].body], X.front(), quality, jacobian,
                                     model.least_scaled_jacobian);
             if (!found.empty())
-              throw InputError(
-                found +
-                " before any design; see its 'Warp' and 'Curved faces'");
+              throw TangledMesh(found + "; tighten the bounds of the shape");
           }
+        scaled_jacobians[s] = jacobian;
       }
-    } // namespace
+}
 
-    template <int dim>
-    StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
-                                    const mesh::Tearing       &tearing,
-                                    const Model<dim>          &the_model,
-                                    const Field               &positions,
-                                    RunContext                &context)
-      : mesh(mesh)
-      , tearing(tearing)
-      , model(the_model)
-      , context(context)
-      , face_load(mesh.degree(), mesh.idealization())
-      , resultants(mesh, face_load, model.load_cases)
-      , surface(mesh, contact::boundaries_of(model.pairs))
-    {
-      for (const auto &body : model.bodies)
-        elements.emplace_back(mesh.degree(),
-                              mesh.idealization(),
-                              body.formulation);
-      const RunContext::Timer timer(context, "setup");
-      boxes = body_boxes(mesh);
-      if (mesh.idealization().is_axisymmetric())
-        check_radii(mesh, model.body_names);
-      everywhere(context.communicator(), [&]() { check_reference(*this); });
-      held = std::make_unique<HeldNodes<dim>>(mesh,
-                                              model.supports,
-                                              model.load_cases.size(),
-                                              positions);
-      contact =
-        std::make_unique<contact::Contact<dim>>(surface,
-                                                model.pairs,
-                                                mesh.degree(),
-                                                surface.gather(positions),
-                                                held->directions(surface,
-                                                                 positions));
-      systems.resize(tearing.subdomains.size());
-      for (unsigned int s = 0; s < systems.size(); ++s)
+template <int dim>
+void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool> &moved)
+{
+  const RunContext::Timer timer(context, "assembly");
+  const auto              tractions = resultants.tractions(positions);
+  loads.resize(model.load_cases.size());
+  const auto assemble_subdomain = [&](const unsigned int s) {
+    auto &system = systems[s];
+    if (moved[s])
+      {
+        assemblers[s]->stiffness(positions, system.K);
+        assemblers[s]->rigid_modes(positions, boxes[system.body].centre, boxes[system.body].length,
+                                   system.R, system.Z);
+        ++context.work.assembled_subdomains;
+      }
+    if (moved[s] || assemblers[s]->has_resultants())
+      for (unsigned int c = 0; c < loads.size(); ++c)
         {
-          const auto &subdomain = tearing.subdomains[s];
-          assemblers.push_back(std::make_unique<Assembler<dim>>(
-            mesh, subdomain, model, elements[subdomain.body], face_load));
-          systems[s].body        = subdomain.body;
-          systems[s].K           = assemblers[s]->sparsity();
-          systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
+          loads[c].resize(systems.size());
+          loads[c][s] = assemblers[s]->load(positions, c, tractions);
         }
-      glue(positions);
-    }
+  };
+  everywhere(context.communicator(), [&]() {
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      assemble_subdomain(s);
+  });
+}
 
-    /// Everything that depends on which nodes are paired.
-    template <int dim>
-    void
-    StateProblem<dim>::glue(const Field &positions)
-    {
-      const auto reference = rows(positions);
-      feti.reset();
-      gluing =
-        std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, reference);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        gluing->fill_B(s, reference, systems[s].B);
-      feti = std::make_unique<feti::TotalFeti>(
-        systems,
-        gluing->layout(),
-        subdomain_table(mesh, tearing, model.body_names),
-        model.feti,
-        context);
-      last_positions.clear();
-    }
+/// Matrices, rows and factorizations of a geometry, and all loads.
+template <int dim>
+void StateProblem<dim>::update(const Field &positions, const std::vector<bool> &moved)
+{
+  last_rows = rows(positions);
+  last_positions.clear();
+  assemble(positions, moved);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    gluing->fill_B(s, last_rows, systems[s].B);
+  feti->update(moved);
+  last_positions = positions;
+}
 
-    template <int dim>
-    void
-    StateProblem<dim>::pair(const Field &positions)
-    {
-      const RunContext::Timer timer(context, "setup");
-      contact->pair(surface.gather(positions),
-                    held->directions(surface, positions));
-      glue(positions);
-    }
+template <int dim>
+void StateProblem<dim>::set_load_case(unsigned int load_case)
+{
+  check_vanished_rows(load_case);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    systems[s].f = loads[load_case][s];
+  feti->set_loads(gluing->right_hand_side(last_rows, load_case));
+}
 
-    template <int dim>
-    std::vector<bool>
-    StateProblem<dim>::moved_subdomains(const Field &positions) const
-    {
-      std::vector<bool> moved(systems.size(), last_positions.empty());
-      if (last_positions.empty())
-        return moved;
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        for (const unsigned int cell : tearing.subdomains[s].cells)
-          for (const unsigned int node : mesh.cells()[cell].nodes)
-            if (positions[node] != last_positions[node])
-              moved[s] = true;
-      return moved;
-    }
+template <int dim>
+void StateProblem<dim>::set_geometry(const Field &positions)
+{
+  const auto moved = moved_subdomains(positions);
+  everywhere(context.communicator(), [&]() { check_quality(positions, moved); });
+  least_scaled_jacobian = dealii::Utilities::MPI::min(
+    scaled_jacobians.empty() ? 1.
+                             : *std::min_element(scaled_jacobians.begin(), scaled_jacobians.end()),
+    context.communicator());
+  const int any_moved = std::find(moved.begin(), moved.end(), true) != moved.end();
+  if (dealii::Utilities::MPI::max(any_moved, context.communicator()) != 0)
+    update(positions, moved);
+}
 
-    template <int dim>
-    void
-    StateProblem<dim>::check_quality(const Field             &positions,
-                                     const std::vector<bool> &moved)
-    {
-      if (mesh.idealization().is_axisymmetric())
-        check_axis(mesh, positions, boxes);
-      scaled_jacobians.resize(systems.size());
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        if (moved[s])
-          {
-            const auto &element = assemblers[s]->element();
-            double      quality = 1., jacobian = 1.;
-            for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
-              {
-                const auto X = assemblers[s]->cell_field(i, positions);
-                quality      = std::min(quality, element.quality(X));
-                jacobian     = std::min(jacobian, element.scaled_jacobian(X));
-                const auto found = flaw(model.body_names[systems[s].body],
-                                        X.front(),
-                                        quality,
-                                        jacobian,
-                                        model.least_scaled_jacobian);
-                if (!found.empty())
-                  throw TangledMesh(found +
-                                    "; tighten the bounds of the shape");
-              }
-            scaled_jacobians[s] = jacobian;
-          }
-    }
+template <int dim>
+RowCoefficients<dim> StateProblem<dim>::rows(const Field &positions) const
+{
+  return {contact->rows(surface.gather(positions)), held->frames(positions)};
+}
 
-    template <int dim>
-    void
-    StateProblem<dim>::assemble(const Field             &positions,
-                                const std::vector<bool> &moved)
-    {
-      const RunContext::Timer timer(context, "assembly");
-      const auto              tractions = resultants.tractions(positions);
-      loads.resize(model.load_cases.size());
-      const auto assemble_subdomain = [&](const unsigned int s) {
-        auto &system = systems[s];
-        if (moved[s])
-          {
-            assemblers[s]->stiffness(positions, system.K);
-            assemblers[s]->rigid_modes(positions,
-                                       boxes[system.body].centre,
-                                       boxes[system.body].length,
-                                       system.R,
-                                       system.Z);
-            ++context.work.assembled_subdomains;
-          }
-        if (moved[s] || assemblers[s]->has_resultants())
-          for (unsigned int c = 0; c < loads.size(); ++c)
-            {
-              loads[c].resize(systems.size());
-              loads[c][s] = assemblers[s]->load(positions, c, tractions);
-            }
-      };
-      everywhere(context.communicator(), [&]() {
-        for (unsigned int s = 0; s < systems.size(); ++s)
-          assemble_subdomain(s);
-      });
-    }
+template <int dim>
+void StateProblem<dim>::check_vanished_rows(unsigned int load_case) const
+{
+  double length = 0.;
+  for (const auto &box : boxes)
+    length = std::max(length, box.length);
+  for (const unsigned int i : gluing->vanished_rows())
+    if (gluing->gap(i, last_rows, load_case) < -1e-10 * length)
+      {
+        std::ostringstream text;
+        text << "no equilibrium: contact row " << i << " overlaps by "
+             << -gluing->gap(i, last_rows, load_case)
+             << " between nodes that are held in its direction";
+        throw SolveError(text.str());
+      }
+}
 
-    /// Matrices, rows and factorizations of a geometry, and all loads.
-    template <int dim>
-    void
-    StateProblem<dim>::update(const Field             &positions,
-                              const std::vector<bool> &moved)
-    {
-      last_rows = rows(positions);
-      last_positions.clear();
-      assemble(positions, moved);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        gluing->fill_B(s, last_rows, systems[s].B);
-      feti->update(moved);
-      last_positions = positions;
-    }
-
-    template <int dim>
-    void
-    StateProblem<dim>::set_load_case(unsigned int load_case)
-    {
-      check_vanished_rows(load_case);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        systems[s].f = loads[load_case][s];
-      feti->set_loads(gluing->right_hand_side(last_rows, load_case));
-    }
-
-    template <int dim>
-    void
-    StateProblem<dim>::set_geometry(const Field &positions)
-    {
-      const auto moved = moved_subdomains(positions);
-      everywhere(context.communicator(),
-                 [&]() { check_quality(positions, moved); });
-      least_scaled_jacobian = dealii::Utilities::MPI::min(
-        scaled_jacobians.empty()
-          ? 1.
-          : *std::min_element(scaled_jacobians.begin(), scaled_jacobians.end()),
-        context.communicator());
-      const int any_moved =
-        std::find(moved.begin(), moved.end(), true) != moved.end();
-      if (dealii::Utilities::MPI::max(any_moved, context.communicator()) != 0)
-        update(positions, moved);
-    }
-
-    template <int dim>
-    RowCoefficients<dim>
-    StateProblem<dim>::rows(const Field &positions) const
-    {
-      return {contact->rows(surface.gather(positions)),
-              held->frames(positions)};
-    }
-
-    template <int dim>
-    void
-    StateProblem<dim>::check_vanished_rows(unsigned int load_case) const
-    {
-      double length = 0.;
-      for (const auto &box : boxes)
-        length = std::max(length, box.length);
-      for (const unsigned int i : gluing->vanished_rows())
-        if (gluing->gap(i, last_rows, load_case) < -1e-10 * length)
-          {
-            std::ostringstream text;
-            text << "no equilibrium: contact row " << i << " overlaps by "
-                 << -gluing->gap(i, last_rows, load_case)
-                 << " between nodes that are held in its direction";
-            throw SolveError(text.str());
-          }
-    }
-
-    template class StateProblem<2>;
-    template class StateProblem<3>;
-  } // namespace state
-} // namespace snug
+template class StateProblem<2>;
+template class StateProblem<3>;
+} // namespace snug::state

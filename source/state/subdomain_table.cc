@@ -1,38 +1,25 @@
 #include <snug/state/subdomain_table.h>
 
-namespace snug
+namespace snug::state {
+template <int dim>
+feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim>      &mesh,
+                                     const mesh::Tearing            &tearing,
+                                     const std::vector<std::string> &body_names)
 {
-  namespace state
-  {
-    template <int dim>
-    feti::SubdomainTable
-    subdomain_table(const mesh::BodyMesh<dim>      &mesh,
-                    const mesh::Tearing            &tearing,
-                    const std::vector<std::string> &body_names)
-    {
-      feti::SubdomainTable table;
-      table.n_modes    = mesh.idealization().n_rigid_motions();
-      table.first      = tearing.first_id;
-      table.body_names = body_names;
-      table.body.assign(tearing.n_global, 0);
-      for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
-        table.body[tearing.first_id + s] = tearing.subdomains[s].body;
-      MPI_Allreduce(MPI_IN_PLACE,
-                    table.body.data(),
-                    table.body.size(),
-                    MPI_UNSIGNED,
-                    MPI_MAX,
-                    mesh.communicator());
-      return table;
-    }
+  feti::SubdomainTable table;
+  table.n_modes    = mesh.idealization().n_rigid_motions();
+  table.first      = tearing.first_id;
+  table.body_names = body_names;
+  table.body.assign(tearing.n_global, 0);
+  for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
+    table.body[tearing.first_id + s] = tearing.subdomains[s].body;
+  MPI_Allreduce(MPI_IN_PLACE, table.body.data(), table.body.size(), MPI_UNSIGNED, MPI_MAX,
+                mesh.communicator());
+  return table;
+}
 
-    template feti::SubdomainTable
-    subdomain_table(const mesh::BodyMesh<2> &,
-                    const mesh::Tearing &,
-                    const std::vector<std::string> &);
-    template feti::SubdomainTable
-    subdomain_table(const mesh::BodyMesh<3> &,
-                    const mesh::Tearing &,
-                    const std::vector<std::string> &);
-  } // namespace state
-} // namespace snug
+template feti::SubdomainTable
+subdomain_table(const mesh::BodyMesh<2> &, const mesh::Tearing &, const std::vector<std::string> &);
+template feti::SubdomainTable
+subdomain_table(const mesh::BodyMesh<3> &, const mesh::Tearing &, const std::vector<std::string> &);
+} // namespace snug::state

@@ -6,169 +6,141 @@
 #include <algorithm>
 #include <numeric>
 
-namespace snug
+namespace snug::benchmark {
+namespace {
+using petsc::check;
+
+const unsigned int dim        = 3;
+const unsigned int eliminated = static_cast<unsigned int>(-1);
+
+/// Local node -> the node it is glued to (itself if to none).
+std::vector<unsigned int> glue(const state::StateSolver<dim> &solver)
 {
-  namespace benchmark
-  {
-    namespace
+  const auto               &mesh    = solver.mesh();
+  const auto               &surface = solver.surface();
+  std::vector<unsigned int> target(mesh.n_local_nodes());
+  std::iota(target.begin(), target.end(), 0);
+  const auto rows = solver.contact().rows(surface.gather(mesh.reference_positions()));
+  for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      using petsc::check;
+      const unsigned int slave = solver.contact().places()[i].slave;
+      const auto        &c     = rows[i].coefficients;
+      if (c.size() != 2)
+        throw InputError("slave and master nodes do not match");
+      const unsigned int master = c[c[0].first == slave].first;
+      target[mesh.local_node(surface.global_node(slave))] =
+        mesh.local_node(surface.global_node(master));
+    }
+  return target;
+}
+} // namespace
 
-      const unsigned int dim        = 3;
-      const unsigned int eliminated = static_cast<unsigned int>(-1);
+Bonded::Bonded(const state::StateSolver<dim> &solver)
+{
+  assemble(solver, number_unknowns(solver));
+  analyse();
+}
 
-      /// Local node -> the node it is glued to (itself if to none).
-      std::vector<unsigned int>
-      glue(const state::StateSolver<dim> &solver)
-      {
-        const auto               &mesh    = solver.mesh();
-        const auto               &surface = solver.surface();
-        std::vector<unsigned int> target(mesh.n_local_nodes());
-        std::iota(target.begin(), target.end(), 0);
-        const auto rows =
-          solver.contact().rows(surface.gather(mesh.reference_positions()));
-        for (unsigned int i = 0; i < rows.size(); ++i)
+/// Unknown of each degree of freedom dim * node + component.
+std::vector<unsigned int> Bonded::number_unknowns(const state::StateSolver<dim> &solver)
+{
+  const auto                target = glue(solver);
+  std::vector<unsigned int> unknown(dim * target.size(), 0);
+  const auto                frames = solver.held().frames(solver.mesh().reference_positions());
+  for (unsigned int node = 0; node < target.size(); ++node)
+    {
+      const unsigned int h = solver.held().find(solver.mesh().global_node(node));
+      if (h == solver.held().n_nodes())
+        continue;
+      for (const auto &direction : frames[h].directions)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (direction[c] == 1.)
+            unknown[dim * target[node] + c] = eliminated;
+    }
+  for (unsigned int node = 0; node < target.size(); ++node)
+    for (unsigned int c = 0; c < dim; ++c)
+      if (target[node] == node && unknown[dim * node + c] != eliminated)
+        unknown[dim * node + c] = K.n_rows++;
+  for (unsigned int node = 0; node < target.size(); ++node)
+    for (unsigned int c = 0; c < dim; ++c)
+      unknown[dim * node + c] = unknown[dim * target[node] + c];
+  K.n_columns = K.n_rows;
+  return unknown;
+}
+
+void Bonded::assemble(const state::StateSolver<dim>   &solver,
+                      const std::vector<unsigned int> &unknown)
+{
+  const auto                            &systems = solver.feti().subdomains();
+  std::vector<std::vector<unsigned int>> maps;
+  for (const auto &subdomain : solver.tearing().subdomains)
+    {
+      maps.emplace_back();
+      for (const unsigned int node : subdomain.nodes)
+        for (unsigned int c = 0; c < dim; ++c)
+          maps.back().push_back(unknown[dim * node + c]);
+    }
+  // i and j: unknowns, p: position in the subdomain's matrix
+  const auto for_all_entries = [&](const auto &visit) {
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
+        for (PetscInt p = systems[s].K.row_start[row]; p < systems[s].K.row_start[row + 1]; ++p)
           {
-            const unsigned int slave = solver.contact().places()[i].slave;
-            const auto        &c     = rows[i].coefficients;
-            if (c.size() != 2)
-              throw InputError("slave and master nodes do not match");
-            const unsigned int master = c[c[0].first == slave].first;
-            target[mesh.local_node(surface.global_node(slave))] =
-              mesh.local_node(surface.global_node(master));
+            const unsigned int i = maps[s][row];
+            const unsigned int j = maps[s][systems[s].K.columns[p]];
+            if (i != eliminated && j != eliminated)
+              visit(i, j, systems[s].K.values[p]);
           }
-        return target;
-      }
-    } // namespace
-
-    Bonded::Bonded(const state::StateSolver<dim> &solver)
+  };
+  std::vector<std::vector<PetscInt>> pattern(K.n_rows);
+  for_all_entries([&](unsigned int i, unsigned int j, double) { pattern[i].push_back(j); });
+  for (auto &row : pattern)
     {
-      assemble(solver, number_unknowns(solver));
-      analyse();
+      std::sort(row.begin(), row.end());
+      row.erase(std::unique(row.begin(), row.end()), row.end());
     }
+  K = feti::CsrMatrix::from_rows(pattern, K.n_columns);
+  for_all_entries(
+    [&](unsigned int i, unsigned int j, double value) { K.values[K.position(i, j)] += value; });
+  f = u = qp::MultiVector(K.n_rows);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
+      if (maps[s][row] != eliminated)
+        f(maps[s][row]) += systems[s].f[row];
+}
 
-    /// Unknown of each degree of freedom dim * node + component.
-    std::vector<unsigned int>
-    Bonded::number_unknowns(const state::StateSolver<dim> &solver)
-    {
-      const auto                target = glue(solver);
-      std::vector<unsigned int> unknown(dim * target.size(), 0);
-      const auto                frames =
-        solver.held().frames(solver.mesh().reference_positions());
-      for (unsigned int node = 0; node < target.size(); ++node)
-        {
-          const unsigned int h =
-            solver.held().find(solver.mesh().global_node(node));
-          if (h == solver.held().n_nodes())
-            continue;
-          for (const auto &direction : frames[h].directions)
-            for (unsigned int c = 0; c < dim; ++c)
-              if (direction[c] == 1.)
-                unknown[dim * target[node] + c] = eliminated;
-        }
-      for (unsigned int node = 0; node < target.size(); ++node)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (target[node] == node && unknown[dim * node + c] != eliminated)
-            unknown[dim * node + c] = K.n_rows++;
-      for (unsigned int node = 0; node < target.size(); ++node)
-        for (unsigned int c = 0; c < dim; ++c)
-          unknown[dim * node + c] = unknown[dim * target[node] + c];
-      K.n_columns = K.n_rows;
-      return unknown;
-    }
+/// As SparseFactor does, whose options for the ordering hold here too, but
+/// without its check of every factorization.
+void Bonded::analyse()
+{
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, K.n_rows, K.n_rows, K.row_start.data(),
+                                  K.columns.data(), K.values.data(), matrix.put()));
+  check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+  check(MatGetFactor(matrix, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor.put()));
+  MatFactorInfo info;
+  check(MatFactorInfoInitialize(&info));
+  check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows, f.column(0), right_hand_side.put()));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows, u.column(0), solution.put()));
+}
 
-    void
-    Bonded::assemble(const state::StateSolver<dim>   &solver,
-                     const std::vector<unsigned int> &unknown)
-    {
-      const auto &systems = solver.feti().subdomains();
-      std::vector<std::vector<unsigned int>> maps;
-      for (const auto &subdomain : solver.tearing().subdomains)
-        {
-          maps.emplace_back();
-          for (const unsigned int node : subdomain.nodes)
-            for (unsigned int c = 0; c < dim; ++c)
-              maps.back().push_back(unknown[dim * node + c]);
-        }
-      // i and j: unknowns, p: position in the subdomain's matrix
-      const auto for_all_entries = [&](const auto &visit) {
-        for (unsigned int s = 0; s < systems.size(); ++s)
-          for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
-            for (PetscInt p = systems[s].K.row_start[row];
-                 p < systems[s].K.row_start[row + 1];
-                 ++p)
-              {
-                const unsigned int i = maps[s][row];
-                const unsigned int j = maps[s][systems[s].K.columns[p]];
-                if (i != eliminated && j != eliminated)
-                  visit(i, j, systems[s].K.values[p]);
-              }
-      };
-      std::vector<std::vector<PetscInt>> pattern(K.n_rows);
-      for_all_entries([&](unsigned int i, unsigned int j, double) {
-        pattern[i].push_back(j);
-      });
-      for (auto &row : pattern)
-        {
-          std::sort(row.begin(), row.end());
-          row.erase(std::unique(row.begin(), row.end()), row.end());
-        }
-      K = feti::CsrMatrix::from_rows(pattern, K.n_columns);
-      for_all_entries([&](unsigned int i, unsigned int j, double value) {
-        K.values[K.position(i, j)] += value;
-      });
-      f = u = qp::MultiVector(K.n_rows);
-      for (unsigned int s = 0; s < systems.size(); ++s)
-        for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
-          if (maps[s][row] != eliminated)
-            f(maps[s][row]) += systems[s].f[row];
-    }
+void Bonded::factorize()
+{
+  MatFactorInfo info;
+  check(MatFactorInfoInitialize(&info));
+  check(MatCholeskyFactorNumeric(factor, matrix, &info));
+}
 
-    /// As SparseFactor does, whose options for the ordering hold here too, but
-    /// without its check of every factorization.
-    void
-    Bonded::analyse()
-    {
-      check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF,
-                                      K.n_rows,
-                                      K.n_rows,
-                                      K.row_start.data(),
-                                      K.columns.data(),
-                                      K.values.data(),
-                                      matrix.put()));
-      check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
-      check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
-      check(MatGetFactor(
-        matrix, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor.put()));
-      MatFactorInfo info;
-      check(MatFactorInfoInitialize(&info));
-      check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
-      check(VecCreateSeqWithArray(
-        PETSC_COMM_SELF, 1, K.n_rows, f.column(0), right_hand_side.put()));
-      check(VecCreateSeqWithArray(
-        PETSC_COMM_SELF, 1, K.n_rows, u.column(0), solution.put()));
-    }
+void Bonded::solve()
+{
+  check(MatSolve(factor, right_hand_side, solution));
+}
 
-    void
-    Bonded::factorize()
-    {
-      MatFactorInfo info;
-      check(MatFactorInfoInitialize(&info));
-      check(MatCholeskyFactorNumeric(factor, matrix, &info));
-    }
-
-    void
-    Bonded::solve()
-    {
-      check(MatSolve(factor, right_hand_side, solution));
-    }
-
-    double
-    Bonded::residual() const
-    {
-      qp::MultiVector rest = f;
-      K.multiply_add(-1., u, rest);
-      return qp::norms(rest, MPI_COMM_SELF)[0] / qp::norms(f, MPI_COMM_SELF)[0];
-    }
-  } // namespace benchmark
-} // namespace snug
+double Bonded::residual() const
+{
+  qp::MultiVector rest = f;
+  K.multiply_add(-1., u, rest);
+  return qp::norms(rest, MPI_COMM_SELF)[0] / qp::norms(f, MPI_COMM_SELF)[0];
+}
+} // namespace snug::benchmark

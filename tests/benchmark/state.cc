@@ -17,234 +17,196 @@
 #include <iostream>
 #include <sstream>
 
-namespace
+namespace {
+using namespace snug;
+using namespace snug::benchmark;
+
+/// One line of the table: cells per cube edge, subdomains of both bodies
+/// (0: by size).
+struct Size
 {
-  using namespace snug;
-  using namespace snug::benchmark;
+  unsigned int cells, subdomains;
+};
 
-  /// One line of the table: cells per cube edge, subdomains of both bodies
-  /// (0: by size).
-  struct Size
+/// Both sides of one size; seconds of each repeat.
+struct Times
+{
+  std::vector<Seconds> torn_factor, torn_solve, bonded_factor, bonded_solve;
+
+  std::vector<Seconds> torn() const { return sum(torn_factor, torn_solve); }
+
+  std::vector<Seconds> bonded() const { return sum(bonded_factor, bonded_solve); }
+
+private:
+  static std::vector<Seconds> sum(const std::vector<Seconds> &a, const std::vector<Seconds> &b)
   {
-    unsigned int cells, subdomains;
-  };
+    std::vector<Seconds> total;
+    for (unsigned int i = 0; i < a.size(); ++i)
+      total.push_back(a[i] + b[i]);
+    return total;
+  }
+};
 
-  /// Both sides of one size; seconds of each repeat.
-  struct Times
+std::string cpu_name()
+{
+  std::ifstream file("/proc/cpuinfo");
+  std::string   line;
+  while (std::getline(file, line))
+    if (line.rfind("model name", 0) == 0)
+      return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+scene::Scene make_scene(const std::string &file, const Size &size)
+{
+  const std::string        n     = std::to_string(size.cells);
+  const std::string        cells = "/Box cells=" + n + ',' + n + ',' + n;
+  std::vector<std::string> sets  = {"Task=state", "Body punch" + cells, "Body foundation" + cells};
+  if (size.subdomains > 0)
+    sets.push_back("Decomposition/Subdomains=" + std::to_string(size.subdomains));
+  return scene::read_scene({file, scene::read_text(file, MPI_COMM_WORLD), sets, ""});
+}
+
+/// Everything of one size: mesh, the state solved once, both sides.
+class Case
+{
+public:
+  Case(const std::string &file, const Size &size)
+    : context(MPI_COMM_WORLD, log)
+    , scene(make_scene(file, size))
+    , mesh(MPI_COMM_WORLD,
+           app::mesh_parameters(scene),
+           scene.degree,
+           mesh::Idealization::natural(3),
+           scene.tearing)
+    , tearing(mesh::tear(mesh))
+    , solver(mesh, tearing, app::build_model(scene, mesh), mesh.reference_positions(), context)
   {
-    std::vector<Seconds> torn_factor, torn_solve, bonded_factor, bonded_solve;
-
-    std::vector<Seconds>
-    torn() const
-    {
-      return sum(torn_factor, torn_solve);
-    }
-
-    std::vector<Seconds>
-    bonded() const
-    {
-      return sum(bonded_factor, bonded_solve);
-    }
-
-  private:
-    static std::vector<Seconds>
-    sum(const std::vector<Seconds> &a, const std::vector<Seconds> &b)
-    {
-      std::vector<Seconds> total;
-      for (unsigned int i = 0; i < a.size(); ++i)
-        total.push_back(a[i] + b[i]);
-      return total;
-    }
-  };
-
-  std::string
-  cpu_name()
-  {
-    std::ifstream file("/proc/cpuinfo");
-    std::string   line;
-    while (std::getline(file, line))
-      if (line.rfind("model name", 0) == 0)
-        return line.substr(line.find(':') + 2);
-    return "unknown";
+    solver.solve(mesh.reference_positions(), qp::WarmStart());
+    torn   = std::make_unique<Torn>(solver, context);
+    bonded = std::make_unique<Bonded>(solver);
   }
 
-  scene::Scene
-  make_scene(const std::string &file, const Size &size)
+  Times run(unsigned int repeats)
   {
-    const std::string        n     = std::to_string(size.cells);
-    const std::string        cells = "/Box cells=" + n + ',' + n + ',' + n;
-    std::vector<std::string> sets  = {"Task=state",
-                                      "Body punch" + cells,
-                                      "Body foundation" + cells};
-    if (size.subdomains > 0)
-      sets.push_back("Decomposition/Subdomains=" +
-                     std::to_string(size.subdomains));
-    return scene::read_scene(
-      {file, scene::read_text(file, MPI_COMM_WORLD), sets, ""});
-  }
-
-  /// Everything of one size: mesh, the state solved once, both sides.
-  class Case
-  {
-  public:
-    Case(const std::string &file, const Size &size)
-      : context(MPI_COMM_WORLD, log)
-      , scene(make_scene(file, size))
-      , mesh(MPI_COMM_WORLD,
-             app::mesh_parameters(scene),
-             scene.degree,
-             mesh::Idealization::natural(3),
-             scene.tearing)
-      , tearing(mesh::tear(mesh))
-      , solver(mesh,
-               tearing,
-               app::build_model(scene, mesh),
-               mesh.reference_positions(),
-               context)
-    {
-      solver.solve(mesh.reference_positions(), qp::WarmStart());
-      torn   = std::make_unique<Torn>(solver, context);
-      bonded = std::make_unique<Bonded>(solver);
-    }
-
-    Times
-    run(unsigned int repeats)
-    {
-      Times times;
-      // the first time touches the memory of the factors
-      for (unsigned int i = 0; i <= repeats; ++i)
-        {
-          const Seconds factor = measure([&]() { torn->factorize(); });
-          const Seconds solve  = measure([&]() { torn->solve(); });
-          const Seconds other  = measure([&]() { bonded->factorize(); });
-          const Seconds linear = measure([&]() { bonded->solve(); });
-          if (i == 0)
-            continue;
-          times.torn_factor.push_back(factor);
-          times.torn_solve.push_back(solve);
-          times.bonded_factor.push_back(other);
-          times.bonded_solve.push_back(linear);
-        }
-      if (!(bonded->residual() < 1e-8))
-        throw std::runtime_error("the bonded solve is wrong");
-      return times;
-    }
-
-    std::ostringstream      log;
-    RunContext              context;
-    scene::Scene            scene;
-    mesh::BodyMesh<3>       mesh;
-    mesh::Tearing           tearing;
-    state::StateSolver<3>   solver;
-    std::unique_ptr<Torn>   torn;
-    std::unique_ptr<Bonded> bonded;
-  };
-
-  /// Ratio of the medians, then the range of the ratios of single repeats.
-  std::string
-  ratio(const Times &times, double Seconds::*clock)
-  {
-    const auto torn = times.torn(), bonded = times.bonded();
-    double     least = torn[0].*clock / (bonded[0].*clock), most = least;
-    for (unsigned int i = 1; i < torn.size(); ++i)
+    Times times;
+    // the first time touches the memory of the factors
+    for (unsigned int i = 0; i <= repeats; ++i)
       {
-        least = std::min(least, torn[i].*clock / (bonded[i].*clock));
-        most  = std::max(most, torn[i].*clock / (bonded[i].*clock));
+        const Seconds factor = measure([&]() { torn->factorize(); });
+        const Seconds solve  = measure([&]() { torn->solve(); });
+        const Seconds other  = measure([&]() { bonded->factorize(); });
+        const Seconds linear = measure([&]() { bonded->solve(); });
+        if (i == 0)
+          continue;
+        times.torn_factor.push_back(factor);
+        times.torn_solve.push_back(solve);
+        times.bonded_factor.push_back(other);
+        times.bonded_solve.push_back(linear);
       }
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(2)
-         << median(torn).*clock / (median(bonded).*clock) << " (" << least
-         << '-' << most << ')';
-    return text.str();
+    if (!(bonded->residual() < 1e-8))
+      throw std::runtime_error("the bonded solve is wrong");
+    return times;
   }
 
-  void
-  print_head(const RunContext &context, unsigned int repeats)
-  {
-    const auto program = io::program_info(context);
-    std::cout
-      << "The contact state (Total FETI, cold) against one linear solve of the "
-         "bonded bodies (CHOLMOD)\n"
-      << "one core of " << cpu_name() << ", BLAS " << program.blas << ", "
-      << program.compiler << '\n'
-      << "numeric factorization + solve, CPU seconds, medians of " << repeats
-      << " interleaved repeats; ratios: of the medians (range)\n\n"
-      << " cells   H/h  subdomains  unknowns  F-mults |  state: factor   solve "
-         "| bonded: factor   solve |  ratio CPU          ratio wall\n";
-  }
+  std::ostringstream      log;
+  RunContext              context;
+  scene::Scene            scene;
+  mesh::BodyMesh<3>       mesh;
+  mesh::Tearing           tearing;
+  state::StateSolver<3>   solver;
+  std::unique_ptr<Torn>   torn;
+  std::unique_ptr<Bonded> bonded;
+};
 
-  void
-  print_row(const Size &size, const Case &c, const Times &times)
-  {
-    const double cells_each =
-      double(c.mesh.n_global_cells()) / c.tearing.n_global;
-    std::cout << std::fixed << std::setw(4) << size.cells << "^3"
-              << std::setw(6) << std::setprecision(1) << std::cbrt(cells_each)
-              << std::setw(12) << c.tearing.n_global << std::setw(10)
-              << 3 * c.mesh.n_global_free_nodes() << std::setw(9)
-              << c.torn->f_mults() << " |" << std::setprecision(3)
-              << std::setw(15) << median(times.torn_factor).cpu << std::setw(8)
-              << median(times.torn_solve).cpu << " |" << std::setw(15)
-              << median(times.bonded_factor).cpu << std::setw(8)
-              << median(times.bonded_solve).cpu << " |  " << std::left
-              << std::setw(19) << ratio(times, &Seconds::cpu)
-              << ratio(times, &Seconds::wall) << std::right << std::endl;
-  }
+/// Ratio of the medians, then the range of the ratios of single repeats.
+std::string ratio(const Times &times, double Seconds::*clock)
+{
+  const auto torn = times.torn(), bonded = times.bonded();
+  double     least = torn[0].*clock / (bonded[0].*clock), most = least;
+  for (unsigned int i = 1; i < torn.size(); ++i)
+    {
+      least = std::min(least, torn[i].*clock / (bonded[i].*clock));
+      most  = std::max(most, torn[i].*clock / (bonded[i].*clock));
+    }
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << median(torn).*clock / (median(bonded).*clock)
+       << " (" << least << '-' << most << ')';
+  return text.str();
+}
 
-  void
-  print_stages(std::ostream             &out,
-               const Size               &size,
-               const Case               &c,
-               const std::vector<Stage> &stages)
-  {
-    out << '\n'
-        << size.cells << "^3 cells, " << c.tearing.n_global
-        << " subdomains, CPU seconds: count x each = all\n"
-        << std::fixed;
-    for (const Stage &stage : stages)
-      out << "  " << std::left << std::setw(50) << stage.name << std::right
-          << std::setw(4) << stage.count << " x " << std::setprecision(5)
-          << stage.each.cpu << " = " << std::setprecision(3)
-          << stage.count * stage.each.cpu << '\n';
-  }
+void print_head(const RunContext &context, unsigned int repeats)
+{
+  const auto program = io::program_info(context);
+  std::cout << "The contact state (Total FETI, cold) against one linear solve of the "
+               "bonded bodies (CHOLMOD)\n"
+            << "one core of " << cpu_name() << ", BLAS " << program.blas << ", " << program.compiler
+            << '\n'
+            << "numeric factorization + solve, CPU seconds, medians of " << repeats
+            << " interleaved repeats; ratios: of the medians (range)\n\n"
+            << " cells   H/h  subdomains  unknowns  F-mults |  state: factor   solve "
+               "| bonded: factor   solve |  ratio CPU          ratio wall\n";
+}
 
-  int
-  run(const std::string       &file,
-      const std::vector<Size> &sizes,
-      unsigned int             repeats)
-  {
-    std::ostringstream breakdowns;
-    print_head(RunContext(MPI_COMM_WORLD, breakdowns), repeats);
-    for (const Size &size : sizes)
-      {
-        Case        c(file, size);
-        const Times times = c.run(repeats);
-        print_row(size, c, times);
-        print_stages(breakdowns, size, c, c.torn->stages(median(times.torn())));
-      }
-    std::cout << breakdowns.str();
-    return 0;
-  }
+void print_row(const Size &size, const Case &c, const Times &times)
+{
+  const double cells_each = double(c.mesh.n_global_cells()) / c.tearing.n_global;
+  std::cout << std::fixed << std::setw(4) << size.cells << "^3" << std::setw(6)
+            << std::setprecision(1) << std::cbrt(cells_each) << std::setw(12) << c.tearing.n_global
+            << std::setw(10) << 3 * c.mesh.n_global_free_nodes() << std::setw(9)
+            << c.torn->f_mults() << " |" << std::setprecision(3) << std::setw(15)
+            << median(times.torn_factor).cpu << std::setw(8) << median(times.torn_solve).cpu << " |"
+            << std::setw(15) << median(times.bonded_factor).cpu << std::setw(8)
+            << median(times.bonded_solve).cpu << " |  " << std::left << std::setw(19)
+            << ratio(times, &Seconds::cpu) << ratio(times, &Seconds::wall) << std::right
+            << std::endl;
+}
 
-  /// "20:250" or "19".
-  Size
-  parse_size(const std::string &text)
-  {
-    Size               size = {0, 0};
-    char               colon;
-    std::istringstream in(text);
-    if (!(in >> size.cells) || (in >> colon && !(in >> size.subdomains)))
-      throw InputError("a size is CELLS or CELLS:SUBDOMAINS, not '" + text +
-                       "'");
-    return size;
-  }
+void print_stages(std::ostream             &out,
+                  const Size               &size,
+                  const Case               &c,
+                  const std::vector<Stage> &stages)
+{
+  out << '\n'
+      << size.cells << "^3 cells, " << c.tearing.n_global
+      << " subdomains, CPU seconds: count x each = all\n"
+      << std::fixed;
+  for (const Stage &stage : stages)
+    out << "  " << std::left << std::setw(50) << stage.name << std::right << std::setw(4)
+        << stage.count << " x " << std::setprecision(5) << stage.each.cpu << " = "
+        << std::setprecision(3) << stage.count * stage.each.cpu << '\n';
+}
 
-  const char *const usage =
-    "usage: benchmark.state FILE.prm REPEATS CELLS[:SUBDOMAINS]...\n";
+int run(const std::string &file, const std::vector<Size> &sizes, unsigned int repeats)
+{
+  std::ostringstream breakdowns;
+  print_head(RunContext(MPI_COMM_WORLD, breakdowns), repeats);
+  for (const Size &size : sizes)
+    {
+      Case        c(file, size);
+      const Times times = c.run(repeats);
+      print_row(size, c, times);
+      print_stages(breakdowns, size, c, c.torn->stages(median(times.torn())));
+    }
+  std::cout << breakdowns.str();
+  return 0;
+}
+
+/// "20:250" or "19".
+Size parse_size(const std::string &text)
+{
+  Size               size = {0, 0};
+  char               colon;
+  std::istringstream in(text);
+  if (!(in >> size.cells) || (in >> colon && !(in >> size.subdomains)))
+    throw InputError("a size is CELLS or CELLS:SUBDOMAINS, not '" + text + "'");
+  return size;
+}
+
+const char *const usage = "usage: benchmark.state FILE.prm REPEATS CELLS[:SUBDOMAINS]...\n";
 } // namespace
 
-int
-main(int argc, char *argv[])
+int main(int argc, char *argv[])
 {
   dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
   if (argc < 4)

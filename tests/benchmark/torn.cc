@@ -3,149 +3,130 @@
 
 #include <benchmark/torn.h>
 
-namespace snug
+namespace snug::benchmark {
+namespace {
+const unsigned int repeats = 7;
+
+feti::SubdomainTable subdomain_table(const state::StateSolver<3> &solver)
 {
-  namespace benchmark
-  {
-    namespace
+  feti::SubdomainTable table;
+  table.n_modes    = 6;
+  table.body_names = solver.model().body_names;
+  for (const auto &subdomain : solver.tearing().subdomains)
+    table.body.push_back(subdomain.body);
+  return table;
+}
+
+/// The part of the wanted tolerance at which StateSolver begins.
+const double margin = 0.25;
+} // namespace
+
+Torn::Torn(const state::StateSolver<3> &solver, RunContext &context)
+  : solver(solver)
+  , context(context)
+  , all(solver.tearing().subdomains.size(), true)
+  , none(all.size(), false)
+  , feti(solver.feti().subdomains(),
+         solver.gluing().layout(),
+         subdomain_table(solver),
+         solver.model().feti,
+         context)
+{}
+
+void Torn::factorize()
+{
+  feti.update(all);
+  feti.set_loads(solver.feti().g());
+}
+
+void Torn::solve()
+{
+  const Work           before     = context.work;
+  const double         wanted     = solver.model().solver.relative_tolerance;
+  qp::SolverParameters parameters = solver.model().solver;
+  qp::WarmStart        start;
+  double               error = wanted;
+  outer_iterations           = 0;
+  do
     {
-      const unsigned int repeats = 7;
+      parameters.relative_tolerance *= margin;
+      const auto dual =
+        choose(qp::solver_table(), parameters.method).make(parameters)->solve(feti, start);
+      const auto u = feti.recover(feti.loads(), dual.lambda, dual.amplitudes);
+      error        = state::certify(feti, dual.lambda, u).worst();
+      start        = {dual.lambda, dual.active};
+      outer_iterations += dual.outer_iterations;
+  } while (error > wanted);
+  active = start.active;
+  work   = context.work;
+  work.f_mults -= before.f_mults;
+  work.preconditioner_applications -= before.preconditioner_applications;
+  work.coarse_solves -= before.coarse_solves;
+}
 
-      feti::SubdomainTable
-      subdomain_table(const state::StateSolver<3> &solver)
-      {
-        feti::SubdomainTable table;
-        table.n_modes    = 6;
-        table.body_names = solver.model().body_names;
-        for (const auto &subdomain : solver.tearing().subdomains)
-          table.body.push_back(subdomain.body);
-        return table;
-      }
+Stage Torn::factorization_of_inverses() const
+{
+  std::vector<std::unique_ptr<feti::GeneralizedInverse>> inverses;
+  for (const auto &system : feti.subdomains())
+    inverses.push_back(std::make_unique<feti::GeneralizedInverse>(system,
+                                                                  solver.model().feti.factorization,
+                                                                  context));
+  const auto factorize = [&]() {
+    for (auto &inverse : inverses)
+      inverse->factorize("K");
+  };
+  factorize(); // touches the memory
+  return {"factorization of K + rho Q", 1, median_time(repeats, factorize)};
+}
 
-      /// The part of the wanted tolerance at which StateSolver begins.
-      const double margin = 0.25;
-    } // namespace
+Stage Torn::factorization_of_interiors() const
+{
+  std::vector<std::unique_ptr<feti::LocalSchur>> schur;
+  for (const auto &system : feti.subdomains())
+    schur.push_back(std::make_unique<feti::LocalSchur>(system, false,
+                                                       solver.model().feti.factorization, context));
+  const auto factorize = [&]() {
+    for (auto &part : schur)
+      part->factorize("K_ii");
+  };
+  factorize();
+  return {"factorization of K_ii", 1, median_time(repeats, factorize)};
+}
 
-    Torn::Torn(const state::StateSolver<3> &solver, RunContext &context)
-      : solver(solver)
-      , context(context)
-      , all(solver.tearing().subdomains.size(), true)
-      , none(all.size(), false)
-      , feti(solver.feti().subdomains(),
-             solver.gluing().layout(),
-             subdomain_table(solver),
-             solver.model().feti,
-             context)
-    {
-    }
+std::vector<Stage> Torn::stages(const Seconds &whole)
+{
+  const unsigned int n_mults = work.f_mults, n_preconds = work.preconditioner_applications,
+                     n_coarse = work.coarse_solves, n_outer = outer_iterations;
 
-    void
-    Torn::factorize()
-    {
-      feti.update(all);
-      feti.set_loads(solver.feti().g());
-    }
+  const auto x    = feti.d();
+  const auto face = feti.face(active);
+  auto       y    = x;
+  face->project(y); // makes the coarse problem
+  face->precondition(x);
+  const auto make_face = [&]() {
+    const auto fresh = feti.face(active);
+    fresh->project(y);
+  };
+  const Seconds apply        = median_time(repeats, [&]() { feti.apply(x); });
+  const Seconds precondition = median_time(repeats, [&]() { face->precondition(x); });
+  const Seconds project      = median_time(repeats, [&]() { face->project(y); });
+  const Seconds fresh        = median_time(repeats, make_face) - project;
+  const Seconds coarse       = median_time(repeats, [&]() {
+    feti.update(none);
+    feti.set_loads(solver.feti().g());
+  });
 
-    void
-    Torn::solve()
-    {
-      const Work           before = context.work;
-      const double         wanted = solver.model().solver.relative_tolerance;
-      qp::SolverParameters parameters = solver.model().solver;
-      qp::WarmStart        start;
-      double               error = wanted;
-      outer_iterations           = 0;
-      do
-        {
-          parameters.relative_tolerance *= margin;
-          const auto dual = choose(qp::solver_table(), parameters.method)
-                              .make(parameters)
-                              ->solve(feti, start);
-          const auto u =
-            feti.recover(feti.loads(), dual.lambda, dual.amplitudes);
-          error = state::certify(feti, dual.lambda, u).worst();
-          start = {dual.lambda, dual.active};
-          outer_iterations += dual.outer_iterations;
-      } while (error > wanted);
-      active = start.active;
-      work   = context.work;
-      work.f_mults -= before.f_mults;
-      work.preconditioner_applications -= before.preconditioner_applications;
-      work.coarse_solves -= before.coarse_solves;
-    }
-
-    Stage
-    Torn::factorization_of_inverses() const
-    {
-      std::vector<std::unique_ptr<feti::GeneralizedInverse>> inverses;
-      for (const auto &system : feti.subdomains())
-        inverses.push_back(std::make_unique<feti::GeneralizedInverse>(
-          system, solver.model().feti.factorization, context));
-      const auto factorize = [&]() {
-        for (auto &inverse : inverses)
-          inverse->factorize("K");
-      };
-      factorize(); // touches the memory
-      return {"factorization of K + rho Q", 1, median_time(repeats, factorize)};
-    }
-
-    Stage
-    Torn::factorization_of_interiors() const
-    {
-      std::vector<std::unique_ptr<feti::LocalSchur>> schur;
-      for (const auto &system : feti.subdomains())
-        schur.push_back(std::make_unique<feti::LocalSchur>(
-          system, false, solver.model().feti.factorization, context));
-      const auto factorize = [&]() {
-        for (auto &part : schur)
-          part->factorize("K_ii");
-      };
-      factorize();
-      return {"factorization of K_ii", 1, median_time(repeats, factorize)};
-    }
-
-    std::vector<Stage>
-    Torn::stages(const Seconds &whole)
-    {
-      const unsigned int n_mults    = work.f_mults,
-                         n_preconds = work.preconditioner_applications,
-                         n_coarse   = work.coarse_solves,
-                         n_outer    = outer_iterations;
-
-      const auto x    = feti.d();
-      const auto face = feti.face(active);
-      auto       y    = x;
-      face->project(y); // makes the coarse problem
-      face->precondition(x);
-      const auto make_face = [&]() {
-        const auto fresh = feti.face(active);
-        fresh->project(y);
-      };
-      const Seconds apply = median_time(repeats, [&]() { feti.apply(x); });
-      const Seconds precondition =
-        median_time(repeats, [&]() { face->precondition(x); });
-      const Seconds project = median_time(repeats, [&]() { face->project(y); });
-      const Seconds fresh   = median_time(repeats, make_face) - project;
-      const Seconds coarse  = median_time(repeats, [&]() {
-        feti.update(none);
-        feti.set_loads(solver.feti().g());
-      });
-
-      std::vector<Stage> stages = {factorization_of_inverses(),
-                                   factorization_of_interiors(),
-                                   {"coarse space, W, d and e", 1, coarse},
-                                   {"F", n_mults, apply},
-                                   {"preconditioner", n_preconds, precondition},
-                                   {"projection", n_coarse, project},
-                                   {"coarse problem of a face",
-                                    n_outer + 1,
-                                    fresh}};
-      Seconds            rest   = whole;
-      for (const Stage &stage : stages)
-        rest = rest - double(stage.count) * stage.each;
-      stages.push_back(
-        {"rest: reorthogonalisation, W, KKT, u, certificate", 1, rest});
-      return stages;
-    }
-  } // namespace benchmark
-} // namespace snug
+  std::vector<Stage> stages = {factorization_of_inverses(),
+                               factorization_of_interiors(),
+                               {"coarse space, W, d and e", 1, coarse},
+                               {"F", n_mults, apply},
+                               {"preconditioner", n_preconds, precondition},
+                               {"projection", n_coarse, project},
+                               {"coarse problem of a face", n_outer + 1, fresh}};
+  Seconds            rest   = whole;
+  for (const Stage &stage : stages)
+    rest = rest - double(stage.count) * stage.each;
+  stages.push_back({"rest: reorthogonalisation, W, KKT, u, certificate", 1, rest});
+  return stages;
+}
+} // namespace snug::benchmark

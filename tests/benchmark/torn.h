@@ -8,65 +8,52 @@
 
 #include <string>
 
-namespace snug
+namespace snug::benchmark {
+/// Part of a state: its name, how often it occurs, seconds of one.
+struct Stage
 {
-  namespace benchmark
-  {
-    /// Part of a state: its name, how often it occurs, seconds of one.
-    struct Stage
-    {
-      std::string  name;
-      unsigned int count;
-      Seconds      each;
-    };
+  std::string  name;
+  unsigned int count;
+  Seconds      each;
+};
 
-    /**
-     * The contact state by Total FETI with everything assembled and symbolic
-     * factorizations kept: what StateSolver::solve() does after assembly, from
-     * a cold start and with all subdomains factorized anew.
-     */
-    class Torn
-    {
-    public:
-      /// Both must outlive this object; the solver has solved a state. One
-      /// rank.
-      Torn(const state::StateSolver<3> &solver, RunContext &context);
+/**
+ * The contact state by Total FETI with everything assembled and symbolic
+ * factorizations kept: what StateSolver::solve() does after assembly, from
+ * a cold start and with all subdomains factorized anew.
+ */
+class Torn
+{
+public:
+  /// Both must outlive this object; the solver has solved a state. One
+  /// rank.
+  Torn(const state::StateSolver<3> &solver, RunContext &context);
 
-      /// Numeric factorizations, coarse space, d.
-      void
-      factorize();
+  /// Numeric factorizations, coarse space, d.
+  void factorize();
 
-      /// The QP, u and the certificate, until that meets the tolerance.
-      void
-      solve();
+  /// The QP, u and the certificate, until that meets the tolerance.
+  void solve();
 
-      /// F-mults of the last solve().
-      unsigned long
-      f_mults() const
-      {
-        return work.f_mults;
-      }
+  /// F-mults of the last solve().
+  unsigned long f_mults() const { return work.f_mults; }
 
-      /// What a state consists of, as measured one by one; @p whole is the
-      /// time of factorize() and solve() together.
-      std::vector<Stage>
-      stages(const Seconds &whole);
+  /// What a state consists of, as measured one by one; @p whole is the
+  /// time of factorize() and solve() together.
+  std::vector<Stage> stages(const Seconds &whole);
 
-    private:
-      Stage
-      factorization_of_inverses() const;
-      Stage
-      factorization_of_interiors() const;
+private:
+  Stage factorization_of_inverses() const;
+  Stage factorization_of_interiors() const;
 
-      const state::StateSolver<3> &solver;
-      RunContext                  &context;
-      std::vector<bool>            all, none;
-      feti::TotalFeti              feti;
-      qp::RowSet                   active;
-      unsigned int                 outer_iterations = 0;
-      Work                         work; ///< of the last solve
-    };
-  } // namespace benchmark
-} // namespace snug
+  const state::StateSolver<3> &solver;
+  RunContext                  &context;
+  std::vector<bool>            all, none;
+  feti::TotalFeti              feti;
+  qp::RowSet                   active;
+  unsigned int                 outer_iterations = 0;
+  Work                         work; ///< of the last solve
+};
+} // namespace snug::benchmark
 
 #endif

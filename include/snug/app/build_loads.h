@@ -4,32 +4,25 @@
 #include <snug/scene/scene.h>
 #include <snug/state/model.h>
 
-namespace snug
-{
-  namespace app
-  {
-    /// The load cases of a scene: the loads of the bodies and of the scene in
-    /// each, and its own added. At least one, without a name.
-    /// @throws InputError for names that do not exist and for resultants a
-    ///   body of revolution cannot have.
-    template <int dim>
-    std::vector<state::LoadCase<dim>>
-    build_load_cases(const scene::Scene        &scene,
-                     const mesh::BodyMesh<dim> &mesh);
+namespace snug::app {
+/// The load cases of a scene: the loads of the bodies and of the scene in
+/// each, and its own added. At least one, without a name.
+/// @throws InputError for names that do not exist and for resultants a
+///   body of revolution cannot have.
+template <int dim>
+std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &scene,
+                                                   const mesh::BodyMesh<dim> &mesh);
 
-    /// What holds the bodies: supports, and the displacements that bodies and
-    /// load cases prescribe.
-    template <int dim>
-    std::vector<state::Support<dim>>
-    build_supports(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+/// What holds the bodies: supports, and the displacements that bodies and
+/// load cases prescribe.
+template <int dim>
+std::vector<state::Support<dim>> build_supports(const scene::Scene        &scene,
+                                                const mesh::BodyMesh<dim> &mesh);
 
-    /// (body, boundary) of "body.boundary".
-    template <int dim>
-    std::pair<unsigned int, unsigned int>
-    find_face(const scene::Scene        &scene,
-              const mesh::BodyMesh<dim> &mesh,
-              const std::string         &face);
-  } // namespace app
-} // namespace snug
+/// (body, boundary) of "body.boundary".
+template <int dim>
+std::pair<unsigned int, unsigned int>
+find_face(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &face);
+} // namespace snug::app
 
 #endif

@@ -5,42 +5,34 @@
 #include <snug/base/errors.h>
 #include <snug/state/state_solver.h>
 
-namespace snug
+namespace snug::app {
+/// What @p make makes of a scene; errors begin with its file, as all of
+/// the input do.
+template <typename Make>
+auto made_of(const scene::Scene &scene, const Make &make)
 {
-  namespace app
-  {
-    /// What @p make makes of a scene; errors begin with its file, as all of
-    /// the input do.
-    template <typename Make>
-    auto
-    made_of(const scene::Scene &scene, const Make &make)
+  try
     {
-      try
-        {
-          return make();
-        }
-      catch (const InputError &error)
-        {
-          throw InputError(scene.file + ": " + error.what());
-        }
+      return make();
     }
+  catch (const InputError &error)
+    {
+      throw InputError(scene.file + ": " + error.what());
+    }
+}
 
-    /// The meshes of all bodies. Collective. @throws InputError naming the
-    /// file.
-    template <int dim>
-    std::unique_ptr<mesh::BodyMesh<dim>>
-    build_mesh(const scene::Scene &scene, MPI_Comm communicator);
+/// The meshes of all bodies. Collective. @throws InputError naming the
+/// file.
+template <int dim>
+std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &scene, MPI_Comm communicator);
 
-    /// Mesh entries of all bodies, in their order.
-    std::vector<mesh::BodyMeshParameters>
-    mesh_parameters(const scene::Scene &scene);
+/// Mesh entries of all bodies, in their order.
+std::vector<mesh::BodyMeshParameters> mesh_parameters(const scene::Scene &scene);
 
-    /// The state problem of a scene: names of bodies and boundaries become
-    /// indices. @throws InputError for names that do not exist.
-    template <int dim>
-    state::Model<dim>
-    build_model(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
-  } // namespace app
-} // namespace snug
+/// The state problem of a scene: names of bodies and boundaries become
+/// indices. @throws InputError for names that do not exist.
+template <int dim>
+state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+} // namespace snug::app
 
 #endif

@@ -4,33 +4,27 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::app {
+/// What the command line asks for.
+struct Options
 {
-  namespace app
-  {
-    /// What the command line asks for.
-    struct Options
-    {
-      std::string              file;
-      std::vector<std::string> sets;   ///< "Subsection/Entry=value"
-      std::string              output; ///< directory; empty: as in the file
-      bool                     restart          = false;
-      bool                     validate         = false;
-      bool                     print_parameters = false;
-      bool                     help             = false;
-      bool                     version          = false;
-    };
+  std::string              file;
+  std::vector<std::string> sets;   ///< "Subsection/Entry=value"
+  std::string              output; ///< directory; empty: as in the file
+  bool                     restart          = false;
+  bool                     validate         = false;
+  bool                     print_parameters = false;
+  bool                     help             = false;
+  bool                     version          = false;
+};
 
-    /// Values may follow their option or an equals sign (--output=DIR).
-    /// @throws InputError naming an option that is unknown, lacks its value or
-    ///   has one it does not take, and if there is not exactly one file.
-    Options
-    parse(int argc, const char *const *argv);
+/// Values may follow their option or an equals sign (--output=DIR).
+/// @throws InputError naming an option that is unknown, lacks its value or
+///   has one it does not take, and if there is not exactly one file.
+Options parse(int argc, const char *const *argv);
 
-    /// What --help prints.
-    std::string
-    usage();
-  } // namespace app
-} // namespace snug
+/// What --help prints.
+std::string usage();
+} // namespace snug::app
 
 #endif

@@ -7,32 +7,23 @@
 #include <functional>
 #include <string>
 
-namespace snug
-{
-  namespace app
-  {
-    /// 2 for InputError, 3 for SolveError, else 1.
-    int
-    exit_status(const std::exception &error);
+namespace snug::app {
+/// 2 for InputError, 3 for SolveError, else 1.
+int exit_status(const std::exception &error);
 
-    /// The message in one line, without deal.II's banner and stack.
-    std::string
-    one_line(const std::exception &error);
+/// The message in one line, without deal.II's banner and stack.
+std::string one_line(const std::exception &error);
 
-    /**
-     * Run @p work and turn what it throws into an exit status and one line
-     * "snug: ..." on standard error.
-     *
-     * Errors that all ranks throw (those of the input, of the solver and of
-     * everywhere()) are printed by rank 0 and returned. If the others do not
-     * follow within @p patience seconds, they may be waiting for a message
-     * that never comes: the rank prints its own error and MPI_Abort ends all.
-     */
-    int
-    guarded(MPI_Comm                    communicator,
-            const std::function<int()> &work,
-            double                      patience = 10.);
-  } // namespace app
-} // namespace snug
+/**
+ * Run @p work and turn what it throws into an exit status and one line
+ * "snug: ..." on standard error.
+ *
+ * Errors that all ranks throw (those of the input, of the solver and of
+ * everywhere()) are printed by rank 0 and returned. If the others do not
+ * follow within @p patience seconds, they may be waiting for a message
+ * that never comes: the rank prints its own error and MPI_Abort ends all.
+ */
+int guarded(MPI_Comm communicator, const std::function<int()> &work, double patience = 10.);
+} // namespace snug::app
 
 #endif

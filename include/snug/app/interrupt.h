@@ -3,18 +3,12 @@
 
 #include <mpi.h>
 
-namespace snug
-{
-  namespace app
-  {
-    /// From now on SIGTERM and SIGINT only set a flag.
-    void
-    catch_interrupts();
+namespace snug::app {
+/// From now on SIGTERM and SIGINT only set a flag.
+void catch_interrupts();
 
-    /// @throws Interrupted on all ranks if any rank got a signal. Collective.
-    void
-    check_interrupts(MPI_Comm communicator);
-  } // namespace app
-} // namespace snug
+/// @throws Interrupted on all ranks if any rank got a signal. Collective.
+void check_interrupts(MPI_Comm communicator);
+} // namespace snug::app
 
 #endif

@@ -6,69 +6,61 @@
 
 #include <iosfwd>
 
-namespace snug
+namespace snug::app {
+/// What the meshes of a scene look like, for who writes one.
+template <int dim>
+struct Inventory
 {
-  namespace app
+  /// Bounding box [length].
+  struct Box
   {
-    /// What the meshes of a scene look like, for who writes one.
-    template <int dim>
-    struct Inventory
-    {
-      /// Bounding box [length].
-      struct Box
-      {
-        dealii::Point<dim> lower, upper;
-      };
+    dealii::Point<dim> lower, upper;
+  };
 
-      struct Boundary
-      {
-        std::string name;
-        double      area = 0.; ///< [length^2]
-        Box         box;
-      };
+  struct Boundary
+  {
+    std::string name;
+    double      area = 0.; ///< [length^2]
+    Box         box;
+  };
 
-      /// What a material can be given to.
-      struct Region
-      {
-        std::string   name;
-        unsigned long n_cells;
-        double        volume; ///< [length^3], per revolution, of the thickness
-      };
+  /// What a material can be given to.
+  struct Region
+  {
+    std::string   name;
+    unsigned long n_cells;
+    double        volume; ///< [length^3], per revolution, of the thickness
+  };
 
-      struct Body
-      {
-        std::string           name;
-        unsigned long         n_cells = 0;
-        std::vector<Region>   regions; ///< may be empty, see BodyGeometry
-        Box                   box;
-        std::vector<Boundary> boundaries;
-      };
+  struct Body
+  {
+    std::string           name;
+    unsigned long         n_cells = 0;
+    std::vector<Region>   regions; ///< may be empty, see BodyGeometry
+    Box                   box;
+    std::vector<Boundary> boundaries;
+  };
 
-      std::vector<Body> bodies;
-    };
+  std::vector<Body> bodies;
+};
 
-    /// The meshes as they are, refined. Collective.
-    template <int dim>
-    Inventory<dim>
-    take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+/// The meshes as they are, refined. Collective.
+template <int dim>
+Inventory<dim> take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
-    /// One line per body, region and boundary.
-    template <int dim>
-    void
-    print(const Inventory<dim> &inventory, std::ostream &out);
+/// One line per body, region and boundary.
+template <int dim>
+void print(const Inventory<dim> &inventory, std::ostream &out);
 
-    /**
-     * @throws InputError if the faces of a pair are farther apart than ten
-     *   times the larger of their bodies, as in a mix-up of units. Collective.
-     */
-    template <int dim>
-    void
-    check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+/**
+ * @throws InputError if the faces of a pair are farther apart than ten
+ *   times the larger of their bodies, as in a mix-up of units. Collective.
+ */
+template <int dim>
+void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
-    /// One line for each body whose mesh file was changed on reading.
-    void
-    print_import_notes(const scene::Scene &scene, std::ostream &out);
-  } // namespace app
-} // namespace snug
+/// One line for each body whose mesh file was changed on reading.
+void print_import_notes(const scene::Scene &scene, std::ostream &out);
+} // namespace snug::app
 
 #endif

@@ -3,58 +3,48 @@
 
 #include <snug/app/workshop.h>
 
-namespace snug
+namespace snug::app {
+/**
+ * The objective of a scene differentiated at @p states, those of the start:
+ * by Gradient/Method or, with Gradient/Compare, by all methods side by
+ * side, printed as a table. At weakly active contacts the one-sided
+ * derivatives stand beside them. Leaves the solver at another design.
+ */
+template <int dim>
+class Sensitivity
 {
-  namespace app
+public:
+  /// Collective. @throws SolveError.
+  Sensitivity(Workshop<dim> &workshop, const std::vector<state::ContactState<dim>> &states);
+
+  /// For the summary.
+  io::Summary::Gradient gradient;
+  /// Of the method that was asked for, if asked for: this rank's share.
+  std::optional<typename Workshop<dim>::Field> shape_gradient;
+
+private:
+  using Field = typename Workshop<dim>::Field;
+
+  /// A column of the table.
+  struct Method
   {
-    /**
-     * The objective of a scene differentiated at @p states, those of the start:
-     * by Gradient/Method or, with Gradient/Compare, by all methods side by
-     * side, printed as a table. At weakly active contacts the one-sided
-     * derivatives stand beside them. Leaves the solver at another design.
-     */
-    template <int dim>
-    class Sensitivity
-    {
-    public:
-      /// Collective. @throws SolveError.
-      Sensitivity(Workshop<dim>                               &workshop,
-                  const std::vector<state::ContactState<dim>> &states);
+    std::string                     name;
+    sensitivity::GradientParameters parameters;
+    bool                            is_difference = false;
+  };
 
-      /// For the summary.
-      io::Summary::Gradient gradient;
-      /// Of the method that was asked for, if asked for: this rank's share.
-      std::optional<typename Workshop<dim>::Field> shape_gradient;
+  std::vector<Method> methods() const;
+  void                choose_method();
+  void                add(const Method &method);
+  void                add_one_sided();
+  double              displacement_difference(const std::vector<Field> &derivatives) const;
 
-    private:
-      using Field = typename Workshop<dim>::Field;
-
-      /// A column of the table.
-      struct Method
-      {
-        std::string                     name;
-        sensitivity::GradientParameters parameters;
-        bool                            is_difference = false;
-      };
-
-      std::vector<Method>
-      methods() const;
-      void
-      choose_method();
-      void
-      add(const Method &method);
-      void
-      add_one_sided();
-      double
-      displacement_difference(const std::vector<Field> &derivatives) const;
-
-      Workshop<dim>                               &workshop;
-      const std::vector<state::ContactState<dim>> &states;
-      std::string                                  chosen; ///< never "auto"
-      /// u'_j by the direct method, of one load case after the other
-      std::vector<Field> reference;
-    };
-  } // namespace app
-} // namespace snug
+  Workshop<dim>                               &workshop;
+  const std::vector<state::ContactState<dim>> &states;
+  std::string                                  chosen; ///< never "auto"
+  /// u'_j by the direct method, of one load case after the other
+  std::vector<Field> reference;
+};
+} // namespace snug::app
 
 #endif

@@ -5,26 +5,18 @@
 #include <snug/base/run_context.h>
 #include <snug/scene/scene.h>
 
-namespace snug
-{
-  namespace app
-  {
-    /**
-     * Do the task of a scene and leave its results in the output directory.
-     * Collective.
-     * @throws InputError, SolveError.
-     */
-    void
-    run_study(RunContext         &context,
-              const scene::Scene &scene,
-              const Options      &options);
+namespace snug::app {
+/**
+ * Do the task of a scene and leave its results in the output directory.
+ * Collective.
+ * @throws InputError, SolveError.
+ */
+void run_study(RunContext &context, const scene::Scene &scene, const Options &options);
 
-    /// Print what the meshes of a scene look like and make all that its task
-    /// needs, but solve nothing and leave no files. Collective.
-    /// @throws InputError.
-    void
-    validate(RunContext &context, const scene::Scene &scene);
-  } // namespace app
-} // namespace snug
+/// Print what the meshes of a scene look like and make all that its task
+/// needs, but solve nothing and leave no files. Collective.
+/// @throws InputError.
+void validate(RunContext &context, const scene::Scene &scene);
+} // namespace snug::app
 
 #endif

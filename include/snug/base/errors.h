@@ -4,45 +4,42 @@
 #include <stdexcept>
 #include <string>
 
-namespace snug
+namespace snug {
+/// The input is wrong: where, which value, what is allowed. Exit status 2.
+class InputError : public std::runtime_error
 {
-  /// The input is wrong: where, which value, what is allowed. Exit status 2.
-  class InputError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
+public:
+  using std::runtime_error::runtime_error;
+};
 
-  /// The problem has no solution, or was not solved to its tolerance: what
-  /// failed and what to try. Exit status 3.
-  class SolveError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
+/// The problem has no solution, or was not solved to its tolerance: what
+/// failed and what to try. Exit status 3.
+class SolveError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
 
-  /// A design whose mesh is tangled; an optimizer may step back from it.
-  class TangledMesh : public SolveError
-  {
-  public:
-    using SolveError::SolveError;
-  };
+/// A design whose mesh is tangled; an optimizer may step back from it.
+class TangledMesh : public SolveError
+{
+public:
+  using SolveError::SolveError;
+};
 
-  /// A signal asked the program to end; all ranks throw it at the same place.
-  class Interrupted : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
+/// A signal asked the program to end; all ranks throw it at the same place.
+class Interrupted : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
 
-  /// Input error of a parameter: "<entry> = <value>: <what is allowed>".
-  inline InputError
-  bad_entry(const std::string &entry,
-            const std::string &value,
-            const std::string &allowed)
-  {
-    return InputError("entry '" + entry + "' = '" + value + "': " + allowed);
-  }
+/// Input error of a parameter: "<entry> = <value>: <what is allowed>".
+inline InputError
+bad_entry(const std::string &entry, const std::string &value, const std::string &allowed)
+{
+  return InputError("entry '" + entry + "' = '" + value + "': " + allowed);
+}
 } // namespace snug
 
 #endif

@@ -7,72 +7,55 @@
 #include <string>
 #include <utility>
 
-namespace snug
+namespace snug::petsc {
+/// @throws std::runtime_error naming the PETSc error if @p error != 0.
+void check(PetscErrorCode error);
+
+/**
+ * Owner of one reference to a PETSc object: destroyed with the handle,
+ * movable, not copyable, converts to the raw handle PETSc functions take.
+ */
+template <typename Object, PetscErrorCode (*destroy)(Object *)>
+class Handle
 {
-  namespace petsc
+public:
+  Handle() = default;
+
+  ~Handle() { reset(); }
+
+  Handle(Handle &&other) noexcept : object(std::exchange(other.object, nullptr)) {}
+
+  Handle &operator=(Handle &&other) noexcept
   {
-    /// @throws std::runtime_error naming the PETSc error if @p error != 0.
-    void
-    check(PetscErrorCode error);
+    std::swap(object, other.object);
+    return *this;
+  }
 
-    /**
-     * Owner of one reference to a PETSc object: destroyed with the handle,
-     * movable, not copyable, converts to the raw handle PETSc functions take.
-     */
-    template <typename Object, PetscErrorCode (*destroy)(Object *)>
-    class Handle
-    {
-    public:
-      Handle() = default;
+  operator Object() const { return object; }
 
-      ~Handle()
-      {
-        reset();
-      }
+  /// The address for PETSc's creating functions; drops the object held.
+  Object *put()
+  {
+    reset();
+    return &object;
+  }
 
-      Handle(Handle &&other) noexcept
-        : object(std::exchange(other.object, nullptr))
-      {
-      }
+  void reset()
+  {
+    if (object != nullptr)
+      destroy(&object);
+    object = nullptr;
+  }
 
-      Handle &
-      operator=(Handle &&other) noexcept
-      {
-        std::swap(object, other.object);
-        return *this;
-      }
+private:
+  Object object = nullptr;
+};
 
-      operator Object() const
-      {
-        return object;
-      }
-
-      /// The address for PETSc's creating functions; drops the object held.
-      Object *
-      put()
-      {
-        reset();
-        return &object;
-      }
-
-      void
-      reset()
-      {
-        if (object != nullptr)
-          destroy(&object);
-        object = nullptr;
-      }
-
-    private:
-      Object object = nullptr;
-    };
-
-    using Matrix     = Handle<Mat, MatDestroy>;
-    using Solver     = Handle<KSP, KSPDestroy>;
-    using Vector     = Handle<Vec, VecDestroy>;
-    using StarForest = Handle<PetscSF, PetscSFDestroy>;
-    using IndexSet   = Handle<IS, ISDestroy>;
-  } // namespace petsc
-} // namespace snug
+using Matrix     = Handle<Mat, MatDestroy>;
+using Solver     = Handle<KSP, KSPDestroy>;
+using Vector     = Handle<Vec, VecDestroy>;
+using StarForest = Handle<PetscSF, PetscSFDestroy>;
+using IndexSet   = Handle<IS, ISDestroy>;
+} // namespace snug::petsc
 
 #endif

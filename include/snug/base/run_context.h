@@ -8,127 +8,112 @@
 #include <map>
 #include <string>
 
-namespace snug
+namespace snug {
+/// What a run has done so far; the same on every rank except
+/// factorizations and assembled subdomains, which count this rank's.
+struct Work
 {
-  /// What a run has done so far; the same on every rank except
-  /// factorizations and assembled subdomains, which count this rank's.
-  struct Work
-  {
-    unsigned long f_mults                     = 0;
-    unsigned long preconditioner_applications = 0;
-    unsigned long coarse_solves               = 0;
-    unsigned long symbolic_factorizations     = 0;
-    unsigned long numeric_factorizations      = 0;
-    unsigned long assembled_subdomains        = 0;
-  };
+  unsigned long f_mults                     = 0;
+  unsigned long preconditioner_applications = 0;
+  unsigned long coarse_solves               = 0;
+  unsigned long symbolic_factorizations     = 0;
+  unsigned long numeric_factorizations      = 0;
+  unsigned long assembled_subdomains        = 0;
+};
+
+/**
+ * The communicator, the printer and the books of one run: work counters
+ * and wall seconds per stage. Passed by reference to the stages that work;
+ * there is no global one.
+ */
+class RunContext
+{
+public:
+  /// @p out receives the log on rank 0; other ranks print nothing.
+  RunContext(MPI_Comm communicator, std::ostream &out);
+
+  MPI_Comm communicator() const;
+
+  unsigned int rank() const;
+
+  unsigned int n_ranks() const;
+
+  /// The log; swallows everything on ranks other than 0.
+  std::ostream &out();
 
   /**
-   * The communicator, the printer and the books of one run: work counters
-   * and wall seconds per stage. Passed by reference to the stages that work;
-   * there is no global one.
+   * Show @p text as the live line of a long stage, over the previous one.
+   * Only rank 0, when standard output is a terminal and no MPI launcher is
+   * in between.
    */
-  class RunContext
+  void progress(const std::string &text);
+
+  /// Adds the wall time of its life to @p stage of the context.
+  class Timer
   {
   public:
-    /// @p out receives the log on rank 0; other ranks print nothing.
-    RunContext(MPI_Comm communicator, std::ostream &out);
-
-    MPI_Comm
-    communicator() const;
-
-    unsigned int
-    rank() const;
-
-    unsigned int
-    n_ranks() const;
-
-    /// The log; swallows everything on ranks other than 0.
-    std::ostream &
-    out();
-
-    /**
-     * Show @p text as the live line of a long stage, over the previous one.
-     * Only rank 0, when standard output is a terminal and no MPI launcher is
-     * in between.
-     */
-    void
-    progress(const std::string &text);
-
-    /// Adds the wall time of its life to @p stage of the context.
-    class Timer
-    {
-    public:
-      Timer(RunContext &context, const std::string &stage);
-      ~Timer();
-      Timer(const Timer &) = delete;
-      Timer &
-      operator=(const Timer &) = delete;
-
-    private:
-      RunContext                           &context;
-      std::string                           stage;
-      std::chrono::steady_clock::time_point start;
-    };
-
-    /// Wall seconds of a stage on this rank; 0 if it never ran.
-    double
-    seconds(const std::string &stage) const;
-
-    /// Wall seconds since the context was made.
-    double
-    seconds() const;
-
-    /// Work with this rank's counters summed over ranks. Collective.
-    Work
-    total_work() const;
-
-    Work work;
+    Timer(RunContext &context, const std::string &stage);
+    ~Timer();
+    Timer(const Timer &)            = delete;
+    Timer &operator=(const Timer &) = delete;
 
   private:
-    MPI_Comm                              comm;
-    unsigned int                          my_rank;
-    unsigned int                          size;
-    std::ostream                         *stream;
-    bool                                  live_line;
-    bool                                  live_line_shown = false;
-    std::map<std::string, double>         stage_seconds;
+    RunContext                           &context;
+    std::string                           stage;
     std::chrono::steady_clock::time_point start;
   };
 
-  /**
-   * Run @p work on this rank and make failure collective: if any rank throws,
-   * every rank throws the same kind of error with the message of the lowest
-   * failing rank. Collective on @p communicator; @p work must not be.
-   */
-  template <typename Function>
-  void
-  everywhere(MPI_Comm communicator, const Function &work);
+  /// Wall seconds of a stage on this rank; 0 if it never ran.
+  double seconds(const std::string &stage) const;
 
-  namespace internal
-  {
-    /// kind: 0 none, 1 InputError, 2 SolveError, 3 TangledMesh, 4 other.
-    void
-    rethrow_together(MPI_Comm comm, int kind, const std::string &message);
-    int
-    kind_of_current_exception(std::string &message);
-  } // namespace internal
+  /// Wall seconds since the context was made.
+  double seconds() const;
 
-  template <typename Function>
-  void
-  everywhere(MPI_Comm communicator, const Function &work)
-  {
-    int         kind = 0;
-    std::string message;
-    try
-      {
-        work();
-      }
-    catch (...)
-      {
-        kind = internal::kind_of_current_exception(message);
-      }
-    internal::rethrow_together(communicator, kind, message);
-  }
+  /// Work with this rank's counters summed over ranks. Collective.
+  Work total_work() const;
+
+  Work work;
+
+private:
+  MPI_Comm                              comm;
+  unsigned int                          my_rank;
+  unsigned int                          size;
+  std::ostream                         *stream;
+  bool                                  live_line;
+  bool                                  live_line_shown = false;
+  std::map<std::string, double>         stage_seconds;
+  std::chrono::steady_clock::time_point start;
+};
+
+/**
+ * Run @p work on this rank and make failure collective: if any rank throws,
+ * every rank throws the same kind of error with the message of the lowest
+ * failing rank. Collective on @p communicator; @p work must not be.
+ */
+template <typename Function>
+void everywhere(MPI_Comm communicator, const Function &work);
+
+namespace internal {
+/// kind: 0 none, 1 InputError, 2 SolveError, 3 TangledMesh, 4 other.
+void rethrow_together(MPI_Comm comm, int kind, const std::string &message);
+int  kind_of_current_exception(std::string &message);
+} // namespace internal
+
+template <typename Function>
+void everywhere(MPI_Comm communicator, const Function &work)
+{
+  int         kind = 0;
+  std::string message;
+  try
+    {
+      work();
+    }
+  catch (...)
+    {
+      kind = internal::kind_of_current_exception(message);
+    }
+  internal::rethrow_together(communicator, kind, message);
+}
 } // namespace snug
 
 #endif

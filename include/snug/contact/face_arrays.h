@@ -4,28 +4,21 @@
 #include <snug/contact/segment_points.h>
 #include <snug/mesh/surface.h>
 
-namespace snug
-{
-  namespace contact
-  {
-    /// Positions of all surface nodes.
-    template <int dim>
-    FaceNodes<dim, double>
-    node_arrays(const typename mesh::Surface<dim>::Field &positions);
+namespace snug::contact {
+/// Positions of all surface nodes.
+template <int dim>
+FaceNodes<dim, double> node_arrays(const typename mesh::Surface<dim>::Field &positions);
 
-    /// The same, differentiated along @p velocity.
-    template <int dim>
-    FaceNodes<dim, Differential<1>>
-    node_arrays(const typename mesh::Surface<dim>::Field &positions,
-                const typename mesh::Surface<dim>::Field &velocity);
+/// The same, differentiated along @p velocity.
+template <int dim>
+FaceNodes<dim, Differential<1>> node_arrays(const typename mesh::Surface<dim>::Field &positions,
+                                            const typename mesh::Surface<dim>::Field &velocity);
 
-    /// Those of the nodes of surface face @p face.
-    template <int dim, typename Number>
-    FaceNodes<dim, Number>
-    face_nodes(const mesh::Surface<dim>     &surface,
-               unsigned int                  face,
-               const FaceNodes<dim, Number> &nodes);
-  } // namespace contact
-} // namespace snug
+/// Those of the nodes of surface face @p face.
+template <int dim, typename Number>
+FaceNodes<dim, Number> face_nodes(const mesh::Surface<dim>     &surface,
+                                  unsigned int                  face,
+                                  const FaceNodes<dim, Number> &nodes);
+} // namespace snug::contact
 
 #endif

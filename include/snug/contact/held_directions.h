@@ -5,25 +5,20 @@
 
 #include <vector>
 
-namespace snug
-{
-  namespace contact
-  {
-    /// Orthonormal directions that supports hold, per surface node.
-    template <int dim>
-    using HeldDirections = std::vector<std::vector<dealii::Tensor<1, dim>>>;
+namespace snug::contact {
+/// Orthonormal directions that supports hold, per surface node.
+template <int dim>
+using HeldDirections = std::vector<std::vector<dealii::Tensor<1, dim>>>;
 
-    /// @p v without its components along @p held.
-    template <int dim>
-    dealii::Tensor<1, dim>
-    free_part(dealii::Tensor<1, dim>                     v,
-              const std::vector<dealii::Tensor<1, dim>> &held)
-    {
-      for (const auto &q : held)
-        v -= (v * q) * q;
-      return v;
-    }
-  } // namespace contact
-} // namespace snug
+/// @p v without its components along @p held.
+template <int dim>
+dealii::Tensor<1, dim> free_part(dealii::Tensor<1, dim>                     v,
+                                 const std::vector<dealii::Tensor<1, dim>> &held)
+{
+  for (const auto &q : held)
+    v -= (v * q) * q;
+  return v;
+}
+} // namespace snug::contact
 
 #endif

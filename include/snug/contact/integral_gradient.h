@@ -3,27 +3,22 @@
 
 #include <snug/contact/mortar_coupling.h>
 
-namespace snug
+namespace snug::contact {
+/// Gradient with respect to the nodes of a slave and some master faces.
+template <int dim>
+struct FaceGradient
 {
-  namespace contact
-  {
-    /// Gradient with respect to the nodes of a slave and some master faces.
-    template <int dim>
-    struct FaceGradient
-    {
-      FaceNodes<dim, double>              slave;
-      std::vector<FaceNodes<dim, double>> masters;
-    };
+  FaceNodes<dim, double>              slave;
+  std::vector<FaceNodes<dim, double>> masters;
+};
 
-    /// The transpose of the derivative of integrate(): from the gradient of a
-    /// scalar with respect to the integrals, that to the nodes.
-    template <int dim>
-    FaceGradient<dim>
-    integrate_transpose(const SegmentQuadrature<dim>              &quadrature,
-                        const FaceNodes<dim, double>              &slave,
-                        const std::vector<FaceNodes<dim, double>> &masters,
-                        const FaceIntegrals<double>               &gradient);
-  } // namespace contact
-} // namespace snug
+/// The transpose of the derivative of integrate(): from the gradient of a
+/// scalar with respect to the integrals, that to the nodes.
+template <int dim>
+FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>              &quadrature,
+                                      const FaceNodes<dim, double>              &slave,
+                                      const std::vector<FaceNodes<dim, double>> &masters,
+                                      const FaceIntegrals<double>               &gradient);
+} // namespace snug::contact
 
 #endif

@@ -8,119 +8,98 @@
 #include <snug/contact/row_group.h>
 #include <snug/contact/supported_normals.h>
 
-namespace snug
+namespace snug::contact {
+/**
+ * Mortar contact of one pair: the pressure sum_i p_i psi_i n_i acts between
+ * the faces, psi_i the functions of the multiplier nodes (FaceCoupling,
+ * MultiplierNodes), n_i the slave side's SupportedNormals there. Row i is
+ * the mean gap weighted by psi_i, c_l = n_i D_il / a_i, c_k = -n_i M_ik /
+ * a_i, gap = n_i . int psi_i (x_master - x_slave) / a_i, D_il = int psi_i
+ * N_l, M_ik = int psi_i N_k, a_i = int psi_i, over the part of the slave
+ * side that lies opposite to the master side, so that its force over the
+ * area a_i is p_i. Hanging nodes are replaced by their masters.
+ *
+ * Which faces lie opposite to each other, which nodes carry multipliers and
+ * which faces are covered enough for biorthogonal functions stays; cut
+ * faces, weights, normals and gaps follow the positions. Derivatives are
+ * exact; where the end of one side lies on an edge or corner of the other,
+ * those of moves that keep the slave face covered. Rows whose gap is beyond
+ * the pair's search distance are left out.
+ */
+template <int dim>
+class MortarRows : public RowGroup<dim>
 {
-  namespace contact
+public:
+  using Field = typename RowGroup<dim>::Field;
+
+  explicit MortarRows(const PairGeometry<dim> &pair);
+
+  const std::vector<unsigned int> &slaves() const override;
+  std::vector<SharedNode>          shared_nodes() const override;
+  std::vector<Row<dim>>            rows(const Field &positions) const override;
+  std::vector<Row<dim>>            row_derivatives(const Field &positions,
+                                                   const Field &velocity) const override;
+  void                             add_energy_gradient(const Field               &positions,
+                                                       const Field               &displacement,
+                                                       const std::vector<double> &forces,
+                                                       Field                     &gradient) const override;
+  std::vector<double>              areas(const Field &positions) const override;
+  void                             add_area_gradient(const Field               &positions,
+                                                     const std::vector<double> &factors,
+                                                     Field                     &gradient) const override;
+
+private:
+  struct SlaveFace
   {
-    /**
-     * Mortar contact of one pair: the pressure sum_i p_i psi_i n_i acts between
-     * the faces, psi_i the functions of the multiplier nodes (FaceCoupling,
-     * MultiplierNodes), n_i the slave side's SupportedNormals there. Row i is
-     * the mean gap weighted by psi_i, c_l = n_i D_il / a_i, c_k = -n_i M_ik /
-     * a_i, gap = n_i . int psi_i (x_master - x_slave) / a_i, D_il = int psi_i
-     * N_l, M_ik = int psi_i N_k, a_i = int psi_i, over the part of the slave
-     * side that lies opposite to the master side, so that its force over the
-     * area a_i is p_i. Hanging nodes are replaced by their masters.
-     *
-     * Which faces lie opposite to each other, which nodes carry multipliers and
-     * which faces are covered enough for biorthogonal functions stays; cut
-     * faces, weights, normals and gaps follow the positions. Derivatives are
-     * exact; where the end of one side lies on an edge or corner of the other,
-     * those of moves that keep the slave face covered. Rows whose gap is beyond
-     * the pair's search distance are left out.
-     */
-    template <int dim>
-    class MortarRows : public RowGroup<dim>
-    {
-    public:
-      using Field = typename RowGroup<dim>::Field;
+    unsigned int              face;    ///< indices into the surface
+    std::vector<unsigned int> masters; ///< opposite to it
+    bool                      biorthogonal;
+  };
 
-      explicit MortarRows(const PairGeometry<dim> &pair);
+  /// a_i times the coefficients of row i without n_i, by the nodes of the
+  /// row, the integral of psi_i (x_master - x_slave), and a_i.
+  template <typename Number>
+  struct RowSum
+  {
+    std::vector<Number>     coefficients;
+    std::array<Number, dim> offset{};
+    Number                  area = 0.;
+  };
 
-      const std::vector<unsigned int> &
-      slaves() const override;
-      std::vector<SharedNode>
-      shared_nodes() const override;
-      std::vector<Row<dim>>
-      rows(const Field &positions) const override;
-      std::vector<Row<dim>>
-      row_derivatives(const Field &positions,
-                      const Field &velocity) const override;
-      void
-      add_energy_gradient(const Field               &positions,
-                          const Field               &displacement,
-                          const std::vector<double> &forces,
-                          Field                     &gradient) const override;
-      std::vector<double>
-      areas(const Field &positions) const override;
-      void
-      add_area_gradient(const Field               &positions,
-                        const std::vector<double> &factors,
-                        Field                     &gradient) const override;
+  const mesh::Surface<dim>              &surface;
+  const FaceShape<dim>                  &shape;
+  SegmentQuadrature<dim>                 quadrature;
+  PairFaces                              sides;
+  std::vector<SlaveFace>                 faces;
+  HeldDirections<dim>                    held;
+  MultiplierNodes                        multipliers;
+  std::vector<std::vector<unsigned int>> row_nodes; ///< ascending
 
-    private:
-      struct SlaveFace
-      {
-        unsigned int              face;    ///< indices into the surface
-        std::vector<unsigned int> masters; ///< opposite to it
-        bool                      biorthogonal;
-      };
+  void choose_multipliers(const PairGeometry<dim> &pair);
+  void collect_row_nodes();
+  void leave_out_far_rows(const PairGeometry<dim> &pair);
+  template <typename Number>
+  FaceIntegrals<Number> integrals(const SlaveFace &face, const FaceNodes<dim, Number> &x) const;
+  template <typename Number>
+  void add_to_row(RowSum<Number> &sum,
+                  unsigned int    row,
+                  unsigned int    node,
+                  const Number   &coefficient) const;
+  template <typename Number>
+  std::vector<RowSum<Number>> row_sums(const FaceNodes<dim, Number> &x) const;
 
-      /// a_i times the coefficients of row i without n_i, by the nodes of the
-      /// row, the integral of psi_i (x_master - x_slave), and a_i.
-      template <typename Number>
-      struct RowSum
-      {
-        std::vector<Number>     coefficients;
-        std::array<Number, dim> offset{};
-        Number                  area = 0.;
-      };
+  /// The energy of the rows, sum_i force_i / a_i n_i . r_i with r_i the
+  /// integral of psi_i (y_slave - y_master), y = x + u.
+  struct Energy
+  {
+    Field               positions, deformed; ///< x, y
+    Field               directions;          ///< force_i n_i / a_i per row
+    std::vector<double> area_slopes;         ///< derivatives by a_i
+  };
 
-      const mesh::Surface<dim>              &surface;
-      const FaceShape<dim>                  &shape;
-      SegmentQuadrature<dim>                 quadrature;
-      PairFaces                              sides;
-      std::vector<SlaveFace>                 faces;
-      HeldDirections<dim>                    held;
-      MultiplierNodes                        multipliers;
-      std::vector<std::vector<unsigned int>> row_nodes; ///< ascending
-
-      void
-      choose_multipliers(const PairGeometry<dim> &pair);
-      void
-      collect_row_nodes();
-      void
-      leave_out_far_rows(const PairGeometry<dim> &pair);
-      template <typename Number>
-      FaceIntegrals<Number>
-      integrals(const SlaveFace &face, const FaceNodes<dim, Number> &x) const;
-      template <typename Number>
-      void
-      add_to_row(RowSum<Number> &sum,
-                 unsigned int    row,
-                 unsigned int    node,
-                 const Number   &coefficient) const;
-      template <typename Number>
-      std::vector<RowSum<Number>>
-      row_sums(const FaceNodes<dim, Number> &x) const;
-
-      /// The energy of the rows, sum_i force_i / a_i n_i . r_i with r_i the
-      /// integral of psi_i (y_slave - y_master), y = x + u.
-      struct Energy
-      {
-        Field               positions, deformed; ///< x, y
-        Field               directions;          ///< force_i n_i / a_i per row
-        std::vector<double> area_slopes;         ///< derivatives by a_i
-      };
-
-      Field
-      deformed(const Field &positions, const Field &displacement) const;
-      void
-      add_face_gradient(const SlaveFace &face,
-                        const Energy    &energy,
-                        Field           &gradient) const;
-    };
-  } // namespace contact
-} // namespace snug
+  Field deformed(const Field &positions, const Field &displacement) const;
+  void  add_face_gradient(const SlaveFace &face, const Energy &energy, Field &gradient) const;
+};
+} // namespace snug::contact
 
 #endif

@@ -8,62 +8,53 @@
 #include <utility>
 #include <vector>
 
-namespace snug
+namespace snug::contact {
+/// How two sides meet: entries of `subsection Contact`, for all pairs, and
+/// of `subsection Pair SLAVE: MASTER`.
+struct PairParameters
 {
-  namespace contact
+  std::string method = "nodal"; ///< name in contact_method_table()
+  std::string slave  = "finer"; ///< or "first"
+  /// slave nodes farther from the master carry no row [length]; 0: any
+  double search_distance = 0.;
+  /// between the slave's normal and the row's [degrees]
+  double      largest_angle = 90.;
+  std::string gap           = "0";   ///< added to gaps, of x, y, z [length]
+  bool        interference  = false; ///< initial overlap is wanted
+};
+
+/// Entries of `subsection Contact`.
+struct ContactParameters
+{
+  struct Entry
   {
-    /// How two sides meet: entries of `subsection Contact`, for all pairs, and
-    /// of `subsection Pair SLAVE: MASTER`.
-    struct PairParameters
-    {
-      std::string method = "nodal"; ///< name in contact_method_table()
-      std::string slave  = "finer"; ///< or "first"
-      /// slave nodes farther from the master carry no row [length]; 0: any
-      double search_distance = 0.;
-      /// between the slave's normal and the row's [degrees]
-      double      largest_angle = 90.;
-      std::string gap           = "0";   ///< added to gaps, of x, y, z [length]
-      bool        interference  = false; ///< initial overlap is wanted
-    };
+    std::string    slave;  ///< body.boundary
+    std::string    master; ///< body.boundary or obstacle
+    PairParameters parameters;
+  };
 
-    /// Entries of `subsection Contact`.
-    struct ContactParameters
-    {
-      struct Entry
-      {
-        std::string    slave;  ///< body.boundary
-        std::string    master; ///< body.boundary or obstacle
-        PairParameters parameters;
-      };
+  PairParameters     defaults;
+  std::vector<Entry> pairs;
+  /// how often an optimization goes on with contact paired anew
+  unsigned int update_pairing = 0;
+};
 
-      PairParameters     defaults;
-      std::vector<Entry> pairs;
-      /// how often an optimization goes on with contact paired anew
-      unsigned int update_pairing = 0;
-    };
+/// One contact pair: a slave side and a master side or obstacle.
+struct Pair
+{
+  using Side = std::pair<unsigned int, unsigned int>; ///< body, boundary
 
-    /// One contact pair: a slave side and a master side or obstacle.
-    struct Pair
-    {
-      using Side = std::pair<unsigned int, unsigned int>; ///< body, boundary
+  Side                              slave, master;
+  std::string                       slave_name = {}, master_name = {};
+  PairParameters                    parameters = {};
+  std::optional<ObstacleParameters> obstacle   = {};
 
-      Side                              slave, master;
-      std::string                       slave_name = {}, master_name = {};
-      PairParameters                    parameters = {};
-      std::optional<ObstacleParameters> obstacle   = {};
+  /// "slave: master"
+  std::string name() const { return slave_name + ": " + master_name; }
+};
 
-      /// "slave: master"
-      std::string
-      name() const
-      {
-        return slave_name + ": " + master_name;
-      }
-    };
-
-    /// (body, boundary) of all sides of @p pairs that have a mesh, ascending.
-    std::vector<std::pair<unsigned int, unsigned int>>
-    boundaries_of(const std::vector<Pair> &pairs);
-  } // namespace contact
-} // namespace snug
+/// (body, boundary) of all sides of @p pairs that have a mesh, ascending.
+std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const std::vector<Pair> &pairs);
+} // namespace snug::contact
 
 #endif

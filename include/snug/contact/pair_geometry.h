@@ -5,78 +5,67 @@
 #include <snug/contact/held_directions.h>
 #include <snug/contact/pair.h>
 
-namespace snug
+namespace snug::contact {
+/// The two sides of a pair: indices of surface faces.
+struct PairFaces
 {
-  namespace contact
-  {
-    /// The two sides of a pair: indices of surface faces.
-    struct PairFaces
-    {
-      std::vector<unsigned int> slave, master;
-    };
+  std::vector<unsigned int> slave, master;
+};
 
-    /**
-     * What the rows of a pair are made from. Only the surface and the shape
-     * may be referred to beyond the making of the rows.
-     */
-    template <int dim>
-    struct PairGeometry
-    {
-      using Field = typename mesh::Surface<dim>::Field;
+/**
+ * What the rows of a pair are made from. Only the surface and the shape
+ * may be referred to beyond the making of the rows.
+ */
+template <int dim>
+struct PairGeometry
+{
+  using Field = typename mesh::Surface<dim>::Field;
 
-      const mesh::Surface<dim> &surface;
-      const FaceShape<dim>     &shape;
-      const Pair               &pair;
-      PairFaces                 sides;
-      const Field              &positions;
-      /// what supports hold, per surface node
-      const HeldDirections<dim> &held;
-      /// surface nodes with a row against this master by an earlier pair: a
-      /// second one would be the same
-      std::vector<bool> taken;
+  const mesh::Surface<dim> &surface;
+  const FaceShape<dim>     &shape;
+  const Pair               &pair;
+  PairFaces                 sides;
+  const Field              &positions;
+  /// what supports hold, per surface node
+  const HeldDirections<dim> &held;
+  /// surface nodes with a row against this master by an earlier pair: a
+  /// second one would be the same
+  std::vector<bool> taken;
 
-      /// Mean edge length of the slave faces.
-      double
-      slave_size() const;
-    };
+  /// Mean edge length of the slave faces.
+  double slave_size() const;
+};
 
-    /// Mean edge length of @p faces: diagonal over sqrt(dim-1) [length].
-    template <int dim>
-    double
-    mean_face_size(const mesh::Surface<dim>                 &surface,
-                   const std::vector<unsigned int>          &faces,
-                   const typename mesh::Surface<dim>::Field &positions);
+/// Mean edge length of @p faces: diagonal over sqrt(dim-1) [length].
+template <int dim>
+double mean_face_size(const mesh::Surface<dim>                 &surface,
+                      const std::vector<unsigned int>          &faces,
+                      const typename mesh::Surface<dim>::Field &positions);
 
-    /// Edge length, as above, of the largest face at each surface node.
-    template <int dim>
-    std::vector<double>
-    node_face_sizes(const mesh::Surface<dim>                 &surface,
-                    const typename mesh::Surface<dim>::Field &positions);
+/// Edge length, as above, of the largest face at each surface node.
+template <int dim>
+std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &surface,
+                                    const typename mesh::Surface<dim>::Field &positions);
 
-    /// Whether slave nodes and what they were found to be opposite to are
-    /// close enough and face each other.
-    template <int dim>
-    class Opposition
-    {
-    public:
-      explicit Opposition(const PairGeometry<dim> &pair);
+/// Whether slave nodes and what they were found to be opposite to are
+/// close enough and face each other.
+template <int dim>
+class Opposition
+{
+public:
+  explicit Opposition(const PairGeometry<dim> &pair);
 
-      /// Whether the size of @p distance is within the search distance, up to
-      /// round-off.
-      bool
-      is_near(double distance) const;
+  /// Whether the size of @p distance is within the search distance, up to
+  /// round-off.
+  bool is_near(double distance) const;
 
-      /// Also for the unit @p normal into the master.
-      bool
-      holds(unsigned int                  slave,
-            double                        distance,
-            const dealii::Tensor<1, dim> &normal) const;
+  /// Also for the unit @p normal into the master.
+  bool holds(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const;
 
-    private:
-      typename mesh::Surface<dim>::Field normals; ///< of the slave side
-      double                             largest_distance, least_cosine;
-    };
-  } // namespace contact
-} // namespace snug
+private:
+  typename mesh::Surface<dim>::Field normals; ///< of the slave side
+  double                             largest_distance, least_cosine;
+};
+} // namespace snug::contact
 
 #endif

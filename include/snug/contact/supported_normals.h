@@ -4,50 +4,43 @@
 #include <snug/contact/held_directions.h>
 #include <snug/contact/nodal_normals.h>
 
-namespace snug
+namespace snug::contact {
+/**
+ * Nodal normals that respect symmetry planes: where supports hold
+ * directions q that a normal n leaves by less than 25 degrees,
+ *   n <- v / |v|, v = n - sum_q (q.n) q.
+ * At the edge of a curved side the mean over its faces is one-sided, so it
+ * would tilt off a symmetry plane by half of the angle between two faces.
+ * The directions q are constants.
+ */
+template <int dim>
+class SupportedNormals
 {
-  namespace contact
-  {
-    /**
-     * Nodal normals that respect symmetry planes: where supports hold
-     * directions q that a normal n leaves by less than 25 degrees,
-     *   n <- v / |v|, v = n - sum_q (q.n) q.
-     * At the edge of a curved side the mean over its faces is one-sided, so it
-     * would tilt off a symmetry plane by half of the angle between two faces.
-     * The directions q are constants.
-     */
-    template <int dim>
-    class SupportedNormals
-    {
-    public:
-      using Field = typename mesh::Surface<dim>::Field;
+public:
+  using Field = typename mesh::Surface<dim>::Field;
 
-      /// Arguments as of NodalNormals. The references must outlive this.
-      /// @throws TangledMesh.
-      SupportedNormals(const mesh::Surface<dim>        &surface,
-                       const std::vector<unsigned int> &faces,
-                       const FaceShape<dim>            &shape,
-                       const Field                     &positions,
-                       const HeldDirections<dim>       &held);
+  /// Arguments as of NodalNormals. The references must outlive this.
+  /// @throws TangledMesh.
+  SupportedNormals(const mesh::Surface<dim>        &surface,
+                   const std::vector<unsigned int> &faces,
+                   const FaceShape<dim>            &shape,
+                   const Field                     &positions,
+                   const HeldDirections<dim>       &held);
 
-      const Field &
-      normals() const;
+  const Field &normals() const;
 
-      /// n' along @p velocity of the positions.
-      Field
-      derivative(const Field &velocity) const;
+  /// n' along @p velocity of the positions.
+  Field derivative(const Field &velocity) const;
 
-      /// gradient += (dn/dx)' @p normal_gradient.
-      void
-      add_transpose(const Field &normal_gradient, Field &gradient) const;
+  /// gradient += (dn/dx)' @p normal_gradient.
+  void add_transpose(const Field &normal_gradient, Field &gradient) const;
 
-    private:
-      NodalNormals<dim>          nodal;
-      const HeldDirections<dim> &held;
-      Field                      unit;
-      std::vector<double>        length; ///< |v|; 0 where n is not changed
-    };
-  } // namespace contact
-} // namespace snug
+private:
+  NodalNormals<dim>          nodal;
+  const HeldDirections<dim> &held;
+  Field                      unit;
+  std::vector<double>        length; ///< |v|; 0 where n is not changed
+};
+} // namespace snug::contact
 
 #endif

@@ -10,187 +10,154 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::elasticity {
+/**
+ * Isoparametric Lagrange element of degree p = 1 or 2 on a quadrilateral
+ * or hexahedron: stiffness, loads and volume with exact derivatives with
+ * respect to node positions, for all idealizations.
+ *
+ * n = (p+1)^dim nodes in tensor-product order, first coordinate fastest;
+ * unknown dim*a + c is component c of node a. X: positions, V: velocities
+ * of the positions, u: displacements, n vectors each. (p+1)^dim Gauss
+ * points: exact for volumes; the same rule is used for all terms. Outputs
+ * are resized and must not alias inputs.
+ *
+ * Derivatives along V at each Gauss point, with grad V = sum_a V_a (x) g_a
+ * and g_a = grad N_a:
+ * g_a' = -(grad V)^T g_a, (det J)' = det J div V,
+ * (grad u)' = -(grad u) (grad V).
+ * With the gradients of CellPoint these hold in sections, too: r' = V_r
+ * makes (u_r/r)' = -(u_r/r) (V_r/r) and (r det J)' = r det J div V.
+ *
+ * Formulation B-bar replaces div u by its projection p_u / kappa,
+ * kappa = lambda + 2/3 mu, on polynomials of degree p-1 in the cell
+ * (PressureSpace): for p = 1 its mean (Hughes, Int. J. Numer. Meth. Engng
+ * 15, 1980; for p = 2 the pair Q2/P1 of mixed methods). K is that of
+ * lambda = -2/3 mu plus kappa sum_i c_i c_i', c_i' u = int psi_i div u dV
+ * with orthonormal psi_i. As the stationary value over p_u, p_w of
+ *   int (2 mu dev e_u : dev e_w + p_u div w + p_w div u
+ *        - p_u p_w / kappa) dV
+ * w'Ku has the derivative of this integral at fixed p_u and p_w.
+ *
+ * Nothing is checked here: a cell with quality() <= 0 gives meaningless or,
+ * where det J = 0, infinite numbers.
+ */
+template <int dim>
+class Element
 {
-  namespace elasticity
+public:
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+  /// @p degree 1 or 2. B-bar is not for plane stress, which does not lock.
+  explicit Element(unsigned int              degree,
+                   const mesh::Idealization &idealization = mesh::Idealization::natural(dim),
+                   Formulation               formulation  = Formulation::standard);
+
+  /// n.
+  unsigned int n_nodes() const;
+
+  /// K (n*dim x n*dim, row by row), exactly symmetric
+  /// [force / length].
+  void stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const;
+
+  /// r = K(X) u.
+  void internal_force(const Nodes &X, const Material &material, const Nodes &u, Nodes &r) const;
+
+  /// r = K'(X; V) u, exact.
+  void internal_force_derivative(const Nodes    &X,
+                                 const Nodes    &V,
+                                 const Material &material,
+                                 const Nodes    &u,
+                                 Nodes          &r) const;
+
+  /// gradient_a += factor * d/dX_a (w' K(X) u): at each Gauss point
+  /// dV E g_a with E = (sigma_u:grad w - theta_u p_w) I
+  /// - (grad w)^T sigma_u - (grad u)^T sigma_w, theta_u of PointState.
+  void add_energy_gradient(const Nodes    &X,
+                           const Material &material,
+                           const Nodes    &u,
+                           const Nodes    &w,
+                           double          factor,
+                           Nodes          &gradient) const;
+
+  /// The Gauss points of a cell with nodes X, n of them.
+  Nodes quadrature_points(const Nodes &X) const;
+
+  /// f_a = int N_a b dV for a body force @p b [force / length^3] given at
+  /// the Gauss points, which goes with the material.
+  void body_force(const Nodes &X, const Nodes &b, Nodes &f) const;
+
+  /// f = derivative of body_force() along V, exact.
+  void body_force_derivative(const Nodes &X, const Nodes &V, const Nodes &b, Nodes &f) const;
+
+  /// gradient_a += factor * d/dX_a (f(X) . u)
+  void add_body_force_gradient(const Nodes &X,
+                               const Nodes &b,
+                               const Nodes &u,
+                               double       factor,
+                               Nodes       &gradient) const;
+
+  /// int dV [length^3], signed.
+  double volume(const Nodes &X) const;
+
+  /// gradient_a += factor * d volume / dX_a.
+  void add_volume_gradient(const Nodes &X, double factor, Nodes &gradient) const;
+
+  /// Cauchy stress at a point of the reference cube [0,1]^dim.
+  dealii::SymmetricTensor<2, 3> stress(const Nodes              &X,
+                                       const Material           &material,
+                                       const Nodes              &u,
+                                       const dealii::Point<dim> &point) const;
+
+  /**
+   * Quality of the cell: the smallest det J over Gauss points and nodes,
+   * divided by the mean of |det J| over the cell. 1 for a parallelepiped,
+   * <= 0 tangled, 0 for a cell without volume, with NaN positions, or, if
+   * axisymmetric, at negative radius.
+   */
+  double quality(const Nodes &X) const;
+
+  /**
+   * The smallest det J / prod_d |J e_d| over Gauss points and nodes: 1
+   * where the coordinate lines of the cell meet at right angles, whatever
+   * its lengths, <= 0 tangled, 0 for a cell without volume or with NaN
+   * positions.
+   * Source: Knupp, SIAM J. Sci. Comput. 23 (2001).
+   */
+  double scaled_jacobian(const Nodes &X) const;
+
+private:
+  /// What a displacement makes at a point.
+  struct PointState
   {
-    /**
-     * Isoparametric Lagrange element of degree p = 1 or 2 on a quadrilateral
-     * or hexahedron: stiffness, loads and volume with exact derivatives with
-     * respect to node positions, for all idealizations.
-     *
-     * n = (p+1)^dim nodes in tensor-product order, first coordinate fastest;
-     * unknown dim*a + c is component c of node a. X: positions, V: velocities
-     * of the positions, u: displacements, n vectors each. (p+1)^dim Gauss
-     * points: exact for volumes; the same rule is used for all terms. Outputs
-     * are resized and must not alias inputs.
-     *
-     * Derivatives along V at each Gauss point, with grad V = sum_a V_a (x) g_a
-     * and g_a = grad N_a:
-     * g_a' = -(grad V)^T g_a, (det J)' = det J div V,
-     * (grad u)' = -(grad u) (grad V).
-     * With the gradients of CellPoint these hold in sections, too: r' = V_r
-     * makes (u_r/r)' = -(u_r/r) (V_r/r) and (r det J)' = r det J div V.
-     *
-     * Formulation B-bar replaces div u by its projection p_u / kappa,
-     * kappa = lambda + 2/3 mu, on polynomials of degree p-1 in the cell
-     * (PressureSpace): for p = 1 its mean (Hughes, Int. J. Numer. Meth. Engng
-     * 15, 1980; for p = 2 the pair Q2/P1 of mixed methods). K is that of
-     * lambda = -2/3 mu plus kappa sum_i c_i c_i', c_i' u = int psi_i div u dV
-     * with orthonormal psi_i. As the stationary value over p_u, p_w of
-     *   int (2 mu dev e_u : dev e_w + p_u div w + p_w div u
-     *        - p_u p_w / kappa) dV
-     * w'Ku has the derivative of this integral at fixed p_u and p_w.
-     *
-     * Nothing is checked here: a cell with quality() <= 0 gives meaningless or,
-     * where det J = 0, infinite numbers.
-     */
-    template <int dim>
-    class Element
-    {
-    public:
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+    dealii::Tensor<2, 3>          gradient;
+    double                        theta; ///< p_u / kappa - div u
+    dealii::SymmetricTensor<2, 3> stress;
+  };
 
-      /// @p degree 1 or 2. B-bar is not for plane stress, which does not lock.
-      explicit Element(unsigned int              degree,
-                       const mesh::Idealization &idealization =
-                         mesh::Idealization::natural(dim),
-                       Formulation formulation = Formulation::standard);
+  std::vector<CellPoint<dim>> gauss_points(const Nodes &X) const;
 
-      /// n.
-      unsigned int
-      n_nodes() const;
+  /// Values of div u at the points of a cell <- what the formulation
+  /// makes of them.
+  void take_dilatation(const std::vector<CellPoint<dim>> &points,
+                       std::vector<double>               &values) const;
 
-      /// K (n*dim x n*dim, row by row), exactly symmetric
-      /// [force / length].
-      void
-      stiffness(const Nodes         &X,
-                const Material      &material,
-                std::vector<double> &K) const;
+  std::vector<PointState> point_states(const std::vector<CellPoint<dim>> &points,
+                                       const Material                    &material,
+                                       const Nodes                       &u) const;
 
-      /// r = K(X) u.
-      void
-      internal_force(const Nodes    &X,
-                     const Material &material,
-                     const Nodes    &u,
-                     Nodes          &r) const;
+  template <int degree, bool axisymmetric>
+  void compute_stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const;
 
-      /// r = K'(X; V) u, exact.
-      void
-      internal_force_derivative(const Nodes    &X,
-                                const Nodes    &V,
-                                const Material &material,
-                                const Nodes    &u,
-                                Nodes          &r) const;
-
-      /// gradient_a += factor * d/dX_a (w' K(X) u): at each Gauss point
-      /// dV E g_a with E = (sigma_u:grad w - theta_u p_w) I
-      /// - (grad w)^T sigma_u - (grad u)^T sigma_w, theta_u of PointState.
-      void
-      add_energy_gradient(const Nodes    &X,
-                          const Material &material,
-                          const Nodes    &u,
-                          const Nodes    &w,
-                          double          factor,
-                          Nodes          &gradient) const;
-
-      /// The Gauss points of a cell with nodes X, n of them.
-      Nodes
-      quadrature_points(const Nodes &X) const;
-
-      /// f_a = int N_a b dV for a body force @p b [force / length^3] given at
-      /// the Gauss points, which goes with the material.
-      void
-      body_force(const Nodes &X, const Nodes &b, Nodes &f) const;
-
-      /// f = derivative of body_force() along V, exact.
-      void
-      body_force_derivative(const Nodes &X,
-                            const Nodes &V,
-                            const Nodes &b,
-                            Nodes       &f) const;
-
-      /// gradient_a += factor * d/dX_a (f(X) . u)
-      void
-      add_body_force_gradient(const Nodes &X,
-                              const Nodes &b,
-                              const Nodes &u,
-                              double       factor,
-                              Nodes       &gradient) const;
-
-      /// int dV [length^3], signed.
-      double
-      volume(const Nodes &X) const;
-
-      /// gradient_a += factor * d volume / dX_a.
-      void
-      add_volume_gradient(const Nodes &X, double factor, Nodes &gradient) const;
-
-      /// Cauchy stress at a point of the reference cube [0,1]^dim.
-      dealii::SymmetricTensor<2, 3>
-      stress(const Nodes              &X,
-             const Material           &material,
-             const Nodes              &u,
-             const dealii::Point<dim> &point) const;
-
-      /**
-       * Quality of the cell: the smallest det J over Gauss points and nodes,
-       * divided by the mean of |det J| over the cell. 1 for a parallelepiped,
-       * <= 0 tangled, 0 for a cell without volume, with NaN positions, or, if
-       * axisymmetric, at negative radius.
-       */
-      double
-      quality(const Nodes &X) const;
-
-      /**
-       * The smallest det J / prod_d |J e_d| over Gauss points and nodes: 1
-       * where the coordinate lines of the cell meet at right angles, whatever
-       * its lengths, <= 0 tangled, 0 for a cell without volume or with NaN
-       * positions.
-       * Source: Knupp, SIAM J. Sci. Comput. 23 (2001).
-       */
-      double
-      scaled_jacobian(const Nodes &X) const;
-
-    private:
-      /// What a displacement makes at a point.
-      struct PointState
-      {
-        dealii::Tensor<2, 3>          gradient;
-        double                        theta; ///< p_u / kappa - div u
-        dealii::SymmetricTensor<2, 3> stress;
-      };
-
-      std::vector<CellPoint<dim>>
-      gauss_points(const Nodes &X) const;
-
-      /// Values of div u at the points of a cell <- what the formulation
-      /// makes of them.
-      void
-      take_dilatation(const std::vector<CellPoint<dim>> &points,
-                      std::vector<double>               &values) const;
-
-      std::vector<PointState>
-      point_states(const std::vector<CellPoint<dim>> &points,
-                   const Material                    &material,
-                   const Nodes                       &u) const;
-
-      template <int degree, bool axisymmetric>
-      void
-      compute_stiffness(const Nodes         &X,
-                        const Material      &material,
-                        std::vector<double> &K) const;
-
-      unsigned int                    degree;
-      mesh::Idealization              idealization;
-      Formulation                     formulation;
-      std::vector<LagrangePoint<dim>> gauss;
-      std::vector<LagrangePoint<dim>> nodes;
-      /// dN_a / d xi_d of gauss, [point][d][a], a padded with zeros to a
-      /// multiple of 4: the layout stiffness() vectorizes over.
-      std::vector<double> reference_gradients;
-    };
-  } // namespace elasticity
-} // namespace snug
+  unsigned int                    degree;
+  mesh::Idealization              idealization;
+  Formulation                     formulation;
+  std::vector<LagrangePoint<dim>> gauss;
+  std::vector<LagrangePoint<dim>> nodes;
+  /// dN_a / d xi_d of gauss, [point][d][a], a padded with zeros to a
+  /// multiple of 4: the layout stiffness() vectorizes over.
+  std::vector<double> reference_gradients;
+};
+} // namespace snug::elasticity
 
 #endif

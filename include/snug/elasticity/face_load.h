@@ -7,120 +7,104 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::elasticity {
+/// Dead loads of one face, pressure and traction at its Gauss points
+/// [force / length^2]; empty: none.
+template <int dim>
+struct FaceLoadValues
 {
-  namespace elasticity
-  {
-    /// Dead loads of one face, pressure and traction at its Gauss points
-    /// [force / length^2]; empty: none.
-    template <int dim>
-    struct FaceLoadValues
-    {
-      std::vector<double>                 pressure;
-      std::vector<dealii::Tensor<1, dim>> traction;
-      LinearTraction<dim>                 linear; ///< of a resultant
-    };
+  std::vector<double>                 pressure;
+  std::vector<dealii::Tensor<1, dim>> traction;
+  LinearTraction<dim>                 linear; ///< of a resultant
+};
 
-    /// What the work f . u of a resultant depends on besides its traction:
-    /// U = int u dA and y = I^-1 int r x u dA over the whole loaded face.
-    template <int dim>
-    struct ResultantWork
-    {
-      LinearTraction<dim>    traction;
-      double                 area = 0.;
-      dealii::Tensor<1, dim> displacement; ///< U
-      dealii::Tensor<1, 3>   rotation;     ///< y
-    };
+/// What the work f . u of a resultant depends on besides its traction:
+/// U = int u dA and y = I^-1 int r x u dA over the whole loaded face.
+template <int dim>
+struct ResultantWork
+{
+  LinearTraction<dim>    traction;
+  double                 area = 0.;
+  dealii::Tensor<1, dim> displacement; ///< U
+  dealii::Tensor<1, 3>   rotation;     ///< y
+};
 
-    /**
-     * Dead surface loads of one oriented boundary face (see BodyMesh::Face)
-     * with n = (p+1)^(dim-1) nodes, degree p = 1 or 2:
-     * f_a = int N_a (t dA - q n dA), traction t [force / length^2],
-     * pressure q along the inner normal -n of the given positions.
-     *
-     * With tangents t_i = dx/d xi_i, n dA = w m d xi, m = t_1 x t_2 in 3D,
-     * (t_y, -t_x) in 2D, and the weight w of the idealization. Derivatives
-     * along node velocities V: m' = V_,1 x t_2 + t_1 x V_,2,
-     * dA' = (w n.m' + w' |m|) d xi and w' = dw/dx . V. Pressures and tractions
-     * at Gauss points go with the material and do not change.
-     *
-     * X: positions, V: velocities of the positions, u: displacements, n
-     * vectors each. (p+1)^(dim-1) Gauss points. |m| > 0 is assumed.
-     */
-    template <int dim>
-    class FaceLoad
-    {
-    public:
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+/**
+ * Dead surface loads of one oriented boundary face (see BodyMesh::Face)
+ * with n = (p+1)^(dim-1) nodes, degree p = 1 or 2:
+ * f_a = int N_a (t dA - q n dA), traction t [force / length^2],
+ * pressure q along the inner normal -n of the given positions.
+ *
+ * With tangents t_i = dx/d xi_i, n dA = w m d xi, m = t_1 x t_2 in 3D,
+ * (t_y, -t_x) in 2D, and the weight w of the idealization. Derivatives
+ * along node velocities V: m' = V_,1 x t_2 + t_1 x V_,2,
+ * dA' = (w n.m' + w' |m|) d xi and w' = dw/dx . V. Pressures and tractions
+ * at Gauss points go with the material and do not change.
+ *
+ * X: positions, V: velocities of the positions, u: displacements, n
+ * vectors each. (p+1)^(dim-1) Gauss points. |m| > 0 is assumed.
+ */
+template <int dim>
+class FaceLoad
+{
+public:
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-      explicit FaceLoad(unsigned int              degree,
-                        const mesh::Idealization &idealization =
-                          mesh::Idealization::natural(dim));
+  explicit FaceLoad(unsigned int              degree,
+                    const mesh::Idealization &idealization = mesh::Idealization::natural(dim));
 
-      /// The Gauss points of a face with nodes X.
-      Nodes
-      quadrature_points(const Nodes &X) const;
+  /// The Gauss points of a face with nodes X.
+  Nodes quadrature_points(const Nodes &X) const;
 
-      /// f_a [force].
-      void
-      force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes &f) const;
+  /// f_a [force].
+  void force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes &f) const;
 
-      /// f = derivative of force() along V, exact, where the linear traction
-      /// has the derivative @p linear.
-      void
-      force_derivative(const Nodes               &X,
-                       const Nodes               &V,
-                       const FaceLoadValues<dim> &load,
-                       const LinearTraction<dim> &linear,
-                       Nodes                     &f) const;
+  /// f = derivative of force() along V, exact, where the linear traction
+  /// has the derivative @p linear.
+  void force_derivative(const Nodes               &X,
+                        const Nodes               &V,
+                        const FaceLoadValues<dim> &load,
+                        const LinearTraction<dim> &linear,
+                        Nodes                     &f) const;
 
-      /// gradient_a += factor * d/dX_a (f(X) . u) for pressure and traction.
-      void
-      add_force_gradient(const Nodes               &X,
-                         const FaceLoadValues<dim> &load,
-                         const Nodes               &u,
-                         double                     factor,
-                         Nodes                     &gradient) const;
+  /// gradient_a += factor * d/dX_a (f(X) . u) for pressure and traction.
+  void add_force_gradient(const Nodes               &X,
+                          const FaceLoadValues<dim> &load,
+                          const Nodes               &u,
+                          double                     factor,
+                          Nodes                     &gradient) const;
 
-      /**
-       * gradient_a += factor * d/dX_a (f . u) for a resultant, f that of the
-       * whole loaded face: with r = x - c this face's share of
-       * int kappa dA' + int k . V dA,
-       * kappa = u.t - (a.U + (U x w).r) / A - |r|^2 y.w + (y.r)(w.r),
-       * k = u x w - (U x w) / A - 2 (y.w) r + (w.r) y + (y.r) w.
-       */
-      void
-      add_resultant_gradient(const Nodes              &X,
-                             const ResultantWork<dim> &work,
-                             const Nodes              &u,
-                             double                    factor,
-                             Nodes                    &gradient) const;
+  /**
+   * gradient_a += factor * d/dX_a (f . u) for a resultant, f that of the
+   * whole loaded face: with r = x - c this face's share of
+   * int kappa dA' + int k . V dA,
+   * kappa = u.t - (a.U + (U x w).r) / A - |r|^2 y.w + (y.r)(w.r),
+   * k = u x w - (U x w) / A - 2 (y.w) r + (w.r) y + (y.r) w.
+   */
+  void add_resultant_gradient(const Nodes              &X,
+                              const ResultantWork<dim> &work,
+                              const Nodes              &u,
+                              double                    factor,
+                              Nodes                    &gradient) const;
 
-      /// Moments of area about @p origin.
-      AreaMoments<dim>
-      moments(const Nodes &X, const dealii::Tensor<1, dim> &origin) const;
+  /// Moments of area about @p origin.
+  AreaMoments<dim> moments(const Nodes &X, const dealii::Tensor<1, dim> &origin) const;
 
-      /// Their derivatives along V, exact.
-      AreaMoments<dim>
-      moment_derivatives(const Nodes                  &X,
-                         const Nodes                  &V,
-                         const dealii::Tensor<1, dim> &origin) const;
+  /// Their derivatives along V, exact.
+  AreaMoments<dim>
+  moment_derivatives(const Nodes &X, const Nodes &V, const dealii::Tensor<1, dim> &origin) const;
 
-      /// int u dA and int (x - centre) x u dA, as a force and a moment.
-      Resultant<dim>
-      displacement_moments(const Nodes                  &X,
-                           const Nodes                  &u,
-                           const dealii::Tensor<1, dim> &centre) const;
+  /// int u dA and int (x - centre) x u dA, as a force and a moment.
+  Resultant<dim>
+  displacement_moments(const Nodes &X, const Nodes &u, const dealii::Tensor<1, dim> &centre) const;
 
-      /// Tributary areas int N_a dA [length^2].
-      std::vector<double>
-      areas(const Nodes &X) const;
+  /// Tributary areas int N_a dA [length^2].
+  std::vector<double> areas(const Nodes &X) const;
 
-    private:
-      mesh::Idealization                  idealization;
-      std::vector<LagrangePoint<dim - 1>> gauss;
-    };
-  } // namespace elasticity
-} // namespace snug
+private:
+  mesh::Idealization                  idealization;
+  std::vector<LagrangePoint<dim - 1>> gauss;
+};
+} // namespace snug::elasticity
 
 #endif

@@ -8,36 +8,29 @@
 #include <functional>
 #include <vector>
 
-namespace snug
+namespace snug::elasticity {
+/// A derivative as a sum of values, f' ~ sum_k weight_k f(place_k step)
+/// / step.
+struct Stencil
 {
-  namespace elasticity
-  {
-    /// A derivative as a sum of values, f' ~ sum_k weight_k f(place_k step)
-    /// / step.
-    struct Stencil
-    {
-      std::vector<double> places, weights;
-    };
+  std::vector<double> places, weights;
+};
 
-    /// Rows "forward", "backward", "central" and "fourth order".
-    const ChoiceTable<Stencil()> &
-    stencil_table();
+/// Rows "forward", "backward", "central" and "fourth order".
+const ChoiceTable<Stencil()> &stencil_table();
 
-    /// f <- a vector per node, computed from the node positions X.
-    template <int dim>
-    using NodeFunction =
-      std::function<void(const std::vector<dealii::Tensor<1, dim>> &X,
-                         std::vector<dealii::Tensor<1, dim>>       &f)>;
+/// f <- a vector per node, computed from the node positions X.
+template <int dim>
+using NodeFunction = std::function<void(const std::vector<dealii::Tensor<1, dim>> &X,
+                                        std::vector<dealii::Tensor<1, dim>>       &f)>;
 
-    /// The derivative of f at X along V by @p stencil; the step multiplies V.
-    template <int dim>
-    std::vector<dealii::Tensor<1, dim>>
-    difference(const Stencil                             &stencil,
-               const NodeFunction<dim>                   &f,
-               const std::vector<dealii::Tensor<1, dim>> &X,
-               const std::vector<dealii::Tensor<1, dim>> &V,
-               double                                     step);
-  } // namespace elasticity
-} // namespace snug
+/// The derivative of f at X along V by @p stencil; the step multiplies V.
+template <int dim>
+std::vector<dealii::Tensor<1, dim>> difference(const Stencil                             &stencil,
+                                               const NodeFunction<dim>                   &f,
+                                               const std::vector<dealii::Tensor<1, dim>> &X,
+                                               const std::vector<dealii::Tensor<1, dim>> &V,
+                                               double                                     step);
+} // namespace snug::elasticity
 
 #endif

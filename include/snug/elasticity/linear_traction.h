@@ -3,95 +3,84 @@
 
 #include <deal.II/base/tensor.h>
 
-namespace snug
+namespace snug::elasticity {
+/// a x b of vectors in the plane or in space; in the plane, the moment of
+/// b about the out-of-plane axis.
+template <int dim>
+dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, dim> &arm,
+                               const dealii::Tensor<1, dim> &force);
+
+/// axis x v; in the plane, the axis has only its out-of-plane component.
+template <int dim>
+dealii::Tensor<1, dim> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, dim> &v);
+
+/// Integrals over a face about a fixed origin o, X = x - o; or their
+/// derivatives. [length^2, length^3, length^4]
+template <int dim>
+struct AreaMoments
 {
-  namespace elasticity
+  double                 area = 0.; ///< int dA
+  dealii::Tensor<1, dim> first;     ///< int X dA
+  dealii::Tensor<2, dim> second;    ///< int X (x) X dA
+};
+
+/**
+ * The traction t(x) = a + w x (x - c) [force / length^2] of a total force
+ * and a moment on a face: c is its centroid. Or its derivative.
+ */
+template <int dim>
+struct LinearTraction
+{
+  dealii::Tensor<1, dim> uniform; ///< a
+  dealii::Tensor<1, 3>   spin;    ///< w [force / length^3]
+  dealii::Tensor<1, dim> centre;  ///< c
+
+  dealii::Tensor<1, dim> value(const dealii::Tensor<1, dim> &x) const
   {
-    /// a x b of vectors in the plane or in space; in the plane, the moment of
-    /// b about the out-of-plane axis.
-    template <int dim>
-    dealii::Tensor<1, 3>
-    moment_of(const dealii::Tensor<1, dim> &arm,
-              const dealii::Tensor<1, dim> &force);
+    return uniform + turned(spin, x - centre);
+  }
+};
 
-    /// axis x v; in the plane, the axis has only its out-of-plane component.
-    template <int dim>
-    dealii::Tensor<1, dim>
-    turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, dim> &v);
+/// A total force [force] and a moment about the centroid [force length];
+/// in the plane, the moment has only its out-of-plane component.
+template <int dim>
+struct Resultant
+{
+  dealii::Tensor<1, dim> force;
+  dealii::Tensor<1, 3>   moment;
+};
 
-    /// Integrals over a face about a fixed origin o, X = x - o; or their
-    /// derivatives. [length^2, length^3, length^4]
-    template <int dim>
-    struct AreaMoments
-    {
-      double                 area = 0.; ///< int dA
-      dealii::Tensor<1, dim> first;     ///< int X dA
-      dealii::Tensor<2, dim> second;    ///< int X (x) X dA
-    };
+/**
+ * How a resultant is spread over a face with given AreaMoments: the force
+ * evenly, a = F / A, and the moment linearly,
+ * @f[ I w = M,\quad I = \int (|r|^2 - r \otimes r) dA,\quad r = x - c . @f]
+ * Force and moment of the traction are exactly F and M, since
+ * int r dA = 0. In the plane, I is int |r|^2 dA.
+ */
+template <int dim>
+class SpreadResultant
+{
+public:
+  /// Moments about @p origin.
+  SpreadResultant(const Resultant<dim>         &resultant,
+                  const AreaMoments<dim>       &moments,
+                  const dealii::Tensor<1, dim> &origin);
 
-    /**
-     * The traction t(x) = a + w x (x - c) [force / length^2] of a total force
-     * and a moment on a face: c is its centroid. Or its derivative.
-     */
-    template <int dim>
-    struct LinearTraction
-    {
-      dealii::Tensor<1, dim> uniform; ///< a
-      dealii::Tensor<1, 3>   spin;    ///< w [force / length^3]
-      dealii::Tensor<1, dim> centre;  ///< c
+  const LinearTraction<dim> &traction() const;
 
-      dealii::Tensor<1, dim>
-      value(const dealii::Tensor<1, dim> &x) const
-      {
-        return uniform + turned(spin, x - centre);
-      }
-    };
+  /// The derivative where the moments have derivatives @p derivative.
+  LinearTraction<dim> derivative(const AreaMoments<dim> &derivative) const;
 
-    /// A total force [force] and a moment about the centroid [force length];
-    /// in the plane, the moment has only its out-of-plane component.
-    template <int dim>
-    struct Resultant
-    {
-      dealii::Tensor<1, dim> force;
-      dealii::Tensor<1, 3>   moment;
-    };
+  /// I^-1 m.
+  dealii::Tensor<1, 3> divided_by_inertia(const dealii::Tensor<1, 3> &m) const;
 
-    /**
-     * How a resultant is spread over a face with given AreaMoments: the force
-     * evenly, a = F / A, and the moment linearly,
-     * @f[ I w = M,\quad I = \int (|r|^2 - r \otimes r) dA,\quad r = x - c . @f]
-     * Force and moment of the traction are exactly F and M, since
-     * int r dA = 0. In the plane, I is int |r|^2 dA.
-     */
-    template <int dim>
-    class SpreadResultant
-    {
-    public:
-      /// Moments about @p origin.
-      SpreadResultant(const Resultant<dim>         &resultant,
-                      const AreaMoments<dim>       &moments,
-                      const dealii::Tensor<1, dim> &origin);
+  double area() const;
 
-      const LinearTraction<dim> &
-      traction() const;
-
-      /// The derivative where the moments have derivatives @p derivative.
-      LinearTraction<dim>
-      derivative(const AreaMoments<dim> &derivative) const;
-
-      /// I^-1 m.
-      dealii::Tensor<1, 3>
-      divided_by_inertia(const dealii::Tensor<1, 3> &m) const;
-
-      double
-      area() const;
-
-    private:
-      AreaMoments<dim>     moments;
-      dealii::Tensor<2, 3> inverse_inertia;
-      LinearTraction<dim>  spread;
-    };
-  } // namespace elasticity
-} // namespace snug
+private:
+  AreaMoments<dim>     moments;
+  dealii::Tensor<2, 3> inverse_inertia;
+  LinearTraction<dim>  spread;
+};
+} // namespace snug::elasticity
 
 #endif

@@ -1,38 +1,24 @@
 #ifndef snug_elasticity_material_h
 #define snug_elasticity_material_h
 
-namespace snug
+namespace snug::elasticity {
+/// Isotropic linear elasticity, small strain.
+struct Material
 {
-  namespace elasticity
+  double youngs_modulus = 1.;  ///< [force / length^2], > 0
+  double poissons_ratio = 0.3; ///< in (-1, 0.5)
+  double density        = 0.;  ///< [mass / length^3], for gravity
+
+  double lame_lambda() const
   {
-    /// Isotropic linear elasticity, small strain.
-    struct Material
-    {
-      double youngs_modulus = 1.;  ///< [force / length^2], > 0
-      double poissons_ratio = 0.3; ///< in (-1, 0.5)
-      double density        = 0.;  ///< [mass / length^3], for gravity
+    return youngs_modulus * poissons_ratio / ((1. + poissons_ratio) * (1. - 2. * poissons_ratio));
+  }
 
-      double
-      lame_lambda() const
-      {
-        return youngs_modulus * poissons_ratio /
-               ((1. + poissons_ratio) * (1. - 2. * poissons_ratio));
-      }
+  double lame_mu() const { return youngs_modulus / (2. * (1. + poissons_ratio)); }
 
-      double
-      lame_mu() const
-      {
-        return youngs_modulus / (2. * (1. + poissons_ratio));
-      }
-
-      /// kappa = lambda + 2/3 mu.
-      double
-      bulk_modulus() const
-      {
-        return youngs_modulus / (3. * (1. - 2. * poissons_ratio));
-      }
-    };
-  } // namespace elasticity
-} // namespace snug
+  /// kappa = lambda + 2/3 mu.
+  double bulk_modulus() const { return youngs_modulus / (3. * (1. - 2. * poissons_ratio)); }
+};
+} // namespace snug::elasticity
 
 #endif

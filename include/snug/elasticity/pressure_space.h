@@ -5,42 +5,35 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::elasticity {
+/**
+ * The polynomials of degree p-1 in the reference coordinates of a cell of
+ * degree p = 1 or 2 - constants, or linear functions - by their values at
+ * given points, orthonormal in the product
+ * @f$(f,g) = \sum_q f_q g_q dV_q@f$.
+ */
+template <int dim>
+class PressureSpace
 {
-  namespace elasticity
-  {
-    /**
-     * The polynomials of degree p-1 in the reference coordinates of a cell of
-     * degree p = 1 or 2 - constants, or linear functions - by their values at
-     * given points, orthonormal in the product
-     * @f$(f,g) = \sum_q f_q g_q dV_q@f$.
-     */
-    template <int dim>
-    class PressureSpace
-    {
-    public:
-      /// @p points on the reference cell, with their @p dV; those with dV = 0
-      /// only receive values.
-      PressureSpace(unsigned int                           degree,
-                    const std::vector<dealii::Point<dim>> &points,
-                    const std::vector<double>             &dV);
+public:
+  /// @p points on the reference cell, with their @p dV; those with dV = 0
+  /// only receive values.
+  PressureSpace(unsigned int                           degree,
+                const std::vector<dealii::Point<dim>> &points,
+                const std::vector<double>             &dV);
 
-      /// Values at the points, [function][point].
-      const std::vector<std::vector<double>> &
-      functions() const;
+  /// Values at the points, [function][point].
+  const std::vector<std::vector<double>> &functions() const;
 
-      /// Values at the points <- their projection.
-      void
-      project(std::vector<double> &values) const;
+  /// Values at the points <- their projection.
+  void project(std::vector<double> &values) const;
 
-    private:
-      std::vector<double>              dV;
-      std::vector<std::vector<double>> orthonormal;
+private:
+  std::vector<double>              dV;
+  std::vector<std::vector<double>> orthonormal;
 
-      double
-      product(const std::vector<double> &f, const std::vector<double> &g) const;
-    };
-  } // namespace elasticity
-} // namespace snug
+  double product(const std::vector<double> &f, const std::vector<double> &g) const;
+};
+} // namespace snug::elasticity
 
 #endif

@@ -4,62 +4,54 @@
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/finite_difference.h>
 
-namespace snug
+namespace snug::elasticity {
+/**
+ * Derivatives of element quantities along node velocities V by finite
+ * differences: for elements without exact ones, and to show what the
+ * exact ones save.
+ *
+ * The step moves nodes, relative to each other, by at most @p step of the
+ * element's size. Translations that change nothing are taken off V first.
+ *
+ * A difference of K does not vanish on the rigid motions of the displaced
+ * element as K' u does on those of u, and in slender bodies u is nearly
+ * rigid in each element: the error grows as (L/H)^2 (Barthelemy, Haftka,
+ * Struct. Optim. 2, 1990). The refined difference takes the rigid part
+ * R c of u exactly, from (K R)' = 0:
+ * @f[ K'u = \frac{\Delta K}{h} (u - R c) - K R' c,\qquad
+ *     c = (R^T R)^{-1} R^T u @f]
+ * (van Keulen, de Boer, Int. J. Numer. Meth. Engng 42, 1998; exact
+ * numerical differentiation of Olhoff, Rasmussen, Lund, Mech. Struct.
+ * Mach. 21, 1993).
+ */
+template <int dim>
+class SemiAnalytic
 {
-  namespace elasticity
-  {
-    /**
-     * Derivatives of element quantities along node velocities V by finite
-     * differences: for elements without exact ones, and to show what the
-     * exact ones save.
-     *
-     * The step moves nodes, relative to each other, by at most @p step of the
-     * element's size. Translations that change nothing are taken off V first.
-     *
-     * A difference of K does not vanish on the rigid motions of the displaced
-     * element as K' u does on those of u, and in slender bodies u is nearly
-     * rigid in each element: the error grows as (L/H)^2 (Barthelemy, Haftka,
-     * Struct. Optim. 2, 1990). The refined difference takes the rigid part
-     * R c of u exactly, from (K R)' = 0:
-     * @f[ K'u = \frac{\Delta K}{h} (u - R c) - K R' c,\qquad
-     *     c = (R^T R)^{-1} R^T u @f]
-     * (van Keulen, de Boer, Int. J. Numer. Meth. Engng 42, 1998; exact
-     * numerical differentiation of Olhoff, Rasmussen, Lund, Mech. Struct.
-     * Mach. 21, 1993).
-     */
-    template <int dim>
-    class SemiAnalytic
-    {
-    public:
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+public:
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-      SemiAnalytic(const Stencil            &stencil,
-                   bool                      refined,
-                   double                    step,
-                   const mesh::Idealization &idealization);
+  SemiAnalytic(const Stencil            &stencil,
+               bool                      refined,
+               double                    step,
+               const mesh::Idealization &idealization);
 
-      /// r = K'(X; V) u.
-      void
-      internal_force_derivative(const Element<dim> &element,
-                                const Nodes        &X,
-                                const Nodes        &V,
-                                const Material     &material,
-                                const Nodes        &u,
-                                Nodes              &r) const;
+  /// r = K'(X; V) u.
+  void internal_force_derivative(const Element<dim> &element,
+                                 const Nodes        &X,
+                                 const Nodes        &V,
+                                 const Material     &material,
+                                 const Nodes        &u,
+                                 Nodes              &r) const;
 
-      /// f'(X; V) of a load f.
-      Nodes
-      load_derivative(const NodeFunction<dim> &f,
-                      const Nodes             &X,
-                      const Nodes             &V) const;
+  /// f'(X; V) of a load f.
+  Nodes load_derivative(const NodeFunction<dim> &f, const Nodes &X, const Nodes &V) const;
 
-    private:
-      Stencil            stencil;
-      bool               refined;
-      double             step;
-      mesh::Idealization idealization;
-    };
-  } // namespace elasticity
-} // namespace snug
+private:
+  Stencil            stencil;
+  bool               refined;
+  double             step;
+  mesh::Idealization idealization;
+};
+} // namespace snug::elasticity
 
 #endif

@@ -6,61 +6,52 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::elasticity {
+/**
+ * Integrals of powers of the von Mises stress over cells like those of
+ * Element, at the same Gauss points:
+ * S = int (sigma_vM / scale)^p dV [length^3],
+ * sigma_vM = sqrt(3/2 s:s), s = 2 mu dev e. As s does not depend on the
+ * dilatation, all formulations share it.
+ *
+ * Along du and the velocities V, with the flux
+ * H = p (sigma_vM / scale)^(p-2) 3/2 (2 mu s) / scale^2 and grad u =: g,
+ * S' = int H : (grad du - g grad V) + (sigma_vM / scale)^p div V dV.
+ */
+template <int dim>
+class VonMisesPower
 {
-  namespace elasticity
-  {
-    /**
-     * Integrals of powers of the von Mises stress over cells like those of
-     * Element, at the same Gauss points:
-     * S = int (sigma_vM / scale)^p dV [length^3],
-     * sigma_vM = sqrt(3/2 s:s), s = 2 mu dev e. As s does not depend on the
-     * dilatation, all formulations share it.
-     *
-     * Along du and the velocities V, with the flux
-     * H = p (sigma_vM / scale)^(p-2) 3/2 (2 mu s) / scale^2 and grad u =: g,
-     * S' = int H : (grad du - g grad V) + (sigma_vM / scale)^p div V dV.
-     */
-    template <int dim>
-    class VonMisesPower
-    {
-    public:
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
+public:
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-      /// p >= 1 and scale > 0 [force / length^2].
-      VonMisesPower(unsigned int              degree,
-                    const mesh::Idealization &idealization,
-                    double                    p,
-                    double                    scale);
+  /// p >= 1 and scale > 0 [force / length^2].
+  VonMisesPower(unsigned int              degree,
+                const mesh::Idealization &idealization,
+                double                    p,
+                double                    scale);
 
-      /// The largest sigma_vM at the Gauss points.
-      double
-      largest(const Nodes &X, const Material &material, const Nodes &u) const;
+  /// The largest sigma_vM at the Gauss points.
+  double largest(const Nodes &X, const Material &material, const Nodes &u) const;
 
-      /// S.
-      double
-      value(const Nodes &X, const Material &material, const Nodes &u) const;
+  /// S.
+  double value(const Nodes &X, const Material &material, const Nodes &u) const;
 
-      /// Gradients += factor * dS/du_a and dS/dX_a.
-      void
-      add_gradients(const Nodes    &X,
-                    const Material &material,
-                    const Nodes    &u,
-                    double          factor,
-                    Nodes          &by_u,
-                    Nodes          &by_X) const;
+  /// Gradients += factor * dS/du_a and dS/dX_a.
+  void add_gradients(const Nodes    &X,
+                     const Material &material,
+                     const Nodes    &u,
+                     double          factor,
+                     Nodes          &by_u,
+                     Nodes          &by_X) const;
 
-    private:
-      dealii::SymmetricTensor<2, 3>
-      deviator_at(const CellPoint<dim> &point,
-                  const Material       &material,
-                  const Nodes          &u) const;
+private:
+  dealii::SymmetricTensor<2, 3>
+  deviator_at(const CellPoint<dim> &point, const Material &material, const Nodes &u) const;
 
-      const mesh::Idealization              idealization;
-      const double                          p, scale;
-      const std::vector<LagrangePoint<dim>> gauss;
-    };
-  } // namespace elasticity
-} // namespace snug
+  const mesh::Idealization              idealization;
+  const double                          p, scale;
+  const std::vector<LagrangePoint<dim>> gauss;
+};
+} // namespace snug::elasticity
 
 #endif

@@ -7,130 +7,109 @@
 
 #include <memory>
 
-namespace snug
+namespace snug::feti {
+/// Body and rank of every subdomain, equal on all ranks.
+struct SubdomainTable
 {
-  namespace feti
-  {
-    /// Body and rank of every subdomain, equal on all ranks.
-    struct SubdomainTable
-    {
-      unsigned int              n_modes = 0; ///< rigid modes of each
-      unsigned int              first   = 0; ///< global id of this rank's first
-      std::vector<unsigned int> body;        ///< per global subdomain
-      std::vector<std::string>  body_names;
-    };
+  unsigned int              n_modes = 0; ///< rigid modes of each
+  unsigned int              first   = 0; ///< global id of this rank's first
+  std::vector<unsigned int> body;        ///< per global subdomain
+  std::vector<std::string>  body_names;
+};
 
-    /**
-     * The natural coarse space @f$G = R^T B^T@f$ (n_kernel x n), stored by
-     * columns with the rows of B this rank owns, and what all its faces
-     * share: the pattern of G G', the part of the equality rows, the rigid
-     * modes of the bodies in coarse coordinates.
-     */
-    class CoarseSpace
-    {
-    public:
-      /// Patterns for @p layout. Collective.
-      CoarseSpace(const RowLayout &layout, const SubdomainTable &table);
+/**
+ * The natural coarse space @f$G = R^T B^T@f$ (n_kernel x n), stored by
+ * columns with the rows of B this rank owns, and what all its faces
+ * share: the pattern of G G', the part of the equality rows, the rigid
+ * modes of the bodies in coarse coordinates.
+ */
+class CoarseSpace
+{
+public:
+  /// Patterns for @p layout. Collective.
+  CoarseSpace(const RowLayout &layout, const SubdomainTable &table);
 
-      /**
-       * New numbers. Collective.
-       * @param[in] G_entries per gathered entry of B (RowLayout), n_modes
-       *   products B_entry * R(unknown, :), @p stride numbers apart.
-       * @param[in] Z of this rank's subdomains.
-       */
-      void
-      update(const std::vector<double>          &G_entries,
-             unsigned int                        stride,
-             const std::vector<qp::MultiVector> &Z);
+  /**
+   * New numbers. Collective.
+   * @param[in] G_entries per gathered entry of B (RowLayout), n_modes
+   *   products B_entry * R(unknown, :), @p stride numbers apart.
+   * @param[in] Z of this rank's subdomains.
+   */
+  void update(const std::vector<double>          &G_entries,
+              unsigned int                        stride,
+              const std::vector<qp::MultiVector> &Z);
 
-      unsigned int
-      n_kernel() const;
+  unsigned int n_kernel() const;
 
-      /// G_M x summed over ranks (n_kernel x k); M = all rows if null.
-      qp::MultiVector
-      multiply(const qp::MultiVector &x, const qp::RowSet *free) const;
+  /// G_M x summed over ranks (n_kernel x k); M = all rows if null.
+  qp::MultiVector multiply(const qp::MultiVector &x, const qp::RowSet *free) const;
 
-      /// G_M' alpha on the owned rows; zero off M.
-      qp::MultiVector
-      transpose_multiply(const qp::MultiVector &alpha,
-                         const qp::RowSet      *free) const;
+  /// G_M' alpha on the owned rows; zero off M.
+  qp::MultiVector transpose_multiply(const qp::MultiVector &alpha, const qp::RowSet *free) const;
 
-      /// Values of G_M G_M' in the pattern of matrix(). Collective.
-      std::vector<double>
-      gram_values(const qp::RowSet &free) const;
+  /// Values of G_M G_M' in the pattern of matrix(). Collective.
+  std::vector<double> gram_values(const qp::RowSet &free) const;
 
-      /// Pattern of G G' with the representatives of all bodies coupled.
-      const CsrMatrix &
-      pattern() const;
+  /// Pattern of G G' with the representatives of all bodies coupled.
+  const CsrMatrix &pattern() const;
 
-      /// Where faces find their matrix and factorization.
-      const FactorPool &
-      factors() const;
+  /// Where faces find their matrix and factorization.
+  const FactorPool &factors() const;
 
-      /// Orthonormal body modes in coarse coordinates, n_kernel x n_bodies
-      /// n_modes; equal on all ranks.
-      const qp::MultiVector &
-      body_modes() const;
+  /// Orthonormal body modes in coarse coordinates, n_kernel x n_bodies
+  /// n_modes; equal on all ranks.
+  const qp::MultiVector &body_modes() const;
 
-      /// Coarse coordinates of one representative subdomain per body.
-      const std::vector<unsigned int> &
-      representatives() const;
+  /// Coarse coordinates of one representative subdomain per body.
+  const std::vector<unsigned int> &representatives() const;
 
-      const SubdomainTable &
-      subdomains() const;
+  const SubdomainTable &subdomains() const;
 
-      /// Frobenius norm of G. Collective.
-      double
-      norm() const;
+  /// Frobenius norm of G. Collective.
+  double norm() const;
 
-    private:
-      void
-      build_pattern();
+private:
+  void build_pattern();
 
-      const RowLayout          &layout;
-      SubdomainTable            table;
-      std::vector<unsigned int> block_start;     ///< per owned row
-      std::vector<unsigned int> block_subdomain; ///< of each block
-      std::vector<unsigned int> block_of_entry;  ///< of gathered entries
-      std::vector<double>       blocks;          ///< n_modes per block of G
-      CsrMatrix                 gram;
-      std::vector<std::size_t>  bounded_places; ///< in gram of contact rows
-      std::vector<double>       equality_gram;
-      FactorPool                factor_pool; ///< of gram's pattern
-      qp::MultiVector           modes;
-      std::vector<unsigned int> representative;
+  const RowLayout          &layout;
+  SubdomainTable            table;
+  std::vector<unsigned int> block_start;     ///< per owned row
+  std::vector<unsigned int> block_subdomain; ///< of each block
+  std::vector<unsigned int> block_of_entry;  ///< of gathered entries
+  std::vector<double>       blocks;          ///< n_modes per block of G
+  CsrMatrix                 gram;
+  std::vector<std::size_t>  bounded_places; ///< in gram of contact rows
+  std::vector<double>       equality_gram;
+  FactorPool                factor_pool; ///< of gram's pattern
+  qp::MultiVector           modes;
+  std::vector<unsigned int> representative;
 
-      void
-      add_row(unsigned int row, std::vector<double> &values) const;
-    };
+  void add_row(unsigned int row, std::vector<double> &values) const;
+};
 
-    /**
-     * G_M G_M' of one face, factorized, with its kernel N:
-     * A = G_M G_M' + rho N_f (N_f' N_f)^{-1} N_f' on the representatives f.
-     */
-    class CoarseProblem
-    {
-    public:
-      /// Collective.
-      CoarseProblem(const CoarseSpace &space, const qp::RowSet &free);
+/**
+ * G_M G_M' of one face, factorized, with its kernel N:
+ * A = G_M G_M' + rho N_f (N_f' N_f)^{-1} N_f' on the representatives f.
+ */
+class CoarseProblem
+{
+public:
+  /// Collective.
+  CoarseProblem(const CoarseSpace &space, const qp::RowSet &free);
 
-      /// (G_M G_M')^+ c for every column, orthogonal to N.
-      qp::MultiVector
-      solve(const qp::MultiVector &c) const;
+  /// (G_M G_M')^+ c for every column, orthogonal to N.
+  qp::MultiVector solve(const qp::MultiVector &c) const;
 
-      /// N N' c.
-      qp::MultiVector
-      kernel_part(const qp::MultiVector &c) const;
+  /// N N' c.
+  qp::MultiVector kernel_part(const qp::MultiVector &c) const;
 
-      /// Orthonormal kernel, n_kernel x (its dimension).
-      const qp::MultiVector &
-      kernel() const;
+  /// Orthonormal kernel, n_kernel x (its dimension).
+  const qp::MultiVector &kernel() const;
 
-    private:
-      std::shared_ptr<FactorPool::Item> A;
-      qp::MultiVector                   N;
-    };
-  } // namespace feti
-} // namespace snug
+private:
+  std::shared_ptr<FactorPool::Item> A;
+  qp::MultiVector                   N;
+};
+} // namespace snug::feti
 
 #endif

@@ -7,47 +7,34 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::feti {
+/**
+ * Compressed rows with ascending columns; the arrays PETSc's sequential
+ * AIJ format takes without a copy.
+ */
+struct CsrMatrix
 {
-  namespace feti
-  {
-    /**
-     * Compressed rows with ascending columns; the arrays PETSc's sequential
-     * AIJ format takes without a copy.
-     */
-    struct CsrMatrix
-    {
-      unsigned int          n_rows    = 0;
-      unsigned int          n_columns = 0;
-      std::vector<PetscInt> row_start; ///< n_rows + 1
-      std::vector<PetscInt> columns;
-      std::vector<double>   values;
+  unsigned int          n_rows    = 0;
+  unsigned int          n_columns = 0;
+  std::vector<PetscInt> row_start; ///< n_rows + 1
+  std::vector<PetscInt> columns;
+  std::vector<double>   values;
 
-      /// Empty pattern of the given rows; values are zero.
-      static CsrMatrix
-      from_rows(const std::vector<std::vector<PetscInt>> &columns_of_rows,
-                unsigned int                              n_columns);
+  /// Empty pattern of the given rows; values are zero.
+  static CsrMatrix from_rows(const std::vector<std::vector<PetscInt>> &columns_of_rows,
+                             unsigned int                              n_columns);
 
-      /// Position of (i, j) in values; the entry must exist.
-      std::size_t
-      position(PetscInt i, PetscInt j) const;
+  /// Position of (i, j) in values; the entry must exist.
+  std::size_t position(PetscInt i, PetscInt j) const;
 
-      double
-      diagonal(PetscInt i) const;
+  double diagonal(PetscInt i) const;
 
-      /// y += factor * A x, for every column.
-      void
-      multiply_add(double                 factor,
-                   const qp::MultiVector &x,
-                   qp::MultiVector       &y) const;
+  /// y += factor * A x, for every column.
+  void multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const;
 
-      /// y += factor * A' x.
-      void
-      transpose_multiply_add(double                 factor,
-                             const qp::MultiVector &x,
-                             qp::MultiVector       &y) const;
-    };
-  } // namespace feti
-} // namespace snug
+  /// y += factor * A' x.
+  void transpose_multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const;
+};
+} // namespace snug::feti
 
 #endif

@@ -6,41 +6,33 @@
 #include <memory>
 #include <vector>
 
-namespace snug
+namespace snug::feti {
+/**
+ * Matrices of one pattern with their symbolic factorizations by CHOLMOD.
+ * Faces come and go with the active set and several may live at a time;
+ * what one leaves behind serves the next.
+ */
+class FactorPool
 {
-  namespace feti
+public:
+  struct Item
   {
-    /**
-     * Matrices of one pattern with their symbolic factorizations by CHOLMOD.
-     * Faces come and go with the active set and several may live at a time;
-     * what one leaves behind serves the next.
-     */
-    class FactorPool
-    {
-    public:
-      struct Item
-      {
-        explicit Item(const CsrMatrix &pattern)
-          : matrix(pattern), factor(matrix, "CHOLMOD")
-        {
-        }
+    explicit Item(const CsrMatrix &pattern) : matrix(pattern), factor(matrix, "CHOLMOD") {}
 
-        CsrMatrix    matrix; ///< fill in values, then factor.factorize()
-        SparseFactor factor;
-      };
+    CsrMatrix    matrix; ///< fill in values, then factor.factorize()
+    SparseFactor factor;
+  };
 
-      /// An item with the values of @p matrix, whose pattern is that of all
-      /// others. It returns when the pointer and its copies are gone, which
-      /// may be after the end of the pool.
-      std::shared_ptr<Item>
-      take(const CsrMatrix &matrix) const;
+  /// An item with the values of @p matrix, whose pattern is that of all
+  /// others. It returns when the pointer and its copies are gone, which
+  /// may be after the end of the pool.
+  std::shared_ptr<Item> take(const CsrMatrix &matrix) const;
 
-    private:
-      using Items = std::vector<std::unique_ptr<Item>>;
+private:
+  using Items = std::vector<std::unique_ptr<Item>>;
 
-      std::shared_ptr<Items> spare = std::make_shared<Items>();
-    };
-  } // namespace feti
-} // namespace snug
+  std::shared_ptr<Items> spare = std::make_shared<Items>();
+};
+} // namespace snug::feti
 
 #endif

@@ -3,41 +3,29 @@
 
 #include <snug/feti/total_feti.h>
 
-namespace snug
+namespace snug::feti {
+/// Face of the dual problem of Total FETI; parts are made when first used.
+class TotalFeti::FetiFace : public qp::Face
 {
-  namespace feti
-  {
-    /// Face of the dual problem of Total FETI; parts are made when first used.
-    class TotalFeti::FetiFace : public qp::Face
-    {
-    public:
-      FetiFace(const TotalFeti &feti, const qp::RowSet &free);
+public:
+  FetiFace(const TotalFeti &feti, const qp::RowSet &free);
 
-      const qp::RowSet &
-      rows() const override;
-      void
-      project(qp::MultiVector &x) const override;
-      qp::MultiVector
-      precondition(const qp::MultiVector &r) const override;
-      qp::MultiVector
-      amplitudes(const qp::MultiVector &x) const override;
-      std::vector<double>
-      make_feasible(qp::MultiVector       &x,
-                    const qp::MultiVector &e) const override;
-      std::vector<double>
-      closing_rates(const qp::MultiVector &e) const override;
+  const qp::RowSet   &rows() const override;
+  void                project(qp::MultiVector &x) const override;
+  qp::MultiVector     precondition(const qp::MultiVector &r) const override;
+  qp::MultiVector     amplitudes(const qp::MultiVector &x) const override;
+  std::vector<double> make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override;
+  std::vector<double> closing_rates(const qp::MultiVector &e) const override;
 
-    private:
-      const CoarseProblem &
-      coarse_problem() const;
-      void restrict(qp::MultiVector &x) const;
+private:
+  const CoarseProblem &coarse_problem() const;
+  void restrict(qp::MultiVector &x) const;
 
-      const TotalFeti                         &feti;
-      qp::RowSet                               free;
-      mutable std::unique_ptr<CoarseProblem>   problem;
-      mutable std::unique_ptr<RowGram::Factor> gram;
-    };
-  } // namespace feti
-} // namespace snug
+  const TotalFeti                         &feti;
+  qp::RowSet                               free;
+  mutable std::unique_ptr<CoarseProblem>   problem;
+  mutable std::unique_ptr<RowGram::Factor> gram;
+};
+} // namespace snug::feti
 
 #endif

@@ -3,18 +3,14 @@
 
 #include <string>
 
-namespace snug
+namespace snug::feti {
+/// Entries of `subsection Solver` that Total FETI reads.
+struct FetiParameters
 {
-  namespace feti
-  {
-    /// Entries of `subsection Solver` that Total FETI reads.
-    struct FetiParameters
-    {
-      std::string factorization  = "CHOLMOD";   ///< CHOLMOD | MUMPS
-      std::string preconditioner = "Dirichlet"; ///< Dirichlet | lumped | none
-      std::string scaling        = "stiffness"; ///< stiffness | multiplicity
-    };
-  } // namespace feti
-} // namespace snug
+  std::string factorization  = "CHOLMOD";   ///< CHOLMOD | MUMPS
+  std::string preconditioner = "Dirichlet"; ///< Dirichlet | lumped | none
+  std::string scaling        = "stiffness"; ///< stiffness | multiplicity
+};
+} // namespace snug::feti
 
 #endif

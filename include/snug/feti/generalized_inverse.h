@@ -8,47 +8,41 @@
 #include <memory>
 #include <string>
 
-namespace snug
+namespace snug::feti {
+/**
+ * K^+ of a floating subdomain by fixing nodes,
+ * @f[ K^+ = (K + \rho Q_f)^{-1}, \qquad
+ *     Q_f = R_f (R_f^T R_f)^{-1} R_f^T, \quad
+ *     \rho = \mathrm{mean}\,\mathrm{diag} K, @f]
+ * where R_f are the rows of R at a few far-apart nodes. K K^+ K = K holds
+ * exactly because K_rho R = rho R_f.
+ *
+ * Source: Brzobohatý, Dostál, Kozubek, Kovář, Markopoulos, Int. J. Numer.
+ * Meth. Engng (2011).
+ */
+class GeneralizedInverse
 {
-  namespace feti
-  {
-    /**
-     * K^+ of a floating subdomain by fixing nodes,
-     * @f[ K^+ = (K + \rho Q_f)^{-1}, \qquad
-     *     Q_f = R_f (R_f^T R_f)^{-1} R_f^T, \quad
-     *     \rho = \mathrm{mean}\,\mathrm{diag} K, @f]
-     * where R_f are the rows of R at a few far-apart nodes. K K^+ K = K holds
-     * exactly because K_rho R = rho R_f.
-     *
-     * Source: Brzobohatý, Dostál, Kozubek, Kovář, Markopoulos, Int. J. Numer.
-     * Meth. Engng (2011).
-     */
-    class GeneralizedInverse
-    {
-    public:
-      /// Symbolic factorization for the pattern of @p system.K, which must
-      /// outlive this object. Counts one symbolic factorization.
-      GeneralizedInverse(const SubdomainSystem &system,
-                         const std::string     &package,
-                         RunContext            &context);
+public:
+  /// Symbolic factorization for the pattern of @p system.K, which must
+  /// outlive this object. Counts one symbolic factorization.
+  GeneralizedInverse(const SubdomainSystem &system,
+                     const std::string     &package,
+                     RunContext            &context);
 
-      /// Numeric factorization of the present K and R. Counts one.
-      void
-      factorize(const std::string &what);
+  /// Numeric factorization of the present K and R. Counts one.
+  void factorize(const std::string &what);
 
-      /// x = K^+ b for every column.
-      void
-      apply(const qp::MultiVector &b, qp::MultiVector &x) const;
+  /// x = K^+ b for every column.
+  void apply(const qp::MultiVector &b, qp::MultiVector &x) const;
 
-    private:
-      const SubdomainSystem        &system;
-      RunContext                   &context;
-      CsrMatrix                     K_rho;
-      std::vector<std::size_t>      place_of_K;      ///< in K_rho.values
-      std::vector<std::size_t>      place_of_fixing; ///< row by row
-      std::unique_ptr<SparseFactor> factor;
-    };
-  } // namespace feti
-} // namespace snug
+private:
+  const SubdomainSystem        &system;
+  RunContext                   &context;
+  CsrMatrix                     K_rho;
+  std::vector<std::size_t>      place_of_K;      ///< in K_rho.values
+  std::vector<std::size_t>      place_of_fixing; ///< row by row
+  std::unique_ptr<SparseFactor> factor;
+};
+} // namespace snug::feti
 
 #endif

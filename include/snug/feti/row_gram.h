@@ -6,66 +6,58 @@
 
 #include <memory>
 
-namespace snug
+namespace snug::feti {
+/**
+ * @f$W_M = B_M D^{-1} B_M^T@f$ on the owned rows, the Gram matrix of the
+ * rows of B that makes the preconditioner right where rows are not
+ * orthonormal: stiffness scaling, node-to-face rows, supports at contact
+ * nodes. Rows coupled to contact rows are factorized per face, the others
+ * once per design. Off M, the rows of W_M are those of the identity.
+ */
+class RowGram
 {
-  namespace feti
+public:
+  explicit RowGram(const RowLayout &layout);
+
+  /// New numbers: B and 1/D per gathered entry, @p stride apart, B first.
+  void update(const std::vector<double> &entries, unsigned int stride);
+
+  /// (B D^{-1} B')_ii of the owned rows.
+  std::vector<double> diagonal() const;
+
+  /// The part that depends on the set M.
+  class Factor
   {
-    /**
-     * @f$W_M = B_M D^{-1} B_M^T@f$ on the owned rows, the Gram matrix of the
-     * rows of B that makes the preconditioner right where rows are not
-     * orthonormal: stiffness scaling, node-to-face rows, supports at contact
-     * nodes. Rows coupled to contact rows are factorized per face, the others
-     * once per design. Off M, the rows of W_M are those of the identity.
-     */
-    class RowGram
-    {
-    public:
-      explicit RowGram(const RowLayout &layout);
+  public:
+    Factor(const RowGram &gram, const qp::RowSet &free);
 
-      /// New numbers: B and 1/D per gathered entry, @p stride apart, B first.
-      void
-      update(const std::vector<double> &entries, unsigned int stride);
+    /// x <- W_M^{-1} x on M, zero off M.
+    void solve(qp::MultiVector &x) const;
 
-      /// (B D^{-1} B')_ii of the owned rows.
-      std::vector<double>
-      diagonal() const;
+  private:
+    const RowGram                    &gram;
+    qp::RowSet                        free;
+    std::shared_ptr<FactorPool::Item> W; ///< of the contact group
+  };
 
-      /// The part that depends on the set M.
-      class Factor
-      {
-      public:
-        Factor(const RowGram &gram, const qp::RowSet &free);
+private:
+  /// One group of rows with its matrix in the group's numbering.
+  struct Group
+  {
+    std::vector<unsigned int> rows; ///< owned rows, ascending
+    CsrMatrix                 matrix;
+    void                      solve(const SparseFactor &factor, qp::MultiVector &x) const;
+  };
 
-        /// x <- W_M^{-1} x on M, zero off M.
-        void
-        solve(qp::MultiVector &x) const;
-
-      private:
-        const RowGram                    &gram;
-        qp::RowSet                        free;
-        std::shared_ptr<FactorPool::Item> W; ///< of the contact group
-      };
-
-    private:
-      /// One group of rows with its matrix in the group's numbering.
-      struct Group
-      {
-        std::vector<unsigned int> rows; ///< owned rows, ascending
-        CsrMatrix                 matrix;
-        void
-        solve(const SparseFactor &factor, qp::MultiVector &x) const;
-      };
-
-      const RowLayout                       &layout;
-      Group                                  fixed, contact;
-      FactorPool                             contact_factors;
-      std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)
-      std::unique_ptr<SparseFactor>          fixed_factor;
-      /// entries by unknown: (subdomain, dof) -> gathered entries
-      std::vector<std::vector<unsigned int>> entries_of_unknown;
-      std::vector<unsigned int>              row_of_entry;
-    };
-  } // namespace feti
-} // namespace snug
+  const RowLayout                       &layout;
+  Group                                  fixed, contact;
+  FactorPool                             contact_factors;
+  std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)
+  std::unique_ptr<SparseFactor>          fixed_factor;
+  /// entries by unknown: (subdomain, dof) -> gathered entries
+  std::vector<std::vector<unsigned int>> entries_of_unknown;
+  std::vector<unsigned int>              row_of_entry;
+};
+} // namespace snug::feti
 
 #endif

@@ -4,85 +4,68 @@
 #include <snug/base/petsc_handle.h>
 #include <snug/qp/dual_problem.h>
 
-namespace snug
+namespace snug::feti {
+/**
+ * Where the rows of B live. Each row is owned by one rank; a rank's local
+ * rows are those its subdomains touch. Rows that share an unknown (one
+ * copy of it in one subdomain) must have one owner, so that
+ * @f$B D^{-1} B^T@f$ is block diagonal over ranks.
+ */
+class RowLayout
 {
-  namespace feti
+public:
+  /// Entry of B in a subdomain: global row (rank offset + index), unknown.
+  struct Entry
   {
-    /**
-     * Where the rows of B live. Each row is owned by one rank; a rank's local
-     * rows are those its subdomains touch. Rows that share an unknown (one
-     * copy of it in one subdomain) must have one owner, so that
-     * @f$B D^{-1} B^T@f$ is block diagonal over ranks.
-     */
-    class RowLayout
-    {
-    public:
-      /// Entry of B in a subdomain: global row (rank offset + index), unknown.
-      struct Entry
-      {
-        unsigned int global_row;
-        unsigned int dof;
-      };
+    unsigned int global_row;
+    unsigned int dof;
+  };
 
-      /**
-       * Collective.
-       * @param[in] bounded flag of each owned row: contact.
-       * @param[in] entries of each subdomain of this rank.
-       * @param[in] first_subdomain global id of the first one.
-       */
-      RowLayout(MPI_Comm                               communicator,
-                const qp::RowSet                      &bounded,
-                const std::vector<std::vector<Entry>> &entries,
-                unsigned int                           first_subdomain);
+  /**
+   * Collective.
+   * @param[in] bounded flag of each owned row: contact.
+   * @param[in] entries of each subdomain of this rank.
+   * @param[in] first_subdomain global id of the first one.
+   */
+  RowLayout(MPI_Comm                               communicator,
+            const qp::RowSet                      &bounded,
+            const std::vector<std::vector<Entry>> &entries,
+            unsigned int                           first_subdomain);
 
-      MPI_Comm
-      communicator() const;
-      unsigned int
-      n_owned() const;
-      unsigned int
-      n_local() const;
-      const qp::RowSet &
-      bounded() const;
-      /// Local row of a global row this rank touches.
-      unsigned int
-      local_row(unsigned int global_row) const;
+  MPI_Comm          communicator() const;
+  unsigned int      n_owned() const;
+  unsigned int      n_local() const;
+  const qp::RowSet &bounded() const;
+  /// Local row of a global row this rank touches.
+  unsigned int local_row(unsigned int global_row) const;
 
-      /// Owned values -> local rows. Collective.
-      qp::MultiVector
-      to_local(const qp::MultiVector &owned) const;
-      /// Sum of local rows -> owned values. Collective.
-      qp::MultiVector
-      to_owned(const qp::MultiVector &local) const;
+  /// Owned values -> local rows. Collective.
+  qp::MultiVector to_local(const qp::MultiVector &owned) const;
+  /// Sum of local rows -> owned values. Collective.
+  qp::MultiVector to_owned(const qp::MultiVector &local) const;
 
-      /**
-       * Send @p width numbers per entry of B (subdomain by subdomain, in the
-       * order given to the constructor) to the row's owner, which receives
-       * them row by row, sorted by subdomain and unknown. Collective.
-       */
-      std::vector<double>
-      gather_entries(unsigned int               width,
-                     const std::vector<double> &values) const;
-      /// First gathered entry of each owned row; n_owned + 1.
-      const std::vector<unsigned int> &
-      entry_start() const;
-      /// Global subdomain and unknown of each gathered entry.
-      const std::vector<std::pair<unsigned int, unsigned int>> &
-      entry_unknowns() const;
+  /**
+   * Send @p width numbers per entry of B (subdomain by subdomain, in the
+   * order given to the constructor) to the row's owner, which receives
+   * them row by row, sorted by subdomain and unknown. Collective.
+   */
+  std::vector<double> gather_entries(unsigned int width, const std::vector<double> &values) const;
+  /// First gathered entry of each owned row; n_owned + 1.
+  const std::vector<unsigned int> &entry_start() const;
+  /// Global subdomain and unknown of each gathered entry.
+  const std::vector<std::pair<unsigned int, unsigned int>> &entry_unknowns() const;
 
-    private:
-      std::vector<double>
-      gather_unsorted(unsigned int               width,
-                      const std::vector<double> &values) const;
+private:
+  std::vector<double> gather_unsorted(unsigned int width, const std::vector<double> &values) const;
 
-      MPI_Comm                  comm;
-      qp::RowSet                is_bounded;
-      std::vector<unsigned int> local_rows; ///< ascending global rows
-      petsc::StarForest         row_forest, entry_forest;
-      std::vector<unsigned int> start;
-      std::vector<unsigned int> order; ///< of gathered entries
-      std::vector<std::pair<unsigned int, unsigned int>> unknowns;
-    };
-  } // namespace feti
-} // namespace snug
+  MPI_Comm                                           comm;
+  qp::RowSet                                         is_bounded;
+  std::vector<unsigned int>                          local_rows; ///< ascending global rows
+  petsc::StarForest                                  row_forest, entry_forest;
+  std::vector<unsigned int>                          start;
+  std::vector<unsigned int>                          order; ///< of gathered entries
+  std::vector<std::pair<unsigned int, unsigned int>> unknowns;
+};
+} // namespace snug::feti
 
 #endif

@@ -6,51 +6,44 @@
 
 #include <string>
 
-namespace snug
+namespace snug::feti {
+/**
+ * Cholesky factorization of a sparse symmetric positive definite matrix
+ * on one process, by a package of PETSc. The symbolic part is done once
+ * for the pattern. Scaling the matrix by a power of two changes no digit:
+ * the package factorizes it divided by one, so that no square root of its
+ * units is taken.
+ */
+class SparseFactor
 {
-  namespace feti
-  {
-    /**
-     * Cholesky factorization of a sparse symmetric positive definite matrix
-     * on one process, by a package of PETSc. The symbolic part is done once
-     * for the pattern. Scaling the matrix by a power of two changes no digit:
-     * the package factorizes it divided by one, so that no square root of its
-     * units is taken.
-     */
-    class SparseFactor
-    {
-    public:
-      /**
-       * @param[in] matrix referenced, not copied: it must outlive this object
-       *   and keep its arrays. Only its pattern is used here.
-       * @param[in] package "CHOLMOD" or "MUMPS".
-       */
-      SparseFactor(const CsrMatrix &matrix, const std::string &package);
+public:
+  /**
+   * @param[in] matrix referenced, not copied: it must outlive this object
+   *   and keep its arrays. Only its pattern is used here.
+   * @param[in] package "CHOLMOD" or "MUMPS".
+   */
+  SparseFactor(const CsrMatrix &matrix, const std::string &package);
 
-      /**
-       * Factorize the present values of the matrix.
-       * @throws SolveError if the matrix is not positive definite, holds NaN,
-       *   or the solution of one check system is wrong (packages can fail
-       *   silently); @p what names the matrix.
-       */
-      void
-      factorize(const std::string &what);
+  /**
+   * Factorize the present values of the matrix.
+   * @throws SolveError if the matrix is not positive definite, holds NaN,
+   *   or the solution of one check system is wrong (packages can fail
+   *   silently); @p what names the matrix.
+   */
+  void factorize(const std::string &what);
 
-      /// x = A^{-1} b for every column.
-      void
-      solve(const qp::MultiVector &b, qp::MultiVector &x) const;
+  /// x = A^{-1} b for every column.
+  void solve(const qp::MultiVector &b, qp::MultiVector &x) const;
 
-    private:
-      void
-      check(const std::string &what) const;
+private:
+  void check(const std::string &what) const;
 
-      const CsrMatrix &matrix;
-      petsc::Matrix    wrapped;
-      petsc::Matrix    factor;
-      petsc::Vector    right_hand_side, solution;
-      double           unit = 1.; ///< power of two; the factor is of A / unit
-    };
-  } // namespace feti
-} // namespace snug
+  const CsrMatrix &matrix;
+  petsc::Matrix    wrapped;
+  petsc::Matrix    factor;
+  petsc::Vector    right_hand_side, solution;
+  double           unit = 1.; ///< power of two; the factor is of A / unit
+};
+} // namespace snug::feti
 
 #endif

@@ -5,49 +5,41 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::feti {
+/// One entry of a subdomain's block of B.
+struct BEntry
 {
-  namespace feti
-  {
-    /// One entry of a subdomain's block of B.
-    struct BEntry
-    {
-      unsigned int row; ///< local row of the RowLayout
-      unsigned int dof;
-      double       value;
-    };
+  unsigned int row; ///< local row of the RowLayout
+  unsigned int dof;
+  double       value;
+};
 
-    /**
-     * The equations of one floating subdomain.
-     *
-     * | symbol | meaning                                 | size            |
-     * |--------|-----------------------------------------|-----------------|
-     * | K      | stiffness, singular [force/length]      | n x n           |
-     * | f      | loads [force]                           | n               |
-     * | B      | gluing, support and contact rows        | n_rows x n      |
-     * | R      | orthonormal rigid body modes, K R = 0   | n x n_modes     |
-     * | Z      | R Z = rigid modes of the whole body     | n_modes x n_modes |
-     */
-    struct SubdomainSystem
-    {
-      unsigned int              body = 0;
-      CsrMatrix                 K;
-      std::vector<double>       f;
-      std::vector<BEntry>       B;
-      qp::MultiVector           R;
-      qp::MultiVector           Z;
-      std::vector<unsigned int> fixing_dofs; ///< of far-apart nodes
+/**
+ * The equations of one floating subdomain.
+ *
+ * | symbol | meaning                                 | size            |
+ * |--------|-----------------------------------------|-----------------|
+ * | K      | stiffness, singular [force/length]      | n x n           |
+ * | f      | loads [force]                           | n               |
+ * | B      | gluing, support and contact rows        | n_rows x n      |
+ * | R      | orthonormal rigid body modes, K R = 0   | n x n_modes     |
+ * | Z      | R Z = rigid modes of the whole body     | n_modes x n_modes |
+ */
+struct SubdomainSystem
+{
+  unsigned int              body = 0;
+  CsrMatrix                 K;
+  std::vector<double>       f;
+  std::vector<BEntry>       B;
+  qp::MultiVector           R;
+  qp::MultiVector           Z;
+  std::vector<unsigned int> fixing_dofs; ///< of far-apart nodes
 
-      unsigned int
-      n_dofs() const
-      {
-        return K.n_rows;
-      }
-    };
+  unsigned int n_dofs() const { return K.n_rows; }
+};
 
-    /// One multi-vector per subdomain of this rank: primal vectors.
-    using PrimalVectors = std::vector<qp::MultiVector>;
-  } // namespace feti
-} // namespace snug
+/// One multi-vector per subdomain of this rank: primal vectors.
+using PrimalVectors = std::vector<qp::MultiVector>;
+} // namespace snug::feti
 
 #endif

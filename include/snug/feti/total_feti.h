@@ -9,137 +9,101 @@
 
 #include <memory>
 
-namespace snug
+namespace snug::feti {
+/**
+ * Total FETI: the dual problem of bodies torn into floating subdomains,
+ * @f[ F = B K^+ B^T,\quad G = R^T B^T,\quad d = B K^+ f - g,\quad
+ *     e = R^T f. @f]
+ * Patterns and symbolic factorizations are made once; update() brings a
+ * design's numbers and factorizes only the subdomains that changed.
+ *
+ * Source: Dostál, Horák, Kučera, Commun. Numer. Meth. Engng 22 (2006).
+ */
+class TotalFeti : public qp::DualProblem
 {
-  namespace feti
-  {
-    /**
-     * Total FETI: the dual problem of bodies torn into floating subdomains,
-     * @f[ F = B K^+ B^T,\quad G = R^T B^T,\quad d = B K^+ f - g,\quad
-     *     e = R^T f. @f]
-     * Patterns and symbolic factorizations are made once; update() brings a
-     * design's numbers and factorizes only the subdomains that changed.
-     *
-     * Source: Dostál, Horák, Kučera, Commun. Numer. Meth. Engng 22 (2006).
-     */
-    class TotalFeti : public qp::DualProblem
-    {
-    public:
-      /// @p systems and @p layout must outlive this object. Collective.
-      TotalFeti(const std::vector<SubdomainSystem> &systems,
-                const RowLayout                    &layout,
-                const SubdomainTable               &table,
-                const FetiParameters               &parameters,
-                RunContext                         &context);
+public:
+  /// @p systems and @p layout must outlive this object. Collective.
+  TotalFeti(const std::vector<SubdomainSystem> &systems,
+            const RowLayout                    &layout,
+            const SubdomainTable               &table,
+            const FetiParameters               &parameters,
+            RunContext                         &context);
 
-      /// Take new matrices from the systems; set_loads() must follow.
-      /// Collective.
-      /// @param[in] changed subdomains of this rank whose K and R changed.
-      void
-      update(const std::vector<bool> &changed);
+  /// Take new matrices from the systems; set_loads() must follow.
+  /// Collective.
+  /// @param[in] changed subdomains of this rank whose K and R changed.
+  void update(const std::vector<bool> &changed);
 
-      /// Take the loads f from the systems. Collective.
-      /// @param[in] g right-hand side of the owned rows [length].
-      void
-      set_loads(const qp::MultiVector &g);
+  /// Take the loads f from the systems. Collective.
+  /// @param[in] g right-hand side of the owned rows [length].
+  void set_loads(const qp::MultiVector &g);
 
-      RunContext &
-      context() const override;
-      unsigned int
-      n_owned() const override;
-      const qp::RowSet &
-      bounded() const override;
-      const qp::MultiVector &
-      d() const override;
-      const qp::MultiVector &
-      e() const override;
-      /// (B D^{-1} B')_ii with D = diag K: the compliance of the row's
-      /// unknowns with their neighbours held.
-      const std::vector<double> &
-      diagonal() const override;
-      qp::MultiVector
-      apply(const qp::MultiVector &x) const override;
-      qp::MultiVector
-      apply_G(const qp::MultiVector &x) const override;
-      qp::MultiVector
-      apply_Gt(const qp::MultiVector &alpha) const override;
-      double
-      feasibility_scale(const qp::MultiVector &lambda) const override;
-      /// The same for another rigid part @p e of the loads, one column.
-      double
-      feasibility_scale(const qp::MultiVector &e,
-                        const qp::MultiVector &lambda) const;
-      std::unique_ptr<qp::Face>
-      face(const qp::RowSet &free) const override;
-      std::string
-      escaping_body() const override;
+  RunContext            &context() const override;
+  unsigned int           n_owned() const override;
+  const qp::RowSet      &bounded() const override;
+  const qp::MultiVector &d() const override;
+  const qp::MultiVector &e() const override;
+  /// (B D^{-1} B')_ii with D = diag K: the compliance of the row's
+  /// unknowns with their neighbours held.
+  const std::vector<double> &diagonal() const override;
+  qp::MultiVector            apply(const qp::MultiVector &x) const override;
+  qp::MultiVector            apply_G(const qp::MultiVector &x) const override;
+  qp::MultiVector            apply_Gt(const qp::MultiVector &alpha) const override;
+  double                     feasibility_scale(const qp::MultiVector &lambda) const override;
+  /// The same for another rigid part @p e of the loads, one column.
+  double feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const;
+  std::unique_ptr<qp::Face> face(const qp::RowSet &free) const override;
+  std::string               escaping_body() const override;
 
-      /// B v of primal vectors, owned rows. Collective.
-      qp::MultiVector
-      multiply_B(const PrimalVectors &v) const;
+  /// B v of primal vectors, owned rows. Collective.
+  qp::MultiVector multiply_B(const PrimalVectors &v) const;
 
-      /// B' lambda. Collective.
-      PrimalVectors
-      multiply_Bt(const qp::MultiVector &lambda) const;
+  /// B' lambda. Collective.
+  PrimalVectors multiply_Bt(const qp::MultiVector &lambda) const;
 
-      /// K^+ applied to primal vectors.
-      PrimalVectors
-      apply_inverse(const PrimalVectors &right_hand_side) const;
+  /// K^+ applied to primal vectors.
+  PrimalVectors apply_inverse(const PrimalVectors &right_hand_side) const;
 
-      /// R' b of primal vectors, n_kernel x k on all ranks. Collective.
-      qp::MultiVector
-      rigid_part(const PrimalVectors &b) const;
+  /// R' b of primal vectors, n_kernel x k on all ranks. Collective.
+  qp::MultiVector rigid_part(const PrimalVectors &b) const;
 
-      /// u = K^+ (b - B' lambda) + R alpha. Collective.
-      PrimalVectors
-      recover(PrimalVectors          b,
-              const qp::MultiVector &lambda,
-              const qp::MultiVector &alpha) const;
+  /// u = K^+ (b - B' lambda) + R alpha. Collective.
+  PrimalVectors
+  recover(PrimalVectors b, const qp::MultiVector &lambda, const qp::MultiVector &alpha) const;
 
-      /// The loads f of the systems.
-      PrimalVectors
-      loads() const;
+  /// The loads f of the systems.
+  PrimalVectors loads() const;
 
-      const qp::MultiVector &
-      g() const;
+  const qp::MultiVector &g() const;
 
-      const std::vector<SubdomainSystem> &
-      subdomains() const;
+  const std::vector<SubdomainSystem> &subdomains() const;
 
-      unsigned int
-      n_bodies() const;
+  unsigned int n_bodies() const;
 
-      /// Rows of G: rigid modes of all subdomains.
-      unsigned int
-      n_kernel() const;
+  /// Rows of G: rigid modes of all subdomains.
+  unsigned int n_kernel() const;
 
-    private:
-      class FetiFace;
+private:
+  class FetiFace;
 
-      void
-      gather_rows();
-      void
-      weight_rows();
-      std::string
-      unheld_body(const qp::MultiVector &free,
-                  const qp::MultiVector &columns) const;
-      void
-      precondition(qp::MultiVector &x) const;
+  void        gather_rows();
+  void        weight_rows();
+  std::string unheld_body(const qp::MultiVector &free, const qp::MultiVector &columns) const;
+  void        precondition(qp::MultiVector &x) const;
 
-      const std::vector<SubdomainSystem>              &systems;
-      const RowLayout                                 &layout;
-      FetiParameters                                   parameters;
-      RunContext                                      &run;
-      CoarseSpace                                      coarse;
-      RowGram                                          gram;
-      std::vector<std::unique_ptr<GeneralizedInverse>> inverses;
-      std::vector<std::unique_ptr<LocalSchur>>         schur;
-      /// B D^{-1} of each subdomain on the boundary positions of its schur
-      std::vector<std::vector<BEntry>> weighted_B;
-      qp::MultiVector                  gap, dual_load, rigid_load;
-      std::vector<double>              F_diagonal;
-    };
-  } // namespace feti
-} // namespace snug
+  const std::vector<SubdomainSystem>              &systems;
+  const RowLayout                                 &layout;
+  FetiParameters                                   parameters;
+  RunContext                                      &run;
+  CoarseSpace                                      coarse;
+  RowGram                                          gram;
+  std::vector<std::unique_ptr<GeneralizedInverse>> inverses;
+  std::vector<std::unique_ptr<LocalSchur>>         schur;
+  /// B D^{-1} of each subdomain on the boundary positions of its schur
+  std::vector<std::vector<BEntry>> weighted_B;
+  qp::MultiVector                  gap, dual_load, rigid_load;
+  std::vector<double>              F_diagonal;
+};
+} // namespace snug::feti
 
 #endif

@@ -9,77 +9,68 @@
 #include <utility>
 #include <vector>
 
-namespace snug
+namespace snug::io {
+/**
+ * The series contact.pvd of contact faces: state number i is
+ * contact-000i.vtu (all faces of both sides, undeformed) with a table of
+ * the contact rows beside it, contact-000i.csv. Rank 0 writes.
+ *
+ * | field               | meaning                       | units           |
+ * |---------------------|-------------------------------|-----------------|
+ * | pressure            | force / area                  | force/length^2* |
+ * | gap                 | left after deformation        | length          |
+ * | force               | of the contact row            | force           |
+ * | area                | tributary                     | length^2*       |
+ * | active, weak        | 1 or 0                        |                 |
+ * | candidate           | 1 where there is a row        |                 |
+ * | slave               | 1 on the slave side, else 0   |                 |
+ * | pair                | first of the slave side or -1 | index           |
+ * | body                | index of `Bodies`             |                 |
+ * | displacement        |                               | length          |
+ * | design_displacement | design minus reference        | length          |
+ *
+ * (*) length in 2D, where forces are per unit thickness.
+ *
+ * Pressure, gap and flags stand at slave nodes; hanging ones interpolate
+ * pressure and gap and are active or weak where all their masters are; so
+ * do nodes that the rows of others act for (mortar). Elsewhere they are 0.
+ * A node of several pairs shows its largest force.
+ */
+template <int dim>
+class ContactOutput
 {
-  namespace io
+public:
+  /// What it draws on; all must outlive the ContactOutput.
+  struct Sources
   {
-    /**
-     * The series contact.pvd of contact faces: state number i is
-     * contact-000i.vtu (all faces of both sides, undeformed) with a table of
-     * the contact rows beside it, contact-000i.csv. Rank 0 writes.
-     *
-     * | field               | meaning                       | units           |
-     * |---------------------|-------------------------------|-----------------|
-     * | pressure            | force / area                  | force/length^2* |
-     * | gap                 | left after deformation        | length          |
-     * | force               | of the contact row            | force           |
-     * | area                | tributary                     | length^2*       |
-     * | active, weak        | 1 or 0                        |                 |
-     * | candidate           | 1 where there is a row        |                 |
-     * | slave               | 1 on the slave side, else 0   |                 |
-     * | pair                | first of the slave side or -1 | index           |
-     * | body                | index of `Bodies`             |                 |
-     * | displacement        |                               | length          |
-     * | design_displacement | design minus reference        | length          |
-     *
-     * (*) length in 2D, where forces are per unit thickness.
-     *
-     * Pressure, gap and flags stand at slave nodes; hanging ones interpolate
-     * pressure and gap and are active or weak where all their masters are; so
-     * do nodes that the rows of others act for (mortar). Elsewhere they are 0.
-     * A node of several pairs shows its largest force.
-     */
-    template <int dim>
-    class ContactOutput
-    {
-    public:
-      /// What it draws on; all must outlive the ContactOutput.
-      struct Sources
-      {
-        const mesh::BodyMesh<dim>              &mesh;
-        const mesh::Surface<dim>               &surface;
-        const std::vector<contact::Pair>       &pairs;
-        const std::vector<contact::RowPlace>   &places;
-        const std::vector<contact::SharedNode> &shared_nodes;
-      };
+    const mesh::BodyMesh<dim>              &mesh;
+    const mesh::Surface<dim>               &surface;
+    const std::vector<contact::Pair>       &pairs;
+    const std::vector<contact::RowPlace>   &places;
+    const std::vector<contact::SharedNode> &shared_nodes;
+  };
 
-      /// Files go to @p directory, which must exist. Collective.
-      ContactOutput(const Sources &sources, const std::string &directory);
+  /// Files go to @p directory, which must exist. Collective.
+  ContactOutput(const Sources &sources, const std::string &directory);
 
-      /// Add @p state to the series as that of @p time. Collective.
-      /// @throws std::runtime_error if a file cannot be written.
-      void
-      write(double time, const state::ContactState<dim> &state);
+  /// Add @p state to the series as that of @p time. Collective.
+  /// @throws std::runtime_error if a file cannot be written.
+  void write(double time, const state::ContactState<dim> &state);
 
-    private:
-      using Field = typename mesh::Surface<dim>::Field;
+private:
+  using Field = typename mesh::Surface<dim>::Field;
 
-      std::vector<state::ContactPoint>
-      nodal_points(const std::vector<state::ContactPoint> &rows) const;
-      std::string
-      faces_text(const state::ContactState<dim> &state,
-                 const Field                    &positions,
-                 const Field                    &displacement) const;
-      std::string
-      rows_text(const state::ContactState<dim> &state,
-                const Field                    &positions) const;
+  std::vector<state::ContactPoint> nodal_points(const std::vector<state::ContactPoint> &rows) const;
+  std::string                      faces_text(const state::ContactState<dim> &state,
+                                              const Field                    &positions,
+                                              const Field                    &displacement) const;
+  std::string rows_text(const state::ContactState<dim> &state, const Field &positions) const;
 
-      Sources                                     sources;
-      std::string                                 directory;
-      Field                                       reference;
-      std::vector<std::pair<double, std::string>> series;
-    };
-  } // namespace io
-} // namespace snug
+  Sources                                     sources;
+  std::string                                 directory;
+  Field                                       reference;
+  std::vector<std::pair<double, std::string>> series;
+};
+} // namespace snug::io
 
 #endif

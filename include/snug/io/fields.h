@@ -9,68 +9,62 @@
 #include <utility>
 #include <vector>
 
-namespace snug
+namespace snug::io {
+/**
+ * The series solution.pvd of fields on the bodies: state number i is
+ * solution-000i.pvtu, which joins one solution-000i.RANK.vtu per rank.
+ *
+ * Points lie on the design, before deformation: "warp by vector
+ * displacement" shows the deformed bodies, by minus design_displacement
+ * those of the reference.
+ *
+ * | field               | components | units            |
+ * |---------------------|------------|------------------|
+ * | displacement        | 3          | length           |
+ * | stress              | 9          | force / length^2 |
+ * | von_mises           | 1          | force / length^2 |
+ * | body                | 1          | index of `Bodies`|
+ * | region              | 1          | index in the body |
+ * | subdomain           | 1          | global id        |
+ * | design_displacement | 3          | length           |
+ * | shape_gradient      | 3          | objective / length |
+ *
+ * Stress is smoothed as nodal_stress() says; von Mises is that of the
+ * smoothed stress. In 2D the component zz is the stress across the section,
+ * the hoop stress if axisymmetric.
+ */
+template <int dim>
+class FieldOutput
 {
-  namespace io
-  {
-    /**
-     * The series solution.pvd of fields on the bodies: state number i is
-     * solution-000i.pvtu, which joins one solution-000i.RANK.vtu per rank.
-     *
-     * Points lie on the design, before deformation: "warp by vector
-     * displacement" shows the deformed bodies, by minus design_displacement
-     * those of the reference.
-     *
-     * | field               | components | units            |
-     * |---------------------|------------|------------------|
-     * | displacement        | 3          | length           |
-     * | stress              | 9          | force / length^2 |
-     * | von_mises           | 1          | force / length^2 |
-     * | body                | 1          | index of `Bodies`|
-     * | region              | 1          | index in the body |
-     * | subdomain           | 1          | global id        |
-     * | design_displacement | 3          | length           |
-     * | shape_gradient      | 3          | objective / length |
-     *
-     * Stress is smoothed as nodal_stress() says; von Mises is that of the
-     * smoothed stress. In 2D the component zz is the stress across the section,
-     * the hoop stress if axisymmetric.
-     */
-    template <int dim>
-    class FieldOutput
-    {
-    public:
-      /**
-       * @p mesh and @p tearing must outlive this object.
-       * @param[in] bodies Materials and formulations.
-       * @param[in] directory Where the files go; it must exist.
-       */
-      FieldOutput(const mesh::BodyMesh<dim>                &mesh,
-                  const mesh::Tearing                      &tearing,
-                  const std::vector<state::BodyModel<dim>> &bodies,
-                  const std::string                        &directory);
+public:
+  /**
+   * @p mesh and @p tearing must outlive this object.
+   * @param[in] bodies Materials and formulations.
+   * @param[in] directory Where the files go; it must exist.
+   */
+  FieldOutput(const mesh::BodyMesh<dim>                &mesh,
+              const mesh::Tearing                      &tearing,
+              const std::vector<state::BodyModel<dim>> &bodies,
+              const std::string                        &directory);
 
-      /**
-       * Add @p state to the series as that of @p time (the number of the
-       * design iteration, say). Collective.
-       * @param[in] shape_gradient dJ/dX at the local nodes, hanging ones
-       *   included, as shares that add up over ranks; null: not written.
-       * @throws std::runtime_error if a file cannot be written.
-       */
-      void
-      write(
-        double                                     time,
-        const state::ContactState<dim>            &state,
-        const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr);
+  /**
+   * Add @p state to the series as that of @p time (the number of the
+   * design iteration, say). Collective.
+   * @param[in] shape_gradient dJ/dX at the local nodes, hanging ones
+   *   included, as shares that add up over ranks; null: not written.
+   * @throws std::runtime_error if a file cannot be written.
+   */
+  void write(double                                     time,
+             const state::ContactState<dim>            &state,
+             const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr);
 
-    private:
-      const mesh::BodyMesh<dim>                  &mesh;
-      std::vector<unsigned int>                   subdomain_of_cell;
-      std::vector<state::BodyModel<dim>>          bodies;
-      std::string                                 directory;
-      std::vector<std::pair<double, std::string>> series;
-    };
-  } // namespace io
-} // namespace snug
+private:
+  const mesh::BodyMesh<dim>                  &mesh;
+  std::vector<unsigned int>                   subdomain_of_cell;
+  std::vector<state::BodyModel<dim>>          bodies;
+  std::string                                 directory;
+  std::vector<std::pair<double, std::string>> series;
+};
+} // namespace snug::io
 
 #endif

@@ -5,22 +5,17 @@
 
 #include <vector>
 
-namespace snug
-{
-  namespace io
-  {
-    /**
-     * Replace nodal values by their sums over ranks.
-     * @param[in,out] values @p n_components values per local node, node by
-     *   node: this rank's contributions in, the sums of all ranks out, at all
-     *   local nodes. Collective; summed in the order of the ranks.
-     */
-    template <int dim>
-    void
-    sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
-                        unsigned int               n_components,
-                        std::vector<double>       &values);
-  } // namespace io
-} // namespace snug
+namespace snug::io {
+/**
+ * Replace nodal values by their sums over ranks.
+ * @param[in,out] values @p n_components values per local node, node by
+ *   node: this rank's contributions in, the sums of all ranks out, at all
+ *   local nodes. Collective; summed in the order of the ranks.
+ */
+template <int dim>
+void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
+                         unsigned int               n_components,
+                         std::vector<double>       &values);
+} // namespace snug::io
 
 #endif

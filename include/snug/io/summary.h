@@ -12,166 +12,153 @@
 #include <utility>
 #include <vector>
 
-namespace snug
+namespace snug::io {
+/**
+ * The numbers of a run, as summary.json holds them. Other tools read that
+ * file: the members down to `times` stand in it under their own names, in
+ * their order, whatever the task was; what was not computed is null, like
+ * every number that is not finite. Keys may be added, never renamed.
+ */
+struct Summary
 {
-  namespace io
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  struct Program
   {
-    /**
-     * The numbers of a run, as summary.json holds them. Other tools read that
-     * file: the members down to `times` stand in it under their own names, in
-     * their order, whatever the task was; what was not computed is null, like
-     * every number that is not finite. Keys may be added, never renamed.
-     */
-    struct Summary
-    {
-      static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    std::string  version, dealii, petsc, blas, compiler;
+    unsigned int ranks = 1;
+  };
 
-      struct Program
-      {
-        std::string  version, dealii, petsc, blas, compiler;
-        unsigned int ranks = 1;
-      };
+  struct Mesh
+  {
+    unsigned int  bodies     = 0;
+    unsigned long cells      = 0; ///< active, of all ranks
+    unsigned long dofs       = 0; ///< of the untorn bodies, none hanging
+    unsigned int  subdomains = 0;
+    unsigned int  ranks      = 1;
+    unsigned long dual_rows = 0, contact_rows = 0, kernel_dimension = 0;
+  };
 
-      struct Mesh
-      {
-        unsigned int  bodies     = 0;
-        unsigned long cells      = 0; ///< active, of all ranks
-        unsigned long dofs       = 0; ///< of the untorn bodies, none hanging
-        unsigned int  subdomains = 0;
-        unsigned int  ranks      = 1;
-        unsigned long dual_rows = 0, contact_rows = 0, kernel_dimension = 0;
-      };
+  /// Members as in state::PairState.
+  struct Pair
+  {
+    std::string         name;
+    unsigned int        rows = 0, active_contacts = 0;
+    std::vector<double> force;
+    double              contact_area = none, max_pressure = none;
+  };
 
-      /// Members as in state::PairState.
-      struct Pair
-      {
-        std::string         name;
-        unsigned int        rows = 0, active_contacts = 0;
-        std::vector<double> force;
-        double              contact_area = none, max_pressure = none;
-      };
+  /// Members as in state::ContactState; linear_f_mults 0 becomes null.
+  struct State
+  {
+    double              least_scaled_jacobian = none;
+    double              energy = none, compliance = none;
+    double              strain_energy = none;
+    std::vector<double> contact_force;
+    double              contact_area = none, max_pressure = none;
+    unsigned int        active_contacts = 0, weak_contacts = 0;
+    double              degeneracy_distance = none;
+    unsigned int        outer_iterations    = 0;
+    unsigned long       f_mults = 0, linear_f_mults = 0;
+    std::string         method; ///< the solver that finished
+    std::vector<Pair>   pairs;
+    /// names and values of the scene's responses
+    std::vector<std::pair<std::string, double>> responses;
+    state::Certificate                          certificate;
+    state::Assumptions                          assumptions;
+  };
 
-      /// Members as in state::ContactState; linear_f_mults 0 becomes null.
-      struct State
-      {
-        double              least_scaled_jacobian = none;
-        double              energy = none, compliance = none;
-        double              strain_energy = none;
-        std::vector<double> contact_force;
-        double              contact_area = none, max_pressure = none;
-        unsigned int        active_contacts = 0, weak_contacts = 0;
-        double              degeneracy_distance = none;
-        unsigned int        outer_iterations    = 0;
-        unsigned long       f_mults = 0, linear_f_mults = 0;
-        std::string         method; ///< the solver that finished
-        std::vector<Pair>   pairs;
-        /// names and values of the scene's responses
-        std::vector<std::pair<std::string, double>> responses;
-        state::Certificate                          certificate;
-        state::Assumptions                          assumptions;
-      };
+  /// One way to compute the gradient, with what it cost.
+  struct GradientRow
+  {
+    std::string         method;
+    unsigned long       f_mults                = 0;
+    unsigned long       numeric_factorizations = 0;
+    double              seconds                = none;
+    std::vector<double> values;      ///< [objective / length]
+    double              step = none; ///< relative, of differences
+    /// ||u' - u'_direct|| / ||u'_direct|| over all nodes and variables
+    double displacement_difference = none;
+    bool   differentiable          = true; ///< or one-sided only
+  };
 
-      /// One way to compute the gradient, with what it cost.
-      struct GradientRow
-      {
-        std::string         method;
-        unsigned long       f_mults                = 0;
-        unsigned long       numeric_factorizations = 0;
-        double              seconds                = none;
-        std::vector<double> values;      ///< [objective / length]
-        double              step = none; ///< relative, of differences
-        /// ||u' - u'_direct|| / ||u'_direct|| over all nodes and variables
-        double displacement_difference = none;
-        bool   differentiable          = true; ///< or one-sided only
-      };
+  struct Gradient : GradientRow
+  {
+    std::string reason; ///< why 'auto' took the method
+    /// All methods side by side, where the task compares them.
+    std::vector<GradientRow> methods;
+  };
 
-      struct Gradient : GradientRow
-      {
-        std::string reason; ///< why 'auto' took the method
-        /// All methods side by side, where the task compares them.
-        std::vector<GradientRow> methods;
-      };
+  struct Optimization
+  {
+    std::string         algorithm;
+    unsigned int        iterations = 0, evaluations = 0;
+    double              objective_initial = none, objective_final = none;
+    double              constraint_violation = none, projected_gradient = none;
+    std::string         stop_reason;
+    std::vector<double> design; ///< [length]
+  };
 
-      struct Optimization
-      {
-        std::string  algorithm;
-        unsigned int iterations = 0, evaluations = 0;
-        double       objective_initial = none, objective_final = none;
-        double       constraint_violation = none, projected_gradient = none;
-        std::string  stop_reason;
-        std::vector<double> design; ///< [length]
-      };
+  /// One of several load cases.
+  struct LoadCase
+  {
+    std::string          name;
+    double               weight = 1.;
+    State                state; ///< of the final design
+    std::optional<State> initial_state;
+  };
 
-      /// One of several load cases.
-      struct LoadCase
-      {
-        std::string          name;
-        double               weight = 1.;
-        State                state; ///< of the final design
-        std::optional<State> initial_state;
-      };
+  struct Times
+  {
+    double setup = 0., assembly = 0., factorization = 0., solve = 0., gradient = 0., output = 0.,
+           total = 0.; ///< [s]
+  };
 
-      struct Times
-      {
-        double setup = 0., assembly = 0., factorization = 0., solve = 0.,
-               gradient = 0., output = 0., total = 0.; ///< [s]
-      };
+  Program                     program;
+  Mesh                        mesh;
+  State                       state; ///< of the final design; the first load case
+  std::optional<Gradient>     gradient;
+  std::optional<Optimization> optimization;
+  Work                        work;
+  Times                       times;
+  std::string                 task;
+  std::optional<State>        initial_state; ///< of the first design
+  std::vector<LoadCase>       load_cases;    ///< empty if there is only one
+  std::vector<std::string>    warnings;
 
-      Program program;
-      Mesh    mesh;
-      State   state; ///< of the final design; the first load case
-      std::optional<Gradient>     gradient;
-      std::optional<Optimization> optimization;
-      Work                        work;
-      Times                       times;
-      std::string                 task;
-      std::optional<State>        initial_state; ///< of the first design
-      std::vector<LoadCase>       load_cases;    ///< empty if there is only one
-      std::vector<std::string>    warnings;
+  /// The JSON text; doubles read back as the same numbers.
+  std::string json() const;
 
-      /// The JSON text; doubles read back as the same numbers.
-      std::string
-      json() const;
+  /// Write json() to the file @p path. For one rank.
+  /// @throws std::runtime_error if it cannot be written.
+  void write(const std::string &path) const;
+};
 
-      /// Write json() to the file @p path. For one rank.
-      /// @throws std::runtime_error if it cannot be written.
-      void
-      write(const std::string &path) const;
-    };
+/// Versions of the program and its packages, and the BLAS in use.
+Summary::Program program_info(const RunContext &context);
 
-    /// Versions of the program and its packages, and the BLAS in use.
-    Summary::Program
-    program_info(const RunContext &context);
+/**
+ * Name of a BLAS from the file its dgemm was loaded from and, for OpenBLAS,
+ * its own description (else empty); "reference" for the reference BLAS.
+ */
+std::string blas_name(const std::string &file, const std::string &openblas_config);
 
-    /**
-     * Name of a BLAS from the file its dgemm was loaded from and, for OpenBLAS,
-     * its own description (else empty); "reference" for the reference BLAS.
-     */
-    std::string
-    blas_name(const std::string &file, const std::string &openblas_config);
+/// One line of advice if the BLAS is the reference one; else empty.
+std::string blas_warning(const Summary::Program &program);
 
-    /// One line of advice if the BLAS is the reference one; else empty.
-    std::string
-    blas_warning(const Summary::Program &program);
+/// All of Mesh but dual_rows, contact_rows and kernel_dimension.
+template <int dim>
+Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing);
 
-    /// All of Mesh but dual_rows, contact_rows and kernel_dimension.
-    template <int dim>
-    Summary::Mesh
-    summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing);
+template <int dim>
+Summary::State summarize(const state::ContactState<dim> &state);
 
-    template <int dim>
-    Summary::State
-    summarize(const state::ContactState<dim> &state);
+Summary::Optimization summarize(const optimization::OptimizationResult &result,
+                                const std::string                      &algorithm);
 
-    Summary::Optimization
-    summarize(const optimization::OptimizationResult &result,
-              const std::string                      &algorithm);
-
-    /// Seconds of the stages named as the members of Times, of the slowest
-    /// rank. Collective.
-    Summary::Times
-    collect_times(const RunContext &context);
-  } // namespace io
-} // namespace snug
+/// Seconds of the stages named as the members of Times, of the slowest
+/// rank. Collective.
+Summary::Times collect_times(const RunContext &context);
+} // namespace snug::io
 
 #endif

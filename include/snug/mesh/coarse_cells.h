@@ -5,44 +5,36 @@
 
 #include <deal.II/grid/cell_id.h>
 
-namespace dealii
-{
-  template <int dim, int spacedim>
-  class Triangulation;
+namespace dealii {
+template <int dim, int spacedim>
+class Triangulation;
 }
 
-namespace snug
+namespace snug::mesh {
+/**
+ * Where refined cells lie in the coarse cells of their bodies. Coarse
+ * cells have deal.II's ids, which are the same in all triangulations made
+ * of the same coarse mesh.
+ */
+template <int dim>
+class CoarseCells
 {
-  namespace mesh
-  {
-    /**
-     * Where refined cells lie in the coarse cells of their bodies. Coarse
-     * cells have deal.II's ids, which are the same in all triangulations made
-     * of the same coarse mesh.
-     */
-    template <int dim>
-    class CoarseCells
-    {
-    public:
-      CoarseCells() = default;
+public:
+  CoarseCells() = default;
 
-      /// @param triangulation has all coarse cells, body after body; their
-      ///   material ids are the bodies.
-      explicit CoarseCells(
-        const dealii::Triangulation<dim, dim> &triangulation);
+  /// @param triangulation has all coarse cells, body after body; their
+  ///   material ids are the bodies.
+  explicit CoarseCells(const dealii::Triangulation<dim, dim> &triangulation);
 
-      /// Index of the coarse cell of @p cell among those of its body.
-      unsigned int
-      coarse_cell(const dealii::CellId &cell) const;
+  /// Index of the coarse cell of @p cell among those of its body.
+  unsigned int coarse_cell(const dealii::CellId &cell) const;
 
-      /// The point at coordinates @p unit of @p cell.
-      MeshPoint<dim>
-      point(const dealii::CellId &cell, const dealii::Point<dim> &unit) const;
+  /// The point at coordinates @p unit of @p cell.
+  MeshPoint<dim> point(const dealii::CellId &cell, const dealii::Point<dim> &unit) const;
 
-    private:
-      std::vector<unsigned int> index_of_id; ///< within the body
-    };
-  } // namespace mesh
-} // namespace snug
+private:
+  std::vector<unsigned int> index_of_id; ///< within the body
+};
+} // namespace snug::mesh
 
 #endif

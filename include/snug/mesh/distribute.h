@@ -7,55 +7,47 @@
 
 #include <deal.II/distributed/fully_distributed_tria.h>
 
-namespace snug
-{
-  namespace mesh
-  {
-    /**
-     * Cells of a subdomain that keep factorizations and coarse problem in
-     * balance: 5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
-     * degree, by their nodes. Axisymmetric subdomains can all but turn and move
-     * along the radius, which the coarse space does not know, the motion along
-     * the axis being their only rigid one: the more there are, the more
-     * iterations, so they have 64 cells per edge.
-     */
-    double
-    cells_per_subdomain(unsigned int        dim,
-                        unsigned int        degree,
-                        const Idealization &idealization);
+namespace snug::mesh {
+/**
+ * Cells of a subdomain that keep factorizations and coarse problem in
+ * balance: 5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
+ * degree, by their nodes. Axisymmetric subdomains can all but turn and move
+ * along the radius, which the coarse space does not know, the motion along
+ * the axis being their only rigid one: the more there are, the more
+ * iterations, so they have 64 cells per edge.
+ */
+double cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &idealization);
 
-    /**
-     * Decide the parts into which the bodies are torn and give whole parts to
-     * the ranks, so that subdomains do not depend on the number of ranks.
-     *
-     * A part by size has @p cells_by_size cells; there are as many parts as
-     * ranks where there are cells enough. Every body is
-     * spread over all ranks in runs of consecutive parts; ranks differ by at
-     * most about two parts in their numbers of cells.
-     *
-     * @param result the same cells, empty before.
-     * @return the parts of this rank's cells of @p result, numbered body by
-     *   body.
-     *
-     * Collective.
-     */
-    template <int dim>
-    std::vector<unsigned int>
-    distribute(const Geometries<dim>   &geometries,
-               const TearingParameters &parameters,
-               double                   cells_by_size,
-               const dealii::parallel::distributed::Triangulation<dim> &refined,
-               dealii::parallel::fullydistributed::Triangulation<dim>  &result);
+/**
+ * Decide the parts into which the bodies are torn and give whole parts to
+ * the ranks, so that subdomains do not depend on the number of ranks.
+ *
+ * A part by size has @p cells_by_size cells; there are as many parts as
+ * ranks where there are cells enough. Every body is
+ * spread over all ranks in runs of consecutive parts; ranks differ by at
+ * most about two parts in their numbers of cells.
+ *
+ * @param result the same cells, empty before.
+ * @return the parts of this rank's cells of @p result, numbered body by
+ *   body.
+ *
+ * Collective.
+ */
+template <int dim>
+std::vector<unsigned int>
+distribute(const Geometries<dim>                                   &geometries,
+           const TearingParameters                                 &parameters,
+           double                                                   cells_by_size,
+           const dealii::parallel::distributed::Triangulation<dim> &refined,
+           dealii::parallel::fullydistributed::Triangulation<dim>  &result);
 
-    /**
-     * Ranks of the parts, body by body: @p cells[b][p] is the number of cells
-     * of part p of body b. Each body's parts go to the ranks in runs; the
-     * shares even out what the bodies before have left unbalanced.
-     */
-    std::vector<std::vector<unsigned int>>
-    ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells,
-                   unsigned int                                   n_ranks);
-  } // namespace mesh
-} // namespace snug
+/**
+ * Ranks of the parts, body by body: @p cells[b][p] is the number of cells
+ * of part p of body b. Each body's parts go to the ranks in runs; the
+ * shares even out what the bodies before have left unbalanced.
+ */
+std::vector<std::vector<unsigned int>>
+ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned int n_ranks);
+} // namespace snug::mesh
 
 #endif

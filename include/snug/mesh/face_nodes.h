@@ -3,21 +3,16 @@
 
 #include <vector>
 
-namespace snug
-{
-  namespace mesh
-  {
-    /**
-     * Nodes of face 2d + s (deal.II's numbering: the side s of axis d) of a
-     * cell with tensor-product ordered @p cell_nodes, first tangent fastest,
-     * oriented such that t1 x t2 (3D), or (t_y, -t_x) (2D), points out.
-     */
-    template <int dim>
-    std::vector<unsigned int>
-    oriented_face_nodes(const std::vector<unsigned int> &cell_nodes,
-                        unsigned int                     degree,
-                        unsigned int                     face);
-  } // namespace mesh
-} // namespace snug
+namespace snug::mesh {
+/**
+ * Nodes of face 2d + s (deal.II's numbering: the side s of axis d) of a
+ * cell with tensor-product ordered @p cell_nodes, first tangent fastest,
+ * oriented such that t1 x t2 (3D), or (t_y, -t_x) (2D), points out.
+ */
+template <int dim>
+std::vector<unsigned int> oriented_face_nodes(const std::vector<unsigned int> &cell_nodes,
+                                              unsigned int                     degree,
+                                              unsigned int                     face);
+} // namespace snug::mesh
 
 #endif

@@ -4,28 +4,22 @@
 #include <snug/base/errors.h>
 #include <snug/mesh/mesh_file.h>
 
-namespace snug
-{
-  namespace mesh
-  {
-    /**
-     * The elements of a file that make a body: those of dimension dim in one
-     * of the @p regions (empty: all), right-handed. What was turned or left out
-     * is added to @p notes.
-     *
-     * @throws InputError if there are none, some do not lie in the plane (2D),
-     *   are pyramids or inverted.
-     */
-    template <int dim>
-    std::vector<MeshFile::Element>
-    body_cells(const MeshFile                 &file,
-               const std::vector<std::string> &regions,
-               std::vector<std::string>       &notes);
+namespace snug::mesh {
+/**
+ * The elements of a file that make a body: those of dimension dim in one
+ * of the @p regions (empty: all), right-handed. What was turned or left out
+ * is added to @p notes.
+ *
+ * @throws InputError if there are none, some do not lie in the plane (2D),
+ *   are pyramids or inverted.
+ */
+template <int dim>
+std::vector<MeshFile::Element> body_cells(const MeshFile                 &file,
+                                          const std::vector<std::string> &regions,
+                                          std::vector<std::string>       &notes);
 
-    /// "line 17: element 4 message".
-    InputError
-    element_error(const MeshFile::Element &element, const std::string &message);
-  } // namespace mesh
-} // namespace snug
+/// "line 17: element 4 message".
+InputError element_error(const MeshFile::Element &element, const std::string &message);
+} // namespace snug::mesh
 
 #endif

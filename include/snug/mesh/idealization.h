@@ -6,68 +6,55 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/tensor.h>
 
-namespace snug
+namespace snug::mesh {
+/**
+ * What a mesh of dimension dim stands for: a solid (3D), or the section of
+ * one (2D). A volume or area of the solid is
+ * @f[ \int w\,d\Omega,\qquad w = 1,\quad\text{thickness},\quad\text{or}
+ *     \quad 2\pi r @f]
+ * over its section. Axisymmetric: x is the radius r, y the axis.
+ */
+struct Idealization
 {
-  namespace mesh
+  enum class Kind
   {
-    /**
-     * What a mesh of dimension dim stands for: a solid (3D), or the section of
-     * one (2D). A volume or area of the solid is
-     * @f[ \int w\,d\Omega,\qquad w = 1,\quad\text{thickness},\quad\text{or}
-     *     \quad 2\pi r @f]
-     * over its section. Axisymmetric: x is the radius r, y the axis.
-     */
-    struct Idealization
-    {
-      enum class Kind
-      {
-        solid,
-        plane_strain,
-        plane_stress,
-        axisymmetric
-      };
+    solid,
+    plane_strain,
+    plane_stress,
+    axisymmetric
+  };
 
-      Kind   kind;
-      double thickness = 1.; ///< of plane sections [length]
+  Kind   kind;
+  double thickness = 1.; ///< of plane sections [length]
 
-      /// Solid in 3D, plane strain of unit thickness in 2D.
-      static Idealization
-      natural(unsigned int dim);
+  /// Solid in 3D, plane strain of unit thickness in 2D.
+  static Idealization natural(unsigned int dim);
 
-      bool
-      is_axisymmetric() const
-      {
-        return kind == Kind::axisymmetric;
-      }
+  bool is_axisymmetric() const { return kind == Kind::axisymmetric; }
 
-      /// w at @p x [length^(3-dim)].
-      template <int dim>
-      double
-      weight(const dealii::Tensor<1, dim> &x) const
-      {
-        return is_axisymmetric() ? 2. * dealii::numbers::PI * x[0] : thickness;
-      }
+  /// w at @p x [length^(3-dim)].
+  template <int dim>
+  double weight(const dealii::Tensor<1, dim> &x) const
+  {
+    return is_axisymmetric() ? 2. * dealii::numbers::PI * x[0] : thickness;
+  }
 
-      /// dw/dx, a constant.
-      template <int dim>
-      dealii::Tensor<1, dim>
-      weight_gradient() const
-      {
-        dealii::Tensor<1, dim> gradient;
-        gradient[0] = is_axisymmetric() ? 2. * dealii::numbers::PI : 0.;
-        return gradient;
-      }
+  /// dw/dx, a constant.
+  template <int dim>
+  dealii::Tensor<1, dim> weight_gradient() const
+  {
+    dealii::Tensor<1, dim> gradient;
+    gradient[0] = is_axisymmetric() ? 2. * dealii::numbers::PI : 0.;
+    return gradient;
+  }
 
-      /// Rigid motions of a body: 6, 3 in plane sections, and 1,
-      /// along the axis, in axisymmetric ones.
-      unsigned int
-      n_rigid_motions() const;
-    };
+  /// Rigid motions of a body: 6, 3 in plane sections, and 1,
+  /// along the axis, in axisymmetric ones.
+  unsigned int n_rigid_motions() const;
+};
 
-    /// Rows "solid", "plane strain", "plane stress", "axisymmetric".
-    const ChoiceTable<Idealization::Kind()> &
-    idealization_table();
-  } // namespace mesh
-} // namespace snug
+/// Rows "solid", "plane strain", "plane stress", "axisymmetric".
+const ChoiceTable<Idealization::Kind()> &idealization_table();
+} // namespace snug::mesh
 
 #endif

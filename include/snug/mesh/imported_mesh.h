@@ -4,39 +4,33 @@
 #include <snug/mesh/block_mesh.h>
 #include <snug/mesh/body_geometry.h>
 
-namespace snug
+namespace snug::mesh {
+/// The mesh of a file as the cells of one body.
+struct ImportedMesh
 {
-  namespace mesh
-  {
-    /// The mesh of a file as the cells of one body.
-    struct ImportedMesh
-    {
-      std::shared_ptr<const BlockMesh<2>> flat;  ///< in 2D
-      std::shared_ptr<const BlockMesh<3>> solid; ///< in 3D
-      std::vector<std::string>            notes; ///< what was done on reading
-    };
+  std::shared_ptr<const BlockMesh<2>> flat;  ///< in 2D
+  std::shared_ptr<const BlockMesh<3>> solid; ///< in 3D
+  std::vector<std::string>            notes; ///< what was done on reading
+};
 
-    /**
-     * Make cells of the contents @p text of a mesh file:
-     *
-     * - elements of the dimension @p dim in the wanted regions; if triangles,
-     *   tetrahedra or prisms are among them, each is split at the middles of
-     *   its edges, faces and itself into quadrilaterals or hexahedra, and all
-     *   others with them; so are hexahedra whose edges cannot be given common
-     *   directions, see order_consistently();
-     * - groups of elements one dimension lower are the boundaries; boundary
-     *   faces without a group are called free;
-     * - boundaries that lie on spheres or cylinders, as the entry Curved faces
-     *   says, are fitted to them, and stay so when refined.
-     *
-     * @throws InputError naming an entry and, for what is wrong in the file,
-     *   its line and element.
-     */
-    std::shared_ptr<const ImportedMesh>
-    import_mesh(const std::string        &text,
-                const BodyMeshParameters &parameters,
-                unsigned int              dim);
-  } // namespace mesh
-} // namespace snug
+/**
+ * Make cells of the contents @p text of a mesh file:
+ *
+ * - elements of the dimension @p dim in the wanted regions; if triangles,
+ *   tetrahedra or prisms are among them, each is split at the middles of
+ *   its edges, faces and itself into quadrilaterals or hexahedra, and all
+ *   others with them; so are hexahedra whose edges cannot be given common
+ *   directions, see order_consistently();
+ * - groups of elements one dimension lower are the boundaries; boundary
+ *   faces without a group are called free;
+ * - boundaries that lie on spheres or cylinders, as the entry Curved faces
+ *   says, are fitted to them, and stay so when refined.
+ *
+ * @throws InputError naming an entry and, for what is wrong in the file,
+ *   its line and element.
+ */
+std::shared_ptr<const ImportedMesh>
+import_mesh(const std::string &text, const BodyMeshParameters &parameters, unsigned int dim);
+} // namespace snug::mesh
 
 #endif

@@ -12,69 +12,62 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::mesh {
+/// Entries of `subsection Decomposition`.
+struct TearingParameters
 {
-  namespace mesh
-  {
-    /// Entries of `subsection Decomposition`.
-    struct TearingParameters
-    {
-      unsigned int subdomains = 0;      ///< of all bodies, a target; 0: by size
-      std::string  method     = "auto"; ///< a name of partition_table()
-    };
+  unsigned int subdomains = 0;      ///< of all bodies, a target; 0: by size
+  std::string  method     = "auto"; ///< a name of partition_table()
+};
 
-    /**
-     * The cells of one body that a rank holds before the parts are decided.
-     * Cells have numbers, unique over ranks, and keys {level and coarse cell,
-     * path of children}, which order them in the same way on any number of
-     * ranks.
-     */
-    template <int dim>
-    struct CellSet
-    {
-      using Key = std::array<std::uint64_t, 2>;
+/**
+ * The cells of one body that a rank holds before the parts are decided.
+ * Cells have numbers, unique over ranks, and keys {level and coarse cell,
+ * path of children}, which order them in the same way on any number of
+ * ranks.
+ */
+template <int dim>
+struct CellSet
+{
+  using Key = std::array<std::uint64_t, 2>;
 
-      MPI_Comm                        communicator;
-      std::vector<dealii::Point<dim>> centres; ///< logical
-      std::vector<unsigned int>       numbers;
-      std::vector<Key>                keys;
-      /// Numbers of cells that share a face or part of one; each pair of the
-      /// body on one rank only.
-      std::vector<std::array<unsigned int, 2>> neighbours;
-      unsigned long                            n_global; ///< cells of the body
-      dealii::Tensor<1, dim>                   size; ///< along the logical axes
-      bool layered; ///< all cells lie in layers along the logical axes
-    };
+  MPI_Comm                        communicator;
+  std::vector<dealii::Point<dim>> centres; ///< logical
+  std::vector<unsigned int>       numbers;
+  std::vector<Key>                keys;
+  /// Numbers of cells that share a face or part of one; each pair of the
+  /// body on one rank only.
+  std::vector<std::array<unsigned int, 2>> neighbours;
+  unsigned long                            n_global; ///< cells of the body
+  dealii::Tensor<1, dim>                   size;     ///< along the logical axes
+  bool layered; ///< all cells lie in layers along the logical axes
+};
 
-    /// Parts of one body, the same on any number of ranks.
-    struct Partition
-    {
-      std::vector<unsigned int> part; ///< of each cell of this rank
-      unsigned int              n_parts = 1;
-    };
+/// Parts of one body, the same on any number of ranks.
+struct Partition
+{
+  std::vector<unsigned int> part; ///< of each cell of this rank
+  unsigned int              n_parts = 1;
+};
 
-    /**
-     * Ways to partition the cells of a body into parts of about a given number
-     * of cells. Collective. Rows "auto", "grid" and "METIS".
-     *
-     * Parts that are cubes of cells with flat sides need half the iterations
-     * of the ragged ones a graph partitioner finds (54 subdomains of 6^3
-     * cells, two cubes: 14 against 31 for a linear solve to 1e-6).
-     */
-    template <int dim>
-    const ChoiceTable<Partition(const CellSet<dim> &, double)> &
-    partition_table();
+/**
+ * Ways to partition the cells of a body into parts of about a given number
+ * of cells. Collective. Rows "auto", "grid" and "METIS".
+ *
+ * Parts that are cubes of cells with flat sides need half the iterations
+ * of the ragged ones a graph partitioner finds (54 subdomains of 6^3
+ * cells, two cubes: 14 against 31 for a linear solve to 1e-6).
+ */
+template <int dim>
+const ChoiceTable<Partition(const CellSet<dim> &, double)> &partition_table();
 
-    /// Row "grid": slabs along the logical axes, cut between layers of cells.
-    template <int dim>
-    Partition
-    grid_partition(const CellSet<dim> &set, double cells_each);
+/// Row "grid": slabs along the logical axes, cut between layers of cells.
+template <int dim>
+Partition grid_partition(const CellSet<dim> &set, double cells_each);
 
-    /// Row "METIS": the cell graph of the whole body, gathered on one rank.
-    template <int dim>
-    Partition
-    graph_partition(const CellSet<dim> &set, double cells_each);
-  } // namespace mesh
-} // namespace snug
+/// Row "METIS": the cell graph of the whole body, gathered on one rank.
+template <int dim>
+Partition graph_partition(const CellSet<dim> &set, double cells_each);
+} // namespace snug::mesh
 
 #endif

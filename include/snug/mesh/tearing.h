@@ -5,36 +5,31 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::mesh {
+/// One subdomain of this rank.
+struct Subdomain
 {
-  namespace mesh
-  {
-    /// One subdomain of this rank.
-    struct Subdomain
-    {
-      unsigned int              body;
-      std::vector<unsigned int> cells; ///< indices into BodyMesh::cells()
-      /// local indices of the unconstrained nodes its cells reach, ascending
-      std::vector<unsigned int> nodes;
-    };
+  unsigned int              body;
+  std::vector<unsigned int> cells; ///< indices into BodyMesh::cells()
+  /// local indices of the unconstrained nodes its cells reach, ascending
+  std::vector<unsigned int> nodes;
+};
 
-    /// How the bodies are torn; ids are contiguous on each rank.
-    struct Tearing
-    {
-      std::vector<Subdomain>    subdomains; ///< of this rank
-      unsigned int              first_id = 0;
-      unsigned int              n_global = 0;
-      std::vector<unsigned int> first_id_of_rank; ///< n_ranks + 1 entries
-    };
+/// How the bodies are torn; ids are contiguous on each rank.
+struct Tearing
+{
+  std::vector<Subdomain>    subdomains; ///< of this rank
+  unsigned int              first_id = 0;
+  unsigned int              n_global = 0;
+  std::vector<unsigned int> first_id_of_rank; ///< n_ranks + 1 entries
+};
 
-    /**
-     * Tear the bodies into subdomains: the face-connected pieces of the parts
-     * of the mesh. Collective.
-     */
-    template <int dim>
-    Tearing
-    tear(const BodyMesh<dim> &mesh);
-  } // namespace mesh
-} // namespace snug
+/**
+ * Tear the bodies into subdomains: the face-connected pieces of the parts
+ * of the mesh. Collective.
+ */
+template <int dim>
+Tearing tear(const BodyMesh<dim> &mesh);
+} // namespace snug::mesh
 
 #endif

@@ -5,30 +5,23 @@
 
 #include <deal.II/distributed/tria.h>
 
-namespace snug
-{
-  namespace mesh
-  {
-    template <int dim>
-    using Geometries = std::vector<std::unique_ptr<BodyGeometry<dim>>>;
+namespace snug::mesh {
+template <int dim>
+using Geometries = std::vector<std::unique_ptr<BodyGeometry<dim>>>;
 
-    /// The coarse meshes of all bodies, side by side in one triangulation:
-    /// material id = body, boundary id = index of the body's names.
-    template <int dim>
-    void
-    create_coarse_mesh(
-      const Geometries<dim>                             &geometries,
-      dealii::parallel::distributed::Triangulation<dim> &triangulation);
+/// The coarse meshes of all bodies, side by side in one triangulation:
+/// material id = body, boundary id = index of the body's names.
+template <int dim>
+void create_coarse_mesh(const Geometries<dim>                             &geometries,
+                        dealii::parallel::distributed::Triangulation<dim> &triangulation);
 
-    /// Refine every body as its parameters say. Collective.
-    /// @throws InputError for a formula that cannot be read.
-    template <int dim>
-    void
-    refine(const std::vector<BodyMeshParameters>             &bodies,
-           const Geometries<dim>                             &geometries,
-           const CoarseCells<dim>                            &coarse,
-           dealii::parallel::distributed::Triangulation<dim> &triangulation);
-  } // namespace mesh
-} // namespace snug
+/// Refine every body as its parameters say. Collective.
+/// @throws InputError for a formula that cannot be read.
+template <int dim>
+void refine(const std::vector<BodyMeshParameters>             &bodies,
+            const Geometries<dim>                             &geometries,
+            const CoarseCells<dim>                            &coarse,
+            dealii::parallel::distributed::Triangulation<dim> &triangulation);
+} // namespace snug::mesh
 
 #endif

@@ -3,98 +3,46 @@
 
 #include <snug/mesh/body_geometry.h>
 
-namespace snug
+namespace snug::mesh {
+/// The geometry of another one; derived classes change what they say.
+template <int dim>
+class WrappedGeometry : public BodyGeometry<dim>
 {
-  namespace mesh
+public:
+  using Point = dealii::Point<dim>;
+
+  explicit WrappedGeometry(std::unique_ptr<BodyGeometry<dim>> body) : body(std::move(body)) {}
+
+  typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override
   {
-    /// The geometry of another one; derived classes change what they say.
-    template <int dim>
-    class WrappedGeometry : public BodyGeometry<dim>
-    {
-    public:
-      using Point = dealii::Point<dim>;
+    return body->coarse_mesh();
+  }
 
-      explicit WrappedGeometry(std::unique_ptr<BodyGeometry<dim>> body)
-        : body(std::move(body))
-      {
-      }
+  double n_coarse_cells() const override { return body->n_coarse_cells(); }
 
-      typename BodyGeometry<dim>::CoarseMesh
-      coarse_mesh() const override
-      {
-        return body->coarse_mesh();
-      }
+  const std::vector<std::string> &boundary_names() const override { return body->boundary_names(); }
 
-      double
-      n_coarse_cells() const override
-      {
-        return body->n_coarse_cells();
-      }
+  std::vector<std::string> region_names() const override { return body->region_names(); }
 
-      const std::vector<std::string> &
-      boundary_names() const override
-      {
-        return body->boundary_names();
-      }
+  unsigned int region(unsigned int coarse_cell) const override { return body->region(coarse_cell); }
 
-      std::vector<std::string>
-      region_names() const override
-      {
-        return body->region_names();
-      }
+  Point position(const MeshPoint<dim> &point) const override { return body->position(point); }
 
-      unsigned int
-      region(unsigned int coarse_cell) const override
-      {
-        return body->region(coarse_cell);
-      }
+  Point logical(const MeshPoint<dim> &point) const override { return body->logical(point); }
 
-      Point
-      position(const MeshPoint<dim> &point) const override
-      {
-        return body->position(point);
-      }
+  dealii::Tensor<1, dim> extent() const override { return body->extent(); }
 
-      Point
-      logical(const MeshPoint<dim> &point) const override
-      {
-        return body->logical(point);
-      }
+  bool has_grid() const override { return body->has_grid(); }
 
-      dealii::Tensor<1, dim>
-      extent() const override
-      {
-        return body->extent();
-      }
+  bool has_frame() const override { return body->has_frame(); }
 
-      bool
-      has_grid() const override
-      {
-        return body->has_grid();
-      }
+  Point box_fraction(const Point &logical) const override { return body->box_fraction(logical); }
 
-      bool
-      has_frame() const override
-      {
-        return body->has_frame();
-      }
+  Point box_position(const Point &fraction) const override { return body->box_position(fraction); }
 
-      Point
-      box_fraction(const Point &logical) const override
-      {
-        return body->box_fraction(logical);
-      }
-
-      Point
-      box_position(const Point &fraction) const override
-      {
-        return body->box_position(fraction);
-      }
-
-    protected:
-      std::unique_ptr<BodyGeometry<dim>> body;
-    };
-  } // namespace mesh
-} // namespace snug
+protected:
+  std::unique_ptr<BodyGeometry<dim>> body;
+};
+} // namespace snug::mesh
 
 #endif

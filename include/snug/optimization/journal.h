@@ -11,117 +11,98 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::optimization {
+/// Where a journal lives and what it needs from its caller.
+struct JournalSettings
 {
-  namespace optimization
-  {
-    /// Where a journal lives and what it needs from its caller.
-    struct JournalSettings
-    {
-      /// Exists; receives journal.txt and warm-start.<rank>.<0|1>.
-      std::string directory;
-      /// Lines "name = value" of everything that decides the numbers. A
-      /// restart with another fingerprint is refused.
-      std::string fingerprint;
-      /// Replay the journal of the directory; otherwise it is overwritten.
-      bool     restart      = false;
-      MPI_Comm communicator = MPI_COMM_SELF;
+  /// Exists; receives journal.txt and warm-start.<rank>.<0|1>.
+  std::string directory;
+  /// Lines "name = value" of everything that decides the numbers. A
+  /// restart with another fingerprint is refused.
+  std::string fingerprint;
+  /// Replay the journal of the directory; otherwise it is overwritten.
+  bool     restart      = false;
+  MPI_Comm communicator = MPI_COMM_SELF;
 
-      using WarmStartHook =
-        std::function<void(unsigned int index, const std::string &path)>;
-      /// Write this rank's solver data as they are after evaluation `index`.
-      WarmStartHook save_warm_start;
-      /// Read back what save_warm_start wrote after evaluation `index`.
-      WarmStartHook load_warm_start;
-      /// Receives one line, without its end; called on every rank.
-      std::function<void(const std::string &)> log;
-    };
+  using WarmStartHook = std::function<void(unsigned int index, const std::string &path)>;
+  /// Write this rank's solver data as they are after evaluation `index`.
+  WarmStartHook save_warm_start;
+  /// Read back what save_warm_start wrote after evaluation `index`.
+  WarmStartHook load_warm_start;
+  /// Receives one line, without its end; called on every rank.
+  std::function<void(const std::string &)> log;
+};
 
-    /**
-     * Records every evaluation of a design problem, and on a restart returns
-     * the recorded ones in order instead of evaluating again. The optimizer
-     * is deterministic, so it takes the same path, bit for bit, and goes on
-     * from where the record ends.
-     *
-     * Record `index` is complete when its last line is. Before it is begun,
-     * every rank has moved its warm-start data of that evaluation to
-     * warm-start.<rank>.<index % 2>; those of the record before stay until the
-     * record is complete. So at any moment the last complete record has its
-     * data, and a kill at any moment loses at most the evaluation under way.
-     * They are loaded just before the first live evaluation.
-     *
-     * Warm-start data are not used (the log says so) if the number of ranks
-     * has changed, a file is missing, or a replayed design differs from the
-     * one asked for; the record is then cut there.
-     *
-     * Only rank 0 reads and writes journal.txt.
-     */
-    class Journal
-    {
-    public:
-      using Evaluate =
-        std::function<Evaluation(const std::vector<double> &design)>;
+/**
+ * Records every evaluation of a design problem, and on a restart returns
+ * the recorded ones in order instead of evaluating again. The optimizer
+ * is deterministic, so it takes the same path, bit for bit, and goes on
+ * from where the record ends.
+ *
+ * Record `index` is complete when its last line is. Before it is begun,
+ * every rank has moved its warm-start data of that evaluation to
+ * warm-start.<rank>.<index % 2>; those of the record before stay until the
+ * record is complete. So at any moment the last complete record has its
+ * data, and a kill at any moment loses at most the evaluation under way.
+ * They are loaded just before the first live evaluation.
+ *
+ * Warm-start data are not used (the log says so) if the number of ranks
+ * has changed, a file is missing, or a replayed design differs from the
+ * one asked for; the record is then cut there.
+ *
+ * Only rank 0 reads and writes journal.txt.
+ */
+class Journal
+{
+public:
+  using Evaluate = std::function<Evaluation(const std::vector<double> &design)>;
 
-      /**
-       * Collective. Opens the journal; with `restart`, reads it.
-       * @throws InputError if the directory cannot be written to, or the
-       *   journal is of another format or problem or is damaged other than in
-       *   its last record. A missing journal is no error: there was nothing to
-       *   record yet.
-       */
-      Journal(const JournalSettings &settings, const Evaluate &evaluate);
+  /**
+   * Collective. Opens the journal; with `restart`, reads it.
+   * @throws InputError if the directory cannot be written to, or the
+   *   journal is of another format or problem or is damaged other than in
+   *   its last record. A missing journal is no error: there was nothing to
+   *   record yet.
+   */
+  Journal(const JournalSettings &settings, const Evaluate &evaluate);
 
-      /**
-       * The recorded or the live evaluation of @p x. Collective.
-       * @throws what the evaluation throws; TangledMesh and other SolveErrors
-       *   are recorded and thrown again by a replay, other errors are not
-       *   recorded. InputError if the journal cannot be written.
-       */
-      Evaluation
-      evaluate(const std::vector<double> &x);
+  /**
+   * The recorded or the live evaluation of @p x. Collective.
+   * @throws what the evaluation throws; TangledMesh and other SolveErrors
+   *   are recorded and thrown again by a replay, other errors are not
+   *   recorded. InputError if the journal cannot be written.
+   */
+  Evaluation evaluate(const std::vector<double> &x);
 
-      /// Evaluations answered from the record so far.
-      unsigned int
-      n_replayed() const;
+  /// Evaluations answered from the record so far.
+  unsigned int n_replayed() const;
 
-      /// Complete records, replayed or not.
-      unsigned int
-      n_records() const;
+  /// Complete records, replayed or not.
+  unsigned int n_records() const;
 
-    private:
-      void
-      read();
-      void
-      begin();
-      void
-      resume();
-      void
-      cut();
-      void
-      forget_warm_start();
-      void
-      load_warm_start();
-      void
-      store(JournalRecord &record);
-      std::string
-      path() const;
-      std::string
-      warm_start_path(unsigned int index) const;
-      void
-      say(const std::string &line) const;
+private:
+  void        read();
+  void        begin();
+  void        resume();
+  void        cut();
+  void        forget_warm_start();
+  void        load_warm_start();
+  void        store(JournalRecord &record);
+  std::string path() const;
+  std::string warm_start_path(unsigned int index) const;
+  void        say(const std::string &line) const;
 
-      JournalSettings            settings;
-      Evaluate                   evaluate_live;
-      int                        rank    = 0;
-      int                        n_ranks = 1;
-      std::vector<JournalRecord> recorded; ///< not yet replayed: [next, end)
-      std::size_t                header_end = 0; ///< bytes
-      unsigned int               next       = 0; ///< index of next evaluation
-      unsigned int               replayed   = 0;
-      bool                       is_live    = false;
-      std::ofstream              file; ///< rank 0 only
-    };
-  } // namespace optimization
-} // namespace snug
+  JournalSettings            settings;
+  Evaluate                   evaluate_live;
+  int                        rank    = 0;
+  int                        n_ranks = 1;
+  std::vector<JournalRecord> recorded;       ///< not yet replayed: [next, end)
+  std::size_t                header_end = 0; ///< bytes
+  unsigned int               next       = 0; ///< index of next evaluation
+  unsigned int               replayed   = 0;
+  bool                       is_live    = false;
+  std::ofstream              file; ///< rank 0 only
+};
+} // namespace snug::optimization
 
 #endif

@@ -6,58 +6,50 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::optimization {
+/// One evaluation as the journal keeps it.
+struct JournalRecord
 {
-  namespace optimization
+  enum class Outcome
   {
-    /// One evaluation as the journal keeps it.
-    struct JournalRecord
-    {
-      enum class Outcome
-      {
-        value,
-        tangled, ///< TangledMesh
-        unsolved ///< any other SolveError
-      };
+    value,
+    tangled, ///< TangledMesh
+    unsolved ///< any other SolveError
+  };
 
-      std::vector<double> x;
-      Outcome             outcome = Outcome::value;
-      Evaluation          evaluation; ///< if outcome is value
-      std::string         message;    ///< one line, otherwise
-      int                 n_ranks = 1;
-      std::size_t         end     = 0; ///< byte behind it in the journal
-    };
+  std::vector<double> x;
+  Outcome             outcome = Outcome::value;
+  Evaluation          evaluation; ///< if outcome is value
+  std::string         message;    ///< one line, otherwise
+  int                 n_ranks = 1;
+  std::size_t         end     = 0; ///< byte behind it in the journal
+};
 
-    /**
-     * The text of record @p index: numbers in hexadecimal floating point (%a),
-     * so that they are read back bit for bit; the line "end <index>" closes it.
-     */
-    std::string
-    journal_text(const JournalRecord &record, unsigned int index);
+/**
+ * The text of record @p index: numbers in hexadecimal floating point (%a),
+ * so that they are read back bit for bit; the line "end <index>" closes it.
+ */
+std::string journal_text(const JournalRecord &record, unsigned int index);
 
-    /// The first lines: format version and fingerprint.
-    std::string
-    journal_header(const std::string &fingerprint);
+/// The first lines: format version and fingerprint.
+std::string journal_header(const std::string &fingerprint);
 
-    /// What a journal's text holds.
-    struct JournalContents
-    {
-      std::size_t                header_end = 0; ///< bytes; 0: no whole header
-      std::vector<JournalRecord> records;        ///< the complete ones
-      std::size_t                end = 0; ///< byte behind the last of them
-    };
+/// What a journal's text holds.
+struct JournalContents
+{
+  std::size_t                header_end = 0; ///< bytes; 0: no whole header
+  std::vector<JournalRecord> records;        ///< the complete ones
+  std::size_t                end = 0;        ///< byte behind the last of them
+};
 
-    /**
-     * Read a journal. An incomplete header or last record is left out.
-     * @throws InputError naming @p file if it is not a journal of this format
-     *   and @p fingerprint (with the line that differs), or is damaged before
-     *   its last record.
-     */
-    JournalContents
-    parse_journal(const std::string &text,
-                  const std::string &fingerprint,
-                  const std::string &file);
-  } // namespace optimization
-} // namespace snug
+/**
+ * Read a journal. An incomplete header or last record is left out.
+ * @throws InputError naming @p file if it is not a journal of this format
+ *   and @p fingerprint (with the line that differs), or is damaged before
+ *   its last record.
+ */
+JournalContents
+parse_journal(const std::string &text, const std::string &fingerprint, const std::string &file);
+} // namespace snug::optimization
 
 #endif

@@ -3,30 +3,25 @@
 
 #include <string>
 
-namespace snug
+namespace snug::optimization {
+/// What a constraint demands of a response.
+struct Limit
 {
-  namespace optimization
+  enum class Side
   {
-    /// What a constraint demands of a response.
-    struct Limit
-    {
-      enum class Side
-      {
-        at_most,
-        equal,
-        at_least
-      };
+    at_most,
+    equal,
+    at_least
+  };
 
-      Side   side       = Side::equal;
-      double value      = 1.;
-      bool   of_initial = true; ///< value is a factor of the first design's
-    };
+  Side   side       = Side::equal;
+  double value      = 1.;
+  bool   of_initial = true; ///< value is a factor of the first design's
+};
 
-    /// The limit of "<= 120", "= initial", ">= 0.9 initial"; without a sign,
-    /// equal. @throws std::invalid_argument for anything else.
-    Limit
-    read_limit(const std::string &text);
-  } // namespace optimization
-} // namespace snug
+/// The limit of "<= 120", "= initial", ">= 0.9 initial"; without a sign,
+/// equal. @throws std::invalid_argument for anything else.
+Limit read_limit(const std::string &text);
+} // namespace snug::optimization
 
 #endif

@@ -9,111 +9,102 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::optimization {
+/**
+ * A design the optimizer has accepted; number 0 is the start.
+ *
+ * Both measures are free of units. With bound widths w, constraint scales
+ * s, the scaled gradients g_i = w_i df/dx_i and A_ji = w_i dc_j/dx_i / s_j,
+ * @f[ \text{violation} = \max_j |c_j| / s_j
+ *     \;(c_j^+ \text{ for inequalities}), \qquad
+ *     \text{projected gradient} = \min_\mu \|P(g + A^T\mu)\|_2 \,/\,
+ *     \max(\|g\|_2, \|g_{start}\|_2), @f]
+ * where A holds equalities and active inequalities (c_j / s_j above -1e-6),
+ * those with mu_j >= 0, and P keeps the entries of variables between their
+ * bounds, of those at a lower bound only the negative and of those at an
+ * upper bound only the positive ones (a variable within 1e-8 of its width
+ * is at its bound). It is zero exactly at the points of Karush, Kuhn and
+ * Tucker.
+ */
+struct Iteration
 {
-  namespace optimization
-  {
-    /**
-     * A design the optimizer has accepted; number 0 is the start.
-     *
-     * Both measures are free of units. With bound widths w, constraint scales
-     * s, the scaled gradients g_i = w_i df/dx_i and A_ji = w_i dc_j/dx_i / s_j,
-     * @f[ \text{violation} = \max_j |c_j| / s_j
-     *     \;(c_j^+ \text{ for inequalities}), \qquad
-     *     \text{projected gradient} = \min_\mu \|P(g + A^T\mu)\|_2 \,/\,
-     *     \max(\|g\|_2, \|g_{start}\|_2), @f]
-     * where A holds equalities and active inequalities (c_j / s_j above -1e-6),
-     * those with mu_j >= 0, and P keeps the entries of variables between their
-     * bounds, of those at a lower bound only the negative and of those at an
-     * upper bound only the positive ones (a variable within 1e-8 of its width
-     * is at its bound). It is zero exactly at the points of Karush, Kuhn and
-     * Tucker.
-     */
-    struct Iteration
-    {
-      unsigned int        number = 0;
-      std::vector<double> x;
-      Evaluation          evaluation;
-      double              constraint_violation = 0.;
-      double              projected_gradient   = 0.;
-      unsigned int        evaluations          = 0; ///< so far
-    };
+  unsigned int        number = 0;
+  std::vector<double> x;
+  Evaluation          evaluation;
+  double              constraint_violation = 0.;
+  double              projected_gradient   = 0.;
+  unsigned int        evaluations          = 0; ///< so far
+};
 
-    /// Whom the optimizer tells what it does; either may be empty.
-    struct Hooks
-    {
-      /// Called once per accepted design, before the next one is evaluated.
-      std::function<void(const Iteration &)> on_iteration;
-      /// Receives one line, without its end, per restart.
-      std::function<void(const std::string &)> log;
-    };
+/// Whom the optimizer tells what it does; either may be empty.
+struct Hooks
+{
+  /// Called once per accepted design, before the next one is evaluated.
+  std::function<void(const Iteration &)> on_iteration;
+  /// Receives one line, without its end, per restart.
+  std::function<void(const std::string &)> log;
+};
 
-    /**
-     * The design found and how the search for it ended: the last accepted one
-     * if a tolerance was met, else the best one evaluated (the lowest that
-     * meets the constraints or, if there is none, the one nearest to them).
-     */
-    struct OptimizationResult
-    {
-      std::vector<double> x;
-      Evaluation          evaluation;      ///< at x
-      unsigned int        iterations  = 0; ///< accepted designs after the start
-      unsigned int        evaluations = 0; ///< calls of the design problem
-      double              objective_initial    = 0.;
-      double              objective_final      = 0.;
-      double              constraint_violation = 0.; ///< as in Iteration
-      double              projected_gradient   = 0.; ///< as in Iteration
-      /// "gradient tolerance", "objective tolerance", "design tolerance",
-      /// "maximum evaluations", "round-off", "constraints violated",
-      /// "interrupted" or "restarts exhausted (...)" with what the last design
-      /// without a value lacked
-      std::string stop_reason;
-      /// Stopped by a tolerance at a design that meets the constraints, or by
-      /// round-off where the projected gradient is at most the square root of
-      /// the objective tolerance (the objective is then within about that
-      /// tolerance of its minimum). No other end sets it.
-      bool success = false;
-    };
+/**
+ * The design found and how the search for it ended: the last accepted one
+ * if a tolerance was met, else the best one evaluated (the lowest that
+ * meets the constraints or, if there is none, the one nearest to them).
+ */
+struct OptimizationResult
+{
+  std::vector<double> x;
+  Evaluation          evaluation;               ///< at x
+  unsigned int        iterations           = 0; ///< accepted designs after the start
+  unsigned int        evaluations          = 0; ///< calls of the design problem
+  double              objective_initial    = 0.;
+  double              objective_final      = 0.;
+  double              constraint_violation = 0.; ///< as in Iteration
+  double              projected_gradient   = 0.; ///< as in Iteration
+  /// "gradient tolerance", "objective tolerance", "design tolerance",
+  /// "maximum evaluations", "round-off", "constraints violated",
+  /// "interrupted" or "restarts exhausted (...)" with what the last design
+  /// without a value lacked
+  std::string stop_reason;
+  /// Stopped by a tolerance at a design that meets the constraints, or by
+  /// round-off where the projected gradient is at most the square root of
+  /// the objective tolerance (the objective is then within about that
+  /// tolerance of its minimum). No other end sets it.
+  bool success = false;
+};
 
-    /// What is wrong with @p result: no word if it is a success, or met the
-    /// constraints when the evaluations ran out or it was interrupted.
-    std::string
-    complaint(const OptimizationResult     &result,
-              const OptimizationParameters &parameters);
+/// What is wrong with @p result: no word if it is a success, or met the
+/// constraints when the evaluations ran out or it was interrupted.
+std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters);
 
-    using Algorithm = OptimizationResult(const DesignProblem &,
-                                         const OptimizationParameters &,
-                                         const Hooks &);
+using Algorithm = OptimizationResult(const DesignProblem &,
+                                     const OptimizationParameters &,
+                                     const Hooks &);
 
-    /// Rows "SLSQP", "MMA", "CCSAQ", "AUGLAG".
-    const ChoiceTable<Algorithm> &
-    algorithm_table();
+/// Rows "SLSQP", "MMA", "CCSAQ", "AUGLAG".
+const ChoiceTable<Algorithm> &algorithm_table();
 
-    /// Whether an algorithm can hold equality constraints.
-    bool
-    takes_equalities(const std::string &algorithm);
+/// Whether an algorithm can hold equality constraints.
+bool takes_equalities(const std::string &algorithm);
 
-    /**
-     * Minimize with the algorithm the parameters name. Every rank that shares
-     * the problem's evaluate() must call this with the same numbers.
-     *
-     * The start is moved into the bounds. A design without a value (SolveError,
-     * TangledMesh, a number that is not finite) ends the step that asked for
-     * it; see nlopt_search(). An Interrupted thrown by evaluate() or a hook
-     * ends the search with stop reason "interrupted"; any other exception of
-     * theirs passes through unchanged.
-     *
-     * @throws InputError if a lower bound is above its upper bound, a bound or
-     *   the start is not finite, a tolerance is not positive, no evaluation is
-     *   allowed, the algorithm is unknown or cannot hold equalities.
-     * @throws SolveError, TangledMesh or Interrupted if the first evaluation
-     *   does: there is no design to return.
-     */
-    OptimizationResult
-    minimize(const DesignProblem          &problem,
-             const OptimizationParameters &parameters,
-             const Hooks                  &hooks = Hooks());
-  } // namespace optimization
-} // namespace snug
+/**
+ * Minimize with the algorithm the parameters name. Every rank that shares
+ * the problem's evaluate() must call this with the same numbers.
+ *
+ * The start is moved into the bounds. A design without a value (SolveError,
+ * TangledMesh, a number that is not finite) ends the step that asked for
+ * it; see nlopt_search(). An Interrupted thrown by evaluate() or a hook
+ * ends the search with stop reason "interrupted"; any other exception of
+ * theirs passes through unchanged.
+ *
+ * @throws InputError if a lower bound is above its upper bound, a bound or
+ *   the start is not finite, a tolerance is not positive, no evaluation is
+ *   allowed, the algorithm is unknown or cannot hold equalities.
+ * @throws SolveError, TangledMesh or Interrupted if the first evaluation
+ *   does: there is no design to return.
+ */
+OptimizationResult minimize(const DesignProblem          &problem,
+                            const OptimizationParameters &parameters,
+                            const Hooks                  &hooks = Hooks());
+} // namespace snug::optimization
 
 #endif

@@ -5,25 +5,21 @@
 #include <utility>
 #include <vector>
 
-namespace snug
+namespace snug::optimization {
+/// Entries of `subsection Optimization`.
+struct OptimizationParameters
 {
-  namespace optimization
-  {
-    /// Entries of `subsection Optimization`.
-    struct OptimizationParameters
-    {
-      std::string algorithm = "SLSQP";
-      std::string objective = "potential energy"; ///< name of a response
-      std::string combine   = "sum"; ///< of load cases, a combination
-      /// response, or "load case.response", and its limit, see read_limit()
-      std::vector<std::pair<std::string, std::string>> constraints;
-      unsigned int maximum_evaluations  = 200;
-      double       objective_tolerance  = 1e-8; ///< relative, of the objective
-      double       design_tolerance     = 1e-7; ///< relative to bound widths
-      double       gradient_tolerance   = 1e-6; ///< of the projected gradient
-      double       constraint_tolerance = 1e-8; ///< relative to the target
-    };
-  } // namespace optimization
-} // namespace snug
+  std::string algorithm = "SLSQP";
+  std::string objective = "potential energy"; ///< name of a response
+  std::string combine   = "sum";              ///< of load cases, a combination
+  /// response, or "load case.response", and its limit, see read_limit()
+  std::vector<std::pair<std::string, std::string>> constraints;
+  unsigned int                                     maximum_evaluations = 200;
+  double objective_tolerance  = 1e-8; ///< relative, of the objective
+  double design_tolerance     = 1e-7; ///< relative to bound widths
+  double gradient_tolerance   = 1e-6; ///< of the projected gradient
+  double constraint_tolerance = 1e-8; ///< relative to the target
+};
+} // namespace snug::optimization
 
 #endif

@@ -6,105 +6,89 @@
 
 #include <memory>
 
-namespace snug
+namespace snug::optimization {
+/// Why a search, or one of its runs, ended.
+enum class End
 {
-  namespace optimization
-  {
-    /// Why a search, or one of its runs, ended.
-    enum class End
-    {
-      none,
-      gradient,
-      objective,
-      design,
-      evaluations,
-      round_off,
-      no_value,
-      interrupted
-    };
+  none,
+  gradient,
+  objective,
+  design,
+  evaluations,
+  round_off,
+  no_value,
+  interrupted
+};
 
-    /**
-     * The accepted designs of a search, the best design it has seen, and
-     * whether that is enough. Knows no algorithm.
-     */
-    class Progress
-    {
-    public:
-      using Point = std::shared_ptr<const ScaledProblem::Point>;
+/**
+ * The accepted designs of a search, the best design it has seen, and
+ * whether that is enough. Knows no algorithm.
+ */
+class Progress
+{
+public:
+  using Point = std::shared_ptr<const ScaledProblem::Point>;
 
-      /// Begins at the problem's start. Keeps references to all three.
-      Progress(const ScaledProblem          &problem,
-               const OptimizationParameters &parameters,
-               const Hooks                  &hooks);
+  /// Begins at the problem's start. Keeps references to all three.
+  Progress(const ScaledProblem          &problem,
+           const OptimizationParameters &parameters,
+           const Hooks                  &hooks);
 
-      /// Take note of an evaluated design, accepted or not.
-      void
-      consider(const Point &point);
+  /// Take note of an evaluated design, accepted or not.
+  void consider(const Point &point);
 
-      /**
-       * Count and report an accepted design, unless it is the last one again,
-       * and say whether it ends the search: End::gradient, End::objective,
-       * End::design, End::none or, if the step was within the design tolerance
-       * but far from halved a violation beyond its tolerance, End::round_off.
-       * Of the size of a step that is not @p full, only two in a row end the
-       * search.
-       */
-      End
-      accept(const Point &point, bool full);
+  /**
+   * Count and report an accepted design, unless it is the last one again,
+   * and say whether it ends the search: End::gradient, End::objective,
+   * End::design, End::none or, if the step was within the design tolerance
+   * but far from halved a violation beyond its tolerance, End::round_off.
+   * Of the size of a step that is not @p full, only two in a row end the
+   * search.
+   */
+  End accept(const Point &point, bool full);
 
-      /// Call the hook with the last accepted design.
-      void
-      report() const;
+  /// Call the hook with the last accepted design.
+  void report() const;
 
-      /// has_gained() and the two-steps rule count from here.
-      void
-      begin_run();
+  /// has_gained() and the two-steps rule count from here.
+  void begin_run();
 
-      /// Whether the best design has become better since begin_run() by more
-      /// than the objective tolerance or, as long as none is feasible, halved
-      /// its violation.
-      bool
-      has_gained() const;
+  /// Whether the best design has become better since begin_run() by more
+  /// than the objective tolerance or, as long as none is feasible, halved
+  /// its violation.
+  bool has_gained() const;
 
-      /// The design accepted last.
-      const Point &
-      iterate() const;
+  /// The design accepted last.
+  const Point &iterate() const;
 
-      /// Designs accepted after the start.
-      unsigned int
-      n_iterations() const;
+  /// Designs accepted after the start.
+  unsigned int n_iterations() const;
 
-      /// The result of a search that ended by @p end: the best design, or the
-      /// last one if a tolerance ended it (an earlier one may be lower only by
-      /// using up the constraints' tolerance). @p failure says why the design
-      /// of End::no_value has none.
-      OptimizationResult
-      result(End end, const std::string &failure) const;
+  /// The result of a search that ended by @p end: the best design, or the
+  /// last one if a tolerance ended it (an earlier one may be lower only by
+  /// using up the constraints' tolerance). @p failure says why the design
+  /// of End::no_value has none.
+  OptimizationResult result(End end, const std::string &failure) const;
 
-      /// Whether a design meets the constraints to their tolerance.
-      bool
-      is_feasible(const ScaledProblem::Point &point) const;
+  /// Whether a design meets the constraints to their tolerance.
+  bool is_feasible(const ScaledProblem::Point &point) const;
 
-      /// Whether @p a is lower than @p b, where both are feasible, or else
-      /// violates less.
-      bool
-      is_better(const ScaledProblem::Point &a,
-                const ScaledProblem::Point &b) const;
+  /// Whether @p a is lower than @p b, where both are feasible, or else
+  /// violates less.
+  bool is_better(const ScaledProblem::Point &a, const ScaledProblem::Point &b) const;
 
-    private:
-      std::string
-      stop_reason(End end, const std::string &failure) const;
+private:
+  std::string stop_reason(End end, const std::string &failure) const;
 
-      const ScaledProblem          &problem;
-      const OptimizationParameters &parameters;
-      const Hooks                  &hooks;
-      Point                         last;
-      Point        best; ///< lowest feasible or least violating
-      Point        best_before;
-      unsigned int iterations = 0;
-      bool         was_close  = false;
-    };
-  } // namespace optimization
-} // namespace snug
+  const ScaledProblem          &problem;
+  const OptimizationParameters &parameters;
+  const Hooks                  &hooks;
+  Point                         last;
+  Point                         best; ///< lowest feasible or least violating
+  Point                         best_before;
+  unsigned int                  iterations = 0;
+  bool                          was_close  = false;
+};
+} // namespace snug::optimization
 
 #endif

@@ -3,47 +3,42 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::optimization {
+/// Where a variable stands between its bounds; `fixed` is at both.
+enum class Place
 {
-  namespace optimization
-  {
-    /// Where a variable stands between its bounds; `fixed` is at both.
-    enum class Place
-    {
-      inside,
-      at_lower,
-      at_upper,
-      fixed
-    };
+  inside,
+  at_lower,
+  at_upper,
+  fixed
+};
 
-    /// The gradient of a constraint that holds the design.
-    struct Force
-    {
-      std::vector<double> gradient;
-      bool                pushes; ///< an inequality: its multiplier is >= 0
-    };
+/// The gradient of a constraint that holds the design.
+struct Force
+{
+  std::vector<double> gradient;
+  bool                pushes; ///< an inequality: its multiplier is >= 0
+};
 
-    /**
-     * The smallest norm over mu of the projected gradient of the Lagrangian,
-     * @f[ \min_\mu \| P(g + A^T \mu) \|_2, @f]
-     * with P as at Iteration: what is left of the steepest descent once
-     * bounds and linearized constraints have taken their share.
-     *
-     * The function under the minimum is convex and piecewise quadratic;
-     * Newton's method on its pieces, each a least-squares problem.
-     * Inequalities whose multipliers come out negative are left out, the worst
-     * first. They do not come back, so that away from Karush, Kuhn and Tucker
-     * points the result may be above the minimum.
-     *
-     * @param[in] g n entries.
-     * @param[in] forces rows of A, n entries; they may be linearly dependent.
-     * @param[in] places n entries.
-     */
-    double
-    projected_gradient_norm(const std::vector<double> &g,
-                            std::vector<Force>         forces,
-                            const std::vector<Place>  &places);
-  } // namespace optimization
-} // namespace snug
+/**
+ * The smallest norm over mu of the projected gradient of the Lagrangian,
+ * @f[ \min_\mu \| P(g + A^T \mu) \|_2, @f]
+ * with P as at Iteration: what is left of the steepest descent once
+ * bounds and linearized constraints have taken their share.
+ *
+ * The function under the minimum is convex and piecewise quadratic;
+ * Newton's method on its pieces, each a least-squares problem.
+ * Inequalities whose multipliers come out negative are left out, the worst
+ * first. They do not come back, so that away from Karush, Kuhn and Tucker
+ * points the result may be above the minimum.
+ *
+ * @param[in] g n entries.
+ * @param[in] forces rows of A, n entries; they may be linearly dependent.
+ * @param[in] places n entries.
+ */
+double projected_gradient_norm(const std::vector<double> &g,
+                               std::vector<Force>         forces,
+                               const std::vector<Place>  &places);
+} // namespace snug::optimization
 
 #endif

@@ -7,105 +7,87 @@
 #include <memory>
 #include <vector>
 
-namespace snug
+namespace snug::optimization {
+/**
+ * A design problem in the optimizer's variables, evaluated once per design.
+ *
+ * | symbol | meaning                                                 |
+ * |--------|---------------------------------------------------------|
+ * | w_i    | bound width of variable i; 1 if its bounds are equal    |
+ * | y      | (x - start) / w, so that y = 0 is exactly the start     |
+ * | F      | objective_scale(): abs(f(start)), but not further than a|
+ * |        | factor 100 from norm(w df/dx(start)), so that the first |
+ * |        | step, which is steepest descent, has a sensible length  |
+ * | s_j    | constraint scales; 1 if the problem gives none          |
+ *
+ * The optimizer sees f / F and c_j / s_j as functions of y.
+ */
+class ScaledProblem
 {
-  namespace optimization
+public:
+  /// A design and its values, in the problem's own units.
+  struct Point
   {
-    /**
-     * A design problem in the optimizer's variables, evaluated once per design.
-     *
-     * | symbol | meaning                                                 |
-     * |--------|---------------------------------------------------------|
-     * | w_i    | bound width of variable i; 1 if its bounds are equal    |
-     * | y      | (x - start) / w, so that y = 0 is exactly the start     |
-     * | F      | objective_scale(): abs(f(start)), but not further than a|
-     * |        | factor 100 from norm(w df/dx(start)), so that the first |
-     * |        | step, which is steepest descent, has a sensible length  |
-     * | s_j    | constraint scales; 1 if the problem gives none          |
-     *
-     * The optimizer sees f / F and c_j / s_j as functions of y.
-     */
-    class ScaledProblem
-    {
-    public:
-      /// A design and its values, in the problem's own units.
-      struct Point
-      {
-        std::vector<double> y, x;
-        Evaluation          evaluation;
-        double violation = 0.; ///< max |c_j| / s_j, of c_j+ for inequalities
-      };
+    std::vector<double> y, x;
+    Evaluation          evaluation;
+    double              violation = 0.; ///< max |c_j| / s_j, of c_j+ for inequalities
+  };
 
-      /**
-       * Check the problem and evaluate its start, moved into the bounds.
-       * @throws InputError as minimize() says; SolveError if the start has a
-       *   value that is not finite; whatever evaluate() throws.
-       */
-      explicit ScaledProblem(const DesignProblem &problem);
+  /**
+   * Check the problem and evaluate its start, moved into the bounds.
+   * @throws InputError as minimize() says; SolveError if the start has a
+   *   value that is not finite; whatever evaluate() throws.
+   */
+  explicit ScaledProblem(const DesignProblem &problem);
 
-      /// The values at @p y. Designs asked for lately, up to 1e-13 of the bound
-      /// widths, are not evaluated again: their point is returned.
-      /// @throws SolveError if one is not finite; what evaluate() throws.
-      std::shared_ptr<const Point>
-      at(const std::vector<double> &y);
+  /// The values at @p y. Designs asked for lately, up to 1e-13 of the bound
+  /// widths, are not evaluated again: their point is returned.
+  /// @throws SolveError if one is not finite; what evaluate() throws.
+  std::shared_ptr<const Point> at(const std::vector<double> &y);
 
-      /// Whether at() would answer without an evaluation.
-      bool
-      is_known(const std::vector<double> &y) const;
+  /// Whether at() would answer without an evaluation.
+  bool is_known(const std::vector<double> &y) const;
 
-      /// w_i df/dx_i / F.
-      std::vector<double>
-      gradient(const Evaluation &evaluation) const;
+  /// w_i df/dx_i / F.
+  std::vector<double> gradient(const Evaluation &evaluation) const;
 
-      /// w_i dc_j/dx_i / s_j.
-      std::vector<std::vector<double>>
-      jacobian(const Evaluation &evaluation) const;
+  /// w_i dc_j/dx_i / s_j.
+  std::vector<std::vector<double>> jacobian(const Evaluation &evaluation) const;
 
-      /// c_j / s_j.
-      std::vector<double>
-      constraints(const Evaluation &evaluation) const;
+  /// c_j / s_j.
+  std::vector<double> constraints(const Evaluation &evaluation) const;
 
-      /// As defined at Iteration.
-      double
-      projected_gradient(const Point &point) const;
+  /// As defined at Iteration.
+  double projected_gradient(const Point &point) const;
 
-      /// Of each constraint.
-      const std::vector<Relation> &
-      relations() const;
+  /// Of each constraint.
+  const std::vector<Relation> &relations() const;
 
-      const std::vector<double> &
-      lower() const;
+  const std::vector<double> &lower() const;
 
-      const std::vector<double> &
-      upper() const;
+  const std::vector<double> &upper() const;
 
-      double
-      objective_scale() const;
+  double objective_scale() const;
 
-      const std::shared_ptr<const Point> &
-      start() const;
+  const std::shared_ptr<const Point> &start() const;
 
-      /// Calls of the problem's evaluate(), also those that threw.
-      unsigned int
-      n_evaluations() const;
+  /// Calls of the problem's evaluate(), also those that threw.
+  unsigned int n_evaluations() const;
 
-    private:
-      std::shared_ptr<const Point>
-      find(const std::vector<double> &y) const;
-      std::vector<double>
-      design(const std::vector<double> &y) const;
+private:
+  std::shared_ptr<const Point> find(const std::vector<double> &y) const;
+  std::vector<double>          design(const std::vector<double> &y) const;
 
-      const DesignProblem                     &problem;
-      std::vector<double>                      x_start, width, y_lower, y_upper;
-      std::vector<double>                      scales;
-      std::vector<Relation>                    constraint_relations;
-      double                                   scale               = 1.;
-      double                                   start_gradient_norm = 0.;
-      unsigned int                             evaluations         = 0;
-      std::deque<std::shared_ptr<const Point>> recent;
-      std::shared_ptr<const Point>             start_point;
-    };
-  } // namespace optimization
-} // namespace snug
+  const DesignProblem                     &problem;
+  std::vector<double>                      x_start, width, y_lower, y_upper;
+  std::vector<double>                      scales;
+  std::vector<Relation>                    constraint_relations;
+  double                                   scale               = 1.;
+  double                                   start_gradient_norm = 0.;
+  unsigned int                             evaluations         = 0;
+  std::deque<std::shared_ptr<const Point>> recent;
+  std::shared_ptr<const Point>             start_point;
+};
+} // namespace snug::optimization
 
 #endif

@@ -3,32 +3,26 @@
 
 #include <snug/qp/dual_problem.h>
 
-namespace snug
+namespace snug::qp {
+/// Directions P with P' F P = unit I, and F P (n_owned x n each). The unit
+/// is a power of two of F's size: nothing takes a square root of F's units,
+/// so that scaling F by a power of two changes no digit.
+struct DirectionBasis
 {
-  namespace qp
-  {
-    /// Directions P with P' F P = unit I, and F P (n_owned x n each). The unit
-    /// is a power of two of F's size: nothing takes a square root of F's units,
-    /// so that scaling F by a power of two changes no digit.
-    struct DirectionBasis
-    {
-      MultiVector P{0, 0}, FP{0, 0};
-      double      unit = 1.;
+  MultiVector P{0, 0}, FP{0, 0};
+  double      unit = 1.;
 
-      /**
-       * Such a basis of the directions' span that vanishes on
-       * @p rows; without F-mults. Empty if there are as many of these rows
-       * with nonzeros as directions. Collective.
-       */
-      DirectionBasis
-      off(const RowSet &rows, MPI_Comm comm) const;
-    };
+  /**
+   * Such a basis of the directions' span that vanishes on
+   * @p rows; without F-mults. Empty if there are as many of these rows
+   * with nonzeros as directions. Collective.
+   */
+  DirectionBasis off(const RowSet &rows, MPI_Comm comm) const;
+};
 
-    /// Orthonormal basis of the null space of @p A (m x n) by Householder
-    /// reflections; n x (n - rank).
-    MultiVector
-    null_space(MultiVector A);
-  } // namespace qp
-} // namespace snug
+/// Orthonormal basis of the null space of @p A (m x n) by Householder
+/// reflections; n x (n - rank).
+MultiVector null_space(MultiVector A);
+} // namespace snug::qp
 
 #endif

@@ -3,74 +3,65 @@
 
 #include <snug/qp/solver.h>
 
-namespace snug
+namespace snug::qp {
+/// The optimality conditions at a point; see kkt_residual().
+struct KktResidual
 {
-  namespace qp
-  {
-    /// The optimality conditions at a point; see kkt_residual().
-    struct KktResidual
-    {
-      MultiVector w;                ///< d - F lambda + G' alpha, n_owned x 1
-      MultiVector amplitudes;       ///< alpha, n_kernel x 1, on all ranks
-      double      relative    = 0.; ///< the natural residual of DualSolution
-      double      feasibility = 0.; ///< its part of G lambda = e
-    };
+  MultiVector w;                ///< d - F lambda + G' alpha, n_owned x 1
+  MultiVector amplitudes;       ///< alpha, n_kernel x 1, on all ranks
+  double      relative    = 0.; ///< the natural residual of DualSolution
+  double      feasibility = 0.; ///< its part of G lambda = e
+};
 
-    /**
-     * The natural KKT residual of the dual problem,
-     * @f[ r_E = w_E, \quad r_i = -\min(\lambda_i F_{ii}, -w_i), \quad
-     *     \frac{\|r\|}{s} + \frac{\|G\lambda - e\|}
-     *     {\|e\| + \max_s \|R_s^T f_s\| + \|G\| \|\lambda\|}, \qquad
-     *     w = d - F\lambda + G^T\alpha, @f]
-     * with alpha from the rows of the face. An @f$\|r\|@f$ below the rounding
-     * error of @f$d - F\lambda@f$ is zero.
-     *
-     * @param[in] face rows with a force: all equality rows and the active
-     *   (or free) contact rows.
-     * @param[in] residual d - F lambda.
-     * @param[in] scale s of EqualityPart.
-     * @throws SolveError if the residual is not a finite number.
-     * Collective, no F-mult.
-     */
-    KktResidual
-    kkt_residual(const DualProblem &problem,
-                 const Face        &face,
-                 const MultiVector &lambda,
-                 const MultiVector &residual,
-                 double             scale);
+/**
+ * The natural KKT residual of the dual problem,
+ * @f[ r_E = w_E, \quad r_i = -\min(\lambda_i F_{ii}, -w_i), \quad
+ *     \frac{\|r\|}{s} + \frac{\|G\lambda - e\|}
+ *     {\|e\| + \max_s \|R_s^T f_s\| + \|G\| \|\lambda\|}, \qquad
+ *     w = d - F\lambda + G^T\alpha, @f]
+ * with alpha from the rows of the face. An @f$\|r\|@f$ below the rounding
+ * error of @f$d - F\lambda@f$ is zero.
+ *
+ * @param[in] face rows with a force: all equality rows and the active
+ *   (or free) contact rows.
+ * @param[in] residual d - F lambda.
+ * @param[in] scale s of EqualityPart.
+ * @throws SolveError if the residual is not a finite number.
+ * Collective, no F-mult.
+ */
+KktResidual kkt_residual(const DualProblem &problem,
+                         const Face        &face,
+                         const MultiVector &lambda,
+                         const MultiVector &residual,
+                         double             scale);
 
-    /**
-     * What every solve starts from: the least squares solution
-     * @f$\lambda_{Im} = G^T (G G^T)^+ e@f$ of G lambda = e, and the scale
-     * @f$s = \|P (d - F \lambda_{Im})\|@f$ of the residuals, which depends
-     * neither on the start nor on the choice of K^+.
-     */
-    struct EqualityPart
-    {
-      std::unique_ptr<Face> face;     ///< of all rows
-      MultiVector           lambda;   ///< lambda_Im
-      MultiVector           residual; ///< d - F lambda_Im
-      double                scale = 0.;
-    };
+/**
+ * What every solve starts from: the least squares solution
+ * @f$\lambda_{Im} = G^T (G G^T)^+ e@f$ of G lambda = e, and the scale
+ * @f$s = \|P (d - F \lambda_{Im})\|@f$ of the residuals, which depends
+ * neither on the start nor on the choice of K^+.
+ */
+struct EqualityPart
+{
+  std::unique_ptr<Face> face;     ///< of all rows
+  MultiVector           lambda;   ///< lambda_Im
+  MultiVector           residual; ///< d - F lambda_Im
+  double                scale = 0.;
+};
 
-    /**
-     * Compute the equality part and, in the same application of F, F x.
-     *
-     * @param[in,out] x a start, replaced by d - F x; no columns if there is
-     *   none besides lambda_Im.
-     * @throws SolveError if there is no equilibrium (names the body) or the
-     *   data are not finite. Collective, 1 + x.n_columns F-mults.
-     */
-    EqualityPart
-    equality_part(const DualProblem &problem, MultiVector &x);
+/**
+ * Compute the equality part and, in the same application of F, F x.
+ *
+ * @param[in,out] x a start, replaced by d - F x; no columns if there is
+ *   none besides lambda_Im.
+ * @throws SolveError if there is no equilibrium (names the body) or the
+ *   data are not finite. Collective, 1 + x.n_columns F-mults.
+ */
+EqualityPart equality_part(const DualProblem &problem, MultiVector &x);
 
-    /// The error of a solver that gives up: what was reached, what to try.
-    SolveError
-    not_converged(const std::string &method,
-                  double             reached,
-                  double             tolerance,
-                  unsigned long      f_mults);
-  } // namespace qp
-} // namespace snug
+/// The error of a solver that gives up: what was reached, what to try.
+SolveError
+not_converged(const std::string &method, double reached, double tolerance, unsigned long f_mults);
+} // namespace snug::qp
 
 #endif

@@ -5,96 +5,66 @@
 
 #include <vector>
 
-namespace snug
+namespace snug::qp {
+/**
+ * This rank's rows of @p k vectors, stored column by column. One vector is
+ * the case k = 1; blocks of right-hand sides share every operation.
+ */
+class MultiVector
 {
-  namespace qp
+public:
+  explicit MultiVector(unsigned int n_rows = 0, unsigned int n_columns = 1);
+
+  unsigned int n_rows() const { return rows; }
+
+  unsigned int n_columns() const { return columns; }
+
+  double &operator()(unsigned int i, unsigned int j = 0)
   {
-    /**
-     * This rank's rows of @p k vectors, stored column by column. One vector is
-     * the case k = 1; blocks of right-hand sides share every operation.
-     */
-    class MultiVector
-    {
-    public:
-      explicit MultiVector(unsigned int n_rows = 0, unsigned int n_columns = 1);
+    return values[i + std::size_t(j) * rows];
+  }
 
-      unsigned int
-      n_rows() const
-      {
-        return rows;
-      }
+  double operator()(unsigned int i, unsigned int j = 0) const
+  {
+    return values[i + std::size_t(j) * rows];
+  }
 
-      unsigned int
-      n_columns() const
-      {
-        return columns;
-      }
+  double *column(unsigned int j) { return values.data() + std::size_t(j) * rows; }
 
-      double &
-      operator()(unsigned int i, unsigned int j = 0)
-      {
-        return values[i + std::size_t(j) * rows];
-      }
+  const double *column(unsigned int j) const { return values.data() + std::size_t(j) * rows; }
 
-      double
-      operator()(unsigned int i, unsigned int j = 0) const
-      {
-        return values[i + std::size_t(j) * rows];
-      }
+  /// this += factor * x; equal sizes.
+  void add(double factor, const MultiVector &x);
 
-      double *
-      column(unsigned int j)
-      {
-        return values.data() + std::size_t(j) * rows;
-      }
+  /// this += factor * x * C with C (x.n_columns x n_columns).
+  void add_product(double factor, const MultiVector &x, const MultiVector &C);
 
-      const double *
-      column(unsigned int j) const
-      {
-        return values.data() + std::size_t(j) * rows;
-      }
+  /// Append the columns of @p x, which has as many rows. Start from
+  /// MultiVector(n_rows, 0): the default has one column.
+  void append(const MultiVector &x);
 
-      /// this += factor * x; equal sizes.
-      void
-      add(double factor, const MultiVector &x);
+  /// Room for @p n columns: until then append() copies no earlier ones, and
+  /// memory that is not used is not touched.
+  void reserve(unsigned int n);
 
-      /// this += factor * x * C with C (x.n_columns x n_columns).
-      void
-      add_product(double factor, const MultiVector &x, const MultiVector &C);
+  /// Columns [first, first + n).
+  MultiVector columns_from(unsigned int first, unsigned int n) const;
 
-      /// Append the columns of @p x, which has as many rows. Start from
-      /// MultiVector(n_rows, 0): the default has one column.
-      void
-      append(const MultiVector &x);
+private:
+  unsigned int        rows;
+  unsigned int        columns;
+  std::vector<double> values;
+};
 
-      /// Room for @p n columns: until then append() copies no earlier ones, and
-      /// memory that is not used is not touched.
-      void
-      reserve(unsigned int n);
+/// X' Y summed over ranks, (X.n_columns x Y.n_columns), equal on all
+/// ranks. Collective.
+MultiVector inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm);
 
-      /// Columns [first, first + n).
-      MultiVector
-      columns_from(unsigned int first, unsigned int n) const;
+/// Euclidean norms of the columns, equal on all ranks. Collective.
+std::vector<double> norms(const MultiVector &X, MPI_Comm comm);
 
-    private:
-      unsigned int        rows;
-      unsigned int        columns;
-      std::vector<double> values;
-    };
-
-    /// X' Y summed over ranks, (X.n_columns x Y.n_columns), equal on all
-    /// ranks. Collective.
-    MultiVector
-    inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm);
-
-    /// Euclidean norms of the columns, equal on all ranks. Collective.
-    std::vector<double>
-    norms(const MultiVector &X, MPI_Comm comm);
-
-    /// x C with C (x.n_columns x n).
-    MultiVector
-    times(const MultiVector &x, const MultiVector &C);
-  } // namespace qp
-} // namespace snug
+/// x C with C (x.n_columns x n).
+MultiVector times(const MultiVector &x, const MultiVector &C);
+} // namespace snug::qp
 
 #endif

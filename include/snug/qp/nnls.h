@@ -3,35 +3,30 @@
 
 #include <snug/qp/multi_vector.h>
 
-namespace snug
+namespace snug::qp {
+/// A solution x (n x 1) and b - A x (m x 1).
+struct NnlsResult
 {
-  namespace qp
-  {
-    /// A solution x (n x 1) and b - A x (m x 1).
-    struct NnlsResult
-    {
-      MultiVector x;
-      MultiVector residual;
-    };
+  MultiVector x;
+  MultiVector residual;
+};
 
-    /**
-     * Small dense non-negative least squares problem, on this rank alone:
-     * @f[ \min_{x \ge 0} \|A x - b\|. @f]
-     * The residual is unique and satisfies @f$A^T (b - A x) \le 0@f$: where it
-     * does not vanish, it is a direction in which b pushes and no column of A
-     * resists. Columns are compared by their angle to the residual, so their
-     * lengths do not matter; angles below 1e-12 count as right.
-     *
-     * @param A m x n; m up to a few hundred, n up to thousands.
-     * @param b m x 1.
-     * @throws SolveError if A or b are not finite.
-     *
-     * Source: Lawson, Hanson, Solving Least Squares Problems, chapter 23
-     * (1974).
-     */
-    NnlsResult
-    nnls(const MultiVector &A, const MultiVector &b);
-  } // namespace qp
-} // namespace snug
+/**
+ * Small dense non-negative least squares problem, on this rank alone:
+ * @f[ \min_{x \ge 0} \|A x - b\|. @f]
+ * The residual is unique and satisfies @f$A^T (b - A x) \le 0@f$: where it
+ * does not vanish, it is a direction in which b pushes and no column of A
+ * resists. Columns are compared by their angle to the residual, so their
+ * lengths do not matter; angles below 1e-12 count as right.
+ *
+ * @param A m x n; m up to a few hundred, n up to thousands.
+ * @param b m x 1.
+ * @throws SolveError if A or b are not finite.
+ *
+ * Source: Lawson, Hanson, Solving Least Squares Problems, chapter 23
+ * (1974).
+ */
+NnlsResult nnls(const MultiVector &A, const MultiVector &b);
+} // namespace snug::qp
 
 #endif

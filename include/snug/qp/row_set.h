@@ -5,41 +5,30 @@
 
 #include <cstdint>
 
-namespace snug
-{
-  namespace qp
-  {
-    /// True if @p mine is on any rank. Collective.
-    bool
-    any(bool mine, MPI_Comm comm);
+namespace snug::qp {
+/// True if @p mine is on any rank. Collective.
+bool any(bool mine, MPI_Comm comm);
 
-    /// A number that tells sets apart (a hash), equal on all ranks for the
-    /// same distribution of rows. Collective.
-    std::uint64_t
-    fingerprint(const RowSet &rows, MPI_Comm comm);
+/// A number that tells sets apart (a hash), equal on all ranks for the
+/// same distribution of rows. Collective.
+std::uint64_t fingerprint(const RowSet &rows, MPI_Comm comm);
 
-    /// @p from with the one change towards @p to that has the largest row
-    /// number (Bland's rule), rows being numbered rank after rank. Collective.
-    RowSet
-    with_one_change(const RowSet &from, const RowSet &to, MPI_Comm comm);
+/// @p from with the one change towards @p to that has the largest row
+/// number (Bland's rule), rows being numbered rank after rank. Collective.
+RowSet with_one_change(const RowSet &from, const RowSet &to, MPI_Comm comm);
 
-    /// The rows that are not in @p rows.
-    RowSet
-    complement(const RowSet &rows);
+/// The rows that are not in @p rows.
+RowSet complement(const RowSet &rows);
 
-    /// The equality rows and those with lambda_i > 0 (one column).
-    RowSet
-    loaded_rows(const RowSet &bounded, const MultiVector &lambda);
+/// The equality rows and those with lambda_i > 0 (one column).
+RowSet loaded_rows(const RowSet &bounded, const MultiVector &lambda);
 
-    /// lambda_i < 0 on a bounded row of this rank.
-    bool
-    has_negative(const RowSet &bounded, const MultiVector &lambda);
+/// lambda_i < 0 on a bounded row of this rank.
+bool has_negative(const RowSet &bounded, const MultiVector &lambda);
 
-    /// Set negative entries on bounded rows to zero that are rounding of the
-    /// largest entry. Collective.
-    void
-    clip_rounding(const RowSet &bounded, MultiVector &lambda, MPI_Comm comm);
-  } // namespace qp
-} // namespace snug
+/// Set negative entries on bounded rows to zero that are rounding of the
+/// largest entry. Collective.
+void clip_rounding(const RowSet &bounded, MultiVector &lambda, MPI_Comm comm);
+} // namespace snug::qp
 
 #endif

@@ -7,49 +7,41 @@
 #include <limits>
 #include <map>
 
-namespace snug
+namespace snug::qp {
+/// The active sets met so far and the KKT residuals they were left with;
+/// says how careful to be.
+class SetHistory
 {
-  namespace qp
+public:
+  enum Care
   {
-    /// The active sets met so far and the KKT residuals they were left with;
-    /// says how careful to be.
-    class SetHistory
-    {
-    public:
-      enum Care
-      {
-        none,
-        exact,  ///< solve the inner problems more exactly
-        single, ///< and change one row per step
-        give_up
-      };
+    none,
+    exact,  ///< solve the inner problems more exactly
+    single, ///< and change one row per step
+    give_up
+  };
 
-      explicit SetHistory(const ActiveSetOptions &options);
+  explicit SetHistory(const ActiveSetOptions &options);
 
-      /// The set with this fingerprint is entered once more, coming from one
-      /// with @p kkt_residual.
-      Care
-      enter(std::uint64_t set, double kkt_residual);
+  /// The set with this fingerprint is entered once more, coming from one
+  /// with @p kkt_residual.
+  Care enter(std::uint64_t set, double kkt_residual);
 
-      /// What the sets do, for the log, when it is time to give up.
-      const std::string &
-      reason() const;
+  /// What the sets do, for the log, when it is time to give up.
+  const std::string &reason() const;
 
-    private:
-      ActiveSetOptions                      options;
-      std::map<std::uint64_t, unsigned int> visits;
-      Care                                  care         = none;
-      unsigned int                          single_steps = 0;
-      double       least_residual = std::numeric_limits<double>::max();
-      unsigned int idle_steps     = 0; ///< since it fell by a tenth
-      std::string  why;
+private:
+  ActiveSetOptions                      options;
+  std::map<std::uint64_t, unsigned int> visits;
+  Care                                  care           = none;
+  unsigned int                          single_steps   = 0;
+  double                                least_residual = std::numeric_limits<double>::max();
+  unsigned int                          idle_steps     = 0; ///< since it fell by a tenth
+  std::string                           why;
 
-      void
-      count_visits(std::uint64_t set);
-      void
-      watch_residual(double kkt_residual);
-    };
-  } // namespace qp
-} // namespace snug
+  void count_visits(std::uint64_t set);
+  void watch_residual(double kkt_residual);
+};
+} // namespace snug::qp
 
 #endif

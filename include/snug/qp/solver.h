@@ -6,64 +6,58 @@
 
 #include <string>
 
-namespace snug
+namespace snug::qp {
+/// Entries of `subsection Solver` that a QP solver reads.
+struct SolverParameters
 {
-  namespace qp
-  {
-    /// Entries of `subsection Solver` that a QP solver reads.
-    struct SolverParameters
-    {
-      std::string  method             = "active set";
-      double       relative_tolerance = 1e-6; ///< of the KKT residual
-      unsigned int max_iterations     = 2000; ///< F-mults of one solve
-    };
+  std::string  method             = "active set";
+  double       relative_tolerance = 1e-6; ///< of the KKT residual
+  unsigned int max_iterations     = 2000; ///< F-mults of one solve
+};
 
-    /// Where a solve begins. Empty vectors mean a cold start.
-    struct WarmStart
-    {
-      MultiVector lambda; ///< n_owned x 1
-      RowSet      active; ///< free contact rows and all equality rows
-    };
+/// Where a solve begins. Empty vectors mean a cold start.
+struct WarmStart
+{
+  MultiVector lambda; ///< n_owned x 1
+  RowSet      active; ///< free contact rows and all equality rows
+};
 
-    /**
-     * The natural KKT residual, one measure for every solver:
-     * r_E = w_E, r_i = -min(lambda_i F_ii, -w_i) with
-     * w = d - F lambda + G' alpha, relative to ||P (d - F lambda_Im)||, plus
-     * ||G lambda - e|| / (||e|| + max_s ||R_s' f_s|| + ||G|| ||lambda||).
-     */
-    struct DualSolution
-    {
-      MultiVector   lambda;     ///< n_owned x 1, >= 0 on bounded rows
-      MultiVector   residual;   ///< d - F lambda, n_owned x 1
-      MultiVector   amplitudes; ///< alpha, n_kernel x 1, on all ranks
-      RowSet        active;     ///< equality rows and active contact rows
-      double        kkt_residual     = 0.;
-      unsigned int  outer_iterations = 0;
-      unsigned long f_mults          = 0;
-      std::string   method; ///< the solver that finished
-      /// of the linear problem on the active set, if the solver used any
-      DirectionBasis directions;
-    };
+/**
+ * The natural KKT residual, one measure for every solver:
+ * r_E = w_E, r_i = -min(lambda_i F_ii, -w_i) with
+ * w = d - F lambda + G' alpha, relative to ||P (d - F lambda_Im)||, plus
+ * ||G lambda - e|| / (||e|| + max_s ||R_s' f_s|| + ||G|| ||lambda||).
+ */
+struct DualSolution
+{
+  MultiVector   lambda;     ///< n_owned x 1, >= 0 on bounded rows
+  MultiVector   residual;   ///< d - F lambda, n_owned x 1
+  MultiVector   amplitudes; ///< alpha, n_kernel x 1, on all ranks
+  RowSet        active;     ///< equality rows and active contact rows
+  double        kkt_residual     = 0.;
+  unsigned int  outer_iterations = 0;
+  unsigned long f_mults          = 0;
+  std::string   method; ///< the solver that finished
+  /// of the linear problem on the active set, if the solver used any
+  DirectionBasis directions;
+};
 
-    /// A solver of the dual QP.
-    class Solver
-    {
-    public:
-      virtual ~Solver() = default;
+/// A solver of the dual QP.
+class Solver
+{
+public:
+  virtual ~Solver() = default;
 
-      /**
-       * Solve to the relative tolerance of the KKT residual. Collective.
-       * @throws SolveError if there is no equilibrium (names the body) or the
-       *   tolerance is not met within the allowed F-mults.
-       */
-      virtual DualSolution
-      solve(const DualProblem &problem, const WarmStart &start) const = 0;
-    };
+  /**
+   * Solve to the relative tolerance of the KKT residual. Collective.
+   * @throws SolveError if there is no equilibrium (names the body) or the
+   *   tolerance is not met within the allowed F-mults.
+   */
+  virtual DualSolution solve(const DualProblem &problem, const WarmStart &start) const = 0;
+};
 
-    /// {"active set", "SMALSE-M"}
-    const ChoiceTable<std::unique_ptr<Solver>(const SolverParameters &)> &
-    solver_table();
-  } // namespace qp
-} // namespace snug
+/// {"active set", "SMALSE-M"}
+const ChoiceTable<std::unique_ptr<Solver>(const SolverParameters &)> &solver_table();
+} // namespace snug::qp
 
 #endif

@@ -3,47 +3,38 @@
 
 #include <snug/response/response.h>
 
-namespace snug
+namespace snug::response {
+/// J = int w dV over one body or all: their volume [length^3], w = 1, or
+/// their mass, w the density. Depends on the geometry alone.
+template <int dim>
+class BodyIntegral : public Response<dim>
 {
-  namespace response
+public:
+  /// What is integrated.
+  enum class Weight
   {
-    /// J = int w dV over one body or all: their volume [length^3], w = 1, or
-    /// their mass, w the density. Depends on the geometry alone.
-    template <int dim>
-    class BodyIntegral : public Response<dim>
-    {
-    public:
-      /// What is integrated.
-      enum class Weight
-      {
-        one,
-        density
-      };
+    one,
+    density
+  };
 
-      BodyIntegral(const ResponseParameters &parameters, Weight weight);
+  BodyIntegral(const ResponseParameters &parameters, Weight weight);
 
-      std::vector<std::string>
-      entries() const override;
+  std::vector<std::string> entries() const override;
 
-      bool
-      needs_solution() const override;
+  bool needs_solution() const override;
 
-      double
-      value(const state::StateSolver<dim>  &solver,
-            const state::ContactState<dim> &state) const override;
-
-      Partials<dim>
-      partials(const state::StateSolver<dim>  &solver,
+  double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override;
 
-    private:
-      double
-      weight_of(const elasticity::Material &material) const;
+  Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state) const override;
 
-      const std::string body; ///< empty: all
-      const Weight      weight;
-    };
-  } // namespace response
-} // namespace snug
+private:
+  double weight_of(const elasticity::Material &material) const;
+
+  const std::string body; ///< empty: all
+  const Weight      weight;
+};
+} // namespace snug::response
 
 #endif

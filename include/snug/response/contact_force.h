@@ -3,39 +3,31 @@
 
 #include <snug/response/response.h>
 
-namespace snug
+namespace snug::response {
+/**
+ * J = -sum_i p_i n_i . e [force]: component e of the force of a pair, or
+ * of all pairs, on the slave side, with the normals n_i into the master.
+ * For the component normal J = sum_i p_i.
+ */
+template <int dim>
+class ContactForce : public Response<dim>
 {
-  namespace response
-  {
-    /**
-     * J = -sum_i p_i n_i . e [force]: component e of the force of a pair, or
-     * of all pairs, on the slave side, with the normals n_i into the master.
-     * For the component normal J = sum_i p_i.
-     */
-    template <int dim>
-    class ContactForce : public Response<dim>
-    {
-    public:
-      explicit ContactForce(const ResponseParameters &parameters);
+public:
+  explicit ContactForce(const ResponseParameters &parameters);
 
-      std::vector<std::string>
-      entries() const override;
+  std::vector<std::string> entries() const override;
 
-      void
-      check(const state::StateSolver<dim> &solver) const override;
+  void check(const state::StateSolver<dim> &solver) const override;
 
-      double
-      value(const state::StateSolver<dim>  &solver,
-            const state::ContactState<dim> &state) const override;
-
-      Partials<dim>
-      partials(const state::StateSolver<dim>  &solver,
+  double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override;
 
-    private:
-      const ResponseParameters parameters;
-    };
-  } // namespace response
-} // namespace snug
+  Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state) const override;
+
+private:
+  const ResponseParameters parameters;
+};
+} // namespace snug::response
 
 #endif

@@ -7,86 +7,73 @@
 
 #include <memory>
 
-namespace snug
+namespace snug::response {
+/// Partial derivatives of a response J(u, force, X). An empty member is
+/// zero.
+template <int dim>
+struct Partials
 {
-  namespace response
-  {
-    /// Partial derivatives of a response J(u, force, X). An empty member is
-    /// zero.
-    template <int dim>
-    struct Partials
-    {
-      using Field = typename mesh::BodyMesh<dim>::Field;
+  using Field = typename mesh::BodyMesh<dim>::Field;
 
-      /// dJ/du at fixed forces and positions, per subdomain of this rank.
-      feti::PrimalVectors u;
-      /// dJ/d(force) at fixed u and positions, per contact row and equal on all
-      /// ranks; force = lambda_i / nr_i as in ContactPoint, never lambda_i.
-      std::vector<double> forces;
-      /// dJ/dX at fixed u and forces: this rank's share at the local nodes,
-      /// hanging ones included; the sum over ranks is the whole.
-      Field positions;
-    };
+  /// dJ/du at fixed forces and positions, per subdomain of this rank.
+  feti::PrimalVectors u;
+  /// dJ/d(force) at fixed u and positions, per contact row and equal on all
+  /// ranks; force = lambda_i / nr_i as in ContactPoint, never lambda_i.
+  std::vector<double> forces;
+  /// dJ/dX at fixed u and forces: this rank's share at the local nodes,
+  /// hanging ones included; the sum over ranks is the whole.
+  Field positions;
+};
 
-    /**
-     * A scalar function J(u, force, X) of the displacements, the contact
-     * forces and the node positions, with the partial derivatives every
-     * sensitivity method is built from:
-     * dJ/dalpha_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dforce . force'_j.
-     */
-    template <int dim>
-    class Response
-    {
-    public:
-      virtual ~Response() = default;
+/**
+ * A scalar function J(u, force, X) of the displacements, the contact
+ * forces and the node positions, with the partial derivatives every
+ * sensitivity method is built from:
+ * dJ/dalpha_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dforce . force'_j.
+ */
+template <int dim>
+class Response
+{
+public:
+  virtual ~Response() = default;
 
-      /// The entries of its subsection that it reads.
-      virtual std::vector<std::string>
-      entries() const;
+  /// The entries of its subsection that it reads.
+  virtual std::vector<std::string> entries() const;
 
-      /// Whether J depends on the solution at all, or on the geometry alone:
-      /// then only the positions of a state are read.
-      virtual bool
-      needs_solution() const;
+  /// Whether J depends on the solution at all, or on the geometry alone:
+  /// then only the positions of a state are read.
+  virtual bool needs_solution() const;
 
-      /**
-       * Whether u makes J stationary among the displacements that the rows of
-       * contact and supports allow, with multipliers lambda: dJ/du = -B'lambda
-       * and dJ/dforce = 0. Then dJ/dalpha needs no solve.
-       */
-      virtual bool
-      stationary() const;
+  /**
+   * Whether u makes J stationary among the displacements that the rows of
+   * contact and supports allow, with multipliers lambda: dJ/du = -B'lambda
+   * and dJ/dforce = 0. Then dJ/dalpha needs no solve.
+   */
+  virtual bool stationary() const;
 
-      /// Throw an InputError unless the scene has what is measured.
-      /// Collective.
-      virtual void
-      check(const state::StateSolver<dim> &solver) const;
+  /// Throw an InputError unless the scene has what is measured.
+  /// Collective.
+  virtual void check(const state::StateSolver<dim> &solver) const;
 
-      /// J. Collective.
-      virtual double
-      value(const state::StateSolver<dim>  &solver,
-            const state::ContactState<dim> &state) const = 0;
+  /// J. Collective.
+  virtual double value(const state::StateSolver<dim>  &solver,
+                       const state::ContactState<dim> &state) const = 0;
 
-      /// Collective.
-      virtual Partials<dim>
-      partials(const state::StateSolver<dim>  &solver,
-               const state::ContactState<dim> &state) const = 0;
-    };
+  /// Collective.
+  virtual Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                                 const state::ContactState<dim> &state) const = 0;
+};
 
-    template <int dim>
-    using MakeResponse =
-      std::unique_ptr<Response<dim>>(const ResponseParameters &);
+template <int dim>
+using MakeResponse = std::unique_ptr<Response<dim>>(const ResponseParameters &);
 
-    /// Rows of the entry Quantity. Making one throws nothing.
-    template <int dim>
-    const ChoiceTable<MakeResponse<dim>> &
-    response_table();
+/// Rows of the entry Quantity. Making one throws nothing.
+template <int dim>
+const ChoiceTable<MakeResponse<dim>> &response_table();
 
-    /// The response that @p parameters describe.
-    template <int dim>
-    std::unique_ptr<Response<dim>>
-    make_response(const ResponseParameters &parameters);
-  } // namespace response
-} // namespace snug
+/// The response that @p parameters describe.
+template <int dim>
+std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameters);
+} // namespace snug::response
 
 #endif

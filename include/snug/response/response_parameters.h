@@ -4,39 +4,27 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::response {
+/// Entries of `subsection Response NAME`, or the defaults of a response
+/// that is named by its quantity alone.
+struct ResponseParameters
 {
-  namespace response
-  {
-    /// Entries of `subsection Response NAME`, or the defaults of a response
-    /// that is named by its quantity alone.
-    struct ResponseParameters
-    {
-      std::string name;     ///< empty: that of the quantity
-      std::string quantity; ///< of response_table()
-      std::string body;     ///< empty: all
-      std::string face;     ///< "body.boundary"
-      /// [length], in the reference geometry
-      std::vector<double> point;
-      std::string         component = "normal"; ///< or x, y, z
-      std::string         pair;                 ///< "slave: master"; empty: all
-      double              exponent  = 8.;
-      double              smoothing = 0.1; ///< of contact areas
+  std::string name;     ///< empty: that of the quantity
+  std::string quantity; ///< of response_table()
+  std::string body;     ///< empty: all
+  std::string face;     ///< "body.boundary"
+  /// [length], in the reference geometry
+  std::vector<double> point;
+  std::string         component = "normal"; ///< or x, y, z
+  std::string         pair;                 ///< "slave: master"; empty: all
+  double              exponent  = 8.;
+  double              smoothing = 0.1; ///< of contact areas
 
-      std::string
-      section() const
-      {
-        return "Response " + name;
-      }
+  std::string section() const { return "Response " + name; }
 
-      /// Path of an entry, for messages.
-      std::string
-      path(const std::string &entry) const
-      {
-        return section() + "/" + entry;
-      }
-    };
-  } // namespace response
-} // namespace snug
+  /// Path of an entry, for messages.
+  std::string path(const std::string &entry) const { return section() + "/" + entry; }
+};
+} // namespace snug::response
 
 #endif

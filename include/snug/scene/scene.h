@@ -20,142 +20,123 @@
 #include <utility>
 #include <vector>
 
-namespace snug
+namespace snug::scene {
+/// What a run computes.
+enum class Task
 {
-  namespace scene
-  {
-    /// What a run computes.
-    enum class Task
-    {
-      state,       ///< one contact problem
-      sensitivity, ///< its derivatives by all methods, side by side
-      optimize     ///< the best shape
-    };
+  state,       ///< one contact problem
+  sensitivity, ///< its derivatives by all methods, side by side
+  optimize     ///< the best shape
+};
 
-    /// `subsection Material NAME`.
-    struct NamedMaterial
-    {
-      std::string          name;
-      elasticity::Material material;
-    };
+/// `subsection Material NAME`.
+struct NamedMaterial
+{
+  std::string          name;
+  elasticity::Material material;
+};
 
-    /// Entries of `subsection Body NAME`.
-    struct Body
-    {
-      std::string              name;
-      mesh::BodyMeshParameters mesh;
-      /// of the whole body, if the next is empty
-      elasticity::Material material;
-      /// region -> name of its material; "" is the whole body
-      std::map<std::string, std::string> materials;
-      std::string formulation = "standard"; ///< see formulation_table()
-      /// boundary -> components held at zero: words made of "xyz", "normal"
-      std::map<std::string, std::string> supports;
-      LoadParameters                     loads;
-      /// formulas of the components [force / length^3]; empty: none
-      std::vector<std::string> body_force;
+/// Entries of `subsection Body NAME`.
+struct Body
+{
+  std::string              name;
+  mesh::BodyMeshParameters mesh;
+  /// of the whole body, if the next is empty
+  elasticity::Material material;
+  /// region -> name of its material; "" is the whole body
+  std::map<std::string, std::string> materials;
+  std::string                        formulation = "standard"; ///< see formulation_table()
+  /// boundary -> components held at zero: words made of "xyz", "normal"
+  std::map<std::string, std::string> supports;
+  LoadParameters                     loads;
+  /// formulas of the components [force / length^3]; empty: none
+  std::vector<std::string> body_force;
 
-      std::string
-      section() const
-      {
-        return "Body " + name;
-      }
-    };
+  std::string section() const { return "Body " + name; }
+};
 
-    /**
-     * Everything a parameter file says. Units are the user's, but consistent:
-     * with mm, N and MPa pressures and moduli are MPa and energies N mm.
-     */
-    struct Scene
-    {
-      std::string  file; ///< it was read from, for messages
-      Task         task      = Task::state;
-      unsigned int dimension = 3;      ///< of the meshes
-      std::string  model     = "auto"; ///< auto or of idealization_table()
-      double       thickness = 1.;     ///< of plane models [length]
-      std::string  output_directory      = "output";
-      unsigned int degree                = 1;  ///< of the elements, 1 or 2
-      double       least_scaled_jacobian = 0.; ///< that a cell may have
-      std::vector<NamedMaterial>               materials;
-      std::vector<Body>                        bodies;
-      std::vector<contact::ObstacleParameters> obstacles;
-      std::vector<double> gravity; ///< [length / time^2]; empty: none
-      /// empty: one, with the loads of the bodies alone
-      std::vector<LoadCaseParameters> load_cases;
-      unsigned int subdomains = 0; ///< of all ranks; 0: by size
-      /// also solve the linear problem on the final active set from zero
-      bool report_linear_reference = false;
+/**
+ * Everything a parameter file says. Units are the user's, but consistent:
+ * with mm, N and MPa pressures and moduli are MPa and energies N mm.
+ */
+struct Scene
+{
+  std::string                              file; ///< it was read from, for messages
+  Task                                     task      = Task::state;
+  unsigned int                             dimension = 3;      ///< of the meshes
+  std::string                              model     = "auto"; ///< auto or of idealization_table()
+  double                                   thickness = 1.;     ///< of plane models [length]
+  std::string                              output_directory      = "output";
+  unsigned int                             degree                = 1;  ///< of the elements, 1 or 2
+  double                                   least_scaled_jacobian = 0.; ///< that a cell may have
+  std::vector<NamedMaterial>               materials;
+  std::vector<Body>                        bodies;
+  std::vector<contact::ObstacleParameters> obstacles;
+  std::vector<double>                      gravity; ///< [length / time^2]; empty: none
+  /// empty: one, with the loads of the bodies alone
+  std::vector<LoadCaseParameters> load_cases;
+  unsigned int                    subdomains = 0; ///< of all ranks; 0: by size
+  /// also solve the linear problem on the final active set from zero
+  bool report_linear_reference = false;
 
-      mesh::TearingParameters             tearing;
-      contact::ContactParameters          contact;
-      std::vector<shape::ShapeParameters> shapes{1}; ///< unnamed, or named
-      feti::FetiParameters                feti;
-      qp::SolverParameters                solver;
-      sensitivity::GradientParameters     gradient;
-      std::vector<response::ResponseParameters> responses; ///< named ones
-      optimization::OptimizationParameters      optimization;
-    };
+  mesh::TearingParameters                   tearing;
+  contact::ContactParameters                contact;
+  std::vector<shape::ShapeParameters>       shapes{1}; ///< unnamed, or named
+  feti::FetiParameters                      feti;
+  qp::SolverParameters                      solver;
+  sensitivity::GradientParameters           gradient;
+  std::vector<response::ResponseParameters> responses; ///< named ones
+  optimization::OptimizationParameters      optimization;
+};
 
-    /// What the meshes of the scene stand for; the model must not be auto.
-    mesh::Idealization
-    idealization(const Scene &scene);
+/// What the meshes of the scene stand for; the model must not be auto.
+mesh::Idealization idealization(const Scene &scene);
 
-    /// "body.boundary" as {body, boundary}; without a dot, boundary is "".
-    std::pair<std::string, std::string>
-    split_face(const std::string &face);
+/// "body.boundary" as {body, boundary}; without a dot, boundary is "".
+std::pair<std::string, std::string> split_face(const std::string &face);
 
-    /// A displacement component: 0, 1, 2 for x, y, z and dimension for the
-    /// normal; nothing for other names.
-    std::optional<unsigned int>
-    component_number(const std::string &name, unsigned int dimension);
+/// A displacement component: 0, 1, 2 for x, y, z and dimension for the
+/// normal; nothing for other names.
+std::optional<unsigned int> component_number(const std::string &name, unsigned int dimension);
 
-    /// Component numbers of "xy", "normal" or "normal z".
-    /// @throws std::invalid_argument saying what is wrong with them.
-    std::vector<unsigned int>
-    component_list(const std::string &words, unsigned int dimension);
+/// Component numbers of "xy", "normal" or "normal z".
+/// @throws std::invalid_argument saying what is wrong with them.
+std::vector<unsigned int> component_list(const std::string &words, unsigned int dimension);
 
-    /// "z = -0.012" as {"z", "-0.012"}; without '=', the second is "".
-    std::pair<std::string, std::string>
-    split_displacement(const std::string &text);
+/// "z = -0.012" as {"z", "-0.012"}; without '=', the second is "".
+std::pair<std::string, std::string> split_displacement(const std::string &text);
 
-    /// The response a constraint names, and its load case: none if it holds
-    /// for a response of the geometry, or there is only one load case.
-    struct ConstraintName
-    {
-      std::string                 response;
-      std::optional<unsigned int> load_case;
-    };
+/// The response a constraint names, and its load case: none if it holds
+/// for a response of the geometry, or there is only one load case.
+struct ConstraintName
+{
+  std::string                 response;
+  std::optional<unsigned int> load_case;
+};
 
-    /// "closing.compliance" where there is a load case closing; other names
-    /// are left as they are.
-    ConstraintName
-    constraint_name(const Scene &scene, const std::string &name);
+/// "closing.compliance" where there is a load case closing; other names
+/// are left as they are.
+ConstraintName constraint_name(const Scene &scene, const std::string &name);
 
-    /// The response called @p name: one of the scene, or a quantity with all
-    /// entries at their defaults; nothing for other names.
-    std::optional<response::ResponseParameters>
-    response_called(const Scene &scene, const std::string &name);
+/// The response called @p name: one of the scene, or a quantity with all
+/// entries at their defaults; nothing for other names.
+std::optional<response::ResponseParameters> response_called(const Scene       &scene,
+                                                            const std::string &name);
 
-    /// Position of the body called @p name; bodies.size() if there is none.
-    unsigned int
-    body_index(const Scene &scene, const std::string &name);
+/// Position of the body called @p name; bodies.size() if there is none.
+unsigned int body_index(const Scene &scene, const std::string &name);
 
-    /// The entry Materials of a body: "steel" or "core: steel, coat: rubber".
-    std::string
-    text_of_materials(const std::map<std::string, std::string> &materials);
+/// The entry Materials of a body: "steel" or "core: steel, coat: rubber".
+std::string text_of_materials(const std::map<std::string, std::string> &materials);
 
-    /// The materials of the regions called @p regions, in their order.
-    /// Regions without one get that of the body.
-    std::vector<elasticity::Material>
-    materials_of(const Scene                    &scene,
-                 const Body                     &body,
-                 const std::vector<std::string> &regions);
+/// The materials of the regions called @p regions, in their order.
+/// Regions without one get that of the body.
+std::vector<elasticity::Material>
+materials_of(const Scene &scene, const Body &body, const std::vector<std::string> &regions);
 
-    /// Names of a body's boundaries, e.g. left, right, bottom, top.
-    /// @throws InputError if the body has no mesh (entries without section).
-    std::vector<std::string>
-    boundary_names(const Body &body, unsigned int dimension);
-  } // namespace scene
-} // namespace snug
+/// Names of a body's boundaries, e.g. left, right, bottom, top.
+/// @throws InputError if the body has no mesh (entries without section).
+std::vector<std::string> boundary_names(const Body &body, unsigned int dimension);
+} // namespace snug::scene
 
 #endif

@@ -5,39 +5,32 @@
 #include <snug/sensitivity/kkt_vectors.h>
 #include <snug/state/state_solver.h>
 
-namespace snug
+namespace snug::sensitivity {
+/// How the derivatives of K, f, B and g are taken.
+struct DataScheme
 {
-  namespace sensitivity
-  {
-    /// How the derivatives of K, f, B and g are taken.
-    struct DataScheme
-    {
-      std::string stencil;         ///< name in stencil_table(); empty: exact
-      bool        refined = false; ///< see SemiAnalytic
-    };
+  std::string stencil;         ///< name in stencil_table(); empty: exact
+  bool        refined = false; ///< see SemiAnalytic
+};
 
-    /// Rows "exact", "forward differences", "central differences", "refined
-    /// forward differences", "refined central differences".
-    const ChoiceTable<DataScheme()> &
-    derivatives_table();
+/// Rows "exact", "forward differences", "central differences", "refined
+/// forward differences", "refined central differences".
+const ChoiceTable<DataScheme()> &derivatives_table();
 
-    /**
-     * Right-hand sides of the sensitivity problem for k velocities V_j, one
-     * column each (equation 14 of Vondrák, Kozubek, Dostál; its c_w, c_s
-     * print f' where the derivative g' of the gap is meant):
-     * primal ft_j = f'_j - K'_j u - B'_j^T lambda per subdomain,
-     * dual ct_j = g'_j - B'_j u on the owned rows.
-     * Exact or by differences of K, f, B and g (semi-analytic), by
-     * parameters.derivatives. Collective.
-     */
-    template <int dim>
-    KktVectors
-    data_derivatives(
-      const state::StateSolver<dim>                          &solver,
-      const state::ContactState<dim>                         &state,
-      const std::vector<typename mesh::BodyMesh<dim>::Field> &velocities,
-      const GradientParameters                               &parameters);
-  } // namespace sensitivity
-} // namespace snug
+/**
+ * Right-hand sides of the sensitivity problem for k velocities V_j, one
+ * column each (equation 14 of Vondrák, Kozubek, Dostál; its c_w, c_s
+ * print f' where the derivative g' of the gap is meant):
+ * primal ft_j = f'_j - K'_j u - B'_j^T lambda per subdomain,
+ * dual ct_j = g'_j - B'_j u on the owned rows.
+ * Exact or by differences of K, f, B and g (semi-analytic), by
+ * parameters.derivatives. Collective.
+ */
+template <int dim>
+KktVectors data_derivatives(const state::StateSolver<dim>                          &solver,
+                            const state::ContactState<dim>                         &state,
+                            const std::vector<typename mesh::BodyMesh<dim>::Field> &velocities,
+                            const GradientParameters                               &parameters);
+} // namespace snug::sensitivity
 
 #endif

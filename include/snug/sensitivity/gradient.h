@@ -3,40 +3,33 @@
 
 #include <snug/sensitivity/gradient_problem.h>
 
-namespace snug
+namespace snug::sensitivity {
+/// A method and why it was chosen.
+struct MethodChoice
 {
-  namespace sensitivity
-  {
-    /// A method and why it was chosen.
-    struct MethodChoice
-    {
-      std::string method, reason;
-    };
+  std::string method, reason;
+};
 
-    /// What "auto" takes for each of the responses of @p n_variables.
-    template <int dim>
-    std::vector<MethodChoice>
-    cheapest_methods(const Responses<dim> &responses, unsigned int n_variables);
+/// What "auto" takes for each of the responses of @p n_variables.
+template <int dim>
+std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
+                                           unsigned int          n_variables);
 
-    /// "auto", "energy", "adjoint", "direct", "finite differences".
-    template <int dim>
-    const ChoiceTable<Gradients<dim>(const GradientProblem<dim> &,
-                                     const Responses<dim> &)> &
-    gradient_table();
+/// "auto", "energy", "adjoint", "direct", "finite differences".
+template <int dim>
+const ChoiceTable<Gradients<dim>(const GradientProblem<dim> &, const Responses<dim> &)> &
+gradient_table();
 
-    /**
-     * dJ/dalpha of every response by parameters.method; dJ/dX if
-     * parameters.shape_gradient, by methods that differentiate along the
-     * variables only as the field V (V'V)^-1 dJ/dalpha. Finite differences
-     * leave the solver at another geometry than the state's: solve again
-     * before asking it for more. Collective.
-     * @throws SolveError, InputError if a response has no energy gradient.
-     */
-    template <int dim>
-    Gradients<dim>
-    gradients(const GradientProblem<dim> &problem,
-              const Responses<dim>       &responses);
-  } // namespace sensitivity
-} // namespace snug
+/**
+ * dJ/dalpha of every response by parameters.method; dJ/dX if
+ * parameters.shape_gradient, by methods that differentiate along the
+ * variables only as the field V (V'V)^-1 dJ/dalpha. Finite differences
+ * leave the solver at another geometry than the state's: solve again
+ * before asking it for more. Collective.
+ * @throws SolveError, InputError if a response has no energy gradient.
+ */
+template <int dim>
+Gradients<dim> gradients(const GradientProblem<dim> &problem, const Responses<dim> &responses);
+} // namespace snug::sensitivity
 
 #endif

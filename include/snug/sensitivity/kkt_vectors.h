@@ -3,26 +3,21 @@
 
 #include <snug/feti/subdomain_system.h>
 
-namespace snug
+namespace snug::sensitivity {
+/**
+ * Vectors of the optimality system of a state, one per column: a part per
+ * unknown and a part per row of B. Both the derivatives (u', lambda') and
+ * the residuals they follow from have this form. Without subdomains the
+ * primal part is zero.
+ */
+struct KktVectors
 {
-  namespace sensitivity
-  {
-    /**
-     * Vectors of the optimality system of a state, one per column: a part per
-     * unknown and a part per row of B. Both the derivatives (u', lambda') and
-     * the residuals they follow from have this form. Without subdomains the
-     * primal part is zero.
-     */
-    struct KktVectors
-    {
-      feti::PrimalVectors primal; ///< per subdomain of this rank
-      qp::MultiVector     dual;   ///< owned rows
-    };
+  feti::PrimalVectors primal; ///< per subdomain of this rank
+  qp::MultiVector     dual;   ///< owned rows
+};
 
-    /// x'y summed over ranks (x columns x y columns). Collective.
-    qp::MultiVector
-    products(const KktVectors &x, const KktVectors &y, MPI_Comm comm);
-  } // namespace sensitivity
-} // namespace snug
+/// x'y summed over ranks (x columns x y columns). Collective.
+qp::MultiVector products(const KktVectors &x, const KktVectors &y, MPI_Comm comm);
+} // namespace snug::sensitivity
 
 #endif

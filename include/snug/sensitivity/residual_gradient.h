@@ -4,25 +4,20 @@
 #include <snug/sensitivity/kkt_vectors.h>
 #include <snug/state/state_solver.h>
 
-namespace snug
-{
-  namespace sensitivity
-  {
-    /**
-     * gradient += d/dX (w'(f - K u - B'lambda) + eta'(g - B u)) at fixed u,
-     * lambda, w and eta: what the velocities V_j multiplied by it give is
-     * w'ft_j + eta'ct_j of data_derivatives(), for any number of velocities at
-     * the cost of one. (w, eta) is column @p j of @p adjoint. This rank's
-     * share at the local nodes, hanging ones included. Collective.
-     */
-    template <int dim>
-    void
-    add_residual_gradient(const state::StateSolver<dim>       &solver,
-                          const state::ContactState<dim>      &state,
-                          const KktVectors                    &adjoint,
-                          unsigned int                         j,
-                          typename mesh::BodyMesh<dim>::Field &gradient);
-  } // namespace sensitivity
-} // namespace snug
+namespace snug::sensitivity {
+/**
+ * gradient += d/dX (w'(f - K u - B'lambda) + eta'(g - B u)) at fixed u,
+ * lambda, w and eta: what the velocities V_j multiplied by it give is
+ * w'ft_j + eta'ct_j of data_derivatives(), for any number of velocities at
+ * the cost of one. (w, eta) is column @p j of @p adjoint. This rank's
+ * share at the local nodes, hanging ones included. Collective.
+ */
+template <int dim>
+void add_residual_gradient(const state::StateSolver<dim>       &solver,
+                           const state::ContactState<dim>      &state,
+                           const KktVectors                    &adjoint,
+                           unsigned int                         j,
+                           typename mesh::BodyMesh<dim>::Field &gradient);
+} // namespace snug::sensitivity
 
 #endif

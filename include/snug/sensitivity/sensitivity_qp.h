@@ -4,77 +4,59 @@
 #include <snug/feti/total_feti.h>
 #include <snug/sensitivity/kkt_vectors.h>
 
-namespace snug
+namespace snug::sensitivity {
+/**
+ * The dual of equation (14) of Vondrák, Kozubek, Dostál in one direction:
+ * the derivative (z, mu) of a state solves
+ * @f[ \min_z \tfrac12 z^T K z - \tilde f^T z \quad\text{s.t.}\quad
+ *     B_E z = \tilde c_E,\ B_s z = \tilde c_s,\ B_w z \le \tilde c_w, @f]
+ * where s are the strongly active contacts, w the weakly active ones and
+ * the others are absent. It has the operator, the coarse space and the
+ * factorizations of the state's problem, on a part of its rows: mu_w >= 0.
+ */
+class SensitivityQp : public qp::DualProblem
 {
-  namespace sensitivity
-  {
-    /**
-     * The dual of equation (14) of Vondrák, Kozubek, Dostál in one direction:
-     * the derivative (z, mu) of a state solves
-     * @f[ \min_z \tfrac12 z^T K z - \tilde f^T z \quad\text{s.t.}\quad
-     *     B_E z = \tilde c_E,\ B_s z = \tilde c_s,\ B_w z \le \tilde c_w, @f]
-     * where s are the strongly active contacts, w the weakly active ones and
-     * the others are absent. It has the operator, the coarse space and the
-     * factorizations of the state's problem, on a part of its rows: mu_w >= 0.
-     */
-    class SensitivityQp : public qp::DualProblem
-    {
-    public:
-      /**
-       * @param[in] feti the dual problem of the state; must outlive this.
-       * @param[in] strong equality and strongly active rows.
-       * @param[in] weak weakly active rows.
-       * @param[in] data ft and ct, one column.
-       * Collective.
-       */
-      SensitivityQp(const feti::TotalFeti &feti,
-                    const qp::RowSet      &strong,
-                    const qp::RowSet      &weak,
-                    const KktVectors      &data);
+public:
+  /**
+   * @param[in] feti the dual problem of the state; must outlive this.
+   * @param[in] strong equality and strongly active rows.
+   * @param[in] weak weakly active rows.
+   * @param[in] data ft and ct, one column.
+   * Collective.
+   */
+  SensitivityQp(const feti::TotalFeti &feti,
+                const qp::RowSet      &strong,
+                const qp::RowSet      &weak,
+                const KktVectors      &data);
 
-      /// Rows of the state's problem -> those of this one.
-      qp::MultiVector
-      restricted(const qp::MultiVector &x) const;
-      /// The reverse, with zeros at the rows that are absent.
-      qp::MultiVector
-      extended(const qp::MultiVector &x) const;
+  /// Rows of the state's problem -> those of this one.
+  qp::MultiVector restricted(const qp::MultiVector &x) const;
+  /// The reverse, with zeros at the rows that are absent.
+  qp::MultiVector extended(const qp::MultiVector &x) const;
 
-      RunContext &
-      context() const override;
-      unsigned int
-      n_owned() const override;
-      const qp::RowSet &
-      bounded() const override;
-      const qp::MultiVector &
-      d() const override;
-      const qp::MultiVector &
-      e() const override;
-      const std::vector<double> &
-      diagonal() const override;
-      qp::MultiVector
-      apply(const qp::MultiVector &x) const override;
-      qp::MultiVector
-      apply_G(const qp::MultiVector &x) const override;
-      qp::MultiVector
-      apply_Gt(const qp::MultiVector &alpha) const override;
-      double
-      feasibility_scale(const qp::MultiVector &mu) const override;
-      std::unique_ptr<qp::Face>
-      face(const qp::RowSet &free) const override;
-      /// Never names one: the state is an equilibrium.
-      std::string
-      escaping_body() const override;
+  RunContext                &context() const override;
+  unsigned int               n_owned() const override;
+  const qp::RowSet          &bounded() const override;
+  const qp::MultiVector     &d() const override;
+  const qp::MultiVector     &e() const override;
+  const std::vector<double> &diagonal() const override;
+  qp::MultiVector            apply(const qp::MultiVector &x) const override;
+  qp::MultiVector            apply_G(const qp::MultiVector &x) const override;
+  qp::MultiVector            apply_Gt(const qp::MultiVector &alpha) const override;
+  double                     feasibility_scale(const qp::MultiVector &mu) const override;
+  std::unique_ptr<qp::Face>  face(const qp::RowSet &free) const override;
+  /// Never names one: the state is an equilibrium.
+  std::string escaping_body() const override;
 
-    private:
-      class PartOfFace;
+private:
+  class PartOfFace;
 
-      const feti::TotalFeti    &feti;
-      std::vector<unsigned int> row; ///< of the state's problem
-      qp::RowSet                is_weak;
-      std::vector<double>       F_diagonal;
-      qp::MultiVector           dual_load, rigid_load;
-    };
-  } // namespace sensitivity
-} // namespace snug
+  const feti::TotalFeti    &feti;
+  std::vector<unsigned int> row; ///< of the state's problem
+  qp::RowSet                is_weak;
+  std::vector<double>       F_diagonal;
+  qp::MultiVector           dual_load, rigid_load;
+};
+} // namespace snug::sensitivity
 
 #endif

@@ -4,74 +4,65 @@
 #include <snug/sensitivity/kkt_vectors.h>
 #include <snug/state/state_solver.h>
 
-namespace snug
+namespace snug::sensitivity {
+/// Equality rows and strongly active contact rows of a state.
+template <int dim>
+qp::RowSet strong_rows(const state::StateSolver<dim>  &solver,
+                       const state::ContactState<dim> &state);
+
+/// How many right-hand sides are solved together.
+enum class Solves
 {
-  namespace sensitivity
-  {
-    /// Equality rows and strongly active contact rows of a state.
-    template <int dim>
-    qp::RowSet
-    strong_rows(const state::StateSolver<dim>  &solver,
-                const state::ContactState<dim> &state);
+  block,   ///< all, by block PCPG
+  recycled ///< one after the other; each starts in the directions so far
+};
 
-    /// How many right-hand sides are solved together.
-    enum class Solves
-    {
-      block,   ///< all, by block PCPG
-      recycled ///< one after the other; each starts in the directions so far
-    };
+/**
+ * The tangent of the optimality conditions on a set M of rows,
+ * @f[ \begin{pmatrix} K & B_M^T \\ B_M & 0 \end{pmatrix}
+ *     \begin{pmatrix} z \\ \mu \end{pmatrix} =
+ *     \begin{pmatrix} b \\ c_M \end{pmatrix},
+ *     \qquad \mu = 0 \text{ off } M. @f]
+ * It is symmetric: the same solve gives derivatives of the state, with
+ * b = f' - K'u - B'^T lambda and c = g' - B'u, and adjoint states, with
+ * the partial derivatives of a response.
+ *
+ * Its dual, min 1/2 mu'F mu - mu'(B K^+ b - c) with G mu = R'b, is solved
+ * by PCPG with the factorizations of the state, no new one, and in the
+ * F-orthonormal directions that the state left behind before any other.
+ */
+class TangentSystem
+{
+public:
+  /// @p feti must outlive this object. Solves begin in the directions
+  /// @p known of the state's solver. Collective.
+  TangentSystem(const feti::TotalFeti      &feti,
+                const qp::RowSet           &rows,
+                const qp::SolverParameters &parameters,
+                Solves                      solves,
+                const qp::DirectionBasis   &known);
 
-    /**
-     * The tangent of the optimality conditions on a set M of rows,
-     * @f[ \begin{pmatrix} K & B_M^T \\ B_M & 0 \end{pmatrix}
-     *     \begin{pmatrix} z \\ \mu \end{pmatrix} =
-     *     \begin{pmatrix} b \\ c_M \end{pmatrix},
-     *     \qquad \mu = 0 \text{ off } M. @f]
-     * It is symmetric: the same solve gives derivatives of the state, with
-     * b = f' - K'u - B'^T lambda and c = g' - B'u, and adjoint states, with
-     * the partial derivatives of a response.
-     *
-     * Its dual, min 1/2 mu'F mu - mu'(B K^+ b - c) with G mu = R'b, is solved
-     * by PCPG with the factorizations of the state, no new one, and in the
-     * F-orthonormal directions that the state left behind before any other.
-     */
-    class TangentSystem
-    {
-    public:
-      /// @p feti must outlive this object. Solves begin in the directions
-      /// @p known of the state's solver. Collective.
-      TangentSystem(const feti::TotalFeti      &feti,
-                    const qp::RowSet           &rows,
-                    const qp::SolverParameters &parameters,
-                    Solves                      solves,
-                    const qp::DirectionBasis   &known);
+  /**
+   * z and mu for every column. Collective.
+   * @throws SolveError if the residual of a column is not brought below
+   *   the relative tolerance.
+   */
+  KktVectors solve(const KktVectors &right_hand_sides) const;
 
-      /**
-       * z and mu for every column. Collective.
-       * @throws SolveError if the residual of a column is not brought below
-       *   the relative tolerance.
-       */
-      KktVectors
-      solve(const KktVectors &right_hand_sides) const;
+private:
+  qp::MultiVector start_residual(const KktVectors      &right_hand_sides,
+                                 const qp::MultiVector &mu) const;
+  bool            minimize(qp::MultiVector           &mu,
+                           qp::MultiVector           &residual,
+                           const std::vector<double> &tolerances) const;
+  bool            balanced(const qp::MultiVector &load, const qp::MultiVector &mu) const;
 
-    private:
-      qp::MultiVector
-      start_residual(const KktVectors      &right_hand_sides,
-                     const qp::MultiVector &mu) const;
-      bool
-      minimize(qp::MultiVector           &mu,
-               qp::MultiVector           &residual,
-               const std::vector<double> &tolerances) const;
-      bool
-      balanced(const qp::MultiVector &load, const qp::MultiVector &mu) const;
-
-      const feti::TotalFeti          &feti;
-      const qp::SolverParameters      parameters;
-      const Solves                    solves;
-      const std::unique_ptr<qp::Face> face;
-      const qp::DirectionBasis        known;
-    };
-  } // namespace sensitivity
-} // namespace snug
+  const feti::TotalFeti          &feti;
+  const qp::SolverParameters      parameters;
+  const Solves                    solves;
+  const std::unique_ptr<qp::Face> face;
+  const qp::DirectionBasis        known;
+};
+} // namespace snug::sensitivity
 
 #endif

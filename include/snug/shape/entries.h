@@ -10,34 +10,25 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::shape {
+/// "a, b, c" as users write lists, for messages.
+template <typename T>
+std::string listed(const std::vector<T> &values)
 {
-  namespace shape
-  {
-    /// "a, b, c" as users write lists, for messages.
-    template <typename T>
-    std::string
-    listed(const std::vector<T> &values)
-    {
-      std::ostringstream text;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        text << (i == 0 ? "" : ", ") << values[i];
-      return text.str();
-    }
+  std::ostringstream text;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    text << (i == 0 ? "" : ", ") << values[i];
+  return text.str();
+}
 
-    /// The entry Direction as a unit vector. @throws InputError
-    template <int dim>
-    dealii::Tensor<1, dim>
-    unit_direction(const ShapeParameters &parameters);
+/// The entry Direction as a unit vector. @throws InputError
+template <int dim>
+dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters);
 
-    /// The net of the entry Control points along @p n_axes axes. @p degree 0:
-    /// Bernstein polynomials. @throws InputError naming Control points or
-    /// Degree.
-    SplineNet
-    spline_net(const ShapeParameters &parameters,
-               unsigned int           n_axes,
-               unsigned int           degree);
-  } // namespace shape
-} // namespace snug
+/// The net of the entry Control points along @p n_axes axes. @p degree 0:
+/// Bernstein polynomials. @throws InputError naming Control points or
+/// Degree.
+SplineNet spline_net(const ShapeParameters &parameters, unsigned int n_axes, unsigned int degree);
+} // namespace snug::shape
 
 #endif

@@ -4,53 +4,46 @@
 #include <snug/elasticity/element.h>
 #include <snug/mesh/body_mesh.h>
 
-namespace snug
+namespace snug::shape {
+/// What a body's interior is made of when it follows its shaped face.
+enum class InteriorKind
 {
-  namespace shape
+  Laplace,   ///< the Laplacian of each component
+  elasticity ///< Young's modulus is the inverse of the cell's volume
+};
+
+/**
+ * The blocks of cells of the operator that carries the movement of a face
+ * into its body, on the masters of hanging nodes.
+ */
+template <int dim>
+class InteriorMatrix
+{
+public:
+  using Block = dealii::Tensor<2, dim>;
+
+  /// Matrix of the free @p nodes a cell acts on, blocks row by row.
+  struct CellMatrix
   {
-    /// What a body's interior is made of when it follows its shaped face.
-    enum class InteriorKind
-    {
-      Laplace,   ///< the Laplacian of each component
-      elasticity ///< Young's modulus is the inverse of the cell's volume
-    };
+    std::vector<unsigned int> nodes; ///< local
+    std::vector<Block>        blocks;
+  };
 
-    /**
-     * The blocks of cells of the operator that carries the movement of a face
-     * into its body, on the masters of hanging nodes.
-     */
-    template <int dim>
-    class InteriorMatrix
-    {
-    public:
-      using Block = dealii::Tensor<2, dim>;
+  InteriorMatrix(const mesh::BodyMesh<dim> &mesh, InteriorKind kind);
 
-      /// Matrix of the free @p nodes a cell acts on, blocks row by row.
-      struct CellMatrix
-      {
-        std::vector<unsigned int> nodes; ///< local
-        std::vector<Block>        blocks;
-      };
+  CellMatrix of_cell(const typename mesh::BodyMesh<dim>::Cell &cell) const;
 
-      InteriorMatrix(const mesh::BodyMesh<dim> &mesh, InteriorKind kind);
+private:
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-      CellMatrix
-      of_cell(const typename mesh::BodyMesh<dim>::Cell &cell) const;
+  std::vector<Block> laplacian(const Nodes &X) const;
+  std::vector<Block> stiffness(const Nodes &X) const;
 
-    private:
-      using Nodes = std::vector<dealii::Tensor<1, dim>>;
-
-      std::vector<Block>
-      laplacian(const Nodes &X) const;
-      std::vector<Block>
-      stiffness(const Nodes &X) const;
-
-      const mesh::BodyMesh<dim>                  &mesh;
-      InteriorKind                                kind;
-      elasticity::Element<dim>                    element;
-      std::vector<elasticity::LagrangePoint<dim>> gauss;
-    };
-  } // namespace shape
-} // namespace snug
+  const mesh::BodyMesh<dim>                  &mesh;
+  InteriorKind                                kind;
+  elasticity::Element<dim>                    element;
+  std::vector<elasticity::LagrangePoint<dim>> gauss;
+};
+} // namespace snug::shape
 
 #endif

@@ -5,54 +5,42 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::shape {
+/// Names of the bodies in the order of the mesh, for "body.boundary".
+struct BodyNames
 {
-  namespace shape
-  {
-    /// Names of the bodies in the order of the mesh, for "body.boundary".
-    struct BodyNames
-    {
-      std::vector<std::string> names;
-    };
+  std::vector<std::string> names;
+};
 
-    /// Entries of `subsection Shape` or `subsection Shape NAME`.
-    struct ShapeParameters
-    {
-      std::string               name;           ///< empty: of the only shape
-      std::string               basis = "none"; ///< of shape_basis_table()
-      std::string               face;           ///< "body.boundary"
-      std::vector<std::string>  bodies;         ///< instead of a face
-      std::vector<unsigned int> control_points; ///< per axis
-      unsigned int              degree = 3;     ///< of B-splines
-      /// of the moves; empty: normal to the face, or in boxes every axis
-      std::vector<double> direction;
-      std::vector<double> box_corner, box_size; ///< [length]
-      /// formulas, one per component, of each mode
-      std::vector<std::vector<std::string>> modes;
-      double                                filter_radius = 0.; ///< [length]
-      /// axis -> coordinate [length] of a mirror plane across it
-      std::map<std::string, double> symmetry;
-      std::vector<std::string>      fixed; ///< "border", control point indices
-      std::string interior = "linear blending"; ///< of interior_table()
-      double      reach    = 0.;   ///< of the interior [length]; 0: all of it
-      std::vector<double> bounds;  ///< lower, upper
-      std::vector<double> initial; ///< one for all, one each, or empty: 0
+/// Entries of `subsection Shape` or `subsection Shape NAME`.
+struct ShapeParameters
+{
+  std::string               name;           ///< empty: of the only shape
+  std::string               basis = "none"; ///< of shape_basis_table()
+  std::string               face;           ///< "body.boundary"
+  std::vector<std::string>  bodies;         ///< instead of a face
+  std::vector<unsigned int> control_points; ///< per axis
+  unsigned int              degree = 3;     ///< of B-splines
+  /// of the moves; empty: normal to the face, or in boxes every axis
+  std::vector<double> direction;
+  std::vector<double> box_corner, box_size; ///< [length]
+  /// formulas, one per component, of each mode
+  std::vector<std::vector<std::string>> modes;
+  double                                filter_radius = 0.; ///< [length]
+  /// axis -> coordinate [length] of a mirror plane across it
+  std::map<std::string, double> symmetry;
+  std::vector<std::string>      fixed;                        ///< "border", control point indices
+  std::string                   interior = "linear blending"; ///< of interior_table()
+  double                        reach    = 0.; ///< of the interior [length]; 0: all of it
+  std::vector<double>           bounds;        ///< lower, upper
+  std::vector<double>           initial;       ///< one for all, one each, or empty: 0
 
-      /// "Shape" or "Shape NAME".
-      std::string
-      section() const
-      {
-        return name.empty() ? "Shape" : "Shape " + name;
-      }
+  /// "Shape" or "Shape NAME".
+  std::string section() const { return name.empty() ? "Shape" : "Shape " + name; }
 
-      /// Path of an entry, for messages.
-      std::string
-      path(const std::string &entry) const
-      {
-        return section() + "/" + entry;
-      }
-    };
-  } // namespace shape
-} // namespace snug
+  /// Path of an entry, for messages.
+  std::string path(const std::string &entry) const { return section() + "/" + entry; }
+};
+} // namespace snug::shape
 
 #endif

@@ -4,83 +4,64 @@
 #include <snug/mesh/surface.h>
 #include <snug/shape/shape_parameters.h>
 
-namespace snug
+namespace snug::shape {
+/**
+ * The face of a body that is shaped, in its reference geometry and on all
+ * ranks alike: nodes, normals, tributary areas and rim.
+ */
+template <int dim>
+class ShapedFace
 {
-  namespace shape
-  {
-    /**
-     * The face of a body that is shaped, in its reference geometry and on all
-     * ranks alike: nodes, normals, tributary areas and rim.
-     */
-    template <int dim>
-    class ShapedFace
-    {
-    public:
-      using Field = typename mesh::Surface<dim>::Field; ///< per surface node
+public:
+  using Field = typename mesh::Surface<dim>::Field; ///< per surface node
 
-      /// Collective. @throws InputError naming the entry Face. The mesh must
-      /// outlive this object.
-      ShapedFace(const mesh::BodyMesh<dim> &mesh,
-                 const BodyNames           &bodies,
-                 const ShapeParameters     &parameters);
+  /// Collective. @throws InputError naming the entry Face. The mesh must
+  /// outlive this object.
+  ShapedFace(const mesh::BodyMesh<dim> &mesh,
+             const BodyNames           &bodies,
+             const ShapeParameters     &parameters);
 
-      const mesh::BodyMesh<dim> &
-      mesh() const;
-      unsigned int
-      body() const;
-      unsigned int
-      boundary() const;
-      const mesh::Surface<dim> &
-      surface() const;
+  const mesh::BodyMesh<dim> &mesh() const;
+  unsigned int               body() const;
+  unsigned int               boundary() const;
+  const mesh::Surface<dim>  &surface() const;
 
-      /// Reference positions of the surface nodes [length].
-      const Field &
-      positions() const;
-      /// Unit outward normals.
-      const Field &
-      normals() const;
-      /// The face's area spread over its nodes, hanging ones have none
-      /// [length^(dim-1)].
-      const std::vector<double> &
-      areas() const;
-      /// Nodes that other boundaries of the body share.
-      const std::vector<bool> &
-      border() const;
-      /// Diagonal of the bounding box of the nodes [length].
-      double
-      diameter() const;
+  /// Reference positions of the surface nodes [length].
+  const Field &positions() const;
+  /// Unit outward normals.
+  const Field &normals() const;
+  /// The face's area spread over its nodes, hanging ones have none
+  /// [length^(dim-1)].
+  const std::vector<double> &areas() const;
+  /// Nodes that other boundaries of the body share.
+  const std::vector<bool> &border() const;
+  /// Diagonal of the bounding box of the nodes [length].
+  double diameter() const;
 
-      bool
-      is_hanging(unsigned int surface_node) const;
-      /// values at hanging nodes <- interpolation of their masters
-      void
-      interpolate_hanging(Field &field) const;
-      /// Transpose: add values at hanging nodes to their masters, then zero.
-      void
-      distribute_hanging(Field &field) const;
+  bool is_hanging(unsigned int surface_node) const;
+  /// values at hanging nodes <- interpolation of their masters
+  void interpolate_hanging(Field &field) const;
+  /// Transpose: add values at hanging nodes to their masters, then zero.
+  void distribute_hanging(Field &field) const;
 
-    private:
-      void
-      measure();
-      void
-      find_border();
+private:
+  void measure();
+  void find_border();
 
-      const mesh::BodyMesh<dim>            &body_mesh;
-      std::pair<unsigned int, unsigned int> place; ///< body, boundary
-      mesh::Surface<dim>                    nodes;
-      Field                                 reference, unit_normals;
-      std::vector<double>                   node_areas;
-      std::vector<bool>                     on_border;
-      double                                diagonal = 0.;
-    };
+  const mesh::BodyMesh<dim>            &body_mesh;
+  std::pair<unsigned int, unsigned int> place; ///< body, boundary
+  mesh::Surface<dim>                    nodes;
+  Field                                 reference, unit_normals;
+  std::vector<double>                   node_areas;
+  std::vector<bool>                     on_border;
+  double                                diagonal = 0.;
+};
 
-    /// (body, boundary) of "body.boundary", the entry Face. @throws InputError
-    template <int dim>
-    std::pair<unsigned int, unsigned int>
-    find_face(const mesh::BodyMesh<dim> &mesh,
-              const BodyNames           &bodies,
-              const ShapeParameters     &parameters);
-  } // namespace shape
-} // namespace snug
+/// (body, boundary) of "body.boundary", the entry Face. @throws InputError
+template <int dim>
+std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
+                                                const BodyNames           &bodies,
+                                                const ShapeParameters     &parameters);
+} // namespace snug::shape
 
 #endif

@@ -5,81 +5,67 @@
 
 #include <string>
 
-namespace snug
+namespace snug::shape {
+/// A control point of a design.
+template <int dim>
+struct MovedPoint
 {
-  namespace shape
+  std::string            shape; ///< name of the shape, may be empty
+  unsigned int           index; ///< within its shape
+  dealii::Point<dim>     position;
+  dealii::Tensor<1, dim> move; ///< from the reference to position
+};
+
+/**
+ * All shapes of a scene as one basis: of each shape the variables that its
+ * links leave, one after the other; displacements added up.
+ */
+template <int dim>
+class Shapes : public ShapeBasis<dim>
+{
+public:
+  using Field = typename ShapeBasis<dim>::Field;
+
+  /// Collective. @throws InputError naming the entry. The mesh must
+  /// outlive this object.
+  Shapes(const mesh::BodyMesh<dim>          &mesh,
+         const BodyNames                    &bodies,
+         const std::vector<ShapeParameters> &parameters);
+
+  unsigned int        n_variables() const override;
+  Field               apply(const std::vector<double> &alpha) const override;
+  std::vector<double> transpose(const Field &gradient) const override;
+
+  /// (body, boundary) of the faces that are shaped, ascending.
+  std::vector<std::pair<unsigned int, unsigned int>> faces() const;
+
+  /// @name Bounds and start of the variables
+  /// @{
+  const std::vector<double> &lower_bounds() const;
+  const std::vector<double> &upper_bounds() const;
+  const std::vector<double> &start() const;
+  /// @}
+
+  /// The control points of a design, shape by shape.
+  std::vector<MovedPoint<dim>> control_points(const std::vector<double> &alpha) const;
+
+private:
+  struct Part
   {
-    /// A control point of a design.
-    template <int dim>
-    struct MovedPoint
-    {
-      std::string            shape; ///< name of the shape, may be empty
-      unsigned int           index; ///< within its shape
-      dealii::Point<dim>     position;
-      dealii::Tensor<1, dim> move; ///< from the reference to position
-    };
+    std::string                 name;
+    unsigned int                first; ///< its first variable
+    std::unique_ptr<Shape<dim>> basis;
+    Links                       links;
+  };
 
-    /**
-     * All shapes of a scene as one basis: of each shape the variables that its
-     * links leave, one after the other; displacements added up.
-     */
-    template <int dim>
-    class Shapes : public ShapeBasis<dim>
-    {
-    public:
-      using Field = typename ShapeBasis<dim>::Field;
+  /// The basis' own variables at a design.
+  static std::vector<double> expanded(const Part &part, const std::vector<double> &alpha);
+  void                       add_variables(const ShapeParameters &parameters, unsigned int n);
 
-      /// Collective. @throws InputError naming the entry. The mesh must
-      /// outlive this object.
-      Shapes(const mesh::BodyMesh<dim>          &mesh,
-             const BodyNames                    &bodies,
-             const std::vector<ShapeParameters> &parameters);
-
-      unsigned int
-      n_variables() const override;
-      Field
-      apply(const std::vector<double> &alpha) const override;
-      std::vector<double>
-      transpose(const Field &gradient) const override;
-
-      /// (body, boundary) of the faces that are shaped, ascending.
-      std::vector<std::pair<unsigned int, unsigned int>>
-      faces() const;
-
-      /// @name Bounds and start of the variables
-      /// @{
-      const std::vector<double> &
-      lower_bounds() const;
-      const std::vector<double> &
-      upper_bounds() const;
-      const std::vector<double> &
-      start() const;
-      /// @}
-
-      /// The control points of a design, shape by shape.
-      std::vector<MovedPoint<dim>>
-      control_points(const std::vector<double> &alpha) const;
-
-    private:
-      struct Part
-      {
-        std::string                 name;
-        unsigned int                first; ///< its first variable
-        std::unique_ptr<Shape<dim>> basis;
-        Links                       links;
-      };
-
-      /// The basis' own variables at a design.
-      static std::vector<double>
-      expanded(const Part &part, const std::vector<double> &alpha);
-      void
-      add_variables(const ShapeParameters &parameters, unsigned int n);
-
-      const mesh::BodyMesh<dim> &mesh;
-      std::vector<Part>          parts;
-      std::vector<double>        lower, upper, initial;
-    };
-  } // namespace shape
-} // namespace snug
+  const mesh::BodyMesh<dim> &mesh;
+  std::vector<Part>          parts;
+  std::vector<double>        lower, upper, initial;
+};
+} // namespace snug::shape
 
 #endif

@@ -3,50 +3,41 @@
 
 #include <snug/state/state_solver.h>
 
-namespace snug
-{
-  namespace state
-  {
-    /// @name From where on the answer of a linear model is doubtful
-    /// @{
-    constexpr double large_rotation = 0.1; ///< [rad]: lengths change by 0.5 %
-    constexpr double large_strain   = 0.1;
-    constexpr double large_slip     = 0.5; ///< of a face
-    constexpr double large_drift    = 0.5; ///< of a face
-    constexpr double large_overlap  = 0.1; ///< of a face
-    /// @}
+namespace snug::state {
+/// @name From where on the answer of a linear model is doubtful
+/// @{
+constexpr double large_rotation = 0.1; ///< [rad]: lengths change by 0.5 %
+constexpr double large_strain   = 0.1;
+constexpr double large_slip     = 0.5; ///< of a face
+constexpr double large_drift    = 0.5; ///< of a face
+constexpr double large_overlap  = 0.1; ///< of a face
+/// @}
 
-    /// An overlap of more faces is not a rough mesh but a wrong pair.
-    constexpr double absurd_overlap = 2.;
+/// An overlap of more faces is not a rough mesh but a wrong pair.
+constexpr double absurd_overlap = 2.;
 
-    /**
-     * What a state does to the assumptions it rests on. Rotation and strain
-     * are Frobenius norms over sqrt(2) and 1 of the two parts of the
-     * displacement gradient that fits a cell's nodes best. See
-     * contact::Contact for slip and drift. Collective.
-     */
-    template <int dim>
-    Assumptions
-    assess(const StateSolver<dim>               &solver,
-           const std::vector<contact::Row<dim>> &contact_rows,
-           const ContactState<dim>              &state);
+/**
+ * What a state does to the assumptions it rests on. Rotation and strain
+ * are Frobenius norms over sqrt(2) and 1 of the two parts of the
+ * displacement gradient that fits a cell's nodes best. See
+ * contact::Contact for slip and drift. Collective.
+ */
+template <int dim>
+Assumptions assess(const StateSolver<dim>               &solver,
+                   const std::vector<contact::Row<dim>> &contact_rows,
+                   const ContactState<dim>              &state);
 
-    /// One line for each number that is doubtful.
-    std::vector<std::string>
-    warnings(const Assumptions &assumptions);
+/// One line for each number that is doubtful.
+std::vector<std::string> warnings(const Assumptions &assumptions);
 
-    /// @throws InputError if slave nodes of a pair overlap the master by more
-    /// than absurd_overlap where they were paired and that is not wanted.
-    void
-    check_overlaps(const std::vector<contact::Pair> &pairs,
-                   const std::vector<double>        &overlaps);
+/// @throws InputError if slave nodes of a pair overlap the master by more
+/// than absurd_overlap where they were paired and that is not wanted.
+void check_overlaps(const std::vector<contact::Pair> &pairs, const std::vector<double> &overlaps);
 
-    /// One line for each pair whose slave nodes overlap the master by more
-    /// than large_overlap where they were paired, if that is not wanted.
-    std::vector<std::string>
-    overlap_warnings(const std::vector<contact::Pair> &pairs,
-                     const std::vector<double>        &overlaps);
-  } // namespace state
-} // namespace snug
+/// One line for each pair whose slave nodes overlap the master by more
+/// than large_overlap where they were paired, if that is not wanted.
+std::vector<std::string> overlap_warnings(const std::vector<contact::Pair> &pairs,
+                                          const std::vector<double>        &overlaps);
+} // namespace snug::state
 
 #endif

@@ -6,25 +6,18 @@
 #include <string>
 #include <vector>
 
-namespace snug
-{
-  namespace state
-  {
-    /// Bodies of an axisymmetric model must not reach negative radii.
-    /// Collective. @throws InputError on all ranks.
-    template <int dim>
-    void
-    check_radii(const mesh::BodyMesh<dim>      &mesh,
-                const std::vector<std::string> &body_names);
+namespace snug::state {
+/// Bodies of an axisymmetric model must not reach negative radii.
+/// Collective. @throws InputError on all ranks.
+template <int dim>
+void check_radii(const mesh::BodyMesh<dim> &mesh, const std::vector<std::string> &body_names);
 
-    /// Nodes on the axis are held there.
-    /// @throws TangledMesh, on this rank, if a design moves one away.
-    template <int dim>
-    void
-    check_axis(const mesh::BodyMesh<dim>                 &mesh,
-               const typename mesh::BodyMesh<dim>::Field &positions,
-               const std::vector<BodyBox<dim>>           &boxes);
-  } // namespace state
-} // namespace snug
+/// Nodes on the axis are held there.
+/// @throws TangledMesh, on this rank, if a design moves one away.
+template <int dim>
+void check_axis(const mesh::BodyMesh<dim>                 &mesh,
+                const typename mesh::BodyMesh<dim>::Field &positions,
+                const std::vector<BodyBox<dim>>           &boxes);
+} // namespace snug::state
 
 #endif

@@ -3,23 +3,18 @@
 
 #include <snug/mesh/body_mesh.h>
 
-namespace snug
+namespace snug::state {
+/// Bounding box of a body in the reference geometry.
+template <int dim>
+struct BodyBox
 {
-  namespace state
-  {
-    /// Bounding box of a body in the reference geometry.
-    template <int dim>
-    struct BodyBox
-    {
-      dealii::Tensor<1, dim> centre;
-      double                 length; ///< half of the diagonal
-    };
+  dealii::Tensor<1, dim> centre;
+  double                 length; ///< half of the diagonal
+};
 
-    /// The boxes of all bodies. Collective.
-    template <int dim>
-    std::vector<BodyBox<dim>>
-    body_boxes(const mesh::BodyMesh<dim> &mesh);
-  } // namespace state
-} // namespace snug
+/// The boxes of all bodies. Collective.
+template <int dim>
+std::vector<BodyBox<dim>> body_boxes(const mesh::BodyMesh<dim> &mesh);
+} // namespace snug::state
 
 #endif

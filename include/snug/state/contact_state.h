@@ -8,97 +8,92 @@
 #include <limits>
 #include <vector>
 
-namespace snug
+namespace snug::state {
+/**
+ * Errors of a solution, recomputed from K, f, B and g, all relative:
+ * equilibrium ||K u - f + B' lambda|| / (||f|| + ||B' lambda||), the worst
+ * body; continuity max|B_E u - g_E| and penetration max(B_I u - g_I)+
+ * over max_i(F_ii |lambda_i|); negative pressure max(-lambda_I)+ over
+ * max lambda_I; complementarity |lambda' w| over the strain energy.
+ */
+struct Certificate
 {
-  namespace state
-  {
-    /**
-     * Errors of a solution, recomputed from K, f, B and g, all relative:
-     * equilibrium ||K u - f + B' lambda|| / (||f|| + ||B' lambda||), the worst
-     * body; continuity max|B_E u - g_E| and penetration max(B_I u - g_I)+
-     * over max_i(F_ii |lambda_i|); negative pressure max(-lambda_I)+ over
-     * max lambda_I; complementarity |lambda' w| over the strain energy.
-     */
-    struct Certificate
-    {
-      double equilibrium       = 0.;
-      double continuity        = 0.;
-      double penetration       = 0.;
-      double negative_pressure = 0.;
-      double complementarity   = 0.;
+  double equilibrium       = 0.;
+  double continuity        = 0.;
+  double penetration       = 0.;
+  double negative_pressure = 0.;
+  double complementarity   = 0.;
 
-      double
-      worst() const;
-    };
+  double worst() const;
+};
 
-    /// One contact row of a state; physical units.
-    struct ContactPoint
-    {
-      double force    = 0.; ///< lambda_i / nr_i [force], >= 0 pushes apart
-      double pressure = 0.; ///< force / tributary area [force/length^(dim-1)]
-      double gap      = 0.; ///< left after deformation [length], >= 0
-      double area     = 0.; ///< tributary [length^(dim-1)]
-      bool   active   = false; ///< in the active set
-      bool   strong   = false; ///< force above the strong tolerance
-      bool   weak     = false; ///< neither force nor gap
-    };
+/// One contact row of a state; physical units.
+struct ContactPoint
+{
+  double force    = 0.;    ///< lambda_i / nr_i [force], >= 0 pushes apart
+  double pressure = 0.;    ///< force / tributary area [force/length^(dim-1)]
+  double gap      = 0.;    ///< left after deformation [length], >= 0
+  double area     = 0.;    ///< tributary [length^(dim-1)]
+  bool   active   = false; ///< in the active set
+  bool   strong   = false; ///< force above the strong tolerance
+  bool   weak     = false; ///< neither force nor gap
+};
 
-    /// How far a state goes where the model is linear; see assumptions.h.
-    struct Assumptions
-    {
-      double rotation = 0.; ///< largest of a cell [rad]
-      double strain   = 0.; ///< largest of a cell
-      double slip     = 0.; ///< largest of an active contact, in faces
-      double drift    = 0.; ///< largest of a design off its pairing, in faces
-    };
+/// How far a state goes where the model is linear; see assumptions.h.
+struct Assumptions
+{
+  double rotation = 0.; ///< largest of a cell [rad]
+  double strain   = 0.; ///< largest of a cell
+  double slip     = 0.; ///< largest of an active contact, in faces
+  double drift    = 0.; ///< largest of a design off its pairing, in faces
+};
 
-    /// The contact rows of one pair, summed up.
-    template <int dim>
-    struct PairState
-    {
-      std::string            name;              ///< "slave: master"
-      dealii::Tensor<1, dim> force;             ///< on the slave side [force]
-      double                 contact_area = 0.; ///< of active rows [length^2]
-      double                 max_pressure = 0.;
-      unsigned int           rows = 0, active_contacts = 0;
-    };
+/// The contact rows of one pair, summed up.
+template <int dim>
+struct PairState
+{
+  std::string            name;              ///< "slave: master"
+  dealii::Tensor<1, dim> force;             ///< on the slave side [force]
+  double                 contact_area = 0.; ///< of active rows [length^2]
+  double                 max_pressure = 0.;
+  unsigned int           rows = 0, active_contacts = 0;
+};
 
-    /**
-     * The solution of the contact problem at one geometry. Fields are on the
-     * local nodes (valid at nodes of owned cells), contact points on all
-     * ranks in the order of the contact rows.
-     */
-    template <int dim>
-    struct ContactState
-    {
-      using Field = typename mesh::BodyMesh<dim>::Field;
+/**
+ * The solution of the contact problem at one geometry. Fields are on the
+ * local nodes (valid at nodes of owned cells), contact points on all
+ * ranks in the order of the contact rows.
+ */
+template <int dim>
+struct ContactState
+{
+  using Field = typename mesh::BodyMesh<dim>::Field;
 
-      unsigned int                load_case = 0;
-      Field                       positions;    ///< [length]
-      Field                       displacement; ///< [length]
-      feti::PrimalVectors         u;            ///< per subdomain
-      qp::DualSolution            dual;
-      std::vector<ContactPoint>   contact;
-      std::vector<PairState<dim>> pairs;
+  unsigned int                load_case = 0;
+  Field                       positions;    ///< [length]
+  Field                       displacement; ///< [length]
+  feti::PrimalVectors         u;            ///< per subdomain
+  qp::DualSolution            dual;
+  std::vector<ContactPoint>   contact;
+  std::vector<PairState<dim>> pairs;
 
-      double                 least_scaled_jacobian = 1.; ///< of all cells
-      double                 energy                = 0.; ///< 1/2 u'Ku - f'u
-      double                 compliance            = 0.; ///< f'u
-      double                 strain_energy         = 0.; ///< 1/2 u'Ku
-      dealii::Tensor<1, dim> contact_force; ///< on the slave sides [force]
-      double                 contact_area    = 0.; ///< of active rows
-      double                 max_pressure    = 0.;
-      unsigned int           active_contacts = 0;
-      unsigned int           weak_contacts   = 0;
-      /// least of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), the
-      /// distance from a weakly active contact; infinite without contacts
-      double degeneracy_distance   = std::numeric_limits<double>::infinity();
-      unsigned long f_mults        = 0; ///< of the contact solve
-      unsigned long linear_f_mults = 0; ///< 0: not asked for
-      Certificate   certificate;
-      Assumptions   assumptions;
-    };
-  } // namespace state
-} // namespace snug
+  double                 least_scaled_jacobian = 1.; ///< of all cells
+  double                 energy                = 0.; ///< 1/2 u'Ku - f'u
+  double                 compliance            = 0.; ///< f'u
+  double                 strain_energy         = 0.; ///< 1/2 u'Ku
+  dealii::Tensor<1, dim> contact_force;              ///< on the slave sides [force]
+  double                 contact_area    = 0.;       ///< of active rows
+  double                 max_pressure    = 0.;
+  unsigned int           active_contacts = 0;
+  unsigned int           weak_contacts   = 0;
+  /// least of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), the
+  /// distance from a weakly active contact; infinite without contacts
+  double        degeneracy_distance = std::numeric_limits<double>::infinity();
+  unsigned long f_mults             = 0; ///< of the contact solve
+  unsigned long linear_f_mults      = 0; ///< 0: not asked for
+  Certificate   certificate;
+  Assumptions   assumptions;
+};
+} // namespace snug::state
 
 #endif

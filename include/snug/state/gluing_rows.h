@@ -10,110 +10,97 @@
 #include <map>
 #include <memory>
 
-namespace snug
+namespace snug::state {
+/// What the rows of B are made of at a geometry; or its derivative, where
+/// empty frames are zero.
+template <int dim>
+struct RowCoefficients
 {
-  namespace state
+  std::vector<contact::Row<dim>> contact;
+  std::vector<HeldFrame<dim>>    held; ///< per held node
+};
+
+/**
+ * Who owns which row of B and which copies of which nodes it joins: the
+ * topology of Gluing. Each node's copies meet on one rank, which numbers
+ * the rows and sends their entries to the subdomains.
+ */
+template <int dim>
+class GluingRows
+{
+public:
+  /// What the value of an entry follows.
+  enum class Source : unsigned int
   {
-    /// What the rows of B are made of at a geometry; or its derivative, where
-    /// empty frames are zero.
-    template <int dim>
-    struct RowCoefficients
-    {
-      std::vector<contact::Row<dim>> contact;
-      std::vector<HeldFrame<dim>>    held; ///< per held node
-    };
+    constant, ///< nothing
+    contact,  ///< coefficient `item` of contact row `index`
+    held      ///< direction `item` of held node `index`
+  };
 
-    /**
-     * Who owns which row of B and which copies of which nodes it joins: the
-     * topology of Gluing. Each node's copies meet on one rank, which numbers
-     * the rows and sends their entries to the subdomains.
-     */
-    template <int dim>
-    class GluingRows
-    {
-    public:
-      /// What the value of an entry follows.
-      enum class Source : unsigned int
-      {
-        constant, ///< nothing
-        contact,  ///< coefficient `item` of contact row `index`
-        held      ///< direction `item` of held node `index`
-      };
+  struct Entry
+  {
+    unsigned int local_row, dof;
+    double       factor; ///< the value of constant entries
+    Source       source;
+    unsigned int index, item;
+  };
 
-      struct Entry
-      {
-        unsigned int local_row, dof;
-        double       factor; ///< the value of constant entries
-        Source       source;
-        unsigned int index, item;
-      };
+  /// What an owned row is, in the same terms.
+  struct OwnedRow
+  {
+    Source       source;
+    unsigned int index, item;
+    double       factor; ///< of its right-hand side
+  };
 
-      /// What an owned row is, in the same terms.
-      struct OwnedRow
-      {
-        Source       source;
-        unsigned int index, item;
-        double       factor; ///< of its right-hand side
-      };
+  /// See Gluing. Collective.
+  GluingRows(const mesh::BodyMesh<dim>  &mesh,
+             const mesh::Tearing        &tearing,
+             const mesh::Surface<dim>   &surface,
+             const HeldNodes<dim>       &held,
+             const RowCoefficients<dim> &reference);
 
-      /// See Gluing. Collective.
-      GluingRows(const mesh::BodyMesh<dim>  &mesh,
-                 const mesh::Tearing        &tearing,
-                 const mesh::Surface<dim>   &surface,
-                 const HeldNodes<dim>       &held,
-                 const RowCoefficients<dim> &reference);
+  /// The part of a coefficient at a surface node that what is held there
+  /// leaves.
+  dealii::Tensor<1, dim> projected(unsigned int                       surface_node,
+                                   const dealii::Tensor<1, dim>      &coefficient,
+                                   const std::vector<HeldFrame<dim>> &frames) const;
 
-      /// The part of a coefficient at a surface node that what is held there
-      /// leaves.
-      dealii::Tensor<1, dim>
-      projected(unsigned int                       surface_node,
-                const dealii::Tensor<1, dim>      &coefficient,
-                const std::vector<HeldFrame<dim>> &frames) const;
+  std::unique_ptr<feti::RowLayout> layout;
+  std::vector<std::vector<Entry>>  entries; ///< per subdomain
+  std::vector<OwnedRow>            owned;
+  std::vector<double>              scales; ///< nr per contact row
+  std::vector<unsigned int>        copies; ///< per surface node
+  /// held node of each surface node, or held.n_nodes()
+  std::vector<unsigned int> held_of_surface;
+  unsigned int              n_global = 0;
 
-      std::unique_ptr<feti::RowLayout> layout;
-      std::vector<std::vector<Entry>>  entries; ///< per subdomain
-      std::vector<OwnedRow>            owned;
-      std::vector<double>              scales; ///< nr per contact row
-      std::vector<unsigned int>        copies; ///< per surface node
-      /// held node of each surface node, or held.n_nodes()
-      std::vector<unsigned int> held_of_surface;
-      unsigned int              n_global = 0;
+private:
+  /// Subdomains of one node's copies, ascending, by global node: known to
+  /// the owner of its rows.
+  using Copies = std::map<unsigned int, std::vector<unsigned int>>;
 
-    private:
-      /// Subdomains of one node's copies, ascending, by global node: known to
-      /// the owner of its rows.
-      using Copies = std::map<unsigned int, std::vector<unsigned int>>;
+  /// One entry on its way from the owner of the row to the subdomain.
+  struct Message;
 
-      /// One entry on its way from the owner of the row to the subdomain.
-      struct Message;
+  void                      collect_surface(const mesh::Tearing &tearing);
+  void                      scale_rows(const RowCoefficients<dim> &reference);
+  std::vector<unsigned int> cluster_ranks(const std::vector<contact::Row<dim>> &rows) const;
+  Copies                    collect_copies(const mesh::Tearing             &tearing,
+                                           const std::vector<unsigned int> &rank_of_contact) const;
+  void                      number_node_rows(const Copies               &nodes,
+                                             const RowCoefficients<dim> &reference,
+                                             std::vector<Message>       &messages);
+  void                      number_contact_rows(const Copies                         &nodes,
+                                                const std::vector<contact::Row<dim>> &reference_rows,
+                                                const std::vector<unsigned int>      &rank_of_contact,
+                                                std::vector<Message>                 &messages);
+  void deliver(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
-      void
-      collect_surface(const mesh::Tearing &tearing);
-      void
-      scale_rows(const RowCoefficients<dim> &reference);
-      std::vector<unsigned int>
-      cluster_ranks(const std::vector<contact::Row<dim>> &rows) const;
-      Copies
-      collect_copies(const mesh::Tearing             &tearing,
-                     const std::vector<unsigned int> &rank_of_contact) const;
-      void
-      number_node_rows(const Copies               &nodes,
-                       const RowCoefficients<dim> &reference,
-                       std::vector<Message>       &messages);
-      void
-      number_contact_rows(const Copies                         &nodes,
-                          const std::vector<contact::Row<dim>> &reference_rows,
-                          const std::vector<unsigned int>      &rank_of_contact,
-                          std::vector<Message>                 &messages);
-      void
-      deliver(const std::vector<Message> &messages,
-              const mesh::Tearing        &tearing);
-
-      const mesh::BodyMesh<dim> &mesh;
-      const mesh::Surface<dim>  &surface;
-      const HeldNodes<dim>      &held;
-    };
-  } // namespace state
-} // namespace snug
+  const mesh::BodyMesh<dim> &mesh;
+  const mesh::Surface<dim>  &surface;
+  const HeldNodes<dim>      &held;
+};
+} // namespace snug::state
 
 #endif

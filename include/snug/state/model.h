@@ -14,75 +14,64 @@
 #include <functional>
 #include <map>
 
-namespace snug
+namespace snug::state {
+/// Materials of one body.
+template <int dim>
+struct BodyModel
 {
-  namespace state
+  std::vector<elasticity::Material> materials; ///< per region
+  elasticity::Formulation           formulation = elasticity::Formulation::standard;
+
+  const elasticity::Material &material(const typename mesh::BodyMesh<dim>::Cell &cell) const
   {
-    /// Materials of one body.
-    template <int dim>
-    struct BodyModel
-    {
-      std::vector<elasticity::Material> materials; ///< per region
-      elasticity::Formulation formulation = elasticity::Formulation::standard;
+    AssertIndexRange(cell.region, materials.size());
+    return materials[cell.region];
+  }
+};
 
-      const elasticity::Material &
-      material(const typename mesh::BodyMesh<dim>::Cell &cell) const
-      {
-        AssertIndexRange(cell.region, materials.size());
-        return materials[cell.region];
-      }
-    };
+/// Dead loads on one boundary. Pressure and traction [force / length^2]
+/// are functions of the reference position; empty: none.
+template <int dim>
+struct BoundaryLoad
+{
+  std::function<double(const dealii::Point<dim> &)>                 pressure;
+  std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> traction;
+  elasticity::Resultant<dim>                                        resultant;
 
-    /// Dead loads on one boundary. Pressure and traction [force / length^2]
-    /// are functions of the reference position; empty: none.
-    template <int dim>
-    struct BoundaryLoad
-    {
-      std::function<double(const dealii::Point<dim> &)> pressure;
-      std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
-                                 traction;
-      elasticity::Resultant<dim> resultant;
+  bool has_resultant() const { return resultant.force.norm() > 0. || resultant.moment.norm() > 0.; }
+};
 
-      bool
-      has_resultant() const
-      {
-        return resultant.force.norm() > 0. || resultant.moment.norm() > 0.;
-      }
-    };
+/// Dead loads of one body in one load case.
+template <int dim>
+struct BodyLoads
+{
+  /// [force / length^3], of the reference position; empty: none
+  std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> body_force;
+  dealii::Tensor<1, dim>                                            gravity; ///< [length / time^2]
+  std::map<unsigned int, BoundaryLoad<dim>>                         boundaries; ///< by index
+};
 
-    /// Dead loads of one body in one load case.
-    template <int dim>
-    struct BodyLoads
-    {
-      /// [force / length^3], of the reference position; empty: none
-      std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
-                                                body_force;
-      dealii::Tensor<1, dim>                    gravity; ///< [length / time^2]
-      std::map<unsigned int, BoundaryLoad<dim>> boundaries; ///< by index
-    };
+template <int dim>
+struct LoadCase
+{
+  std::string                 name;   ///< may be empty if it is the only one
+  std::vector<BodyLoads<dim>> bodies; ///< as many as bodies
+};
 
-    template <int dim>
-    struct LoadCase
-    {
-      std::string                 name; ///< may be empty if it is the only one
-      std::vector<BodyLoads<dim>> bodies; ///< as many as bodies
-    };
-
-    /// What a state problem is made of; indices, not names.
-    template <int dim>
-    struct Model
-    {
-      std::vector<std::string>    body_names;
-      std::vector<BodyModel<dim>> bodies;
-      std::vector<LoadCase<dim>>  load_cases; ///< at least one
-      std::vector<Support<dim>>   supports;
-      std::vector<contact::Pair>  pairs;
-      /// meshes and designs with a cell of less are refused
-      double               least_scaled_jacobian = 0.;
-      feti::FetiParameters feti;
-      qp::SolverParameters solver;
-    };
-  } // namespace state
-} // namespace snug
+/// What a state problem is made of; indices, not names.
+template <int dim>
+struct Model
+{
+  std::vector<std::string>    body_names;
+  std::vector<BodyModel<dim>> bodies;
+  std::vector<LoadCase<dim>>  load_cases; ///< at least one
+  std::vector<Support<dim>>   supports;
+  std::vector<contact::Pair>  pairs;
+  /// meshes and designs with a cell of less are refused
+  double               least_scaled_jacobian = 0.;
+  feti::FetiParameters feti;
+  qp::SolverParameters solver;
+};
+} // namespace snug::state
 
 #endif

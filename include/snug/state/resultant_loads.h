@@ -4,73 +4,62 @@
 #include <snug/elasticity/face_load.h>
 #include <snug/state/model.h>
 
-namespace snug
+namespace snug::state {
+/**
+ * The total forces and moments on boundaries, spread over faces that move
+ * (SpreadResultant): their tractions depend on the whole loaded boundary.
+ * All members with positions are collective.
+ */
+template <int dim>
+class ResultantLoads
 {
-  namespace state
+public:
+  using Field    = typename mesh::BodyMesh<dim>::Field;
+  using Boundary = std::pair<unsigned int, unsigned int>; ///< of a body
+  /// Traction of each load case and loaded boundary.
+  using Tractions = std::vector<std::map<Boundary, elasticity::LinearTraction<dim>>>;
+
+  /// References must outlive this object. Collective.
+  ResultantLoads(const mesh::BodyMesh<dim>        &mesh,
+                 const elasticity::FaceLoad<dim>  &face_load,
+                 const std::vector<LoadCase<dim>> &load_cases);
+
+  Tractions tractions(const Field &positions) const;
+
+  /// Their derivatives along @p velocity, exact.
+  Tractions traction_derivatives(const Field &positions, const Field &velocity) const;
+
+  /// gradient += factor * d/dX (f . u), f the loads of the resultants of a
+  /// load case: this rank's share.
+  void add_work_gradient(unsigned int load_case,
+                         const Field &positions,
+                         const Field &displacement,
+                         double       factor,
+                         Field       &gradient) const;
+
+private:
+  using Nodes   = std::vector<dealii::Tensor<1, dim>>;
+  using Moments = elasticity::AreaMoments<dim>;
+  using Spread  = elasticity::SpreadResultant<dim>;
+
+  /// One boundary with a resultant in some load case.
+  struct LoadedBoundary
   {
-    /**
-     * The total forces and moments on boundaries, spread over faces that move
-     * (SpreadResultant): their tractions depend on the whole loaded boundary.
-     * All members with positions are collective.
-     */
-    template <int dim>
-    class ResultantLoads
-    {
-    public:
-      using Field    = typename mesh::BodyMesh<dim>::Field;
-      using Boundary = std::pair<unsigned int, unsigned int>; ///< of a body
-      /// Traction of each load case and loaded boundary.
-      using Tractions =
-        std::vector<std::map<Boundary, elasticity::LinearTraction<dim>>>;
+    Boundary                  boundary;
+    std::vector<unsigned int> faces;  ///< of this rank
+    dealii::Tensor<1, dim>    origin; ///< near its centroid
+  };
 
-      /// References must outlive this object. Collective.
-      ResultantLoads(const mesh::BodyMesh<dim>        &mesh,
-                     const elasticity::FaceLoad<dim>  &face_load,
-                     const std::vector<LoadCase<dim>> &load_cases);
+  Nodes at_face(unsigned int face, const Field &field) const;
+  template <typename Compute>
+  std::vector<Moments>                        moments(const Compute &compute) const;
+  std::vector<std::map<unsigned int, Spread>> spread(const Field &positions) const;
 
-      Tractions
-      tractions(const Field &positions) const;
-
-      /// Their derivatives along @p velocity, exact.
-      Tractions
-      traction_derivatives(const Field &positions, const Field &velocity) const;
-
-      /// gradient += factor * d/dX (f . u), f the loads of the resultants of a
-      /// load case: this rank's share.
-      void
-      add_work_gradient(unsigned int load_case,
-                        const Field &positions,
-                        const Field &displacement,
-                        double       factor,
-                        Field       &gradient) const;
-
-    private:
-      using Nodes   = std::vector<dealii::Tensor<1, dim>>;
-      using Moments = elasticity::AreaMoments<dim>;
-      using Spread  = elasticity::SpreadResultant<dim>;
-
-      /// One boundary with a resultant in some load case.
-      struct LoadedBoundary
-      {
-        Boundary                  boundary;
-        std::vector<unsigned int> faces;  ///< of this rank
-        dealii::Tensor<1, dim>    origin; ///< near its centroid
-      };
-
-      Nodes
-      at_face(unsigned int face, const Field &field) const;
-      template <typename Compute>
-      std::vector<Moments>
-      moments(const Compute &compute) const;
-      std::vector<std::map<unsigned int, Spread>>
-      spread(const Field &positions) const;
-
-      const mesh::BodyMesh<dim>        &mesh;
-      const elasticity::FaceLoad<dim>  &face_load;
-      const std::vector<LoadCase<dim>> &load_cases;
-      std::vector<LoadedBoundary>       loaded;
-    };
-  } // namespace state
-} // namespace snug
+  const mesh::BodyMesh<dim>        &mesh;
+  const elasticity::FaceLoad<dim>  &face_load;
+  const std::vector<LoadCase<dim>> &load_cases;
+  std::vector<LoadedBoundary>       loaded;
+};
+} // namespace snug::state
 
 #endif

@@ -8,24 +8,18 @@
 
 #include <vector>
 
-namespace snug
-{
-  namespace state
-  {
-    /// Translations and rotations about @p centre over @p length at
-    /// @p positions, one mode per column: 6 of a solid, 3 in plane sections,
-    /// and the translation along the axis in axisymmetric ones.
-    template <int dim>
-    qp::MultiVector
-    rigid_motions(const mesh::Idealization                  &idealization,
-                  const std::vector<dealii::Tensor<1, dim>> &positions,
-                  const dealii::Tensor<1, dim>              &centre,
-                  double                                     length);
+namespace snug::state {
+/// Translations and rotations about @p centre over @p length at
+/// @p positions, one mode per column: 6 of a solid, 3 in plane sections,
+/// and the translation along the axis in axisymmetric ones.
+template <int dim>
+qp::MultiVector rigid_motions(const mesh::Idealization                  &idealization,
+                              const std::vector<dealii::Tensor<1, dim>> &positions,
+                              const dealii::Tensor<1, dim>              &centre,
+                              double                                     length);
 
-    /// Orthonormalise the columns by Gram-Schmidt, twice for round-off.
-    void
-    orthonormalise(qp::MultiVector &R);
-  } // namespace state
-} // namespace snug
+/// Orthonormalise the columns by Gram-Schmidt, twice for round-off.
+void orthonormalise(qp::MultiVector &R);
+} // namespace snug::state
 
 #endif

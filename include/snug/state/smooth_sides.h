@@ -3,24 +3,19 @@
 
 #include <snug/contact/face_shape.h>
 
-namespace snug
-{
-  namespace state
-  {
-    /**
-     * The faces of (body, boundary) pairs in smooth patches: two faces that
-     * share a node are in one patch if their normals there are less than 40
-     * degrees apart, unless they lie on different boundaries that are both
-     * flat. Each patch: ascending indices of surface.faces().
-     */
-    template <int dim>
-    std::vector<std::vector<unsigned int>>
-    smooth_sides(
-      const mesh::Surface<dim>                                 &surface,
-      const std::vector<std::pair<unsigned int, unsigned int>> &boundaries,
-      const contact::FaceShape<dim>                            &shape,
-      const typename mesh::Surface<dim>::Field                 &positions);
-  } // namespace state
-} // namespace snug
+namespace snug::state {
+/**
+ * The faces of (body, boundary) pairs in smooth patches: two faces that
+ * share a node are in one patch if their normals there are less than 40
+ * degrees apart, unless they lie on different boundaries that are both
+ * flat. Each patch: ascending indices of surface.faces().
+ */
+template <int dim>
+std::vector<std::vector<unsigned int>>
+smooth_sides(const mesh::Surface<dim>                                 &surface,
+             const std::vector<std::pair<unsigned int, unsigned int>> &boundaries,
+             const contact::FaceShape<dim>                            &shape,
+             const typename mesh::Surface<dim>::Field                 &positions);
+} // namespace snug::state
 
 #endif

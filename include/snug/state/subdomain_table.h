@@ -7,17 +7,12 @@
 #include <string>
 #include <vector>
 
-namespace snug
-{
-  namespace state
-  {
-    /// The bodies of all subdomains, on all ranks. Collective.
-    template <int dim>
-    feti::SubdomainTable
-    subdomain_table(const mesh::BodyMesh<dim>      &mesh,
-                    const mesh::Tearing            &tearing,
-                    const std::vector<std::string> &body_names);
-  } // namespace state
-} // namespace snug
+namespace snug::state {
+/// The bodies of all subdomains, on all ranks. Collective.
+template <int dim>
+feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim>      &mesh,
+                                     const mesh::Tearing            &tearing,
+                                     const std::vector<std::string> &body_names);
+} // namespace snug::state
 
 #endif

@@ -7,25 +7,21 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::state {
+/// One displacement component held on one boundary of a body.
+template <int dim>
+struct Support
 {
-  namespace state
-  {
-    /// One displacement component held on one boundary of a body.
-    template <int dim>
-    struct Support
-    {
-      /// Component number of the nodal normal, which points outwards.
-      static constexpr unsigned int normal = dim;
+  /// Component number of the nodal normal, which points outwards.
+  static constexpr unsigned int normal = dim;
 
-      unsigned int body, boundary;
-      unsigned int component; ///< 0, 1, 2: x, y, z; or normal
-      /// Prescribed displacement [length] per load case as a function of the
-      /// reference position; zero where there is none.
-      std::vector<std::function<double(const dealii::Point<dim> &)>> values;
-      std::string name; ///< of what the user wrote, for messages
-    };
-  } // namespace state
-} // namespace snug
+  unsigned int body, boundary;
+  unsigned int component; ///< 0, 1, 2: x, y, z; or normal
+  /// Prescribed displacement [length] per load case as a function of the
+  /// reference position; zero where there is none.
+  std::vector<std::function<double(const dealii::Point<dim> &)>> values;
+  std::string name; ///< of what the user wrote, for messages
+};
+} // namespace snug::state
 
 #endif

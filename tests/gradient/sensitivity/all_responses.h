@@ -6,43 +6,38 @@
 #include <map>
 #include <string>
 
-namespace snug
+namespace snug::test {
+/// Every quantity of the table, some with several entries, by names.
+template <int dim>
+std::map<std::string, response::ResponseParameters> all_responses()
 {
-  namespace test
-  {
-    /// Every quantity of the table, some with several entries, by names.
-    template <int dim>
-    std::map<std::string, response::ResponseParameters>
-    all_responses()
+  std::map<std::string, response::ResponseParameters> result;
+  for (const auto &row : response::response_table<dim>())
     {
-      std::map<std::string, response::ResponseParameters> result;
-      for (const auto &row : response::response_table<dim>())
-        {
-          result[row.name].quantity = row.name;
-          // mild, so that differences are exact enough
-          result[row.name].exponent  = 5.;
-          result[row.name].smoothing = 0.5;
-        }
-      const std::string axis     = dim == 2 ? "y" : "z";
-      result["force"]            = result.at("contact force");
-      result["force"].component  = "x";
-      auto &displacement         = result.at("displacement");
-      result["normal on a face"] = displacement;
-      result["axial on a face"]  = displacement;
-      displacement.body          = "foundation";
-      displacement.component     = axis;
-      displacement.point         = {0.37, 0.72};
-      if (dim == 3)
-        displacement.point = {0.37, 0.44, 0.72};
-      result["normal on a face"].face     = "foundation.right";
-      result["axial on a face"].face      = "foundation.top";
-      result["axial on a face"].component = axis;
-      result["volume of a body"]          = result.at("volume");
-      result["volume of a body"].body     = "foundation";
-      result.at("von Mises norm").body    = "foundation";
-      return result;
+      result[row.name].quantity = row.name;
+      // mild, so that differences are exact enough
+      result[row.name].exponent  = 5.;
+      result[row.name].smoothing = 0.5;
     }
-  } // namespace test
-} // namespace snug
+  const std::string axis     = dim == 2 ? "y" : "z";
+  result["force"]            = result.at("contact force");
+  result["force"].component  = "x";
+  auto &displacement         = result.at("displacement");
+  result["normal on a face"] = displacement;
+  result["axial on a face"]  = displacement;
+  displacement.body          = "foundation";
+  displacement.component     = axis;
+  displacement.point         = {0.37, 0.72};
+  if (dim == 3)
+    displacement.point = {0.37, 0.44, 0.72};
+  result["normal on a face"].face     = "foundation.right";
+  result["axial on a face"].face      = "foundation.top";
+  result["axial on a face"].component = axis;
+  result["volume of a body"]          = result.at("volume");
+  result["volume of a body"].body     = "foundation";
+  result.at("von Mises norm").body    = "foundation";
+  return result;
+}
+} // namespace snug::test
 
 #endif

@@ -5,113 +5,97 @@
 
 #include <gradient/sensitivity/differences.h>
 
-namespace snug
+namespace snug::test {
+/// Relative errors against differences of states solved to 1e-12: u' and
+/// what follows from it is limited by round-off over the step, the energy's
+/// error is of second order.
+constexpr double direct_tolerance = 1e-7;
+constexpr double energy_tolerance = 1e-8;
+/// between the methods, which solve the same system or its transpose
+constexpr double method_tolerance = 1e-10;
+constexpr double difference_step  = 2e-4;
+
+/// Displacement derivative along @p direction at the nodes of this rank's
+/// cells.
+template <int dim>
+typename mesh::BodyMesh<dim>::Field nodal(const Problem<dim>            &problem,
+                                          const sensitivity::KktVectors &derivatives,
+                                          const std::vector<double>     &direction)
 {
-  namespace test
-  {
-    /// Relative errors against differences of states solved to 1e-12: u' and
-    /// what follows from it is limited by round-off over the step, the energy's
-    /// error is of second order.
-    constexpr double direct_tolerance = 1e-7;
-    constexpr double energy_tolerance = 1e-8;
-    /// between the methods, which solve the same system or its transpose
-    constexpr double method_tolerance = 1e-10;
-    constexpr double difference_step  = 2e-4;
-
-    /// Displacement derivative along @p direction at the nodes of this rank's
-    /// cells.
-    template <int dim>
-    typename mesh::BodyMesh<dim>::Field
-    nodal(const Problem<dim>            &problem,
-          const sensitivity::KktVectors &derivatives,
-          const std::vector<double>     &direction)
+  typename mesh::BodyMesh<dim>::Field field(problem.mesh.n_local_nodes());
+  for (unsigned int j = 0; j < direction.size(); ++j)
     {
-      typename mesh::BodyMesh<dim>::Field field(problem.mesh.n_local_nodes());
-      for (unsigned int j = 0; j < direction.size(); ++j)
-        {
-          const auto column =
-            state::nodal_values(problem.solver, derivatives.primal, j);
-          for (unsigned int node = 0; node < field.size(); ++node)
-            field[node] += direction[j] * column[node];
-        }
-      return field;
+      const auto column = state::nodal_values(problem.solver, derivatives.primal, j);
+      for (unsigned int node = 0; node < field.size(); ++node)
+        field[node] += direction[j] * column[node];
     }
+  return field;
+}
 
-    template <int dim>
-    double
-    field_error(const Problem<dim>                        &problem,
-                const typename mesh::BodyMesh<dim>::Field &a,
-                const typename mesh::BodyMesh<dim>::Field &b)
-    {
-      double error = 0., largest = 0.;
-      for (const auto &cell : problem.mesh.cells())
-        for (const unsigned int node : cell.nodes)
-          {
-            error   = std::max(error, (a[node] - b[node]).norm());
-            largest = std::max(largest, b[node].norm());
-          }
-      const MPI_Comm comm = problem.mesh.communicator();
-      return dealii::Utilities::MPI::max(error, comm) /
-             dealii::Utilities::MPI::max(largest, comm);
-    }
+template <int dim>
+double field_error(const Problem<dim>                        &problem,
+                   const typename mesh::BodyMesh<dim>::Field &a,
+                   const typename mesh::BodyMesh<dim>::Field &b)
+{
+  double error = 0., largest = 0.;
+  for (const auto &cell : problem.mesh.cells())
+    for (const unsigned int node : cell.nodes)
+      {
+        error   = std::max(error, (a[node] - b[node]).norm());
+        largest = std::max(largest, b[node].norm());
+      }
+  const MPI_Comm comm = problem.mesh.communicator();
+  return dealii::Utilities::MPI::max(error, comm) / dealii::Utilities::MPI::max(largest, comm);
+}
 
-    /// Gradients of all responses by all exact methods that apply.
-    template <int dim>
-    std::map<std::pair<std::string, std::string>, std::vector<double>>
-    all_gradients(GradientScene<dim>             &scene,
-                  const state::ContactState<dim> &state)
+/// Gradients of all responses by all exact methods that apply.
+template <int dim>
+std::map<std::pair<std::string, std::string>, std::vector<double>>
+all_gradients(GradientScene<dim> &scene, const state::ContactState<dim> &state)
+{
+  std::map<std::pair<std::string, std::string>, std::vector<double>> result;
+  sensitivity::GradientParameters                                    parameters;
+  for (const auto &method : {"adjoint", "direct", "energy"})
     {
-      std::map<std::pair<std::string, std::string>, std::vector<double>> result;
-      sensitivity::GradientParameters parameters;
-      for (const auto &method : {"adjoint", "direct", "energy"})
-        {
-          std::vector<std::string> names;
-          for (const auto &[name, response] : scene.responses)
-            if (method != std::string("energy") ||
-                !sensitivity::needs_solve(*response))
-              names.push_back(name);
-          parameters.method = method;
-          const auto found  = scene.gradients(state, names, parameters);
-          for (unsigned int i = 0; i < names.size(); ++i)
-            result[{names[i], method}] = found.of_response[i].values;
-        }
-      return result;
-    }
-
-    template <int dim>
-    void
-    check_derivatives(GradientScene<dim> &scene)
-    {
-      const auto state = scene.solve(scene.design);
-      ASSERT_EQ(state.weak_contacts, 0u);
-      ASSERT_GT(state.active_contacts, 1u);
-      ASSERT_LT(state.active_contacts, state.contact.size());
-      const sensitivity::GradientParameters parameters;
-      const auto                            derivatives =
-        sensitivity::state_derivatives(scene.at(state, parameters));
-      const auto gradients = all_gradients(scene, state);
+      std::vector<std::string> names;
       for (const auto &[name, response] : scene.responses)
-        EXPECT_LT(relative_error(gradients.at({name, "adjoint"}),
-                                 gradients.at({name, "direct"})),
-                  method_tolerance)
-          << name;
-      for (const auto &direction : test_directions(scene.basis->n_variables()))
-        {
-          const auto exact = scene.differences(direction, difference_step);
-          EXPECT_LT(field_error(scene.problem,
-                                nodal(scene.problem, derivatives, direction),
-                                exact.displacement),
-                    direct_tolerance);
-          for (const auto &[key, gradient] : gradients)
-            EXPECT_LT(std::abs(dot(gradient, direction) -
-                               exact.responses.at(key.first)) /
-                        (norm(gradient) * norm(direction)),
-                      key.second == "energy" ? energy_tolerance
-                                             : direct_tolerance)
-              << key.first << " by " << key.second;
-        }
+        if (method != std::string("energy") || !sensitivity::needs_solve(*response))
+          names.push_back(name);
+      parameters.method = method;
+      const auto found  = scene.gradients(state, names, parameters);
+      for (unsigned int i = 0; i < names.size(); ++i)
+        result[{names[i], method}] = found.of_response[i].values;
     }
-  } // namespace test
-} // namespace snug
+  return result;
+}
+
+template <int dim>
+void check_derivatives(GradientScene<dim> &scene)
+{
+  const auto state = scene.solve(scene.design);
+  ASSERT_EQ(state.weak_contacts, 0u);
+  ASSERT_GT(state.active_contacts, 1u);
+  ASSERT_LT(state.active_contacts, state.contact.size());
+  const sensitivity::GradientParameters parameters;
+  const auto derivatives = sensitivity::state_derivatives(scene.at(state, parameters));
+  const auto gradients   = all_gradients(scene, state);
+  for (const auto &[name, response] : scene.responses)
+    EXPECT_LT(relative_error(gradients.at({name, "adjoint"}), gradients.at({name, "direct"})),
+              method_tolerance)
+      << name;
+  for (const auto &direction : test_directions(scene.basis->n_variables()))
+    {
+      const auto exact = scene.differences(direction, difference_step);
+      EXPECT_LT(field_error(scene.problem, nodal(scene.problem, derivatives, direction),
+                            exact.displacement),
+                direct_tolerance);
+      for (const auto &[key, gradient] : gradients)
+        EXPECT_LT(std::abs(dot(gradient, direction) - exact.responses.at(key.first)) /
+                    (norm(gradient) * norm(direction)),
+                  key.second == "energy" ? energy_tolerance : direct_tolerance)
+          << key.first << " by " << key.second;
+    }
+}
+} // namespace snug::test
 
 #endif

@@ -5,59 +5,46 @@
 
 #include <set>
 
-namespace snug
+namespace snug::test {
+/// Adjoint and direct gradients of all responses against each other and
+/// against differences along one direction. Those of @p sensitive must be
+/// able to change by more than a hundredth of their value within the
+/// bounds.
+template <int dim>
+void check_responses(GradientScene<dim> &scene, const std::set<std::string> &sensitive = {})
 {
-  namespace test
-  {
-    /// Adjoint and direct gradients of all responses against each other and
-    /// against differences along one direction. Those of @p sensitive must be
-    /// able to change by more than a hundredth of their value within the
-    /// bounds.
-    template <int dim>
-    void
-    check_responses(GradientScene<dim>          &scene,
-                    const std::set<std::string> &sensitive = {})
+  std::vector<std::string> names;
+  for (const auto &[name, parameters] : all_responses<dim>())
+    scene.responses[name] = response::make_response<dim>(parameters);
+  for (const auto &[name, response] : scene.responses)
+    names.push_back(name);
+  const auto state = scene.solve(scene.design);
+  ASSERT_EQ(state.weak_contacts, 0u);
+  ASSERT_GT(state.active_contacts, 1u);
+
+  sensitivity::GradientParameters parameters;
+  parameters.method  = "adjoint";
+  const auto adjoint = scene.gradients(state, names, parameters).of_response;
+  parameters.method  = "direct";
+  const auto direct  = scene.gradients(state, names, parameters).of_response;
+
+  const auto direction = test_directions(scene.basis->n_variables()).front();
+  const auto exact     = scene.differences(direction, difference_step / 2);
+  for (unsigned int i = 0; i < names.size(); ++i)
     {
-      std::vector<std::string> names;
-      for (const auto &[name, parameters] : all_responses<dim>())
-        scene.responses[name] = response::make_response<dim>(parameters);
-      for (const auto &[name, response] : scene.responses)
-        names.push_back(name);
-      const auto state = scene.solve(scene.design);
-      ASSERT_EQ(state.weak_contacts, 0u);
-      ASSERT_GT(state.active_contacts, 1u);
-
-      sensitivity::GradientParameters parameters;
-      parameters.method = "adjoint";
-      const auto adjoint =
-        scene.gradients(state, names, parameters).of_response;
-      parameters.method = "direct";
-      const auto direct = scene.gradients(state, names, parameters).of_response;
-
-      const auto direction =
-        test_directions(scene.basis->n_variables()).front();
-      const auto exact = scene.differences(direction, difference_step / 2);
-      for (unsigned int i = 0; i < names.size(); ++i)
+      SCOPED_TRACE(names[i]);
+      const auto &gradient = adjoint[i].values;
+      EXPECT_LT(relative_error(gradient, direct[i].values), method_tolerance);
+      EXPECT_LT(std::abs(dot(gradient, direction) - exact.responses.at(names[i])) /
+                  (norm(gradient) * norm(direction)),
+                direct_tolerance);
+      if (sensitive.count(names[i]) > 0)
         {
-          SCOPED_TRACE(names[i]);
-          const auto &gradient = adjoint[i].values;
-          EXPECT_LT(relative_error(gradient, direct[i].values),
-                    method_tolerance);
-          EXPECT_LT(std::abs(dot(gradient, direction) -
-                             exact.responses.at(names[i])) /
-                      (norm(gradient) * norm(direction)),
-                    direct_tolerance);
-          if (sensitive.count(names[i]) > 0)
-            {
-              const double value =
-                scene.responses.at(names[i])->value(scene.problem.solver,
-                                                    state);
-              EXPECT_GT(norm(gradient) * scene.widths[0],
-                        0.01 * std::abs(value));
-            }
+          const double value = scene.responses.at(names[i])->value(scene.problem.solver, state);
+          EXPECT_GT(norm(gradient) * scene.widths[0], 0.01 * std::abs(value));
         }
     }
-  } // namespace test
-} // namespace snug
+}
+} // namespace snug::test
 
 #endif

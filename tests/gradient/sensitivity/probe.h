@@ -7,75 +7,66 @@
 
 #include <unit/state/test_scene.h>
 
-namespace snug
+namespace snug::test {
+/**
+ * A response of everything a response may depend on, without a meaning:
+ * sum_a (b_a . u_a + b_a . X_a) over the copies of all nodes and
+ * sum_i (c_i p_i + p_i^2 / 10) over the contact forces p_i, with numbers
+ * b, c made of indices.
+ */
+template <int dim>
+class Probe : public response::Response<dim>
 {
-  namespace test
-  {
-    /**
-     * A response of everything a response may depend on, without a meaning:
-     * sum_a (b_a . u_a + b_a . X_a) over the copies of all nodes and
-     * sum_i (c_i p_i + p_i^2 / 10) over the contact forces p_i, with numbers
-     * b, c made of indices.
-     */
-    template <int dim>
-    class Probe : public response::Response<dim>
-    {
-    public:
-      double
-      value(const state::StateSolver<dim>  &solver,
-            const state::ContactState<dim> &state) const override
-      {
-        double sum = 0.;
-        for (unsigned int s = 0; s < state.u.size(); ++s)
-          {
-            const auto &nodes = solver.tearing().subdomains[s].nodes;
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int c = 0; c < dim; ++c)
-                sum += weight(solver, nodes[a], c) *
-                       (state.u[s](dim * a + c) + state.positions[nodes[a]][c]);
-          }
-        sum = dealii::Utilities::MPI::sum(sum, solver.context().communicator());
-        for (unsigned int i = 0; i < state.contact.size(); ++i)
-          {
-            const double p = state.contact[i].force;
-            sum += std::cos(i) * p + p * p / 10;
-          }
-        return sum;
-      }
-
-      response::Partials<dim>
-      partials(const state::StateSolver<dim>  &solver,
+public:
+  double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
+  {
+    double sum = 0.;
+    for (unsigned int s = 0; s < state.u.size(); ++s)
       {
-        response::Partials<dim> result;
-        result.positions.resize(solver.mesh().n_local_nodes());
-        for (unsigned int s = 0; s < state.u.size(); ++s)
-          {
-            const auto &nodes = solver.tearing().subdomains[s].nodes;
-            result.u.emplace_back(state.u[s].n_rows());
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  const double b           = weight(solver, nodes[a], c);
-                  result.u[s](dim * a + c) = b;
-                  result.positions[nodes[a]][c] += b;
-                }
-          }
-        for (unsigned int i = 0; i < state.contact.size(); ++i)
-          result.forces.push_back(std::cos(i) + state.contact[i].force / 5);
-        return result;
+        const auto &nodes = solver.tearing().subdomains[s].nodes;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          for (unsigned int c = 0; c < dim; ++c)
+            sum += weight(solver, nodes[a], c) *
+                   (state.u[s](dim * a + c) + state.positions[nodes[a]][c]);
       }
+    sum = dealii::Utilities::MPI::sum(sum, solver.context().communicator());
+    for (unsigned int i = 0; i < state.contact.size(); ++i)
+      {
+        const double p = state.contact[i].force;
+        sum += std::cos(i) * p + p * p / 10;
+      }
+    return sum;
+  }
 
-    private:
-      static double
-      weight(const state::StateSolver<dim> &solver,
-             unsigned int                   node,
-             unsigned int                   c)
+  response::Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                                   const state::ContactState<dim> &state) const override
+  {
+    response::Partials<dim> result;
+    result.positions.resize(solver.mesh().n_local_nodes());
+    for (unsigned int s = 0; s < state.u.size(); ++s)
       {
-        return std::sin(solver.mesh().global_node(node) + 2. * c);
+        const auto &nodes = solver.tearing().subdomains[s].nodes;
+        result.u.emplace_back(state.u[s].n_rows());
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double b           = weight(solver, nodes[a], c);
+              result.u[s](dim * a + c) = b;
+              result.positions[nodes[a]][c] += b;
+            }
       }
-    };
-  } // namespace test
-} // namespace snug
+    for (unsigned int i = 0; i < state.contact.size(); ++i)
+      result.forces.push_back(std::cos(i) + state.contact[i].force / 5);
+    return result;
+  }
+
+private:
+  static double weight(const state::StateSolver<dim> &solver, unsigned int node, unsigned int c)
+  {
+    return std::sin(solver.mesh().global_node(node) + 2. * c);
+  }
+};
+} // namespace snug::test
 
 #endif

@@ -11,46 +11,37 @@
 
 using namespace snug;
 
-namespace
+namespace {
+app::Options parse(std::initializer_list<const char *> arguments)
 {
-  app::Options
-  parse(std::initializer_list<const char *> arguments)
-  {
-    std::vector<const char *> argv = {"snug"};
-    argv.insert(argv.end(), arguments);
-    return app::parse(argv.size(), argv.data());
-  }
+  std::vector<const char *> argv = {"snug"};
+  argv.insert(argv.end(), arguments);
+  return app::parse(argv.size(), argv.data());
+}
 
-  std::string
-  error_of(std::initializer_list<const char *> arguments)
-  {
-    try
-      {
-        parse(arguments);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
+std::string error_of(std::initializer_list<const char *> arguments)
+{
+  try
+    {
+      parse(arguments);
+    }
+  catch (const InputError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
 } // namespace
 
 TEST(CommandLine, TakesOptionsInAnyOrder)
 {
-  const auto options = parse({"--set",
-                              "Task=state",
-                              "a.prm",
-                              "--output=there",
-                              "--set=Body a/Box cells=1,1",
-                              "--restart"});
+  const auto options = parse(
+    {"--set", "Task=state", "a.prm", "--output=there", "--set=Body a/Box cells=1,1", "--restart"});
   EXPECT_EQ(options.file, "a.prm");
-  EXPECT_EQ(options.sets,
-            (std::vector<std::string>{"Task=state", "Body a/Box cells=1,1"}));
+  EXPECT_EQ(options.sets, (std::vector<std::string>{"Task=state", "Body a/Box cells=1,1"}));
   EXPECT_EQ(options.output, "there");
   EXPECT_TRUE(options.restart);
-  EXPECT_FALSE(options.validate || options.print_parameters || options.help ||
-               options.version);
+  EXPECT_FALSE(options.validate || options.print_parameters || options.help || options.version);
 }
 
 TEST(CommandLine, TakesQuestionsWithoutAFile)
@@ -87,16 +78,14 @@ TEST(Failure, StatusFollowsTheKindOfError)
 TEST(Failure, MessagesAreOneLine)
 {
   EXPECT_EQ(app::one_line(SolveError("two\nlines  ")), "two lines");
-  EXPECT_EQ(app::one_line(dealii::ExcMessage("deal.II says so")),
-            "deal.II says so");
+  EXPECT_EQ(app::one_line(dealii::ExcMessage("deal.II says so")), "deal.II says so");
 }
 
 TEST(Failure, ErrorsOfAllRanksBecomeAStatus)
 {
   EXPECT_EQ(app::guarded(MPI_COMM_WORLD, []() { return 0; }), 0);
   ::testing::internal::CaptureStderr();
-  const int status =
-    app::guarded(MPI_COMM_WORLD, []() -> int { throw SolveError("no"); });
+  const int status = app::guarded(MPI_COMM_WORLD, []() -> int { throw SolveError("no"); });
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "snug: no\n");
   EXPECT_EQ(status, 3);
 }

@@ -11,14 +11,12 @@
 using namespace snug;
 using namespace snug::test;
 
-namespace
+namespace {
+/// Two blocks; the upper one is free along z and, without rollers, in all
+/// but that contact holds it.
+std::string two_blocks(bool rollers)
 {
-  /// Two blocks; the upper one is free along z and, without rollers, in all
-  /// but that contact holds it.
-  std::string
-  two_blocks(bool rollers)
-  {
-    return std::string(R"(
+  return std::string(R"(
 set Dimension = 3
 set Bodies = upper, lower
 subsection Body upper
@@ -27,7 +25,7 @@ subsection Body upper
   set Young's modulus = 1000
   set Pressure = top: 1
 )") + (rollers ? "set Supports = left: x, front: y\n" : "") +
-           R"(
+         R"(
 end
 subsection Body lower
   set Box cells = 4, 4, 4
@@ -38,60 +36,52 @@ subsection Contact
   set Pairs = upper.bottom: lower.top
 end
 )";
-  }
+}
 
-  void
-  expect_certified_balance(const SolvedScene<3> &solved)
-  {
-    EXPECT_LE(solved.state.certificate.worst(), 1e-10);
-    EXPECT_NEAR(solved.state.contact_force[2], 1., 1e-9);
-  }
+void expect_certified_balance(const SolvedScene<3> &solved)
+{
+  EXPECT_LE(solved.state.certificate.worst(), 1e-10);
+  EXPECT_NEAR(solved.state.contact_force[2], 1., 1e-9);
+}
 
-  /// Blocks of width 1 in 2D, one on the other, each with its weight; the
-  /// lowest stands on an obstacle.
-  std::string
-  stack(unsigned int n)
-  {
-    std::string bodies, sections, pairs = "b0.bottom: floor";
-    for (unsigned int b = 0; b < n; ++b)
-      {
-        const std::string name = "b" + std::to_string(b);
-        bodies += (b == 0 ? "" : ", ") + name;
-        sections += "subsection Body " + name + "\nset Box corner = 0, " +
-                    std::to_string(b) +
-                    "\nset Box cells = " + std::to_string(3 + b % 2) +
-                    ", 3\nset Young's modulus = 1000\nset Body force = 0, -" +
-                    std::to_string(b + 1) + "\nend\n";
-        if (b > 0)
-          pairs += ", b" + std::to_string(b) + ".bottom: b" +
-                   std::to_string(b - 1) + ".top";
-      }
-    return "set Dimension = 2\nset Bodies = " + bodies +
-           "\nset Obstacles = floor\n" + sections +
-           "subsection Contact\nset Slave = first\nset Pairs = " + pairs +
-           "\nend\n";
-  }
+/// Blocks of width 1 in 2D, one on the other, each with its weight; the
+/// lowest stands on an obstacle.
+std::string stack(unsigned int n)
+{
+  std::string bodies, sections, pairs = "b0.bottom: floor";
+  for (unsigned int b = 0; b < n; ++b)
+    {
+      const std::string name = "b" + std::to_string(b);
+      bodies += (b == 0 ? "" : ", ") + name;
+      sections += "subsection Body " + name + "\nset Box corner = 0, " + std::to_string(b) +
+                  "\nset Box cells = " + std::to_string(3 + b % 2) +
+                  ", 3\nset Young's modulus = 1000\nset Body force = 0, -" + std::to_string(b + 1) +
+                  "\nend\n";
+      if (b > 0)
+        pairs += ", b" + std::to_string(b) + ".bottom: b" + std::to_string(b - 1) + ".top";
+    }
+  return "set Dimension = 2\nset Bodies = " + bodies + "\nset Obstacles = floor\n" + sections +
+         "subsection Contact\nset Slave = first\nset Pairs = " + pairs + "\nend\n";
+}
 
-  std::string
-  error_of_solving(const std::string &text)
-  {
-    try
-      {
-        SolvedScene<2> solved(text);
-      }
-    catch (const SolveError &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
+std::string error_of_solving(const std::string &text)
+{
+  try
+    {
+      SolvedScene<2> solved(text);
+    }
+  catch (const SolveError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
 } // namespace
 
 TEST(FloatingBlock, ClosesFlatAndWedgeGaps)
 {
   for (const std::string gap : {"0.01", "0.01 + 0.02 * x"})
-    expect_certified_balance(
-      SolvedScene<3>(two_blocks(true), with({"Contact/Gap=" + gap})));
+    expect_certified_balance(SolvedScene<3>(two_blocks(true), with({"Contact/Gap=" + gap})));
 }
 
 TEST(FloatingBlock, TurnsUntilAWedgeIsClosed)
@@ -99,19 +89,13 @@ TEST(FloatingBlock, TurnsUntilAWedgeIsClosed)
   // Only contact holds the block; it turns by 0.02, and no more than where the
   // blocks meet without a gap.
   const SolvedScene<3> flat(two_blocks(false), exact);
-  const SolvedScene<3> wedge(two_blocks(false),
-                             with({"Contact/Gap=0.01 + 0.02 * x"}));
+  const SolvedScene<3> wedge(two_blocks(false), with({"Contact/Gap=0.01 + 0.02 * x"}));
   expect_certified_balance(flat);
   expect_certified_balance(wedge);
-  EXPECT_NEAR(wedge.state.strain_energy,
-              flat.state.strain_energy,
-              1e-8 * flat.state.strain_energy);
+  EXPECT_NEAR(wedge.state.strain_energy, flat.state.strain_energy, 1e-8 * flat.state.strain_energy);
   // the load sinks by the mean gap
   EXPECT_NEAR(wedge.state.compliance - flat.state.compliance, 0.02, 1e-9);
-  EXPECT_NEAR(wedge.state.assumptions.rotation -
-                flat.state.assumptions.rotation,
-              0.02,
-              2e-3);
+  EXPECT_NEAR(wedge.state.assumptions.rotation - flat.state.assumptions.rotation, 0.02, 2e-3);
 }
 
 TEST(Stack, CarriesTheWeightOfAllThatLiesAbove)
@@ -138,8 +122,7 @@ TEST(Stack, BodiesThatNothingHoldsAreNamed)
   auto              loose = three;
   const std::string floor = "b0.bottom: floor, ";
   loose.erase(loose.find(floor), floor.size());
-  EXPECT_NE(error_of_solving(loose).find("escapes: translation (0 -1)"),
-            std::string::npos);
+  EXPECT_NE(error_of_solving(loose).find("escapes: translation (0 -1)"), std::string::npos);
   // one that lies beside the stack without touching it
   auto              beside = three;
   const std::string upper  = ", b2.bottom: b1.top";
@@ -244,8 +227,7 @@ end
   const auto lines = state::warnings(assumptions);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].find("strains are up to 0.4"), 0u) << lines[0];
-  EXPECT_EQ(lines[1].find("active contacts slide by up to 0.62 of a face"), 0u)
-    << lines[1];
+  EXPECT_EQ(lines[1].find("active contacts slide by up to 0.62 of a face"), 0u) << lines[1];
 }
 
 TEST(Warnings, OfDesignsThatLeaveTheirPairing)

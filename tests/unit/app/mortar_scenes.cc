@@ -5,14 +5,12 @@
 using namespace snug;
 using namespace snug::test;
 
-namespace
+namespace {
+/// A quarter of a sphere on a block of other faces.
+std::string sphere_on_block(const std::string &bodies = "upper, lower",
+                            const std::string &method = "mortar")
 {
-  /// A quarter of a sphere on a block of other faces.
-  std::string
-  sphere_on_block(const std::string &bodies = "upper, lower",
-                  const std::string &method = "mortar")
-  {
-    return "set Dimension = 3\nset Bodies = " + bodies + R"(
+  return "set Dimension = 3\nset Bodies = " + bodies + R"(
 subsection Body upper
   set Box corner = 0, 0, 1
   set Box cells = 4, 4, 3
@@ -28,66 +26,59 @@ subsection Body lower
 end
 subsection Contact
   set Method = )" +
-           method + R"(
+         method + R"(
   set Slave = first
   set Pairs = lower.top: upper.bottom
 end
 )";
-  }
+}
 
-  const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
+const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
 
-  /// Of the pressures of two states, in the order of the rows, relative to the
-  /// largest.
-  double
-  largest_difference(const SolvedScene<3> &a, const SolvedScene<3> &b)
-  {
-    EXPECT_EQ(a.state.contact.size(), b.state.contact.size());
-    double worst = 0.;
-    for (unsigned int i = 0; i < a.state.contact.size(); ++i)
-      worst = std::max(worst,
-                       std::abs(a.state.contact[i].pressure -
-                                b.state.contact[i].pressure));
-    return worst / a.state.max_pressure;
-  }
+/// Of the pressures of two states, in the order of the rows, relative to the
+/// largest.
+double largest_difference(const SolvedScene<3> &a, const SolvedScene<3> &b)
+{
+  EXPECT_EQ(a.state.contact.size(), b.state.contact.size());
+  double worst = 0.;
+  for (unsigned int i = 0; i < a.state.contact.size(); ++i)
+    worst = std::max(worst, std::abs(a.state.contact[i].pressure - b.state.contact[i].pressure));
+  return worst / a.state.max_pressure;
+}
 
-  void
-  expect_invariance(const std::string &method)
-  {
-    SCOPED_TRACE(method);
-    const std::string    text = sphere_on_block("upper, lower", method);
-    const SolvedScene<3> here(text, sharp);
-    EXPECT_GT(here.state.active_contacts, 6u);
-    EXPECT_LT(largest_difference(here, {text, sharp, some_motion()}), 1e-9);
-    Motion<3> to_millimetres;
-    to_millimetres.factor = 1000.;
-    EXPECT_LT(largest_difference(here, {text, sharp, to_millimetres}), 1e-9);
-    const SolvedScene<3> turned_round(sphere_on_block("lower, upper", method),
-                                      sharp);
-    EXPECT_LT(largest_difference(here, turned_round), 1e-9);
-  }
+void expect_invariance(const std::string &method)
+{
+  SCOPED_TRACE(method);
+  const std::string    text = sphere_on_block("upper, lower", method);
+  const SolvedScene<3> here(text, sharp);
+  EXPECT_GT(here.state.active_contacts, 6u);
+  EXPECT_LT(largest_difference(here, {text, sharp, some_motion()}), 1e-9);
+  Motion<3> to_millimetres;
+  to_millimetres.factor = 1000.;
+  EXPECT_LT(largest_difference(here, {text, sharp, to_millimetres}), 1e-9);
+  const SolvedScene<3> turned_round(sphere_on_block("lower, upper", method), sharp);
+  EXPECT_LT(largest_difference(here, turned_round), 1e-9);
+}
 
-  void
-  expect_same_iterations(const std::string &method)
-  {
-    SCOPED_TRACE(method);
-    const std::string text = sphere_on_block("upper, lower", method);
-    Motion<3>         larger;
-    larger.factor = 32.;
-    const SolvedScene<3> here(text), there(text, {}, larger);
-    const SolvedScene<3> stiff(text,
-                               {"Body upper/Young's modulus=8192000",
-                                "Body lower/Young's modulus=8192000",
-                                "Body upper/Pressure=top: 8192"});
-    EXPECT_EQ(here.state.f_mults, there.state.f_mults);
-    EXPECT_EQ(here.state.f_mults, stiff.state.f_mults);
-    for (unsigned int i = 0; i < here.state.contact.size(); ++i)
-      {
-        const double p = here.state.contact[i].pressure;
-        EXPECT_EQ(p, there.state.contact[i].pressure);
-        EXPECT_EQ(8192. * p, stiff.state.contact[i].pressure);
-      }
-  }
+void expect_same_iterations(const std::string &method)
+{
+  SCOPED_TRACE(method);
+  const std::string text = sphere_on_block("upper, lower", method);
+  Motion<3>         larger;
+  larger.factor = 32.;
+  const SolvedScene<3> here(text), there(text, {}, larger);
+  const SolvedScene<3> stiff(text, {"Body upper/Young's modulus=8192000",
+                                    "Body lower/Young's modulus=8192000",
+                                    "Body upper/Pressure=top: 8192"});
+  EXPECT_EQ(here.state.f_mults, there.state.f_mults);
+  EXPECT_EQ(here.state.f_mults, stiff.state.f_mults);
+  for (unsigned int i = 0; i < here.state.contact.size(); ++i)
+    {
+      const double p = here.state.contact[i].pressure;
+      EXPECT_EQ(p, there.state.contact[i].pressure);
+      EXPECT_EQ(8192. * p, stiff.state.contact[i].pressure);
+    }
+}
 } // namespace
 
 TEST(SphereOnBlock, DoesNotDependOnPlaceUnitsAndOrder)

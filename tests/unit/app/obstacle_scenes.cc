@@ -7,11 +7,10 @@
 using namespace snug;
 using namespace snug::test;
 
-namespace
-{
-  /// A block pressed into the corner of three planes and, from above, by a
-  /// ball that comes down; nothing else holds it.
-  const std::string corner_scene = R"(
+namespace {
+/// A block pressed into the corner of three planes and, from above, by a
+/// ball that comes down; nothing else holds it.
+const std::string corner_scene = R"(
 set Dimension = 3
 set Bodies = block
 set Obstacles = floor, wall, side, ball
@@ -37,8 +36,8 @@ subsection Contact
 end
 )";
 
-  /// A quarter of a block under a ball that comes down by 0.004.
-  const std::string punched_block = R"(
+/// A quarter of a block under a ball that comes down by 0.004.
+const std::string punched_block = R"(
 set Dimension = 3
 set Bodies = block
 set Obstacles = ball
@@ -90,24 +89,19 @@ subsection Contact
   set Gap = -0.004
 end
 )";
-  const SolvedScene<3> obstacle(punched_block,
-                                {"Solver/Relative tolerance=1e-8"});
+  const SolvedScene<3> obstacle(punched_block, {"Solver/Relative tolerance=1e-8"});
   const SolvedScene<3> body(stiff, {"Solver/Relative tolerance=1e-8"});
   EXPECT_GT(body.state.active_contacts, 8u);
   EXPECT_EQ(obstacle.state.active_contacts, body.state.active_contacts);
-  EXPECT_NEAR(obstacle.state.contact_force.norm(),
-              body.state.contact_force.norm(),
+  EXPECT_NEAR(obstacle.state.contact_force.norm(), body.state.contact_force.norm(),
               1e-3 * body.state.contact_force.norm());
-  EXPECT_NEAR(obstacle.state.max_pressure,
-              body.state.max_pressure,
-              1e-3 * body.state.max_pressure);
+  EXPECT_NEAR(obstacle.state.max_pressure, body.state.max_pressure, 1e-3 * body.state.max_pressure);
 }
 
 TEST(Obstacles, TouchBarelyOrNotAtAll)
 {
   const auto moved = [](const std::string &distance) {
-    return SolvedScene<3>(punched_block,
-                          {"Obstacle ball/Displacement=0, 0, " + distance});
+    return SolvedScene<3>(punched_block, {"Obstacle ball/Displacement=0, 0, " + distance});
   };
   for (const std::string distance : {"0", "0.01"})
     {
@@ -119,8 +113,7 @@ TEST(Obstacles, TouchBarelyOrNotAtAll)
   const auto light = moved("-1e-9"), heavy = moved("-1e-6");
   EXPECT_EQ(heavy.state.active_contacts, 1u);
   EXPECT_GT(heavy.state.contact_force.norm(), 0.);
-  EXPECT_NEAR(1e3 * light.state.contact_force.norm(),
-              heavy.state.contact_force.norm(),
+  EXPECT_NEAR(1e3 * light.state.contact_force.norm(), heavy.state.contact_force.norm(),
               1e-5 * heavy.state.contact_force.norm());
 }
 
@@ -139,18 +132,12 @@ TEST(Obstacles, DoNotDependOnPlaceAndUnits)
     {
       const auto &point = there.state.contact[i];
       EXPECT_NEAR(point.pressure, here.state.contact[i].pressure, 1e-9 * p);
-      EXPECT_NEAR(point.pressure,
-                  in_millimetres.state.contact[i].pressure,
-                  1e-9 * p);
+      EXPECT_NEAR(point.pressure, in_millimetres.state.contact[i].pressure, 1e-9 * p);
     }
-  EXPECT_NEAR(there.state.energy,
-              here.state.energy,
-              1e-9 * std::abs(there.state.energy));
+  EXPECT_NEAR(there.state.energy, here.state.energy, 1e-9 * std::abs(there.state.energy));
   for (unsigned int pair = 0; pair < 4; ++pair)
-    EXPECT_NEAR(
-      (some_motion().turned(there.force(pair)) - here.force(pair)).norm(),
-      0.,
-      1e-9 * there.force(pair).norm());
+    EXPECT_NEAR((some_motion().turned(there.force(pair)) - here.force(pair)).norm(), 0.,
+                1e-9 * there.force(pair).norm());
 }
 
 TEST(Obstacles, PowersOfTwoTakeTheSameIterations)
@@ -160,8 +147,7 @@ TEST(Obstacles, PowersOfTwoTakeTheSameIterations)
   const SolvedScene<3> small(corner_scene, exact);
   const SolvedScene<3> large(corner_scene, exact, larger);
   EXPECT_EQ(small.state.f_mults, large.state.f_mults);
-  EXPECT_EQ(small.state.dual.outer_iterations,
-            large.state.dual.outer_iterations);
+  EXPECT_EQ(small.state.dual.outer_iterations, large.state.dual.outer_iterations);
   for (unsigned int i = 0; i < small.state.contact.size(); ++i)
     EXPECT_EQ(small.state.contact[i].pressure, large.state.contact[i].pressure);
 }

@@ -7,29 +7,26 @@
 using namespace snug;
 using namespace snug::contact;
 
-namespace
+namespace {
+using Polygon = ConvexCell<2, double>;
+
+const Polygon unit_square = {{{0., 0.}}, {{1., 0.}}, {{1., 1.}}, {{0., 1.}}};
+
+Polygon shifted(const Polygon &cell, double x, double y)
 {
-  using Polygon = ConvexCell<2, double>;
+  Polygon result = cell;
+  for (auto &vertex : result)
+    {
+      vertex[0] += x;
+      vertex[1] += y;
+    }
+  return result;
+}
 
-  const Polygon unit_square = {{{0., 0.}}, {{1., 0.}}, {{1., 1.}}, {{0., 1.}}};
-
-  Polygon
-  shifted(const Polygon &cell, double x, double y)
-  {
-    Polygon result = cell;
-    for (auto &vertex : result)
-      {
-        vertex[0] += x;
-        vertex[1] += y;
-      }
-    return result;
-  }
-
-  double
-  overlap(const Polygon &a, const Polygon &b)
-  {
-    return signed_measure<2>(intersection<2>(a, b));
-  }
+double overlap(const Polygon &a, const Polygon &b)
+{
+  return signed_measure<2>(intersection<2>(a, b));
+}
 } // namespace
 
 TEST(Clip, IntervalsMeetInTheirCommonPart)
@@ -46,20 +43,13 @@ TEST(Clip, IntervalsMeetInTheirCommonPart)
 
 TEST(Clip, AreasOfPolygonsAreExact)
 {
-  EXPECT_NEAR(overlap(unit_square, shifted(unit_square, 0.3, -0.2)),
-              0.7 * 0.8,
-              1e-15);
+  EXPECT_NEAR(overlap(unit_square, shifted(unit_square, 0.3, -0.2)), 0.7 * 0.8, 1e-15);
   // a diamond |x| + |y| <= 1 about the centre cut by the square about it
-  const Polygon diamond = {{{-0.2, 0.5}},
-                           {{0.5, -0.2}},
-                           {{1.2, 0.5}},
-                           {{0.5, 1.2}}};
+  const Polygon diamond = {{{-0.2, 0.5}}, {{0.5, -0.2}}, {{1.2, 0.5}}, {{0.5, 1.2}}};
   EXPECT_NEAR(overlap(unit_square, diamond), 2 * 0.49 - 4 * 0.04, 1e-15);
   EXPECT_NEAR(overlap(diamond, unit_square), 2 * 0.49 - 4 * 0.04, 1e-15);
-  EXPECT_TRUE(
-    intersection<2>(unit_square, shifted(unit_square, 1., 0.)).empty());
-  EXPECT_TRUE(
-    intersection<2>(unit_square, shifted(unit_square, 1.1, 1.1)).empty());
+  EXPECT_TRUE(intersection<2>(unit_square, shifted(unit_square, 1., 0.)).empty());
+  EXPECT_TRUE(intersection<2>(unit_square, shifted(unit_square, 1.1, 1.1)).empty());
 }
 
 TEST(Clip, CoincidingEdgesAreTheSubjects)
@@ -67,8 +57,7 @@ TEST(Clip, CoincidingEdgesAreTheSubjects)
   // but for round-off the same: the subject as it is, nothing of its neighbour
   const Polygon same = shifted(unit_square, 1e-15, -1e-15);
   EXPECT_EQ(intersection<2>(unit_square, same), unit_square);
-  EXPECT_TRUE(
-    intersection<2>(unit_square, shifted(unit_square, 1. - 1e-15, 0.)).empty());
+  EXPECT_TRUE(intersection<2>(unit_square, shifted(unit_square, 1. - 1e-15, 0.)).empty());
 }
 
 TEST(Clip, PiecesOfATilingAddUp)
@@ -107,6 +96,5 @@ TEST(Differential, ElementaryFunctions)
 TEST(FaceMap, FoldedFaceIsTangled)
 {
   const std::vector<FaceCoordinates<3, double>> line(4, {{0.3, 0.4}});
-  EXPECT_THROW((PlaneFace<3, double>(1, line).coordinates({{0., 0.}})),
-               TangledMesh);
+  EXPECT_THROW((PlaneFace<3, double>(1, line).coordinates({{0., 0.}})), TangledMesh);
 }

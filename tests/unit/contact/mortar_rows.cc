@@ -9,119 +9,104 @@
 using namespace snug;
 using namespace snug::contact;
 
-namespace
+namespace {
+template <int dim>
+struct MortarBoxes : public TwoBoxes<dim>
 {
-  template <int dim>
-  struct MortarBoxes : public TwoBoxes<dim>
+  using typename TwoBoxes<dim>::Bodies;
+  using typename TwoBoxes<dim>::Field;
+
+  MortarBoxes(const Bodies &bodies, unsigned int degree) : TwoBoxes<dim>(bodies, degree)
   {
-    using typename TwoBoxes<dim>::Bodies;
-    using typename TwoBoxes<dim>::Field;
-
-    MortarBoxes(const Bodies &bodies, unsigned int degree)
-      : TwoBoxes<dim>(bodies, degree)
-    {
-      this->method = "mortar";
-    }
-
-    void
-    shift_slave(double distance)
-    {
-      for (unsigned int node = 0; node < this->positions.size(); ++node)
-        if (!this->is_master(node))
-          for (unsigned int d = 0; d < dim; ++d)
-            this->positions[node][d] += distance * (1. + 0.6 * d);
-    }
-
-    void
-    rotate(const dealii::Tensor<2, dim> &q)
-    {
-      for (auto &x : this->positions)
-        x = q * x;
-    }
-
-    /// sum_i force_i c_i on the surface nodes.
-    Field
-    nodal_forces(const std::vector<double> &forces) const
-    {
-      Field      result(this->surface.n_nodes());
-      const auto rows = this->contact().rows(this->positions);
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        for (const auto &c : rows[i].coefficients)
-          result[c.first] += forces[i] * c.second;
-      return result;
-    }
-
-    /// int N_a p n of all faces with a pressure p, outward normals n; hanging
-    /// nodes give theirs to their masters.
-    template <typename Pressure>
-    Field
-    consistent_forces(const Pressure &p) const
-    {
-      const FaceShape<dim>            shape(this->mesh.degree());
-      const dealii::QGauss<dim - 1>   gauss(5);
-      typename FaceShape<dim>::Values values;
-      Field                           result(this->surface.n_nodes());
-      for (const auto &face : this->surface.faces())
-        for (unsigned int q = 0; q < gauss.size(); ++q)
-          {
-            shape.evaluate(gauss.point(q), values);
-            dealii::Tensor<1, dim> x;
-            for (unsigned int k = 0; k < face.nodes.size(); ++k)
-              x += values.value[k] * this->positions[face.nodes[k]];
-            const auto force =
-              gauss.weight(q) * p(x) *
-              area_vector(tangents<dim>(values, face.nodes, this->positions));
-            for (unsigned int k = 0; k < face.nodes.size(); ++k)
-              add_resolved(face.nodes[k], values.value[k] * force, result);
-          }
-      return result;
-    }
-
-  private:
-    void
-    add_resolved(unsigned int                  node,
-                 const dealii::Tensor<1, dim> &value,
-                 Field                        &field) const
-    {
-      if (this->surface.masters(node).empty())
-        field[node] += value;
-      for (const auto &master : this->surface.masters(node))
-        field[master.first] += master.second * value;
-    }
-  };
-
-  template <int dim>
-  double
-  difference(const std::vector<dealii::Tensor<1, dim>> &a,
-             const std::vector<dealii::Tensor<1, dim>> &b)
-  {
-    double worst = 0.;
-    for (unsigned int i = 0; i < a.size(); ++i)
-      worst = std::max(worst, (a[i] - b[i]).norm());
-    return worst;
+    this->method = "mortar";
   }
 
-  /// Pressure 1 on faces with hanging nodes that do not match, tilted.
-  template <int dim>
-  void
-  expect_uniform_pressure_passes(unsigned int degree)
+  void shift_slave(double distance)
   {
-    MortarBoxes<dim> scene(MortarBoxes<dim>::hanging_boxes(), degree);
-    scene.rotate(some_rotation<dim>());
-    const auto forces = scene.contact().areas(scene.positions);
-    EXPECT_LT(difference<dim>(scene.nodal_forces(forces),
-                              scene.consistent_forces(
-                                [](const dealii::Tensor<1, dim> &) {
-                                  return 1.;
-                                })),
-              1e-13);
+    for (unsigned int node = 0; node < this->positions.size(); ++node)
+      if (!this->is_master(node))
+        for (unsigned int d = 0; d < dim; ++d)
+          this->positions[node][d] += distance * (1. + 0.6 * d);
   }
 
-  double
-  linear_pressure(double x)
+  void rotate(const dealii::Tensor<2, dim> &q)
   {
-    return 1.7 - 2.3 * x;
+    for (auto &x : this->positions)
+      x = q * x;
   }
+
+  /// sum_i force_i c_i on the surface nodes.
+  Field nodal_forces(const std::vector<double> &forces) const
+  {
+    Field      result(this->surface.n_nodes());
+    const auto rows = this->contact().rows(this->positions);
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      for (const auto &c : rows[i].coefficients)
+        result[c.first] += forces[i] * c.second;
+    return result;
+  }
+
+  /// int N_a p n of all faces with a pressure p, outward normals n; hanging
+  /// nodes give theirs to their masters.
+  template <typename Pressure>
+  Field consistent_forces(const Pressure &p) const
+  {
+    const FaceShape<dim>            shape(this->mesh.degree());
+    const dealii::QGauss<dim - 1>   gauss(5);
+    typename FaceShape<dim>::Values values;
+    Field                           result(this->surface.n_nodes());
+    for (const auto &face : this->surface.faces())
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          shape.evaluate(gauss.point(q), values);
+          dealii::Tensor<1, dim> x;
+          for (unsigned int k = 0; k < face.nodes.size(); ++k)
+            x += values.value[k] * this->positions[face.nodes[k]];
+          const auto force = gauss.weight(q) * p(x) *
+                             area_vector(tangents<dim>(values, face.nodes, this->positions));
+          for (unsigned int k = 0; k < face.nodes.size(); ++k)
+            add_resolved(face.nodes[k], values.value[k] * force, result);
+        }
+    return result;
+  }
+
+private:
+  void add_resolved(unsigned int node, const dealii::Tensor<1, dim> &value, Field &field) const
+  {
+    if (this->surface.masters(node).empty())
+      field[node] += value;
+    for (const auto &master : this->surface.masters(node))
+      field[master.first] += master.second * value;
+  }
+};
+
+template <int dim>
+double difference(const std::vector<dealii::Tensor<1, dim>> &a,
+                  const std::vector<dealii::Tensor<1, dim>> &b)
+{
+  double worst = 0.;
+  for (unsigned int i = 0; i < a.size(); ++i)
+    worst = std::max(worst, (a[i] - b[i]).norm());
+  return worst;
+}
+
+/// Pressure 1 on faces with hanging nodes that do not match, tilted.
+template <int dim>
+void expect_uniform_pressure_passes(unsigned int degree)
+{
+  MortarBoxes<dim> scene(MortarBoxes<dim>::hanging_boxes(), degree);
+  scene.rotate(some_rotation<dim>());
+  const auto forces = scene.contact().areas(scene.positions);
+  EXPECT_LT(difference<dim>(scene.nodal_forces(forces),
+                            scene.consistent_forces(
+                              [](const dealii::Tensor<1, dim> &) { return 1.; })),
+            1e-13);
+}
+
+double linear_pressure(double x)
+{
+  return 1.7 - 2.3 * x;
+}
 } // namespace
 
 TEST(MortarRows, UniformPressurePasses)
@@ -144,9 +129,7 @@ TEST(MortarRows, LinearPressurePassesQuadraticFaces)
     forces[i] *= linear_pressure(scene.positions[contact.places()[i].slave][0]);
   EXPECT_LT(difference<3>(scene.nodal_forces(forces),
                           scene.consistent_forces(
-                            [](const dealii::Tensor<1, 3> &x) {
-                              return linear_pressure(x[0]);
-                            })),
+                            [](const dealii::Tensor<1, 3> &x) { return linear_pressure(x[0]); })),
             1e-13);
 }
 
@@ -157,8 +140,8 @@ TEST(MortarRows, LinearPressureOnLinearFacesKeepsForceAndMoment)
   MortarBoxes<3>      scene(MortarBoxes<3>::boxes(3, 4), 1);
   const auto          contact = scene.contact();
   std::vector<double> forces(contact.n_rows());
-  const auto          wanted = scene.consistent_forces(
-    [](const dealii::Tensor<1, 3> &x) { return linear_pressure(x[0]); });
+  const auto          wanted =
+    scene.consistent_forces([](const dealii::Tensor<1, 3> &x) { return linear_pressure(x[0]); });
   for (unsigned int i = 0; i < forces.size(); ++i)
     forces[i] = -wanted[contact.places()[i].slave][2];
   const auto got   = scene.nodal_forces(forces);
@@ -190,13 +173,12 @@ TEST(MortarRows, PartlyCoveredFacesGiveAllPressureToTheMaster)
         const auto     contact = scene.contact();
         const auto     areas   = contact.areas(scene.positions);
         EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.), 1., 1e-13);
-        const auto got    = scene.nodal_forces(areas);
-        const auto wanted = scene.consistent_forces(
-          [](const dealii::Tensor<1, 3> &) { return 1.; });
+        const auto got = scene.nodal_forces(areas);
+        const auto wanted =
+          scene.consistent_forces([](const dealii::Tensor<1, 3> &) { return 1.; });
         for (unsigned int node = 0; node < got.size(); ++node)
           {
-            EXPECT_TRUE(!scene.is_master(node) ||
-                        (got[node] - wanted[node]).norm() < 1e-12);
+            EXPECT_TRUE(!scene.is_master(node) || (got[node] - wanted[node]).norm() < 1e-12);
           }
         // weights stay moderate
         for (const auto &row : contact.rows(scene.positions))
@@ -234,11 +216,9 @@ TEST(MortarRows, HeldNodesGiveTheirMultipliersAway)
   ASSERT_EQ(shared[0].rows.size(), 1u);
   EXPECT_EQ(shared[0].rows[0].second, 1.);
   // to the next of the four faces
-  EXPECT_EQ(scene.positions[contact.places()[shared[0].rows[0].first].slave][0],
-            0.25);
-  const auto got = scene.nodal_forces(contact.areas(scene.positions));
-  const auto wanted =
-    scene.consistent_forces([](const dealii::Tensor<1, 2> &) { return 1.; });
+  EXPECT_EQ(scene.positions[contact.places()[shared[0].rows[0].first].slave][0], 0.25);
+  const auto got    = scene.nodal_forces(contact.areas(scene.positions));
+  const auto wanted = scene.consistent_forces([](const dealii::Tensor<1, 2> &) { return 1.; });
   EXPECT_LT(difference<2>(got, wanted), 1e-14);
 }
 
@@ -347,8 +327,7 @@ TEST(MortarRows, LimitsOfThePairHold)
     pair.parameters.method          = "mortar";
     pair.parameters.search_distance = distance;
     pair.parameters.largest_angle   = angle;
-    return Contact<2>(scene.surface, {pair}, 1, scene.positions, scene.held)
-      .n_rows();
+    return Contact<2>(scene.surface, {pair}, 1, scene.positions, scene.held).n_rows();
   };
   EXPECT_EQ(n_rows(0., 90.), 11u);
   // about x^2 / 2 at x = 0, 0.1, ...
@@ -365,7 +344,7 @@ TEST(MortarRows, TwoFacesOfABodyShareTheRowsOfTheirEdge)
   bodies[1].size   = {4., 0.9};
   const TwoBoxes<2>      boxes(bodies, 1);
   const mesh::Surface<2> surface(boxes.mesh, {{0, 2}, {0, 0}, {1, 3}});
-  auto positions = surface.gather(boxes.mesh.reference_positions());
+  auto                   positions = surface.gather(boxes.mesh.reference_positions());
   for (unsigned int node = 0; node < positions.size(); ++node)
     {
       auto &x = positions[node];
@@ -377,8 +356,8 @@ TEST(MortarRows, TwoFacesOfABodyShareTheRowsOfTheirEdge)
   bottom.parameters.method = "mortar";
   Pair left                = bottom;
   left.slave               = {0, 0};
-  const Contact<2> contact(
-    surface, {bottom, left}, 1, positions, HeldDirections<2>(positions.size()));
+  const Contact<2> contact(surface, {bottom, left}, 1, positions,
+                           HeldDirections<2>(positions.size()));
   EXPECT_EQ(contact.n_rows(), 5u + 2u - 1u);
   const auto areas = contact.areas(positions);
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.), 2., 1e-13);

@@ -5,21 +5,19 @@
 using namespace snug;
 using namespace snug::contact;
 
-namespace
+namespace {
+template <int dim>
+void expect_exact_derivatives(unsigned int degree)
 {
-  template <int dim>
-  void
-  expect_exact_derivatives(unsigned int degree)
-  {
-    TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
-    scene.hold_left();
-    scene.bend();
-    const auto contact = scene.contact();
-    // the step is 2e-4 of a Q2 node distance: truncation ~ (2e-4)^4, round-off
-    // ~ 1e-16 / 1e-5
-    EXPECT_LT(derivative_error(scene, contact, 1e-5), 1e-9);
-    EXPECT_LT(reverse_error(scene, contact), 1e-13);
-  }
+  TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
+  scene.hold_left();
+  scene.bend();
+  const auto contact = scene.contact();
+  // the step is 2e-4 of a Q2 node distance: truncation ~ (2e-4)^4, round-off
+  // ~ 1e-16 / 1e-5
+  EXPECT_LT(derivative_error(scene, contact, 1e-5), 1e-9);
+  EXPECT_LT(reverse_error(scene, contact), 1e-13);
+}
 } // namespace
 
 TEST(NodalRows, GapOfSphereOverPlaneIsItsHeight)
@@ -39,9 +37,7 @@ TEST(NodalRows, GapOfSphereOverPlaneIsItsHeight)
       EXPECT_NEAR(rows[i].normal[2], -1., 1e-14);
       ASSERT_EQ(rows[i].coefficients.size(), 2u);
       for (const auto &c : rows[i].coefficients)
-        EXPECT_NEAR(c.second[2],
-                    c.first == contact.places()[i].slave ? -1. : 1.,
-                    1e-14);
+        EXPECT_NEAR(c.second[2], c.first == contact.places()[i].slave ? -1. : 1., 1e-14);
     }
 }
 
@@ -65,9 +61,8 @@ TEST(NodalRows, GapOfPlaneOverCurvedMasterConverges)
       for (unsigned int i = 0; i < rows.size(); ++i)
         {
           const dealii::Point<3> centre(0.5, 0.5, -2.);
-          const double           distance =
-            (scene.positions[contact.places()[i].slave] - centre).norm() - 3.;
-          worst = std::max(worst, std::abs(rows[i].gap - distance));
+          const double distance = (scene.positions[contact.places()[i].slave] - centre).norm() - 3.;
+          worst                 = std::max(worst, std::abs(rows[i].gap - distance));
         }
       errors.push_back(worst);
     }

@@ -5,57 +5,50 @@
 using namespace snug;
 using namespace snug::contact;
 
-namespace
+namespace {
+/// The slave box above a ball, or another obstacle that curves, which is
+/// pressed up and has a gap on top.
+template <int dim>
+Pair pair_with(const std::string &shape)
 {
-  /// The slave box above a ball, or another obstacle that curves, which is
-  /// pressed up and has a gap on top.
-  template <int dim>
-  Pair
-  pair_with(const std::string &shape)
-  {
-    ObstacleParameters obstacle;
-    obstacle.name  = "obstacle";
-    obstacle.shape = shape;
-    obstacle.point.assign(dim, 0.4);
-    obstacle.normal.assign(dim, 0.1);
-    obstacle.axis.assign(dim, 0.2);
-    obstacle.displacement.assign(dim, -0.05);
-    obstacle.normal[dim - 1]       = 1.;
-    obstacle.displacement[dim - 1] = 0.1;
-    obstacle.radius                = shape.find("hollow") == 0 ? 3. : 0.5;
-    obstacle.formula    = "0.3 * sin(x) + 0.2 * x * y + 2 * y^2 - 0.1";
-    Pair pair           = TwoBoxes<dim>::pair();
-    pair.obstacle       = obstacle;
-    pair.parameters.gap = "0.1 + 0.02 * x^2 + 0.03 * sin(y)";
-    pair.parameters.largest_angle = 180.;
-    return pair;
-  }
+  ObstacleParameters obstacle;
+  obstacle.name  = "obstacle";
+  obstacle.shape = shape;
+  obstacle.point.assign(dim, 0.4);
+  obstacle.normal.assign(dim, 0.1);
+  obstacle.axis.assign(dim, 0.2);
+  obstacle.displacement.assign(dim, -0.05);
+  obstacle.normal[dim - 1]       = 1.;
+  obstacle.displacement[dim - 1] = 0.1;
+  obstacle.radius                = shape.find("hollow") == 0 ? 3. : 0.5;
+  obstacle.formula               = "0.3 * sin(x) + 0.2 * x * y + 2 * y^2 - 0.1";
+  Pair pair                      = TwoBoxes<dim>::pair();
+  pair.obstacle                  = obstacle;
+  pair.parameters.gap            = "0.1 + 0.02 * x^2 + 0.03 * sin(y)";
+  pair.parameters.largest_angle  = 180.;
+  return pair;
+}
 
-  template <int dim>
-  void
-  expect_exact_derivatives(const std::string &shape, unsigned int degree)
-  {
-    TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
-    scene.bend();
-    const Contact<dim> contact(scene.surface,
-                               {pair_with<dim>(shape), TwoBoxes<dim>::pair()},
-                               degree,
-                               scene.positions,
-                               scene.held);
-    // element sizes are 0.08, differences of formulas are good to 1e-10
-    EXPECT_LT(derivative_error(scene, contact, 1e-4), 1e-8) << shape;
-    EXPECT_LT(reverse_error(scene, contact), 1e-9) << shape;
-  }
+template <int dim>
+void expect_exact_derivatives(const std::string &shape, unsigned int degree)
+{
+  TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
+  scene.bend();
+  const Contact<dim> contact(scene.surface, {pair_with<dim>(shape), TwoBoxes<dim>::pair()}, degree,
+                             scene.positions, scene.held);
+  // element sizes are 0.08, differences of formulas are good to 1e-10
+  EXPECT_LT(derivative_error(scene, contact, 1e-4), 1e-8) << shape;
+  EXPECT_LT(reverse_error(scene, contact), 1e-9) << shape;
+}
 
-  Pair
-  plane_below(double height)
-  {
-    Pair pair             = pair_with<2>("plane");
-    pair.obstacle->point  = {0., height};
-    pair.obstacle->normal = {0., 1.};
-    pair.parameters       = {};
-    return pair;
-  }
+Pair plane_below(double height)
+{
+  Pair pair             = pair_with<2>("plane");
+  pair.obstacle->point  = {0., height};
+  pair.obstacle->normal = {0., 1.};
+  pair.parameters       = {};
+  return pair;
+}
 } // namespace
 
 TEST(ObstacleRows, DerivativesAgreeWithFiniteDifferences)
@@ -74,9 +67,8 @@ TEST(ObstacleRows, GapIsDistancePlusFormulaMinusApproach)
   Pair              pair      = plane_below(0.9);
   pair.obstacle->displacement = {7., 0.03};
   pair.parameters.gap         = "0.5 * x";
-  const Contact<2> contact(
-    scene.surface, {pair}, 1, scene.positions, scene.held);
-  const auto rows = contact.rows(scene.positions);
+  const Contact<2> contact(scene.surface, {pair}, 1, scene.positions, scene.held);
+  const auto       rows = contact.rows(scene.positions);
   ASSERT_EQ(rows.size(), 5u);
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
@@ -99,8 +91,7 @@ TEST(ObstacleRows, NodesOutOfReachOrTurnedAwayCarryNone)
   const auto        n_rows = [&](const PairParameters &parameters) {
     Pair pair       = plane_below(0.9);
     pair.parameters = parameters;
-    return Contact<2>(scene.surface, {pair}, 1, scene.positions, scene.held)
-      .n_rows();
+    return Contact<2>(scene.surface, {pair}, 1, scene.positions, scene.held).n_rows();
   };
   PairParameters parameters;
   EXPECT_EQ(n_rows(parameters), 11u);
@@ -121,14 +112,11 @@ TEST(ObstacleRows, ANodeMeetsAnObstacleOnce)
   auto                   bodies = TwoBoxes<2>::boxes(4, 4);
   const TwoBoxes<2>      boxes(bodies, 1);
   const mesh::Surface<2> surface(boxes.mesh, {{0, 2}, {0, 0}});
-  const auto positions = surface.gather(boxes.mesh.reference_positions());
-  Pair       bottom = plane_below(0.9), left = bottom;
+  const auto             positions = surface.gather(boxes.mesh.reference_positions());
+  Pair                   bottom = plane_below(0.9), left = bottom;
   left.slave              = {0, 0};
   bottom.obstacle->normal = left.obstacle->normal = {1., 1.};
-  const Contact<2> contact(surface,
-                           {bottom, left},
-                           1,
-                           positions,
+  const Contact<2> contact(surface, {bottom, left}, 1, positions,
                            HeldDirections<2>(surface.n_nodes()));
   EXPECT_EQ(contact.n_rows(), 5u + 2u - 1u);
 }
@@ -140,11 +128,9 @@ TEST(Contact, SlaveIsTheFinerSideWhereAsked)
   for (const std::string slave : {"first", "finer"})
     {
       pair.parameters.slave = slave;
-      const Contact<3> contact(
-        scene.surface, {pair}, 1, scene.positions, scene.held);
+      const Contact<3> contact(scene.surface, {pair}, 1, scene.positions, scene.held);
       EXPECT_EQ(contact.n_rows(), slave == "first" ? 16u : 36u);
-      EXPECT_EQ(contact.pairs()[0].name(),
-                slave == "first" ? "slave: master" : "master: slave");
+      EXPECT_EQ(contact.pairs()[0].name(), slave == "first" ? "slave: master" : "master: slave");
       for (const auto &place : contact.places())
         EXPECT_EQ(scene.is_master(place.slave), slave == "finer");
     }

@@ -11,107 +11,94 @@
 using namespace snug;
 using namespace snug::contact;
 
-namespace
+namespace {
+template <int dim>
+std::vector<unsigned int> master_faces(const TwoBoxes<dim> &scene)
 {
-  template <int dim>
-  std::vector<unsigned int>
-  master_faces(const TwoBoxes<dim> &scene)
-  {
-    std::vector<unsigned int> faces;
-    for (unsigned int f = 0; f < scene.surface.faces().size(); ++f)
-      if (scene.surface.faces()[f].body == 1)
-        faces.push_back(f);
-    return faces;
-  }
+  std::vector<unsigned int> faces;
+  for (unsigned int f = 0; f < scene.surface.faces().size(); ++f)
+    if (scene.surface.faces()[f].body == 1)
+      faces.push_back(f);
+  return faces;
+}
 
-  template <int dim>
-  dealii::Tensor<1, dim>
-  master_point(const TwoBoxes<dim> &scene, const Projection &projection)
-  {
-    dealii::Tensor<1, dim> x;
-    for (const auto &master : projection.masters)
-      x += master.second * scene.positions[master.first];
-    return x;
-  }
+template <int dim>
+dealii::Tensor<1, dim> master_point(const TwoBoxes<dim> &scene, const Projection &projection)
+{
+  dealii::Tensor<1, dim> x;
+  for (const auto &master : projection.masters)
+    x += master.second * scene.positions[master.first];
+  return x;
+}
 
-  template <int dim>
-  void
-  expect_one_master_each(unsigned int degree)
-  {
-    const TwoBoxes<dim> scene(TwoBoxes<dim>::boxes(5, 5), degree);
-    EXPECT_EQ(scene.contact().n_rows(), std::pow(5 * degree + 1, dim - 1));
-    for (const auto &projection : scene.projections())
+template <int dim>
+void expect_one_master_each(unsigned int degree)
+{
+  const TwoBoxes<dim> scene(TwoBoxes<dim>::boxes(5, 5), degree);
+  EXPECT_EQ(scene.contact().n_rows(), std::pow(5 * degree + 1, dim - 1));
+  for (const auto &projection : scene.projections())
+    {
+      ASSERT_EQ(projection.masters.size(), 1u);
+      EXPECT_EQ(projection.masters[0].second, 1.);
+      EXPECT_NEAR(
+        (scene.positions[projection.masters[0].first] - scene.positions[projection.slave]).norm(),
+        0., 1e-15);
+    }
+}
+
+/// Flat faces with unrelated meshes: the projection is vertical, and weights
+/// reproduce positions.
+template <int dim>
+void expect_linear_reproduction(unsigned int degree)
+{
+  auto bodies               = TwoBoxes<dim>::boxes(3, 5);
+  bodies[0].corner[dim - 1] = 1.3;
+  bodies[0].grading         = std::vector<double>(dim, 1.);
+  bodies[0].grading[0]      = 3.;
+  const TwoBoxes<dim> scene(bodies, degree);
+  EXPECT_EQ(scene.contact().n_rows(), std::pow(3 * degree + 1, dim - 1));
+  for (const auto &projection : scene.projections())
+    {
+      double total = 0.;
+      for (const auto &master : projection.masters)
+        total += master.second;
+      EXPECT_NEAR(total, 1., 1e-14);
+      auto expected     = scene.positions[projection.slave];
+      expected[dim - 1] = 1.;
+      EXPECT_NEAR((master_point(scene, projection) - expected).norm(), 0., 1e-13);
+    }
+}
+
+/// The tree may not miss the closest face: compare with all faces, from far
+/// and near.
+template <int dim>
+void expect_closest_of_all_faces(unsigned int degree, double distance)
+{
+  TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
+  scene.bend();
+  const auto noise = scene.random_field(3);
+  for (unsigned int node = 0; node < scene.positions.size(); ++node)
+    if (!scene.is_master(node))
       {
-        ASSERT_EQ(projection.masters.size(), 1u);
-        EXPECT_EQ(projection.masters[0].second, 1.);
-        EXPECT_NEAR((scene.positions[projection.masters[0].first] -
-                     scene.positions[projection.slave])
-                      .norm(),
-                    0.,
-                    1e-15);
+        scene.positions[node] += 0.1 * noise[node];
+        scene.positions[node][dim - 1] += distance;
       }
-  }
-
-  /// Flat faces with unrelated meshes: the projection is vertical, and weights
-  /// reproduce positions.
-  template <int dim>
-  void
-  expect_linear_reproduction(unsigned int degree)
-  {
-    auto bodies               = TwoBoxes<dim>::boxes(3, 5);
-    bodies[0].corner[dim - 1] = 1.3;
-    bodies[0].grading         = std::vector<double>(dim, 1.);
-    bodies[0].grading[0]      = 3.;
-    const TwoBoxes<dim> scene(bodies, degree);
-    EXPECT_EQ(scene.contact().n_rows(), std::pow(3 * degree + 1, dim - 1));
-    for (const auto &projection : scene.projections())
-      {
-        double total = 0.;
-        for (const auto &master : projection.masters)
-          total += master.second;
-        EXPECT_NEAR(total, 1., 1e-14);
-        auto expected     = scene.positions[projection.slave];
-        expected[dim - 1] = 1.;
-        EXPECT_NEAR((master_point(scene, projection) - expected).norm(),
-                    0.,
-                    1e-13);
-      }
-  }
-
-  /// The tree may not miss the closest face: compare with all faces, from far
-  /// and near.
-  template <int dim>
-  void
-  expect_closest_of_all_faces(unsigned int degree, double distance)
-  {
-    TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
-    scene.bend();
-    const auto noise = scene.random_field(3);
-    for (unsigned int node = 0; node < scene.positions.size(); ++node)
-      if (!scene.is_master(node))
+  const FaceShape<dim> shape(degree);
+  EXPECT_GT(scene.contact().n_rows(), 3u);
+  for (const auto &projection : scene.projections())
+    {
+      const auto &p     = scene.positions[projection.slave];
+      double      least = 1e300;
+      for (const unsigned int f : master_faces(scene))
         {
-          scene.positions[node] += 0.1 * noise[node];
-          scene.positions[node][dim - 1] += distance;
+          std::vector<dealii::Tensor<1, dim>> nodes;
+          for (const unsigned int node : scene.surface.faces()[f].nodes)
+            nodes.push_back(scene.positions[node]);
+          least = std::min(least, closest_point(shape, nodes, p).squared_distance);
         }
-    const FaceShape<dim> shape(degree);
-    EXPECT_GT(scene.contact().n_rows(), 3u);
-    for (const auto &projection : scene.projections())
-      {
-        const auto &p     = scene.positions[projection.slave];
-        double      least = 1e300;
-        for (const unsigned int f : master_faces(scene))
-          {
-            std::vector<dealii::Tensor<1, dim>> nodes;
-            for (const unsigned int node : scene.surface.faces()[f].nodes)
-              nodes.push_back(scene.positions[node]);
-            least =
-              std::min(least, closest_point(shape, nodes, p).squared_distance);
-          }
-        EXPECT_NEAR((master_point(scene, projection) - p).norm(),
-                    std::sqrt(least),
-                    1e-12);
-      }
-  }
+      EXPECT_NEAR((master_point(scene, projection) - p).norm(), std::sqrt(least), 1e-12);
+    }
+}
 } // namespace
 
 TEST(Projection, MatchingNodesPairOneToOne)
@@ -183,8 +170,7 @@ TEST(Projection, PairWithoutRowsIsNamed)
     }
   catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find("contact pair 'slave: master'"),
-                std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("contact pair 'slave: master'"), std::string::npos);
     }
 }
 
@@ -197,29 +183,23 @@ TEST(OuterEdges, AreTheRimAlsoWhereNodesHang)
       const auto          faces = master_faces(scene);
       const OuterEdges<3> edges(scene.surface, faces, shape);
       for (const unsigned int f : faces)
-        for (const dealii::Point<2> &xi : {dealii::Point<2>(0., 0.5),
-                                           dealii::Point<2>(1., 0.5),
-                                           dealii::Point<2>(0.5, 0.),
-                                           dealii::Point<2>(0.5, 1.),
-                                           dealii::Point<2>(0., 0.),
-                                           dealii::Point<2>(1., 1.),
-                                           dealii::Point<2>(0.5, 0.5)})
+        for (const dealii::Point<2> &xi :
+             {dealii::Point<2>(0., 0.5), dealii::Point<2>(1., 0.5), dealii::Point<2>(0.5, 0.),
+              dealii::Point<2>(0.5, 1.), dealii::Point<2>(0., 0.), dealii::Point<2>(1., 1.),
+              dealii::Point<2>(0.5, 0.5)})
           {
             FaceShape<3>::Values values;
             shape.evaluate(xi, values);
             dealii::Tensor<1, 3> x;
             for (unsigned int k = 0; k < shape.n_nodes(); ++k)
-              x += values.value[k] *
-                   scene.positions[scene.surface.faces()[f].nodes[k]];
+              x += values.value[k] * scene.positions[scene.surface.faces()[f].nodes[k]];
             for (unsigned int d = 0; d < 2; ++d)
               for (const double sign : {-1., 1.})
                 {
                   dealii::Tensor<1, 3> offset;
-                  offset[d] = 0.1 * sign;
-                  const bool at_rim =
-                    std::abs(x[d] - (sign > 0. ? 1. : 0.)) < 1e-12;
-                  EXPECT_EQ(edges.excess(f, xi, offset, scene.positions) > 0.05,
-                            at_rim)
+                  offset[d]         = 0.1 * sign;
+                  const bool at_rim = std::abs(x[d] - (sign > 0. ? 1. : 0.)) < 1e-12;
+                  EXPECT_EQ(edges.excess(f, xi, offset, scene.positions) > 0.05, at_rim)
                     << "at " << x << " towards " << offset;
                 }
           }

@@ -7,9 +7,8 @@
 
 /// Largest difference of two sets of rows with the same nodes.
 template <int dim>
-double
-difference(const std::vector<snug::contact::Row<dim>> &a,
-           const std::vector<snug::contact::Row<dim>> &b)
+double difference(const std::vector<snug::contact::Row<dim>> &a,
+                  const std::vector<snug::contact::Row<dim>> &b)
 {
   double worst = 0.;
   for (unsigned int i = 0; i < a.size(); ++i)
@@ -19,9 +18,8 @@ difference(const std::vector<snug::contact::Row<dim>> &a,
       for (unsigned int j = 0; j < a[i].coefficients.size(); ++j)
         {
           EXPECT_EQ(a[i].coefficients[j].first, b[i].coefficients[j].first);
-          worst = std::max(
-            worst,
-            (a[i].coefficients[j].second - b[i].coefficients[j].second).norm());
+          worst =
+            std::max(worst, (a[i].coefficients[j].second - b[i].coefficients[j].second).norm());
         }
     }
   return worst;
@@ -29,18 +27,16 @@ difference(const std::vector<snug::contact::Row<dim>> &a,
 
 /// rows += factor * more
 template <int dim>
-void
-add(std::vector<snug::contact::Row<dim>>       &rows,
-    double                                      factor,
-    const std::vector<snug::contact::Row<dim>> &more)
+void add(std::vector<snug::contact::Row<dim>>       &rows,
+         double                                      factor,
+         const std::vector<snug::contact::Row<dim>> &more)
 {
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
       rows[i].gap += factor * more[i].gap;
       rows[i].normal += factor * more[i].normal;
       for (unsigned int j = 0; j < rows[i].coefficients.size(); ++j)
-        rows[i].coefficients[j].second +=
-          factor * more[i].coefficients[j].second;
+        rows[i].coefficients[j].second += factor * more[i].coefficients[j].second;
     }
 }
 
@@ -48,19 +44,15 @@ add(std::vector<snug::contact::Row<dim>>       &rows,
 /// fourth order with steps of @p h.
 template <int dim>
 double
-derivative_error(const TwoBoxes<dim>               &scene,
-                 const snug::contact::Contact<dim> &contact,
-                 double                             h)
+derivative_error(const TwoBoxes<dim> &scene, const snug::contact::Contact<dim> &contact, double h)
 {
   const auto velocity = scene.random_field(4);
   const auto exact    = contact.row_derivatives(scene.positions, velocity);
   // (f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h
   auto numbers = exact;
   add(numbers, -1., exact);
-  for (const auto &term :
-       {std::make_pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}})
-    add(numbers,
-        term.second / (12. * h),
+  for (const auto &term : {std::make_pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}})
+    add(numbers, term.second / (12. * h),
         contact.rows(sum(scene.positions, term.first * h, velocity)));
   return difference(exact, numbers);
 }
@@ -68,9 +60,7 @@ derivative_error(const TwoBoxes<dim>               &scene,
 /// Difference of the energy gradient and the derivatives of the rows along a
 /// random velocity, relative to the sum of the sizes of all terms.
 template <int dim>
-double
-reverse_error(const TwoBoxes<dim>               &scene,
-              const snug::contact::Contact<dim> &contact)
+double reverse_error(const TwoBoxes<dim> &scene, const snug::contact::Contact<dim> &contact)
 {
   const auto          velocity     = scene.random_field(5);
   const auto          displacement = scene.random_field(6);
@@ -87,8 +77,7 @@ reverse_error(const TwoBoxes<dim>               &scene,
       direct += forces[i] * term;
       scale += std::abs(forces[i] * term);
     }
-  const auto gradient =
-    contact.energy_gradient(scene.positions, displacement, forces);
+  const auto gradient = contact.energy_gradient(scene.positions, displacement, forces);
   for (unsigned int node = 0; node < gradient.size(); ++node)
     reverse += gradient[node] * velocity[node];
   return std::abs(direct - reverse) / scale;
@@ -96,8 +85,7 @@ reverse_error(const TwoBoxes<dim>               &scene,
 
 /// x -> Q x + shift with a fixed rotation Q.
 template <int dim>
-dealii::Tensor<2, dim>
-some_rotation()
+dealii::Tensor<2, dim> some_rotation()
 {
   const double           a = 0.7, b = -1.1;
   dealii::Tensor<2, dim> q;
@@ -116,8 +104,7 @@ some_rotation()
 
 /// Gaps stay and normals turn when both bodies move rigidly.
 template <int dim>
-void
-expect_invariance(TwoBoxes<dim> &scene)
+void expect_invariance(TwoBoxes<dim> &scene)
 {
   const auto                   contact = scene.contact();
   const auto                   rows    = contact.rows(scene.positions);
@@ -132,9 +119,7 @@ expect_invariance(TwoBoxes<dim> &scene)
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
       EXPECT_NEAR(rows[i].gap, moved_rows[i].gap, 1e-13);
-      EXPECT_NEAR((q * rows[i].normal - moved_rows[i].normal).norm(),
-                  0.,
-                  1e-12);
+      EXPECT_NEAR((q * rows[i].normal - moved_rows[i].normal).norm(), 0., 1e-12);
       // a translation of both bodies does not open the contact
       dealii::Tensor<1, dim> total;
       for (const auto &c : rows[i].coefficients)

@@ -21,25 +21,19 @@ struct TwoBoxes
     , surface(mesh, {pair().slave, pair().master})
     , positions(surface.gather(mesh.reference_positions()))
     , held(surface.n_nodes())
-  {
-  }
+  {}
 
-  TwoBoxes(const Bodies &bodies, unsigned int degree)
-    : TwoBoxes(bodies, degree, MPI_COMM_WORLD)
-  {
-  }
+  TwoBoxes(const Bodies &bodies, unsigned int degree) : TwoBoxes(bodies, degree, MPI_COMM_WORLD) {}
 
   /// n_slave and n_master cells per tangent direction.
-  static Bodies
-  boxes(unsigned int n_slave, unsigned int n_master)
+  static Bodies boxes(unsigned int n_slave, unsigned int n_master)
   {
     Bodies bodies(2);
     for (unsigned int b = 0; b < 2; ++b)
       {
-        bodies[b].corner = std::vector<double>(dim, 0.);
-        bodies[b].size   = std::vector<double>(dim, 1.);
-        bodies[b].cells =
-          std::vector<unsigned int>(dim, b == 0 ? n_slave : n_master);
+        bodies[b].corner         = std::vector<double>(dim, 0.);
+        bodies[b].size           = std::vector<double>(dim, 1.);
+        bodies[b].cells          = std::vector<unsigned int>(dim, b == 0 ? n_slave : n_master);
         bodies[b].cells[dim - 1] = 1;
       }
     bodies[0].corner[dim - 1] = 1.;
@@ -47,8 +41,7 @@ struct TwoBoxes
   }
 
   /// Hanging nodes on both sides, not opposite to each other.
-  static Bodies
-  hanging_boxes()
+  static Bodies hanging_boxes()
   {
     Bodies bodies               = boxes(3, 4);
     bodies[0].refine_where      = "0.5-x";
@@ -58,41 +51,32 @@ struct TwoBoxes
     return bodies;
   }
 
-  static snug::contact::Pair
-  pair()
+  static snug::contact::Pair pair()
   {
-    snug::contact::Pair pair{{0, 2 * dim - 2},
-                             {1, 2 * dim - 1},
-                             "slave",
-                             "master"};
+    snug::contact::Pair pair{{0, 2 * dim - 2}, {1, 2 * dim - 1}, "slave", "master"};
     pair.parameters.slave = "first";
     return pair;
   }
 
-  snug::contact::Contact<dim>
-  contact() const
+  snug::contact::Contact<dim> contact() const
   {
     auto used              = pair();
     used.parameters.method = method;
     return {surface, {used}, mesh.degree(), positions, held};
   }
 
-  std::vector<snug::contact::Projection>
-  projections() const
+  std::vector<snug::contact::Projection> projections() const
   {
     snug::contact::PairFaces sides;
     for (unsigned int f = 0; f < surface.faces().size(); ++f)
       (surface.faces()[f].body == 0 ? sides.slave : sides.master).push_back(f);
-    return snug::contact::project(surface,
-                                  sides,
-                                  snug::contact::FaceShape<dim>(mesh.degree()),
+    return snug::contact::project(surface, sides, snug::contact::FaceShape<dim>(mesh.degree()),
                                   positions);
   }
 
   /// Bend both sides, without penetration at first sight; hanging nodes follow
   /// their masters.
-  void
-  bend()
+  void bend()
   {
     for (auto &x : positions)
       {
@@ -110,8 +94,7 @@ struct TwoBoxes
   }
 
   /// Rollers at x = 0.
-  void
-  hold_left()
+  void hold_left()
   {
     for (unsigned int node = 0; node < positions.size(); ++node)
       if (positions[node][0] == 0.)
@@ -121,8 +104,7 @@ struct TwoBoxes
         }
   }
 
-  Field
-  random_field(unsigned int seed) const
+  Field random_field(unsigned int seed) const
   {
     std::mt19937                           random(seed);
     std::uniform_real_distribution<double> uniform(-1., 1.);
@@ -133,13 +115,11 @@ struct TwoBoxes
     return field;
   }
 
-  bool
-  is_master(unsigned int node) const
+  bool is_master(unsigned int node) const
   {
     for (const auto &face : surface.faces())
       if (face.body == pair().master.first &&
-          std::find(face.nodes.begin(), face.nodes.end(), node) !=
-            face.nodes.end())
+          std::find(face.nodes.begin(), face.nodes.end(), node) != face.nodes.end())
         return true;
     return false;
   }
@@ -154,8 +134,7 @@ struct TwoBoxes
 
 /// a + factor * b
 template <typename Field>
-Field
-sum(const Field &a, double factor, const Field &b)
+Field sum(const Field &a, double factor, const Field &b)
 {
   Field result = a;
   for (std::size_t i = 0; i < a.size(); ++i)

@@ -56,16 +56,13 @@ TYPED_TEST_SUITE(DealIIAssembly, AllCases);
 
 TYPED_TEST(DealIIAssembly, GivesTheSameStiffnessVolumeAndBodyForce)
 {
-  constexpr int                     dim = TestFixture::dim;
-  const dealii::MappingFEField<dim> mapping(this->dof_handler, this->positions);
-  const dealii::QGauss<dim>         quadrature(TestFixture::degree + 1);
+  constexpr int                            dim = TestFixture::dim;
+  const dealii::MappingFEField<dim>        mapping(this->dof_handler, this->positions);
+  const dealii::QGauss<dim>                quadrature(TestFixture::degree + 1);
   const dealii::FEValuesExtractors::Vector displacement(0);
-  dealii::FEValues<dim>                    values(mapping,
-                               this->fe,
-                               quadrature,
-                               dealii::update_values |
-                                 dealii::update_gradients |
-                                 dealii::update_JxW_values);
+  dealii::FEValues<dim>                    values(mapping, this->fe, quadrature,
+                                                  dealii::update_values | dealii::update_gradients |
+                                                    dealii::update_JxW_values);
   values.reinit(this->dof_handler.begin_active());
   const auto &view = values[displacement];
 
@@ -85,10 +82,8 @@ TYPED_TEST(DealIIAssembly, GivesTheSameStiffnessVolumeAndBodyForce)
           for (unsigned int j = 0; j < n; ++j)
             K[row * n + this->unknowns[j]] +=
               (2. * material.lame_mu() *
-                 (view.symmetric_gradient(i, q) *
-                  view.symmetric_gradient(j, q)) +
-               material.lame_lambda() * view.divergence(i, q) *
-                 view.divergence(j, q)) *
+                 (view.symmetric_gradient(i, q) * view.symmetric_gradient(j, q)) +
+               material.lame_lambda() * view.divergence(i, q) * view.divergence(j, q)) *
               values.JxW(q);
         }
     }
@@ -111,12 +106,9 @@ TYPED_TEST(DealIIAssembly, GivesTheSameFaceLoads)
   const auto                        traction = random_field<dim>(1, 6)[0];
   const dealii::MappingFEField<dim> mapping(this->dof_handler, this->positions);
   const dealii::QGauss<dim - 1>     quadrature(TestFixture::degree + 1);
-  dealii::FEFaceValues<dim>         values(mapping,
-                                   this->fe,
-                                   quadrature,
-                                   dealii::update_values |
-                                     dealii::update_normal_vectors |
-                                     dealii::update_JxW_values);
+  dealii::FEFaceValues<dim>         values(mapping, this->fe, quadrature,
+                                           dealii::update_values | dealii::update_normal_vectors |
+                                             dealii::update_JxW_values);
   const FaceLoad<dim>               load(TestFixture::degree);
 
   for (unsigned int face = 0; face < 2 * dim; ++face)
@@ -129,16 +121,14 @@ TYPED_TEST(DealIIAssembly, GivesTheSameFaceLoads)
           {
             const unsigned int node      = this->unknowns[i] / dim;
             const unsigned int component = this->unknowns[i] % dim;
-            const double       share = values.shape_value(i, q) * values.JxW(q);
+            const double       share     = values.shape_value(i, q) * values.JxW(q);
             f[node][component] +=
-              share * (traction[component] -
-                       pressure * values.normal_vector(q)[component]);
+              share * (traction[component] - pressure * values.normal_vector(q)[component]);
             if (component == 0)
               areas[node] += share;
           }
 
-      const auto nodes =
-        face_nodes<dim>(TestFixture::degree, face / 2, face % 2 == 1);
+      const auto nodes = face_nodes<dim>(TestFixture::degree, face / 2, face % 2 == 1);
       Nodes<dim> found;
       load.force(extract<dim>(this->X, nodes),
                  {std::vector<double>(nodes.size(), pressure),

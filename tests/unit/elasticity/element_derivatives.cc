@@ -18,9 +18,7 @@ public:
   const Nodes<dim> b = random_field<dim>(n, 15);
 
   Nodes<dim>
-  force(const Element<dim> &element,
-        const Nodes<dim>   &X,
-        const Nodes<dim>   &displacements) const
+  force(const Element<dim> &element, const Nodes<dim> &X, const Nodes<dim> &displacements) const
   {
     Nodes<dim> r;
     element.internal_force(X, material, displacements, r);
@@ -28,8 +26,7 @@ public:
   }
 
   /// K'(X; velocity) u.
-  Nodes<dim>
-  force_derivative(const TestElement<dim> &of, const Nodes<dim> &velocity) const
+  Nodes<dim> force_derivative(const TestElement<dim> &of, const Nodes<dim> &velocity) const
   {
     Nodes<dim> r;
     of.element.internal_force_derivative(of.X, velocity, material, u, r);
@@ -43,12 +40,9 @@ TYPED_TEST(ElementDerivatives, InternalForceAgreesWithDifferences)
   constexpr int dim = TestFixture::dim;
   for (const auto &of : this->elements)
     {
-      const auto expected = derivative<dim>(
-        [&](const Nodes<dim> &X) {
-          return this->force(of.element, X, this->u);
-        },
-        of.X,
-        this->V);
+      const auto expected =
+        derivative<dim>([&](const Nodes<dim> &X) { return this->force(of.element, X, this->u); },
+                        of.X, this->V);
       EXPECT_LT(distance<dim>(this->force_derivative(of, this->V), expected),
                 1e-9 * norm<dim>(expected))
         << of.name();
@@ -78,12 +72,9 @@ TYPED_TEST(ElementDerivatives, RotationTurnsTheStiffness)
   for (const auto &of : this->elements)
     if (!of.idealization.is_axisymmetric())
       {
-        const auto expected =
-          sum<dim>(times<dim>(W, this->force(of.element, of.X, this->u)),
-                   -1.,
-                   this->force(of.element, of.X, times<dim>(W, this->u)));
-        EXPECT_LT(distance<dim>(this->force_derivative(of, times<dim>(W, of.X)),
-                                expected),
+        const auto expected = sum<dim>(times<dim>(W, this->force(of.element, of.X, this->u)), -1.,
+                                       this->force(of.element, of.X, times<dim>(W, this->u)));
+        EXPECT_LT(distance<dim>(this->force_derivative(of, times<dim>(W, of.X)), expected),
                   1e-13 * norm<dim>(expected))
           << of.name();
       }
@@ -95,12 +86,10 @@ TYPED_TEST(ElementDerivatives, StretchScalesTheStiffness)
   constexpr int dim = TestFixture::dim;
   for (const auto &of : this->elements)
     {
-      const bool solid = dim == 3 || of.idealization.is_axisymmetric();
-      const auto force = this->force(of.element, of.X, this->u);
-      const auto expected =
-        sum<dim>(Nodes<dim>(force.size()), solid ? 1. : 0., force);
-      EXPECT_LT(distance<dim>(this->force_derivative(of, of.X), expected),
-                1e-13 * norm<dim>(force))
+      const bool solid    = dim == 3 || of.idealization.is_axisymmetric();
+      const auto force    = this->force(of.element, of.X, this->u);
+      const auto expected = sum<dim>(Nodes<dim>(force.size()), solid ? 1. : 0., force);
+      EXPECT_LT(distance<dim>(this->force_derivative(of, of.X), expected), 1e-13 * norm<dim>(force))
         << of.name();
     }
 }
@@ -113,20 +102,16 @@ TYPED_TEST(ElementDerivatives, EnergyGradientIsTheTranspose)
   for (const auto &of : this->elements)
     {
       auto gradient = start;
-      of.element.add_energy_gradient(
-        of.X, material, this->u, this->w, factor, gradient);
+      of.element.add_energy_gradient(of.X, material, this->u, this->w, factor, gradient);
       gradient = sum<dim>(gradient, -1., start);
       EXPECT_NEAR(dot<dim>(gradient, this->V),
-                  factor *
-                    dot<dim>(this->w, this->force_derivative(of, this->V)),
+                  factor * dot<dim>(this->w, this->force_derivative(of, this->V)),
                   1e-13 * norm<dim>(gradient) * norm<dim>(this->V))
         << of.name();
 
       auto swapped = start;
-      of.element.add_energy_gradient(
-        of.X, material, this->w, this->u, factor, swapped);
-      EXPECT_LT(distance<dim>(sum<dim>(swapped, -1., start), gradient),
-                1e-13 * norm<dim>(gradient))
+      of.element.add_energy_gradient(of.X, material, this->w, this->u, factor, swapped);
+      EXPECT_LT(distance<dim>(sum<dim>(swapped, -1., start), gradient), 1e-13 * norm<dim>(gradient))
         << of.name();
     }
 }
@@ -144,15 +129,12 @@ TYPED_TEST(ElementDerivatives, BodyForceAgreesWithDifferences)
           of.element.body_force(X, this->b, f);
           return f;
         },
-        of.X,
-        this->V);
-      EXPECT_LT(distance<dim>(found, expected), 1e-10 * norm<dim>(expected))
-        << of.name();
+        of.X, this->V);
+      EXPECT_LT(distance<dim>(found, expected), 1e-10 * norm<dim>(expected)) << of.name();
 
       Nodes<dim> gradient(this->n);
       of.element.add_body_force_gradient(of.X, this->b, this->u, 2., gradient);
-      EXPECT_NEAR(dot<dim>(gradient, this->V),
-                  2. * dot<dim>(found, this->u),
+      EXPECT_NEAR(dot<dim>(gradient, this->V), 2. * dot<dim>(found, this->u),
                   1e-13 * norm<dim>(gradient) * norm<dim>(this->V))
         << of.name();
     }
@@ -166,14 +148,11 @@ TYPED_TEST(ElementDerivatives, VolumeGradient)
     {
       Nodes<dim> gradient(this->n);
       of.element.add_volume_gradient(of.X, 1., gradient);
-      const double expected = derivative<double>([&](const double t) {
-        return of.element.volume(sum<dim>(of.X, t, this->V));
-      });
+      const double expected = derivative<double>(
+        [&](const double t) { return of.element.volume(sum<dim>(of.X, t, this->V)); });
       EXPECT_NEAR(dot<dim>(gradient, this->V), expected, 1e-9) << of.name();
       EXPECT_LT(distance<dim>(gradient,
-                              boundary_normals<dim>(TestFixture::degree,
-                                                    of.X,
-                                                    of.idealization)),
+                              boundary_normals<dim>(TestFixture::degree, of.X, of.idealization)),
                 1e-13 * norm<dim>(gradient))
         << of.name();
     }

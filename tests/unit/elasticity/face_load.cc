@@ -4,15 +4,13 @@
 
 using namespace elasticity_cells;
 
-namespace
+namespace {
+/// A pressure at the Gauss points of a face with @p n nodes.
+template <int dim>
+FaceLoadValues<dim> uniform(std::size_t n, double pressure)
 {
-  /// A pressure at the Gauss points of a face with @p n nodes.
-  template <int dim>
-  FaceLoadValues<dim>
-  uniform(std::size_t n, double pressure)
-  {
-    return {std::vector<double>(n, pressure), {}, {}};
-  }
+  return {std::vector<double>(n, pressure), {}, {}};
+}
 } // namespace
 
 template <typename Case>
@@ -31,16 +29,14 @@ public:
   const Nodes<dim>          traction = random_field<dim>(X.size(), 34);
   const std::vector<double> pressure = varying(X.size());
 
-  static std::vector<double>
-  varying(std::size_t n)
+  static std::vector<double> varying(std::size_t n)
   {
     std::vector<double> pressure(n, 1.7);
     pressure[1] = 0.4;
     return pressure;
   }
 
-  static Nodes<dim>
-  face(const Idealization &idealization)
+  static Nodes<dim> face(const Idealization &idealization)
   {
     return extract<dim>(distorted<dim>(idealization, degree, 31),
                         face_nodes<dim>(degree, dim - 1, true));
@@ -50,8 +46,8 @@ TYPED_TEST_SUITE(FaceLoads, AllCases);
 
 TYPED_TEST(FaceLoads, PressureOnAClosedSurfaceIsBalanced)
 {
-  constexpr int dim  = TestFixture::dim;
-  const auto normals = boundary_normals<dim>(TestFixture::degree, this->cell);
+  constexpr int          dim     = TestFixture::dim;
+  const auto             normals = boundary_normals<dim>(TestFixture::degree, this->cell);
   dealii::Tensor<1, dim> force;
   dealii::Tensor<2, dim> moment;
   for (unsigned int a = 0; a < normals.size(); ++a)
@@ -74,9 +70,8 @@ TYPED_TEST(FaceLoads, UnitFacesHaveUnitAreaAndPressurePushesInwards)
   for (unsigned int d = 0; d < dim; ++d)
     for (const bool upper : {false, true})
       {
-        const auto face =
-          extract<dim>(cube, face_nodes<dim>(TestFixture::degree, d, upper));
-        double total = 0.;
+        const auto face  = extract<dim>(cube, face_nodes<dim>(TestFixture::degree, d, upper));
+        double     total = 0.;
         for (const double area : this->load.areas(face))
           {
             EXPECT_GT(area, 0.);
@@ -123,8 +118,7 @@ TYPED_TEST(FaceLoads, DerivativeAgreesWithDifferences)
               load.force(X, values, f);
               return f;
             },
-            X,
-            this->V);
+            X, this->V);
           // forces per revolution are about 10, else 1
           EXPECT_LE(distance<dim>(found, expected), 1e-9);
         }
@@ -144,8 +138,7 @@ TYPED_TEST(FaceLoads, GradientIsTheTransposeOfTheDerivative)
       gradient[0][0] = 1.;
       load.add_force_gradient(X, values, this->u, -3., gradient);
       gradient[0][0] -= 1.;
-      EXPECT_NEAR(dot<dim>(gradient, this->V),
-                  -3. * dot<dim>(f, this->u),
+      EXPECT_NEAR(dot<dim>(gradient, this->V), -3. * dot<dim>(f, this->u),
                   1e-13 * norm<dim>(gradient) * norm<dim>(this->V));
     }
 }
@@ -201,7 +194,6 @@ TYPED_TEST(FaceLoads, FollowsTranslationsAndRotations)
 
   const auto W = random_skew<dim>(35);
   this->load.force(this->X, {this->pressure, {}, {}}, f);
-  this->load.force_derivative(
-    this->X, times<dim>(W, this->X), both, {}, f_derivative);
+  this->load.force_derivative(this->X, times<dim>(W, this->X), both, {}, f_derivative);
   EXPECT_LT(distance<dim>(f_derivative, times<dim>(W, f)), 1e-13);
 }

@@ -8,28 +8,26 @@
 
 using namespace snug::elasticity;
 
-namespace
+namespace {
+/// Values and gradients against dealii::FE_Q at a point in the cube.
+template <int dim>
+void compare_with_fe_q(const unsigned int degree)
 {
-  /// Values and gradients against dealii::FE_Q at a point in the cube.
-  template <int dim>
-  void
-  compare_with_fe_q(const unsigned int degree)
-  {
-    const dealii::FE_Q<dim> fe(degree);
-    dealii::Point<dim>      point;
-    for (unsigned int d = 0; d < dim; ++d)
-      point[d] = 0.2 + 0.3 * d;
-    const auto found = lagrange_point<dim>(degree, point);
-    ASSERT_EQ(found.values.size(), fe.n_dofs_per_cell());
-    for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-      {
-        unsigned int a = 0, stride = 1;
-        for (unsigned int d = 0; d < dim; ++d, stride *= degree + 1)
-          a += stride * std::lround(fe.unit_support_point(i)[d] * degree);
-        EXPECT_NEAR(found.values[a], fe.shape_value(i, point), 1e-14);
-        EXPECT_LT((found.gradients[a] - fe.shape_grad(i, point)).norm(), 1e-13);
-      }
-  }
+  const dealii::FE_Q<dim> fe(degree);
+  dealii::Point<dim>      point;
+  for (unsigned int d = 0; d < dim; ++d)
+    point[d] = 0.2 + 0.3 * d;
+  const auto found = lagrange_point<dim>(degree, point);
+  ASSERT_EQ(found.values.size(), fe.n_dofs_per_cell());
+  for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+    {
+      unsigned int a = 0, stride = 1;
+      for (unsigned int d = 0; d < dim; ++d, stride *= degree + 1)
+        a += stride * std::lround(fe.unit_support_point(i)[d] * degree);
+      EXPECT_NEAR(found.values[a], fe.shape_value(i, point), 1e-14);
+      EXPECT_LT((found.gradients[a] - fe.shape_grad(i, point)).norm(), 1e-13);
+    }
+}
 } // namespace
 
 TEST(Lagrange, AgreesWithFE_Q)

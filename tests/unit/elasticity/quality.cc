@@ -15,8 +15,7 @@ public:
   const Nodes<dim>   cube = elasticity_cells::cube<dim>(degree);
 
   /// A regular matrix with positive determinant, strongly sheared.
-  dealii::Tensor<2, dim>
-  shear() const
+  dealii::Tensor<2, dim> shear() const
   {
     auto A = random_matrix<dim>(41);
     for (unsigned int d = 0; d < dim; ++d)
@@ -31,8 +30,7 @@ TYPED_TEST(Quality, IsOneForParallelepipeds)
   constexpr int dim = TestFixture::dim;
   const auto    X   = times<dim>(this->shear(), this->cube);
   EXPECT_NEAR(this->element.quality(X), 1., 1e-14);
-  EXPECT_NEAR(this->element.volume(X),
-              determinant(this->shear()),
+  EXPECT_NEAR(this->element.volume(X), determinant(this->shear()),
               1e-14 * determinant(this->shear()));
 }
 
@@ -44,9 +42,7 @@ TYPED_TEST(Quality, DoesNotDependOnUnitsOrAffineMaps)
   EXPECT_GT(q, 0.);
   EXPECT_LT(q, 1.);
   EXPECT_NEAR(this->element.quality(times<dim>(this->shear(), X)), q, 1e-13);
-  EXPECT_NEAR(this->element.quality(sum<dim>(Nodes<dim>(X.size()), 1e-6, X)),
-              q,
-              1e-13);
+  EXPECT_NEAR(this->element.quality(sum<dim>(Nodes<dim>(X.size()), 1e-6, X)), q, 1e-13);
 }
 
 TYPED_TEST(Quality, ScaledJacobianIsTheSineOfParallelograms)
@@ -55,15 +51,12 @@ TYPED_TEST(Quality, ScaledJacobianIsTheSineOfParallelograms)
   dealii::Tensor<2, dim> A;
   for (unsigned int d = 0; d < dim; ++d)
     A[d][d] = 1. + 7. * d;
-  EXPECT_NEAR(this->element.scaled_jacobian(times<dim>(A, this->cube)),
-              1.,
-              1e-14);
+  EXPECT_NEAR(this->element.scaled_jacobian(times<dim>(A, this->cube)), 1., 1e-14);
   // the first edge turned by 60 degrees towards the second
   A[0][0] = 3. * std::cos(dealii::numbers::PI / 3.);
   A[1][0] = 3. * std::sin(dealii::numbers::PI / 3.);
   EXPECT_NEAR(this->element.scaled_jacobian(times<dim>(A, this->cube)),
-              std::cos(dealii::numbers::PI / 3.),
-              1e-14);
+              std::cos(dealii::numbers::PI / 3.), 1e-14);
 }
 
 TYPED_TEST(Quality, FindsTangledCells)

@@ -12,16 +12,15 @@ public:
   static constexpr unsigned int degree = Case::degree;
   using Point                          = dealii::Tensor<1, dim>;
 
-  const FaceLoad<dim>  load{degree};
-  const Nodes<dim>     X      = extract<dim>(distorted<dim>(degree, 41),
-                                    face_nodes<dim>(degree, dim - 1, true));
+  const FaceLoad<dim> load{degree};
+  const Nodes<dim>    X =
+    extract<dim>(distorted<dim>(degree, 41), face_nodes<dim>(degree, dim - 1, true));
   const Nodes<dim>     V      = random_field<dim>(X.size(), 42);
   const Nodes<dim>     u      = random_field<dim>(X.size(), 43);
   const Point          origin = random_field<dim>(1, 44)[0];
   const Resultant<dim> resultant{random_field<dim>(1, 45)[0], moment()};
 
-  static dealii::Tensor<1, 3>
-  moment()
+  static dealii::Tensor<1, 3> moment()
   {
     auto m = random_field<3>(1, 46)[0];
     if (dim == 2)
@@ -29,30 +28,24 @@ public:
     return m;
   }
 
-  SpreadResultant<dim>
-  spread(const Nodes<dim> &positions) const
+  SpreadResultant<dim> spread(const Nodes<dim> &positions) const
   {
     return {resultant, load.moments(positions, origin), origin};
   }
 
-  Nodes<dim>
-  force(const Nodes<dim> &positions) const
+  Nodes<dim> force(const Nodes<dim> &positions) const
   {
     Nodes<dim> f;
     load.force(positions, {{}, {}, spread(positions).traction()}, f);
     return f;
   }
 
-  Nodes<dim>
-  force_derivative() const
+  Nodes<dim> force_derivative() const
   {
     const auto now = spread(X);
     Nodes<dim> f;
-    load.force_derivative(X,
-                          V,
-                          {{}, {}, now.traction()},
-                          now.derivative(load.moment_derivatives(X, V, origin)),
-                          f);
+    load.force_derivative(X, V, {{}, {}, now.traction()},
+                          now.derivative(load.moment_derivatives(X, V, origin)), f);
     return f;
   }
 };
@@ -87,29 +80,22 @@ TYPED_TEST(Resultants, DerivativeAgreesWithDifferences)
 {
   constexpr int dim = TestFixture::dim;
   const auto    expected =
-    derivative<dim>([&](const Nodes<dim> &X) { return this->force(X); },
-                    this->X,
-                    this->V);
-  EXPECT_LT(distance<dim>(this->force_derivative(), expected),
-            1e-9 * norm<dim>(expected));
+    derivative<dim>([&](const Nodes<dim> &X) { return this->force(X); }, this->X, this->V);
+  EXPECT_LT(distance<dim>(this->force_derivative(), expected), 1e-9 * norm<dim>(expected));
 }
 
 TYPED_TEST(Resultants, GradientIsTheTransposeOfTheDerivative)
 {
-  constexpr int dim = TestFixture::dim;
-  const auto    now = this->spread(this->X);
-  const auto    of_u =
-    this->load.displacement_moments(this->X, this->u, now.traction().centre);
-  const ResultantWork<dim> work{now.traction(),
-                                now.area(),
-                                of_u.force,
+  constexpr int dim  = TestFixture::dim;
+  const auto    now  = this->spread(this->X);
+  const auto    of_u = this->load.displacement_moments(this->X, this->u, now.traction().centre);
+  const ResultantWork<dim> work{now.traction(), now.area(), of_u.force,
                                 now.divided_by_inertia(of_u.moment)};
   Nodes<dim>               gradient(this->X.size());
   gradient[0][0] = 1.;
   this->load.add_resultant_gradient(this->X, work, this->u, -3., gradient);
   gradient[0][0] -= 1.;
-  EXPECT_NEAR(dot<dim>(gradient, this->V),
-              -3. * dot<dim>(this->force_derivative(), this->u),
+  EXPECT_NEAR(dot<dim>(gradient, this->V), -3. * dot<dim>(this->force_derivative(), this->u),
               1e-12 * norm<dim>(gradient) * norm<dim>(this->V));
 }
 
@@ -117,16 +103,13 @@ TYPED_TEST(Resultants, BendAFlatSquareLinearly)
 {
   // the moment about x of a unit square (2D: edge): t = 12 M s, s in [-1/2,
   // 1/2]
-  constexpr int dim  = TestFixture::dim;
-  const auto    cube = elasticity_cells::cube<dim>(TestFixture::degree);
-  const auto    face =
-    extract<dim>(cube, face_nodes<dim>(TestFixture::degree, dim - 1, true));
+  constexpr int  dim  = TestFixture::dim;
+  const auto     cube = elasticity_cells::cube<dim>(TestFixture::degree);
+  const auto     face = extract<dim>(cube, face_nodes<dim>(TestFixture::degree, dim - 1, true));
   Resultant<dim> moment;
   moment.moment[dim == 2 ? 2 : 0] = 0.5;
   dealii::Tensor<1, dim>     origin;
-  const SpreadResultant<dim> spread(moment,
-                                    this->load.moments(face, origin),
-                                    origin);
+  const SpreadResultant<dim> spread(moment, this->load.moments(face, origin), origin);
   for (const auto &x : face)
     {
       dealii::Tensor<1, dim> expected;

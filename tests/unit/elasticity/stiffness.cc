@@ -17,16 +17,12 @@ public:
   const Nodes<dim>    X = distorted<dim>(degree, 1);
   std::vector<double> K;
 
-  Stiffness()
-  {
-    element.stiffness(X, material, K);
-  }
+  Stiffness() { element.stiffness(X, material, K); }
 };
 TYPED_TEST_SUITE(Stiffness, AllCases);
 
 /// Eigenvalues of a symmetric matrix.
-dealii::Vector<double>
-eigenvalues(const std::vector<double> &K)
+dealii::Vector<double> eigenvalues(const std::vector<double> &K)
 {
   const unsigned int               n = std::lround(std::sqrt(K.size()));
   dealii::LAPACKFullMatrix<double> matrix(n);
@@ -69,15 +65,13 @@ TYPED_TEST(Stiffness, OnlyRigidMotionsAreFree)
             Nodes<dim> translation(of.X.size());
             for (auto &vector : translation)
               vector[d] = 1.;
-            EXPECT_LT(norm<dim>(multiply<dim>(K, translation)), 1e-13 * scale)
-              << of.name();
+            EXPECT_LT(norm<dim>(multiply<dim>(K, translation)), 1e-13 * scale) << of.name();
           }
       if (!of.idealization.is_axisymmetric())
         for (const unsigned int seed : {1, 2, 3})
           {
             const auto rotation = times<dim>(random_skew<dim>(seed), of.X);
-            EXPECT_LT(norm<dim>(multiply<dim>(K, rotation)), 1e-13 * scale)
-              << of.name();
+            EXPECT_LT(norm<dim>(multiply<dim>(K, rotation)), 1e-13 * scale) << of.name();
           }
 
       // as many zero eigenvalues as rigid motions, all others positive
@@ -88,8 +82,7 @@ TYPED_TEST(Stiffness, OnlyRigidMotionsAreFree)
         {
           EXPECT_GT(eigenvalue, -1e-13 * scale) << of.name();
           n_zero += eigenvalue < 1e-13 * scale;
-          EXPECT_TRUE(eigenvalue < 1e-13 * scale || eigenvalue > 1e-4 * scale)
-            << of.name();
+          EXPECT_TRUE(eigenvalue < 1e-13 * scale || eigenvalue > 1e-4 * scale) << of.name();
         }
       EXPECT_EQ(n_zero, of.idealization.n_rigid_motions()) << of.name();
     }
@@ -121,8 +114,7 @@ TYPED_TEST(Stiffness, PatchTest)
       if (dim == 2)
         stress[2][2] = E / (1. + nu) * across;
       for (unsigned int d = 0; d < 3; ++d)
-        stress[d][d] +=
-          E / (1. + nu) * nu / (1. - 2. * nu) * (trace(gradient) + across);
+        stress[d][d] += E / (1. + nu) * nu / (1. - 2. * nu) * (trace(gradient) + across);
 
       dealii::Tensor<2, dim> in_plane;
       for (unsigned int c = 0; c < dim; ++c)
@@ -130,10 +122,8 @@ TYPED_TEST(Stiffness, PatchTest)
           in_plane[c][d] = stress[c][d];
       std::vector<double> K;
       of.element.stiffness(of.X, material, K);
-      auto expected = times<dim>(in_plane,
-                                 boundary_normals<dim>(TestFixture::degree,
-                                                       of.X,
-                                                       of.idealization));
+      auto expected =
+        times<dim>(in_plane, boundary_normals<dim>(TestFixture::degree, of.X, of.idealization));
       if (of.idealization.is_axisymmetric())
         {
           // shear b mu makes the axial body force b mu / r: take the moment
@@ -143,15 +133,13 @@ TYPED_TEST(Stiffness, PatchTest)
           Nodes<dim>   force;
           Element<dim>(TestFixture::degree, {Idealization::Kind::plane_strain})
             .body_force(of.X,
-                        Nodes<dim>(of.X.size(),
-                                   -2. * dealii::numbers::PI * shear *
-                                     dealii::Point<dim>::unit_vector(1)),
+                        Nodes<dim>(of.X.size(), -2. * dealii::numbers::PI * shear *
+                                                  dealii::Point<dim>::unit_vector(1)),
                         force);
           expected = sum<dim>(expected, 1., force);
         }
       const double scale = largest(K);
-      EXPECT_LT(distance<dim>(multiply<dim>(K, u), expected), 1e-13 * scale)
-        << of.name();
+      EXPECT_LT(distance<dim>(multiply<dim>(K, u), expected), 1e-13 * scale) << of.name();
 
       for (const unsigned int seed : {1, 2})
         {
@@ -159,9 +147,7 @@ TYPED_TEST(Stiffness, PatchTest)
           for (unsigned int d = 0; d < dim; ++d)
             point[d] = 0.5 + 0.5 * random_field<dim>(1, seed)[0][d];
           const auto found = of.element.stress(of.X, material, u, point);
-          EXPECT_LT((dealii::Tensor<2, 3>(found) - stress).norm(),
-                    1e-13 * scale)
-            << of.name();
+          EXPECT_LT((dealii::Tensor<2, 3>(found) - stress).norm(), 1e-13 * scale) << of.name();
         }
     }
 }
@@ -176,8 +162,7 @@ TYPED_TEST(Stiffness, InternalForceIsTheProduct)
       of.element.stiffness(of.X, material, K);
       Nodes<dim> r(3); // a wrong size must not matter
       of.element.internal_force(of.X, material, u, r);
-      EXPECT_LT(distance<dim>(r, multiply<dim>(K, u)), 1e-13 * largest(K))
-        << of.name();
+      EXPECT_LT(distance<dim>(r, multiply<dim>(K, u)), 1e-13 * largest(K)) << of.name();
     }
 }
 
@@ -212,9 +197,7 @@ TYPED_TEST(Stiffness, ScalesWithUnits)
   for (auto &x : X_scaled)
     x *= 8.;
   std::vector<double> K_scaled;
-  this->element.stiffness(X_scaled,
-                          Material{4. * material.youngs_modulus,
-                                   material.poissons_ratio},
+  this->element.stiffness(X_scaled, Material{4. * material.youngs_modulus, material.poissons_ratio},
                           K_scaled);
   const double factor = 4. * (dim == 3 ? 8. : 1.);
   for (unsigned int i = 0; i < this->K.size(); ++i)

@@ -22,16 +22,14 @@ TEST(MaterialLimits, LameConstants)
 }
 
 /// Stress of a displacement gradient.
-dealii::SymmetricTensor<2, 3>
-stress_of(const Idealization         &idealization,
-          const dealii::Tensor<2, 3> &gradient)
+dealii::SymmetricTensor<2, 3> stress_of(const Idealization         &idealization,
+                                        const dealii::Tensor<2, 3> &gradient)
 {
   return cauchy_stress(material, strain(idealization, material, gradient));
 }
 
 /// A random gradient in the x-y plane.
-dealii::Tensor<2, 3>
-plane_gradient(const unsigned int seed)
+dealii::Tensor<2, 3> plane_gradient(const unsigned int seed)
 {
   const auto           in_plane = random_matrix<2>(seed);
   dealii::Tensor<2, 3> gradient;
@@ -63,15 +61,10 @@ TEST(CauchyStress, SheetsHaveNoStressAcross)
   EXPECT_NEAR(stress[2][2], 0., 1e-14);
   // the textbook's plane stress: E / (1 - nu^2) (e_xx + nu e_yy)
   const double E = material.youngs_modulus, nu = material.poissons_ratio;
-  EXPECT_NEAR(stress[0][0],
-              E / (1. - nu * nu) * (gradient[0][0] + nu * gradient[1][1]),
-              1e-13);
-  EXPECT_NEAR(stress[0][1],
-              E / (2. + 2. * nu) * (gradient[0][1] + gradient[1][0]),
-              1e-13);
+  EXPECT_NEAR(stress[0][0], E / (1. - nu * nu) * (gradient[0][0] + nu * gradient[1][1]), 1e-13);
+  EXPECT_NEAR(stress[0][1], E / (2. + 2. * nu) * (gradient[0][1] + gradient[1][0]), 1e-13);
   // and the strain across is what this stress makes of a free sheet
-  EXPECT_NEAR(strain(sheet, material, gradient)[2][2],
-              -nu / E * (stress[0][0] + stress[1][1]),
+  EXPECT_NEAR(strain(sheet, material, gradient)[2][2], -nu / E * (stress[0][0] + stress[1][1]),
               1e-14);
 }
 
@@ -109,12 +102,11 @@ TEST(VonMises, KnownStates)
 
 TEST(VonMises, AgreesWithPrincipalStresses)
 {
-  const auto stress =
-    dealii::SymmetricTensor<2, 3>(symmetrize(random_matrix<3>(54)));
-  const auto   s        = eigenvalues(stress);
-  const double expected = std::sqrt(0.5 * ((s[0] - s[1]) * (s[0] - s[1]) +
-                                           (s[1] - s[2]) * (s[1] - s[2]) +
-                                           (s[2] - s[0]) * (s[2] - s[0])));
+  const auto   stress = dealii::SymmetricTensor<2, 3>(symmetrize(random_matrix<3>(54)));
+  const auto   s      = eigenvalues(stress);
+  const double expected =
+    std::sqrt(0.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
+                     (s[2] - s[0]) * (s[2] - s[0])));
   // dealii::eigenvalues solves the cubic: fewer digits
   EXPECT_NEAR(von_mises(stress), expected, 1e-12);
 }

@@ -7,172 +7,161 @@
 
 #include <random>
 
-namespace
+namespace {
+using namespace snug;
+using namespace snug::test;
+
+std::vector<feti::SubdomainSystem> examples()
 {
-  using namespace snug;
-  using namespace snug::test;
+  return {truss_system(Block(0, {0, 0}, {4, 3}), {2., 1.}),
+          truss_system(Block(1, {1, 0, 2}, {3, 3, 5}), {2., 1., 3.})};
+}
 
-  std::vector<feti::SubdomainSystem>
-  examples()
-  {
-    return {truss_system(Block(0, {0, 0}, {4, 3}), {2., 1.}),
-            truss_system(Block(1, {1, 0, 2}, {3, 3, 5}), {2., 1., 3.})};
-  }
+qp::MultiVector random_columns(unsigned int n, unsigned int k)
+{
+  std::mt19937                           generator(11);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  qp::MultiVector                        x(n, k);
+  for (unsigned int j = 0; j < k; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      x(i, j) = uniform(generator);
+  return x;
+}
 
-  qp::MultiVector
-  random_columns(unsigned int n, unsigned int k)
-  {
-    std::mt19937                           generator(11);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    qp::MultiVector                        x(n, k);
-    for (unsigned int j = 0; j < k; ++j)
-      for (unsigned int i = 0; i < n; ++i)
-        x(i, j) = uniform(generator);
-    return x;
-  }
+qp::MultiVector times(const feti::CsrMatrix &A, const qp::MultiVector &x)
+{
+  qp::MultiVector y(A.n_rows, x.n_columns());
+  A.multiply_add(1., x, y);
+  return y;
+}
 
-  qp::MultiVector
-  times(const feti::CsrMatrix &A, const qp::MultiVector &x)
-  {
-    qp::MultiVector y(A.n_rows, x.n_columns());
-    A.multiply_add(1., x, y);
-    return y;
-  }
+double largest(const qp::MultiVector &x)
+{
+  double value = 0.;
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
+    for (unsigned int i = 0; i < x.n_rows(); ++i)
+      value = std::max(value, std::abs(x(i, j)));
+  return value;
+}
 
-  double
-  largest(const qp::MultiVector &x)
-  {
-    double value = 0.;
-    for (unsigned int j = 0; j < x.n_columns(); ++j)
-      for (unsigned int i = 0; i < x.n_rows(); ++i)
-        value = std::max(value, std::abs(x(i, j)));
-    return value;
-  }
+class Packages : public ::testing::TestWithParam<std::string>
+{
+protected:
+  std::ostringstream log;
+  RunContext         context{MPI_COMM_WORLD, log};
+};
 
-  class Packages : public ::testing::TestWithParam<std::string>
-  {
-  protected:
-    std::ostringstream log;
-    RunContext         context{MPI_COMM_WORLD, log};
-  };
+TEST_P(Packages, InvertsOnTheRange)
+{
+  for (const auto &system : examples())
+    {
+      // the kernel is what the geometry says
+      EXPECT_LT(largest(times(system.K, system.R)), 1e-12);
+      feti::GeneralizedInverse inverse(system, GetParam(), context);
+      inverse.factorize("test");
+      const auto      x  = random_columns(system.n_dofs(), 3);
+      const auto      Kx = times(system.K, x);
+      qp::MultiVector y(system.n_dofs(), 3);
+      inverse.apply(Kx, y);
+      auto error = times(system.K, y);
+      error.add(-1., Kx);
+      EXPECT_LT(largest(error), 1e-12 * largest(Kx));
+    }
+  EXPECT_EQ(context.work.symbolic_factorizations, 2u);
+  EXPECT_EQ(context.work.numeric_factorizations, 2u);
+}
 
-  TEST_P(Packages, InvertsOnTheRange)
-  {
-    for (const auto &system : examples())
-      {
-        // the kernel is what the geometry says
-        EXPECT_LT(largest(times(system.K, system.R)), 1e-12);
-        feti::GeneralizedInverse inverse(system, GetParam(), context);
-        inverse.factorize("test");
-        const auto      x  = random_columns(system.n_dofs(), 3);
-        const auto      Kx = times(system.K, x);
-        qp::MultiVector y(system.n_dofs(), 3);
-        inverse.apply(Kx, y);
-        auto error = times(system.K, y);
-        error.add(-1., Kx);
-        EXPECT_LT(largest(error), 1e-12 * largest(Kx));
-      }
-    EXPECT_EQ(context.work.symbolic_factorizations, 2u);
-    EXPECT_EQ(context.work.numeric_factorizations, 2u);
-  }
+TEST_P(Packages, FollowsNewNumbers)
+{
+  auto                     system = examples()[0];
+  feti::GeneralizedInverse inverse(system, GetParam(), context);
+  inverse.factorize("test");
+  for (double &value : system.K.values)
+    value *= 7.;
+  inverse.factorize("test");
+  const auto      x  = random_columns(system.n_dofs(), 1);
+  const auto      Kx = times(system.K, x);
+  qp::MultiVector y(system.n_dofs());
+  inverse.apply(Kx, y);
+  auto error = times(system.K, y);
+  error.add(-1., Kx);
+  EXPECT_LT(largest(error), 1e-12 * largest(Kx));
+}
 
-  TEST_P(Packages, FollowsNewNumbers)
-  {
-    auto                     system = examples()[0];
-    feti::GeneralizedInverse inverse(system, GetParam(), context);
-    inverse.factorize("test");
-    for (double &value : system.K.values)
-      value *= 7.;
-    inverse.factorize("test");
-    const auto      x  = random_columns(system.n_dofs(), 1);
-    const auto      Kx = times(system.K, x);
-    qp::MultiVector y(system.n_dofs());
-    inverse.apply(Kx, y);
-    auto error = times(system.K, y);
-    error.add(-1., Kx);
-    EXPECT_LT(largest(error), 1e-12 * largest(Kx));
-  }
+TEST_P(Packages, ReportsSingularMatrices)
+{
+  for (const auto &system : examples())
+    {
+      feti::SparseFactor factor(system.K, GetParam());
+      EXPECT_THROW(factor.factorize("the floating body"), SolveError);
+    }
+}
 
-  TEST_P(Packages, ReportsSingularMatrices)
-  {
-    for (const auto &system : examples())
-      {
-        feti::SparseFactor factor(system.K, GetParam());
-        EXPECT_THROW(factor.factorize("the floating body"), SolveError);
-      }
-  }
+TEST_P(Packages, ReportsIndefiniteMatricesAndNaN)
+{
+  for (const double bad : {-1e4, std::nan("")})
+    {
+      auto system = examples()[0];
+      for (unsigned int i = 0; i < system.n_dofs(); ++i)
+        system.K.values[system.K.position(i, i)] += 1.;
+      feti::SparseFactor factor(system.K, GetParam());
+      EXPECT_NO_THROW(factor.factorize("the body on springs"));
+      system.K.values[system.K.position(3, 3)] = bad;
+      try
+        {
+          factor.factorize("the body on springs");
+          FAIL() << GetParam() << " factorized " << bad;
+        }
+      catch (const SolveError &error)
+        {
+          EXPECT_NE(std::string(error.what()).find("the body on springs"), std::string::npos);
+        }
+    }
+}
 
-  TEST_P(Packages, ReportsIndefiniteMatricesAndNaN)
-  {
-    for (const double bad : {-1e4, std::nan("")})
-      {
-        auto system = examples()[0];
-        for (unsigned int i = 0; i < system.n_dofs(); ++i)
-          system.K.values[system.K.position(i, i)] += 1.;
-        feti::SparseFactor factor(system.K, GetParam());
-        EXPECT_NO_THROW(factor.factorize("the body on springs"));
-        system.K.values[system.K.position(3, 3)] = bad;
-        try
-          {
-            factor.factorize("the body on springs");
-            FAIL() << GetParam() << " factorized " << bad;
-          }
-        catch (const SolveError &error)
-          {
-            EXPECT_NE(std::string(error.what()).find("the body on springs"),
-                      std::string::npos);
-          }
-      }
-  }
+INSTANTIATE_TEST_SUITE_P(SparseFactor, Packages, ::testing::Values("CHOLMOD", "MUMPS"));
 
-  INSTANTIATE_TEST_SUITE_P(SparseFactor,
-                           Packages,
-                           ::testing::Values("CHOLMOD", "MUMPS"));
-
-  TEST(LocalSchur, IsTheSchurComplement)
-  {
-    auto system = examples()[0];
-    // rows at the nodes with x = 0, and one inside
-    for (unsigned int dof = 0; dof < system.n_dofs(); ++dof)
-      if (dof % 10 < 2 || dof == 15)
-        system.B.push_back({0, dof, 1.});
-    std::ostringstream log;
-    RunContext         context(MPI_COMM_WORLD, log);
-    for (const bool lumped : {false, true})
-      {
-        feti::LocalSchur schur(system, lumped, "CHOLMOD", context);
-        schur.factorize("test");
-        const auto &position = schur.boundary_position();
-        const auto  x        = random_columns(schur.n_boundary(), 2);
-        const auto  y        = schur.apply(x);
-        // energy of the best extension of x: K at the boundary rows of the u
-        // whose other rows vanish
-        qp::MultiVector inner(system.n_dofs(), 2);
-        Matrix          K(system.n_dofs(), system.n_dofs());
+TEST(LocalSchur, IsTheSchurComplement)
+{
+  auto system = examples()[0];
+  // rows at the nodes with x = 0, and one inside
+  for (unsigned int dof = 0; dof < system.n_dofs(); ++dof)
+    if (dof % 10 < 2 || dof == 15)
+      system.B.push_back({0, dof, 1.});
+  std::ostringstream log;
+  RunContext         context(MPI_COMM_WORLD, log);
+  for (const bool lumped : {false, true})
+    {
+      feti::LocalSchur schur(system, lumped, "CHOLMOD", context);
+      schur.factorize("test");
+      const auto &position = schur.boundary_position();
+      const auto  x        = random_columns(schur.n_boundary(), 2);
+      const auto  y        = schur.apply(x);
+      // energy of the best extension of x: K at the boundary rows of the u
+      // whose other rows vanish
+      qp::MultiVector inner(system.n_dofs(), 2);
+      Matrix          K(system.n_dofs(), system.n_dofs());
+      for (unsigned int i = 0; i < K.m(); ++i)
+        for (PetscInt p = system.K.row_start[i]; p < system.K.row_start[i + 1]; ++p)
+          K(i, system.K.columns[p]) = system.K.values[p];
+      Matrix extended = K;
+      for (unsigned int i = 0; i < K.m(); ++i)
+        if (position[i] < schur.n_boundary())
+          for (unsigned int j = 0; j < K.m(); ++j)
+            extended(i, j) = i == j;
+      extended.gauss_jordan();
+      for (unsigned int k = 0; k < 2; ++k)
         for (unsigned int i = 0; i < K.m(); ++i)
-          for (PetscInt p = system.K.row_start[i];
-               p < system.K.row_start[i + 1];
-               ++p)
-            K(i, system.K.columns[p]) = system.K.values[p];
-        Matrix extended = K;
+          for (unsigned int j = 0; j < K.m(); ++j)
+            if (position[j] < schur.n_boundary() && (!lumped || i == j))
+              inner(i, k) += (lumped ? 1. : extended(i, j)) * x(position[j], k);
+      const auto forces = times(system.K, inner);
+      for (unsigned int k = 0; k < 2; ++k)
         for (unsigned int i = 0; i < K.m(); ++i)
           if (position[i] < schur.n_boundary())
-            for (unsigned int j = 0; j < K.m(); ++j)
-              extended(i, j) = i == j;
-        extended.gauss_jordan();
-        for (unsigned int k = 0; k < 2; ++k)
-          for (unsigned int i = 0; i < K.m(); ++i)
-            for (unsigned int j = 0; j < K.m(); ++j)
-              if (position[j] < schur.n_boundary() && (!lumped || i == j))
-                inner(i, k) +=
-                  (lumped ? 1. : extended(i, j)) * x(position[j], k);
-        const auto forces = times(system.K, inner);
-        for (unsigned int k = 0; k < 2; ++k)
-          for (unsigned int i = 0; i < K.m(); ++i)
-            if (position[i] < schur.n_boundary())
-              {
-                EXPECT_NEAR(y(position[i], k), forces(i, k), 1e-10);
-              }
-      }
-  }
+            {
+              EXPECT_NEAR(y(position[i], k), forces(i, k), 1e-10);
+            }
+    }
+}
 } // namespace

@@ -8,284 +8,238 @@
 #include <memory>
 #include <sstream>
 
-namespace snug
+namespace snug::test {
+/**
+ * Two bodies of torn trusses in 2D: a foundation of 2 x 2 blocks whose
+ * lowest nodes are fixed, and a punch of 2 blocks above it, on rollers at
+ * its left side unless @p floating, with contact rows node to node, or
+ * node to segment (two master nodes) if asked.
+ */
+class TornTruss
 {
-  namespace test
+public:
+  TornTruss(bool floating, bool node_to_segment);
+
+  /// Total FETI of this rank's blocks.
+  std::unique_ptr<feti::TotalFeti> make(const feti::FetiParameters &parameters);
+
+  /// Values of all rows -> owned ones.
+  qp::MultiVector owned(const qp::MultiVector &all) const;
+  qp::RowSet      owned(const qp::RowSet &all) const;
+  /// Owned values of all ranks.
+  qp::MultiVector gathered(const qp::MultiVector &owned) const;
+
+  unsigned int n_rows() const { return bounded.size(); }
+
+  // The whole problem, equal on all ranks.
+  std::vector<Block>                 blocks;
+  std::vector<feti::SubdomainSystem> systems;
+  std::vector<unsigned int>          start; ///< first unknown of blocks
+  Matrix                             B, K, R;
+  qp::RowSet                         bounded;
+
+private:
+  struct Row
   {
-    /**
-     * Two bodies of torn trusses in 2D: a foundation of 2 x 2 blocks whose
-     * lowest nodes are fixed, and a punch of 2 blocks above it, on rollers at
-     * its left side unless @p floating, with contact rows node to node, or
-     * node to segment (two master nodes) if asked.
-     */
-    class TornTruss
+    unsigned int                                 owner;
+    bool                                         contact;
+    std::vector<std::pair<unsigned int, double>> entries; ///< unknowns
+  };
+
+  int                                rank, n_ranks;
+  std::vector<Row>                   rows;      ///< by owner
+  std::vector<unsigned int>          first_row; ///< of ranks
+  std::unique_ptr<feti::RowLayout>   layout;
+  std::vector<feti::SubdomainSystem> mine;
+  std::unique_ptr<RunContext>        context;
+  std::ostringstream                 log;
+
+  unsigned int rank_of_block(unsigned int s) const { return s * n_ranks / blocks.size(); }
+  std::vector<unsigned int> copies(unsigned int body, const Node &node, unsigned int d) const;
+  void                      glue_nodes(bool floating);
+  void                      add_contacts(bool node_to_segment);
+  void                      fill_dense();
+};
+
+inline TornTruss::TornTruss(bool floating, bool node_to_segment)
+{
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+  const int c = 3;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i)
+      blocks.emplace_back(0, Node{i * c, j * c}, Node{(i + 1) * c, (j + 1) * c});
+  for (int i = 0; i < 2; ++i)
+    blocks.emplace_back(1, Node{i * c, 7}, Node{(i + 1) * c, 9});
+  start.assign(1, 0);
+  for (const Block &block : blocks)
     {
-    public:
-      TornTruss(bool floating, bool node_to_segment);
-
-      /// Total FETI of this rank's blocks.
-      std::unique_ptr<feti::TotalFeti>
-      make(const feti::FetiParameters &parameters);
-
-      /// Values of all rows -> owned ones.
-      qp::MultiVector
-      owned(const qp::MultiVector &all) const;
-      qp::RowSet
-      owned(const qp::RowSet &all) const;
-      /// Owned values of all ranks.
-      qp::MultiVector
-      gathered(const qp::MultiVector &owned) const;
-
-      unsigned int
-      n_rows() const
-      {
-        return bounded.size();
-      }
-
-      // The whole problem, equal on all ranks.
-      std::vector<Block>                 blocks;
-      std::vector<feti::SubdomainSystem> systems;
-      std::vector<unsigned int>          start; ///< first unknown of blocks
-      Matrix                             B, K, R;
-      qp::RowSet                         bounded;
-
-    private:
-      struct Row
-      {
-        unsigned int                                 owner;
-        bool                                         contact;
-        std::vector<std::pair<unsigned int, double>> entries; ///< unknowns
-      };
-
-      int                                rank, n_ranks;
-      std::vector<Row>                   rows;      ///< by owner
-      std::vector<unsigned int>          first_row; ///< of ranks
-      std::unique_ptr<feti::RowLayout>   layout;
-      std::vector<feti::SubdomainSystem> mine;
-      std::unique_ptr<RunContext>        context;
-      std::ostringstream                 log;
-
-      unsigned int
-      rank_of_block(unsigned int s) const
-      {
-        return s * n_ranks / blocks.size();
-      }
-      std::vector<unsigned int>
-      copies(unsigned int body, const Node &node, unsigned int d) const;
-      void
-      glue_nodes(bool floating);
-      void
-      add_contacts(bool node_to_segment);
-      void
-      fill_dense();
-    };
-
-    inline TornTruss::TornTruss(bool floating, bool node_to_segment)
-    {
-      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-      MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-      const int c = 3;
-      for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 2; ++i)
-          blocks.emplace_back(0,
-                              Node{i * c, j * c},
-                              Node{(i + 1) * c, (j + 1) * c});
-      for (int i = 0; i < 2; ++i)
-        blocks.emplace_back(1, Node{i * c, 7}, Node{(i + 1) * c, 9});
-      start.assign(1, 0);
-      for (const Block &block : blocks)
-        {
-          systems.push_back(truss_system(block, {3., 3. + block.body}));
-          start.push_back(start.back() + systems.back().n_dofs());
-        }
-      glue_nodes(floating);
-      add_contacts(node_to_segment);
-      std::stable_sort(rows.begin(),
-                       rows.end(),
-                       [](const Row &a, const Row &b) {
-                         return a.owner < b.owner;
-                       });
-      first_row.assign(n_ranks + 1, 0);
-      for (const Row &row : rows)
-        {
-          bounded.push_back(row.contact);
-          for (int r = row.owner; r < n_ranks; ++r)
-            ++first_row[r + 1];
-        }
-      fill_dense();
+      systems.push_back(truss_system(block, {3., 3. + block.body}));
+      start.push_back(start.back() + systems.back().n_dofs());
     }
-
-    inline std::vector<unsigned int>
-    TornTruss::copies(unsigned int body, const Node &node, unsigned int d) const
+  glue_nodes(floating);
+  add_contacts(node_to_segment);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row &a, const Row &b) { return a.owner < b.owner; });
+  first_row.assign(n_ranks + 1, 0);
+  for (const Row &row : rows)
     {
-      std::vector<unsigned int> result;
-      for (unsigned int s = 0; s < blocks.size(); ++s)
-        {
-          const unsigned int slot = blocks[s].slot(node);
-          if (blocks[s].body == body && slot < blocks[s].nodes.size())
-            result.push_back(start[s] + 2 * slot + d);
-        }
-      return result;
+      bounded.push_back(row.contact);
+      for (int r = row.owner; r < n_ranks; ++r)
+        ++first_row[r + 1];
     }
+  fill_dense();
+}
 
-    inline void
-    TornTruss::glue_nodes(bool floating)
+inline std::vector<unsigned int>
+TornTruss::copies(unsigned int body, const Node &node, unsigned int d) const
+{
+  std::vector<unsigned int> result;
+  for (unsigned int s = 0; s < blocks.size(); ++s)
     {
-      std::set<std::pair<unsigned int, Node>> nodes;
-      for (const Block &block : blocks)
-        for (const Node &node : block.nodes)
-          nodes.emplace(block.body, node);
-      for (const auto &entry : nodes)
-        for (unsigned int d = 0; d < 2; ++d)
+      const unsigned int slot = blocks[s].slot(node);
+      if (blocks[s].body == body && slot < blocks[s].nodes.size())
+        result.push_back(start[s] + 2 * slot + d);
+    }
+  return result;
+}
+
+inline void TornTruss::glue_nodes(bool floating)
+{
+  std::set<std::pair<unsigned int, Node>> nodes;
+  for (const Block &block : blocks)
+    for (const Node &node : block.nodes)
+      nodes.emplace(block.body, node);
+  for (const auto &entry : nodes)
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        const Node &node = entry.second;
+        // rows at one x meet on one rank, as contact rows ask for
+        const unsigned int owner = node[0] * n_ranks / 7;
+        const auto         dofs  = copies(entry.first, node, d);
+        const bool fixed = entry.first == 0 ? node[1] == 0 : d == 0 && node[0] == 0 && !floating;
+        for (unsigned int i = 0; i < dofs.size(); ++i)
           {
-            const Node &node = entry.second;
-            // rows at one x meet on one rank, as contact rows ask for
-            const unsigned int owner = node[0] * n_ranks / 7;
-            const auto         dofs  = copies(entry.first, node, d);
-            const bool         fixed = entry.first == 0
-                                         ? node[1] == 0
-                                         : d == 0 && node[0] == 0 && !floating;
-            for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (fixed)
+              rows.push_back({owner, false, {{dofs[i], 1.}}});
+            else if (i > 0)
               {
-                if (fixed)
-                  rows.push_back({owner, false, {{dofs[i], 1.}}});
-                else if (i > 0)
-                  {
-                    rows.push_back({owner, false, {}});
-                    const double norm = std::sqrt(i * (i + 1.));
-                    for (unsigned int j = 0; j < i; ++j)
-                      rows.back().entries.emplace_back(dofs[j], 1. / norm);
-                    rows.back().entries.emplace_back(dofs[i], -(i / norm));
-                  }
+                rows.push_back({owner, false, {}});
+                const double norm = std::sqrt(i * (i + 1.));
+                for (unsigned int j = 0; j < i; ++j)
+                  rows.back().entries.emplace_back(dofs[j], 1. / norm);
+                rows.back().entries.emplace_back(dofs[i], -(i / norm));
               }
           }
-    }
+      }
+}
 
-    inline void
-    TornTruss::add_contacts(bool node_to_segment)
+inline void TornTruss::add_contacts(bool node_to_segment)
+{
+  for (int i = 0; i <= 6; ++i)
     {
-      for (int i = 0; i <= 6; ++i)
-        {
-          // segments stay within the nodes of one owner
-          const unsigned int owner = i * n_ranks / 7;
-          const bool         segment =
-            node_to_segment && i < 6 &&
-            owner == static_cast<unsigned int>((i + 1) * n_ranks / 7);
-          Row        row{owner, true, {}};
-          const auto add = [&](unsigned int body, const Node &node, double c) {
-            const auto dofs = copies(body, node, 1);
-            for (const unsigned int dof : dofs)
-              row.entries.emplace_back(dof, c / dofs.size());
-          };
-          add(1, {i, 7}, -1.);
-          add(0, {i, 6}, segment ? 0.7 : 1.);
-          if (segment)
-            add(0, {i + 1, 6}, 0.3);
-          double square = 0.;
-          for (const auto &entry : row.entries)
-            square += entry.second * entry.second;
-          for (auto &entry : row.entries)
-            entry.second /= std::sqrt(square);
-          rows.push_back(row);
-        }
+      // segments stay within the nodes of one owner
+      const unsigned int owner = i * n_ranks / 7;
+      const bool         segment =
+        node_to_segment && i < 6 && owner == static_cast<unsigned int>((i + 1) * n_ranks / 7);
+      Row        row{owner, true, {}};
+      const auto add = [&](unsigned int body, const Node &node, double c) {
+        const auto dofs = copies(body, node, 1);
+        for (const unsigned int dof : dofs)
+          row.entries.emplace_back(dof, c / dofs.size());
+      };
+      add(1, {i, 7}, -1.);
+      add(0, {i, 6}, segment ? 0.7 : 1.);
+      if (segment)
+        add(0, {i + 1, 6}, 0.3);
+      double square = 0.;
+      for (const auto &entry : row.entries)
+        square += entry.second * entry.second;
+      for (auto &entry : row.entries)
+        entry.second /= std::sqrt(square);
+      rows.push_back(row);
     }
+}
 
-    inline void
-    TornTruss::fill_dense()
+inline void TornTruss::fill_dense()
+{
+  const unsigned int n = start.back();
+  B.reinit(rows.size(), n);
+  K.reinit(n, n);
+  R.reinit(n, 3 * blocks.size());
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    for (const auto &entry : rows[i].entries)
+      B(i, entry.first) = entry.second;
+  for (unsigned int s = 0; s < blocks.size(); ++s)
     {
-      const unsigned int n = start.back();
-      B.reinit(rows.size(), n);
-      K.reinit(n, n);
-      R.reinit(n, 3 * blocks.size());
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        for (const auto &entry : rows[i].entries)
-          B(i, entry.first) = entry.second;
-      for (unsigned int s = 0; s < blocks.size(); ++s)
-        {
-          K.fill(dense_stiffness(blocks[s]), start[s], start[s], 0, 0);
-          for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
-            for (unsigned int mode = 0; mode < 3; ++mode)
-              R(start[s] + i, 3 * s + mode) = systems[s].R(i, mode);
-        }
+      K.fill(dense_stiffness(blocks[s]), start[s], start[s], 0, 0);
+      for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+        for (unsigned int mode = 0; mode < 3; ++mode)
+          R(start[s] + i, 3 * s + mode) = systems[s].R(i, mode);
     }
+}
 
-    inline std::unique_ptr<feti::TotalFeti>
-    TornTruss::make(const feti::FetiParameters &parameters)
+inline std::unique_ptr<feti::TotalFeti> TornTruss::make(const feti::FetiParameters &parameters)
+{
+  feti::SubdomainTable table;
+  table.n_modes    = 3;
+  table.body_names = {"foundation", "punch"};
+  std::vector<std::vector<feti::RowLayout::Entry>> entries;
+  std::vector<unsigned int>                        ids;
+  mine.clear();
+  for (unsigned int s = 0; s < blocks.size(); ++s)
     {
-      feti::SubdomainTable table;
-      table.n_modes    = 3;
-      table.body_names = {"foundation", "punch"};
-      std::vector<std::vector<feti::RowLayout::Entry>> entries;
-      std::vector<unsigned int>                        ids;
-      mine.clear();
-      for (unsigned int s = 0; s < blocks.size(); ++s)
-        {
-          table.body.push_back(blocks[s].body);
-          if (rank_of_block(s) != static_cast<unsigned int>(rank))
-            continue;
-          ids.push_back(s);
-          mine.push_back(systems[s]);
-          entries.emplace_back();
-          for (unsigned int i = 0; i < n_rows(); ++i)
-            for (unsigned int j = start[s]; j < start[s + 1]; ++j)
-              if (B(i, j) != 0.)
-                entries.back().push_back({i, j - start[s]});
-        }
-      table.first = ids.empty() ? blocks.size() : ids[0];
-      layout      = std::make_unique<feti::RowLayout>(MPI_COMM_WORLD,
-                                                 owned(bounded),
-                                                 entries,
-                                                 table.first);
-      for (unsigned int k = 0; k < mine.size(); ++k)
-        for (const auto &entry : entries[k])
-          mine[k].B.push_back({layout->local_row(entry.global_row),
-                               entry.dof,
-                               B(entry.global_row, start[ids[k]] + entry.dof)});
-      context   = std::make_unique<RunContext>(MPI_COMM_WORLD, log);
-      auto feti = std::make_unique<feti::TotalFeti>(
-        mine, *layout, table, parameters, *context);
-      qp::MultiVector gap(layout->n_owned());
-      for (unsigned int i = 0; i < gap.n_rows(); ++i)
-        gap(i) = layout->bounded()[i] ? 0.01 : 0.;
-      feti->update(std::vector<bool>(mine.size(), true));
-      feti->set_loads(gap);
-      return feti;
+      table.body.push_back(blocks[s].body);
+      if (rank_of_block(s) != static_cast<unsigned int>(rank))
+        continue;
+      ids.push_back(s);
+      mine.push_back(systems[s]);
+      entries.emplace_back();
+      for (unsigned int i = 0; i < n_rows(); ++i)
+        for (unsigned int j = start[s]; j < start[s + 1]; ++j)
+          if (B(i, j) != 0.)
+            entries.back().push_back({i, j - start[s]});
     }
+  table.first = ids.empty() ? blocks.size() : ids[0];
+  layout = std::make_unique<feti::RowLayout>(MPI_COMM_WORLD, owned(bounded), entries, table.first);
+  for (unsigned int k = 0; k < mine.size(); ++k)
+    for (const auto &entry : entries[k])
+      mine[k].B.push_back({layout->local_row(entry.global_row), entry.dof,
+                           B(entry.global_row, start[ids[k]] + entry.dof)});
+  context   = std::make_unique<RunContext>(MPI_COMM_WORLD, log);
+  auto feti = std::make_unique<feti::TotalFeti>(mine, *layout, table, parameters, *context);
+  qp::MultiVector gap(layout->n_owned());
+  for (unsigned int i = 0; i < gap.n_rows(); ++i)
+    gap(i) = layout->bounded()[i] ? 0.01 : 0.;
+  feti->update(std::vector<bool>(mine.size(), true));
+  feti->set_loads(gap);
+  return feti;
+}
 
-    inline qp::MultiVector
-    TornTruss::owned(const qp::MultiVector &all) const
-    {
-      qp::MultiVector part(first_row[rank + 1] - first_row[rank],
-                           all.n_columns());
-      for (unsigned int k = 0; k < all.n_columns(); ++k)
-        for (unsigned int i = 0; i < part.n_rows(); ++i)
-          part(i, k) = all(first_row[rank] + i, k);
-      return part;
-    }
+inline qp::MultiVector TornTruss::owned(const qp::MultiVector &all) const
+{
+  qp::MultiVector part(first_row[rank + 1] - first_row[rank], all.n_columns());
+  for (unsigned int k = 0; k < all.n_columns(); ++k)
+    for (unsigned int i = 0; i < part.n_rows(); ++i)
+      part(i, k) = all(first_row[rank] + i, k);
+  return part;
+}
 
-    inline qp::RowSet
-    TornTruss::owned(const qp::RowSet &all) const
-    {
-      return qp::RowSet(all.begin() + first_row[rank],
-                        all.begin() + first_row[rank + 1]);
-    }
+inline qp::RowSet TornTruss::owned(const qp::RowSet &all) const
+{
+  return qp::RowSet(all.begin() + first_row[rank], all.begin() + first_row[rank + 1]);
+}
 
-    inline qp::MultiVector
-    TornTruss::gathered(const qp::MultiVector &part) const
-    {
-      qp::MultiVector all(n_rows(), part.n_columns());
-      for (unsigned int k = 0; k < all.n_columns(); ++k)
-        for (unsigned int i = 0; i < part.n_rows(); ++i)
-          all(first_row[rank] + i, k) = part(i, k);
-      MPI_Allreduce(MPI_IN_PLACE,
-                    all.column(0),
-                    all.n_rows() * all.n_columns(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    MPI_COMM_WORLD);
-      return all;
-    }
-  } // namespace test
-} // namespace snug
+inline qp::MultiVector TornTruss::gathered(const qp::MultiVector &part) const
+{
+  qp::MultiVector all(n_rows(), part.n_columns());
+  for (unsigned int k = 0; k < all.n_columns(); ++k)
+    for (unsigned int i = 0; i < part.n_rows(); ++i)
+      all(first_row[rank] + i, k) = part(i, k);
+  MPI_Allreduce(MPI_IN_PLACE, all.column(0), all.n_rows() * all.n_columns(), MPI_DOUBLE, MPI_SUM,
+                MPI_COMM_WORLD);
+  return all;
+}
+} // namespace snug::test
 
 #endif

@@ -3,313 +3,297 @@
 
 #include <random>
 
-namespace
+namespace {
+using namespace snug;
+using namespace snug::test;
+
+Matrix product(const Matrix &A, const Matrix &B)
 {
-  using namespace snug;
-  using namespace snug::test;
+  Matrix C(A.m(), B.n());
+  A.mmult(C, B);
+  return C;
+}
 
-  Matrix
-  product(const Matrix &A, const Matrix &B)
-  {
-    Matrix C(A.m(), B.n());
-    A.mmult(C, B);
-    return C;
-  }
+Matrix transposed(const Matrix &A)
+{
+  Matrix T(A.n(), A.m());
+  T.copy_transposed(A);
+  return T;
+}
 
-  Matrix
-  transposed(const Matrix &A)
-  {
-    Matrix T(A.n(), A.m());
-    T.copy_transposed(A);
-    return T;
-  }
+/// Moore-Penrose inverse of a singular symmetric A with orthonormal kernel N.
+Matrix pseudo_inverse(const Matrix &A, const Matrix &N)
+{
+  const Matrix NN      = product(N, transposed(N));
+  Matrix       inverse = A;
+  inverse.add(1., NN);
+  inverse.gauss_jordan();
+  inverse.add(-1., NN);
+  return inverse;
+}
 
-  /// Moore-Penrose inverse of a singular symmetric A with orthonormal kernel N.
-  Matrix
-  pseudo_inverse(const Matrix &A, const Matrix &N)
-  {
-    const Matrix NN      = product(N, transposed(N));
-    Matrix       inverse = A;
-    inverse.add(1., NN);
-    inverse.gauss_jordan();
-    inverse.add(-1., NN);
-    return inverse;
-  }
-
-  qp::MultiVector
-  random_rows(const TornTruss &truss, unsigned int k)
-  {
-    std::mt19937                           generator(5);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    qp::MultiVector                        x(truss.n_rows(), k);
-    for (unsigned int j = 0; j < k; ++j)
-      for (unsigned int i = 0; i < truss.n_rows(); ++i)
-        x(i, j) = uniform(generator);
-    return x;
-  }
-
-  qp::MultiVector
-  times(const Matrix &A, const qp::MultiVector &x)
-  {
-    qp::MultiVector y(A.m(), x.n_columns());
-    for (unsigned int k = 0; k < x.n_columns(); ++k)
-      for (unsigned int i = 0; i < A.m(); ++i)
-        for (unsigned int j = 0; j < A.n(); ++j)
-          y(i, k) += A(i, j) * x(j, k);
-    return y;
-  }
-
-  void
-  expect_near(const qp::MultiVector &a,
-              const qp::MultiVector &b,
-              double                 tolerance)
-  {
-    ASSERT_EQ(a.n_rows(), b.n_rows());
-    double error = 0., size = 0.;
-    for (unsigned int k = 0; k < b.n_columns(); ++k)
-      for (unsigned int i = 0; i < b.n_rows(); ++i)
-        {
-          error = std::max(error, std::abs(a(i, k) - b(i, k)));
-          size  = std::max(size, std::abs(b(i, k)));
-        }
-    EXPECT_LE(error, tolerance * std::max(size, 1e-300));
-  }
-
-  /// Masks of all rows: all, equality rows only, one contact, two contacts.
-  std::vector<qp::RowSet>
-  masks(const TornTruss &truss)
-  {
-    std::vector<qp::RowSet> result(4, qp::RowSet(truss.n_rows(), 1));
-    unsigned int            n = 0;
+qp::MultiVector random_rows(const TornTruss &truss, unsigned int k)
+{
+  std::mt19937                           generator(5);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  qp::MultiVector                        x(truss.n_rows(), k);
+  for (unsigned int j = 0; j < k; ++j)
     for (unsigned int i = 0; i < truss.n_rows(); ++i)
-      if (truss.bounded[i])
-        {
-          result[1][i] = 0;
-          result[2][i] = n == 2;
-          result[3][i] = n == 1 || n == 5;
-          ++n;
-        }
-    return result;
-  }
+      x(i, j) = uniform(generator);
+  return x;
+}
 
-  class Trusses : public ::testing::TestWithParam<std::pair<bool, bool>>
-  {
-  protected:
-    TornTruss truss{GetParam().first, GetParam().second};
-  };
+qp::MultiVector times(const Matrix &A, const qp::MultiVector &x)
+{
+  qp::MultiVector y(A.m(), x.n_columns());
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < A.m(); ++i)
+      for (unsigned int j = 0; j < A.n(); ++j)
+        y(i, k) += A(i, j) * x(j, k);
+  return y;
+}
 
-  TEST_P(Trusses, DualOperatorOnTheKernelOfG)
-  {
-    // P F P with the Moore-Penrose inverse: any K^+ gives the same
-    const auto   feti     = truss.make({});
-    const Matrix K_pseudo = pseudo_inverse(truss.K, truss.R);
-    const Matrix F = product(truss.B, product(K_pseudo, transposed(truss.B)));
-    const auto   face = feti->face(truss.owned(qp::RowSet(truss.n_rows(), 1)));
-    auto         x    = truss.owned(random_rows(truss, 3));
-    face->project(x);
-    const unsigned long before = feti->context().work.f_mults;
-    auto                Fx     = feti->apply(x);
-    EXPECT_EQ(feti->context().work.f_mults - before, 3u);
-    face->project(Fx);
-    auto expected = truss.owned(times(F, truss.gathered(x)));
-    face->project(expected);
-    expect_near(truss.gathered(Fx), truss.gathered(expected), 1e-10);
-  }
-
-  TEST_P(Trusses, CoarseSpaceIsRB)
-  {
-    const auto   feti = truss.make({});
-    const Matrix G    = product(transposed(truss.R), transposed(truss.B));
-    const auto   x    = random_rows(truss, 2);
-    expect_near(feti->apply_G(truss.owned(x)), times(G, x), 1e-12);
-    qp::MultiVector alpha(feti->n_kernel(), 2);
-    for (unsigned int i = 0; i < alpha.n_rows(); ++i)
-      for (unsigned int k = 0; k < 2; ++k)
-        alpha(i, k) = std::sin(3. * i + k);
-    expect_near(truss.gathered(feti->apply_Gt(alpha)),
-                times(transposed(G), alpha),
-                1e-12);
-  }
-
-  TEST_P(Trusses, ProjectorOnEveryFace)
-  {
-    const auto feti = truss.make({});
-    for (const auto &mask : masks(truss))
+void expect_near(const qp::MultiVector &a, const qp::MultiVector &b, double tolerance)
+{
+  ASSERT_EQ(a.n_rows(), b.n_rows());
+  double error = 0., size = 0.;
+  for (unsigned int k = 0; k < b.n_columns(); ++k)
+    for (unsigned int i = 0; i < b.n_rows(); ++i)
       {
-        const auto face = feti->face(truss.owned(mask));
-        auto       x    = truss.owned(random_rows(truss, 2));
-        face->project(x);
-        const auto all = truss.gathered(x);
-        for (unsigned int i = 0; i < truss.n_rows(); ++i)
-          EXPECT_TRUE(mask[i] || all(i) == 0.);
-        const auto Gx = feti->apply_G(x);
-        for (const double norm : qp::norms(Gx, MPI_COMM_SELF))
-          EXPECT_LT(norm, 1e-11);
-        auto PPx = x;
-        face->project(PPx);
-        expect_near(truss.gathered(PPx), truss.gathered(x), 1e-11);
-        // x - P x is in the range of G_M', orthogonal to P y
-        auto y    = truss.owned(random_rows(truss, 2));
-        auto rest = y;
-        for (unsigned int i = 0; i < rest.n_rows(); ++i)
-          for (unsigned int k = 0; k < 2; ++k)
-            rest(i, k) *= face->rows()[i];
-        auto Py = rest;
-        face->project(Py);
-        rest.add(-1., Py);
-        const auto products = qp::inner_products(x, rest, MPI_COMM_WORLD);
+        error = std::max(error, std::abs(a(i, k) - b(i, k)));
+        size  = std::max(size, std::abs(b(i, k)));
+      }
+  EXPECT_LE(error, tolerance * std::max(size, 1e-300));
+}
+
+/// Masks of all rows: all, equality rows only, one contact, two contacts.
+std::vector<qp::RowSet> masks(const TornTruss &truss)
+{
+  std::vector<qp::RowSet> result(4, qp::RowSet(truss.n_rows(), 1));
+  unsigned int            n = 0;
+  for (unsigned int i = 0; i < truss.n_rows(); ++i)
+    if (truss.bounded[i])
+      {
+        result[1][i] = 0;
+        result[2][i] = n == 2;
+        result[3][i] = n == 1 || n == 5;
+        ++n;
+      }
+  return result;
+}
+
+class Trusses : public ::testing::TestWithParam<std::pair<bool, bool>>
+{
+protected:
+  TornTruss truss{GetParam().first, GetParam().second};
+};
+
+TEST_P(Trusses, DualOperatorOnTheKernelOfG)
+{
+  // P F P with the Moore-Penrose inverse: any K^+ gives the same
+  const auto   feti     = truss.make({});
+  const Matrix K_pseudo = pseudo_inverse(truss.K, truss.R);
+  const Matrix F        = product(truss.B, product(K_pseudo, transposed(truss.B)));
+  const auto   face     = feti->face(truss.owned(qp::RowSet(truss.n_rows(), 1)));
+  auto         x        = truss.owned(random_rows(truss, 3));
+  face->project(x);
+  const unsigned long before = feti->context().work.f_mults;
+  auto                Fx     = feti->apply(x);
+  EXPECT_EQ(feti->context().work.f_mults - before, 3u);
+  face->project(Fx);
+  auto expected = truss.owned(times(F, truss.gathered(x)));
+  face->project(expected);
+  expect_near(truss.gathered(Fx), truss.gathered(expected), 1e-10);
+}
+
+TEST_P(Trusses, CoarseSpaceIsRB)
+{
+  const auto   feti = truss.make({});
+  const Matrix G    = product(transposed(truss.R), transposed(truss.B));
+  const auto   x    = random_rows(truss, 2);
+  expect_near(feti->apply_G(truss.owned(x)), times(G, x), 1e-12);
+  qp::MultiVector alpha(feti->n_kernel(), 2);
+  for (unsigned int i = 0; i < alpha.n_rows(); ++i)
+    for (unsigned int k = 0; k < 2; ++k)
+      alpha(i, k) = std::sin(3. * i + k);
+  expect_near(truss.gathered(feti->apply_Gt(alpha)), times(transposed(G), alpha), 1e-12);
+}
+
+TEST_P(Trusses, ProjectorOnEveryFace)
+{
+  const auto feti = truss.make({});
+  for (const auto &mask : masks(truss))
+    {
+      const auto face = feti->face(truss.owned(mask));
+      auto       x    = truss.owned(random_rows(truss, 2));
+      face->project(x);
+      const auto all = truss.gathered(x);
+      for (unsigned int i = 0; i < truss.n_rows(); ++i)
+        EXPECT_TRUE(mask[i] || all(i) == 0.);
+      const auto Gx = feti->apply_G(x);
+      for (const double norm : qp::norms(Gx, MPI_COMM_SELF))
+        EXPECT_LT(norm, 1e-11);
+      auto PPx = x;
+      face->project(PPx);
+      expect_near(truss.gathered(PPx), truss.gathered(x), 1e-11);
+      // x - P x is in the range of G_M', orthogonal to P y
+      auto y    = truss.owned(random_rows(truss, 2));
+      auto rest = y;
+      for (unsigned int i = 0; i < rest.n_rows(); ++i)
         for (unsigned int k = 0; k < 2; ++k)
-          EXPECT_NEAR(products(k, k), 0., 1e-10);
-      }
-  }
+          rest(i, k) *= face->rows()[i];
+      auto Py = rest;
+      face->project(Py);
+      rest.add(-1., Py);
+      const auto products = qp::inner_products(x, rest, MPI_COMM_WORLD);
+      for (unsigned int k = 0; k < 2; ++k)
+        EXPECT_NEAR(products(k, k), 0., 1e-10);
+    }
+}
 
-  TEST_P(Trusses, FeasibilityTellsWhatAFaceCanHold)
-  {
-    const auto   feti = truss.make({});
-    const double load = qp::norms(feti->e(), MPI_COMM_SELF)[0];
-    const auto   all  = masks(truss);
-    for (unsigned int m = 0; m < all.size(); ++m)
+TEST_P(Trusses, FeasibilityTellsWhatAFaceCanHold)
+{
+  const auto   feti = truss.make({});
+  const double load = qp::norms(feti->e(), MPI_COMM_SELF)[0];
+  const auto   all  = masks(truss);
+  for (unsigned int m = 0; m < all.size(); ++m)
+    {
+      const auto      face = feti->face(truss.owned(all[m]));
+      qp::MultiVector x(feti->n_owned());
+      const double    left = face->make_feasible(x, feti->e())[0];
+      // nothing below, or one contact: the punch falls, or tips if it is not
+      // guided (its rollers at one side resist turning)
+      const bool held = m == 0 || m == 3 || (m == 2 && !GetParam().first);
+      if (held)
+        EXPECT_LT(left, 1e-10 * load);
+      else
+        EXPECT_GT(left, 1e-2 * load);
+      auto missing = feti->e();
+      missing.add(-1., feti->apply_G(x));
+      EXPECT_NEAR(qp::norms(missing, MPI_COMM_SELF)[0], left, 1e-10 * load);
+      if (m != 1)
+        continue;
+      // the falling punch closes all its contacts
+      const auto rates = face->closing_rates(feti->e());
+      for (unsigned int i = 0; i < rates.size(); ++i)
+        EXPECT_TRUE(!feti->bounded()[i] || rates[i] > 0.);
+    }
+}
+
+TEST_P(Trusses, PreconditionerIsTheFormula)
+{
+  // M^-1 = W^-1 B D^-1 S D^-1 B' W^-1 on the rows of M, W = B D^-1 B'
+  for (const std::string scaling : {"stiffness", "multiplicity"})
+    for (const std::string kind : {"Dirichlet", "lumped"})
       {
-        const auto      face = feti->face(truss.owned(all[m]));
-        qp::MultiVector x(feti->n_owned());
-        const double    left = face->make_feasible(x, feti->e())[0];
-        // nothing below, or one contact: the punch falls, or tips if it is not
-        // guided (its rollers at one side resist turning)
-        const bool held = m == 0 || m == 3 || (m == 2 && !GetParam().first);
-        if (held)
-          EXPECT_LT(left, 1e-10 * load);
-        else
-          EXPECT_GT(left, 1e-2 * load);
-        auto missing = feti->e();
-        missing.add(-1., feti->apply_G(x));
-        EXPECT_NEAR(qp::norms(missing, MPI_COMM_SELF)[0], left, 1e-10 * load);
-        if (m != 1)
-          continue;
-        // the falling punch closes all its contacts
-        const auto rates = face->closing_rates(feti->e());
-        for (unsigned int i = 0; i < rates.size(); ++i)
-          EXPECT_TRUE(!feti->bounded()[i] || rates[i] > 0.);
-      }
-  }
-
-  TEST_P(Trusses, PreconditionerIsTheFormula)
-  {
-    // M^-1 = W^-1 B D^-1 S D^-1 B' W^-1 on the rows of M, W = B D^-1 B'
-    for (const std::string scaling : {"stiffness", "multiplicity"})
-      for (const std::string kind : {"Dirichlet", "lumped"})
-        {
-          const auto         feti = truss.make({"CHOLMOD", kind, scaling});
-          const unsigned int n    = truss.K.m();
-          std::vector<bool>  boundary(n, false);
-          for (unsigned int i = 0; i < truss.n_rows(); ++i)
+        const auto         feti = truss.make({"CHOLMOD", kind, scaling});
+        const unsigned int n    = truss.K.m();
+        std::vector<bool>  boundary(n, false);
+        for (unsigned int i = 0; i < truss.n_rows(); ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            boundary[j] = boundary[j] || truss.B(i, j) != 0.;
+        // S x: K times the extension of x that is in balance inside
+        Matrix extension = truss.K;
+        for (unsigned int i = 0; i < n; ++i)
+          if (boundary[i] || kind == "lumped")
             for (unsigned int j = 0; j < n; ++j)
-              boundary[j] = boundary[j] || truss.B(i, j) != 0.;
-          // S x: K times the extension of x that is in balance inside
-          Matrix extension = truss.K;
-          for (unsigned int i = 0; i < n; ++i)
-            if (boundary[i] || kind == "lumped")
-              for (unsigned int j = 0; j < n; ++j)
-                extension(i, j) = i == j;
-          extension.gauss_jordan();
-          Matrix S = product(truss.K, extension);
-          Matrix BD(truss.n_rows(), n);
-          for (unsigned int i = 0; i < truss.n_rows(); ++i)
-            for (unsigned int j = 0; j < n; ++j)
-              BD(i, j) =
-                truss.B(i, j) / (scaling == "stiffness" ? truss.K(j, j) : 1.);
-          const Matrix BSB   = product(BD, product(S, transposed(BD)));
-          const Matrix W_all = product(BD, transposed(truss.B));
-          for (const auto &mask : masks(truss))
-            {
-              Matrix W = W_all;
-              for (unsigned int i = 0; i < W.m(); ++i)
-                for (unsigned int j = 0; j < W.m(); ++j)
-                  if (!mask[i] || !mask[j])
-                    W(i, j) = i == j;
-              W.gauss_jordan();
-              auto x = random_rows(truss, 2);
-              for (unsigned int i = 0; i < W.m(); ++i)
-                for (unsigned int k = 0; k < 2; ++k)
-                  x(i, k) *= mask[i];
-              auto y = times(BSB, times(W, x));
-              for (unsigned int i = 0; i < W.m(); ++i)
-                for (unsigned int k = 0; k < 2; ++k)
-                  y(i, k) *= mask[i];
-              const auto expected = times(W, y);
-              const auto face     = feti->face(truss.owned(mask));
-              expect_near(truss.gathered(face->precondition(truss.owned(x))),
-                          expected,
-                          1e-10);
-            }
-        }
-  }
-
-  TEST_P(Trusses, PreconditionerIsSymmetricPositive)
-  {
-    const auto feti = truss.make({});
-    for (const auto &mask : masks(truss))
-      {
-        const auto face = feti->face(truss.owned(mask));
-        auto       x    = truss.owned(random_rows(truss, 6));
-        face->project(x);
-        auto z = face->precondition(x);
-        face->project(z);
-        const auto Q = qp::inner_products(x, z, MPI_COMM_WORLD);
-        for (unsigned int i = 0; i < 6; ++i)
+              extension(i, j) = i == j;
+        extension.gauss_jordan();
+        Matrix S = product(truss.K, extension);
+        Matrix BD(truss.n_rows(), n);
+        for (unsigned int i = 0; i < truss.n_rows(); ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            BD(i, j) = truss.B(i, j) / (scaling == "stiffness" ? truss.K(j, j) : 1.);
+        const Matrix BSB   = product(BD, product(S, transposed(BD)));
+        const Matrix W_all = product(BD, transposed(truss.B));
+        for (const auto &mask : masks(truss))
           {
-            EXPECT_GT(Q(i, i), 0.);
-            for (unsigned int j = 0; j < i; ++j)
-              EXPECT_NEAR(Q(i, j), Q(j, i), 1e-11 * Q(i, i));
+            Matrix W = W_all;
+            for (unsigned int i = 0; i < W.m(); ++i)
+              for (unsigned int j = 0; j < W.m(); ++j)
+                if (!mask[i] || !mask[j])
+                  W(i, j) = i == j;
+            W.gauss_jordan();
+            auto x = random_rows(truss, 2);
+            for (unsigned int i = 0; i < W.m(); ++i)
+              for (unsigned int k = 0; k < 2; ++k)
+                x(i, k) *= mask[i];
+            auto y = times(BSB, times(W, x));
+            for (unsigned int i = 0; i < W.m(); ++i)
+              for (unsigned int k = 0; k < 2; ++k)
+                y(i, k) *= mask[i];
+            const auto expected = times(W, y);
+            const auto face     = feti->face(truss.owned(mask));
+            expect_near(truss.gathered(face->precondition(truss.owned(x))), expected, 1e-10);
           }
       }
-  }
+}
 
-  TEST_P(Trusses, PackagesAgree)
-  {
-    const auto cholmod = truss.make({"CHOLMOD", "Dirichlet", "stiffness"});
-    const auto d       = truss.gathered(cholmod->d());
-    const auto x       = truss.owned(random_rows(truss, 2));
-    const auto Fx      = truss.gathered(cholmod->apply(x));
-    TornTruss  same(GetParam().first, GetParam().second);
-    const auto mumps = same.make({"MUMPS", "Dirichlet", "stiffness"});
-    expect_near(truss.gathered(mumps->d()), d, 1e-11);
-    expect_near(truss.gathered(mumps->apply(x)), Fx, 1e-11);
-  }
+TEST_P(Trusses, PreconditionerIsSymmetricPositive)
+{
+  const auto feti = truss.make({});
+  for (const auto &mask : masks(truss))
+    {
+      const auto face = feti->face(truss.owned(mask));
+      auto       x    = truss.owned(random_rows(truss, 6));
+      face->project(x);
+      auto z = face->precondition(x);
+      face->project(z);
+      const auto Q = qp::inner_products(x, z, MPI_COMM_WORLD);
+      for (unsigned int i = 0; i < 6; ++i)
+        {
+          EXPECT_GT(Q(i, i), 0.);
+          for (unsigned int j = 0; j < i; ++j)
+            EXPECT_NEAR(Q(i, j), Q(j, i), 1e-11 * Q(i, i));
+        }
+    }
+}
 
-  TEST_P(Trusses, RecoveryIsInBalance)
-  {
-    // K u = f - B' lambda for every feasible lambda and any amplitudes
-    const auto      feti   = truss.make({});
-    const auto      face   = feti->face(truss.owned(masks(truss)[0]));
-    auto            lambda = truss.owned(random_rows(truss, 1));
-    qp::MultiVector alpha(feti->n_kernel());
-    for (unsigned int i = 0; i < alpha.n_rows(); ++i)
-      alpha(i) = std::cos(2. * i);
-    face->make_feasible(lambda, feti->e());
-    const auto u      = feti->recover(feti->loads(), lambda, alpha);
-    const auto forces = feti->multiply_Bt(lambda);
-    for (unsigned int s = 0; s < u.size(); ++s)
-      {
-        const auto     &system   = feti->subdomains()[s];
-        qp::MultiVector residual = forces[s];
-        system.K.multiply_add(1., u[s], residual);
-        for (unsigned int i = 0; i < system.n_dofs(); ++i)
-          EXPECT_NEAR(residual(i), system.f[i], 1e-10);
-      }
-  }
+TEST_P(Trusses, PackagesAgree)
+{
+  const auto cholmod = truss.make({"CHOLMOD", "Dirichlet", "stiffness"});
+  const auto d       = truss.gathered(cholmod->d());
+  const auto x       = truss.owned(random_rows(truss, 2));
+  const auto Fx      = truss.gathered(cholmod->apply(x));
+  TornTruss  same(GetParam().first, GetParam().second);
+  const auto mumps = same.make({"MUMPS", "Dirichlet", "stiffness"});
+  expect_near(truss.gathered(mumps->d()), d, 1e-11);
+  expect_near(truss.gathered(mumps->apply(x)), Fx, 1e-11);
+}
 
-  std::string
-  truss_name(const ::testing::TestParamInfo<std::pair<bool, bool>> &info)
-  {
-    return std::string(info.param.first ? "Floating" : "Guided") +
-           (info.param.second ? "NodeToSegment" : "NodeToNode");
-  }
+TEST_P(Trusses, RecoveryIsInBalance)
+{
+  // K u = f - B' lambda for every feasible lambda and any amplitudes
+  const auto      feti   = truss.make({});
+  const auto      face   = feti->face(truss.owned(masks(truss)[0]));
+  auto            lambda = truss.owned(random_rows(truss, 1));
+  qp::MultiVector alpha(feti->n_kernel());
+  for (unsigned int i = 0; i < alpha.n_rows(); ++i)
+    alpha(i) = std::cos(2. * i);
+  face->make_feasible(lambda, feti->e());
+  const auto u      = feti->recover(feti->loads(), lambda, alpha);
+  const auto forces = feti->multiply_Bt(lambda);
+  for (unsigned int s = 0; s < u.size(); ++s)
+    {
+      const auto     &system   = feti->subdomains()[s];
+      qp::MultiVector residual = forces[s];
+      system.K.multiply_add(1., u[s], residual);
+      for (unsigned int i = 0; i < system.n_dofs(); ++i)
+        EXPECT_NEAR(residual(i), system.f[i], 1e-10);
+    }
+}
 
-  INSTANTIATE_TEST_SUITE_P(TotalFeti,
-                           Trusses,
-                           ::testing::Values(std::make_pair(false, false),
-                                             std::make_pair(true, false),
-                                             std::make_pair(false, true),
-                                             std::make_pair(true, true)),
-                           truss_name);
+std::string truss_name(const ::testing::TestParamInfo<std::pair<bool, bool>> &info)
+{
+  return std::string(info.param.first ? "Floating" : "Guided") +
+         (info.param.second ? "NodeToSegment" : "NodeToNode");
+}
+
+INSTANTIATE_TEST_SUITE_P(TotalFeti,
+                         Trusses,
+                         ::testing::Values(std::make_pair(false, false),
+                                           std::make_pair(true, false),
+                                           std::make_pair(false, true),
+                                           std::make_pair(true, true)),
+                         truss_name);
 } // namespace

@@ -8,213 +8,185 @@
 #include "scratch.h"
 #include "vtu_reader.h"
 
-namespace snug
+namespace snug {
+namespace {
+double pressure_at(double x)
 {
-  namespace
+  return 3. + 2. * x;
+}
+
+/// Body 1's bottom (slave) on body 0's top, with a row at every slave node
+/// that does not hang and made-up results.
+template <int dim>
+struct ContactScene
+{
+  explicit ContactScene(unsigned int degree)
+    : mesh(MPI_COMM_WORLD, test::two_boxes<dim>(true), degree)
+    , slave(1, mesh::boundary_index(mesh.geometry(1), "bottom"))
+    , master(0, mesh::boundary_index(mesh.geometry(0), "top"))
+    , surface(mesh, {slave, master})
+    , pairs{{slave, master}}
   {
-    double
-    pressure_at(double x)
-    {
-      return 3. + 2. * x;
-    }
+    state.positions     = mesh.reference_positions();
+    state.displacement  = test::linear_field<dim>(state.positions);
+    const auto        x = surface.gather(state.positions);
+    std::vector<bool> is_slave(surface.n_nodes(), false);
+    for (const auto &face : surface.faces())
+      if (face.body == 1)
+        for (const unsigned int node : face.nodes)
+          is_slave[node] = true;
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+      if (is_slave[node] && surface.masters(node).empty())
+        {
+          places.push_back({0, node});
+          state::ContactPoint point;
+          point.pressure = pressure_at(x[node][0]);
+          point.force    = 0.1 * point.pressure;
+          point.area     = 0.1;
+          point.gap      = 1e-3 * x[node][0];
+          point.active   = x[node][0] < 0.6;
+          point.weak     = node % 2 == 0;
+          state.contact.push_back(point);
+        }
+  }
 
-    /// Body 1's bottom (slave) on body 0's top, with a row at every slave node
-    /// that does not hang and made-up results.
-    template <int dim>
-    struct ContactScene
+  mesh::BodyMesh<dim>                   mesh;
+  std::pair<unsigned int, unsigned int> slave, master;
+  mesh::Surface<dim>                    surface;
+  std::vector<contact::Pair>            pairs;
+  std::vector<contact::RowPlace>        places;
+  std::vector<contact::SharedNode>      shared;
+  state::ContactState<dim>              state;
+};
+
+template <int dim>
+void expect_contact_faces(unsigned int degree)
+{
+  const test::ScratchDirectory scratch;
+  const ContactScene<dim>      scene(degree);
+  io::ContactOutput<dim>       output({scene.mesh, scene.surface, scene.pairs, scene.places,
+                                       scene.shared},
+                                      scratch.path);
+  output.write(0., scene.state);
+  if (!scratch.is_first())
+    return;
+
+  const auto vtu = test::read_vtu(test::read_file(scratch.file("contact-0000.vtu")));
+  EXPECT_EQ(vtu.n_cells, scene.surface.faces().size() * std::lround(std::pow(degree, dim - 1)));
+  const auto at = [&](const std::string &name, unsigned int p) {
+    return vtu.arrays.at(name)[p * vtu.components.at(name)];
+  };
+  unsigned int slaves = 0;
+  double       active = 0.;
+  for (unsigned int p = 0; p < vtu.n_points; ++p)
     {
-      explicit ContactScene(unsigned int degree)
-        : mesh(MPI_COMM_WORLD, test::two_boxes<dim>(true), degree)
-        , slave(1, mesh::boundary_index(mesh.geometry(1), "bottom"))
-        , master(0, mesh::boundary_index(mesh.geometry(0), "top"))
-        , surface(mesh, {slave, master})
-        , pairs{{slave, master}}
+      const double x     = at("", p);
+      const bool   slave = at("slave", p) == 1.f;
+      slaves += slave;
+      active += at("active", p);
+      EXPECT_EQ(at("body", p), slave ? 1.f : 0.f);
+      // the pressure is linear: hanging nodes interpolate it exactly
+      EXPECT_NEAR(at("pressure", p), slave ? pressure_at(x) : 0., 1e-6);
+      EXPECT_NEAR(at("gap", p), slave ? 1e-3 * x : 0., 1e-9);
+      EXPECT_EQ(at("active", p), slave && x < 0.6 ? 1.f : 0.f);
+      EXPECT_EQ(at("design_displacement", p), 0.f);
+      double u = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        u += test::displacement_gradient<dim>()[0][c] * vtu.arrays.at("")[3 * p + c];
+      EXPECT_NEAR(at("displacement", p), u, 1e-6);
+    }
+  EXPECT_GT(slaves, 0u);
+  EXPECT_LT(slaves, vtu.n_points);
+  EXPECT_GT(active, 0.);
+}
+
+TEST(ContactOutput, ShowsBothSidesWithHangingNodes)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      expect_contact_faces<2>(degree);
+      expect_contact_faces<3>(degree);
+    }
+}
+
+TEST(ContactOutput, NodesWithoutARowShowTheMeanOfThoseThatActForThem)
+{
+  const test::ScratchDirectory scratch;
+  ContactScene<2>              scene(1);
+  const unsigned int           node = scene.places.back().slave;
+  scene.places.pop_back();
+  scene.state.contact.pop_back();
+  scene.shared.push_back({node, {{0, 0.25}, {1, 0.75}}});
+  io::ContactOutput<2> output({scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
+                              scratch.path);
+  output.write(0., scene.state);
+  const auto x = scene.surface.gather(scene.state.positions)[node];
+  if (!scratch.is_first())
+    return;
+  const auto   vtu = test::read_vtu(test::read_file(scratch.file("contact-0000.vtu")));
+  const double mean =
+    0.25 * scene.state.contact[0].pressure + 0.75 * scene.state.contact[1].pressure;
+  unsigned int found = 0;
+  for (unsigned int p = 0; p < vtu.n_points; ++p)
+    if (std::abs(vtu.arrays.at("")[3 * p] - x[0]) < 1e-6 && vtu.arrays.at("slave")[p] == 1.f)
       {
-        state.positions     = mesh.reference_positions();
-        state.displacement  = test::linear_field<dim>(state.positions);
-        const auto        x = surface.gather(state.positions);
-        std::vector<bool> is_slave(surface.n_nodes(), false);
-        for (const auto &face : surface.faces())
-          if (face.body == 1)
-            for (const unsigned int node : face.nodes)
-              is_slave[node] = true;
-        for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-          if (is_slave[node] && surface.masters(node).empty())
-            {
-              places.push_back({0, node});
-              state::ContactPoint point;
-              point.pressure = pressure_at(x[node][0]);
-              point.force    = 0.1 * point.pressure;
-              point.area     = 0.1;
-              point.gap      = 1e-3 * x[node][0];
-              point.active   = x[node][0] < 0.6;
-              point.weak     = node % 2 == 0;
-              state.contact.push_back(point);
-            }
+        ++found;
+        EXPECT_NEAR(vtu.arrays.at("pressure")[p], mean, 1e-6);
+        EXPECT_EQ(vtu.arrays.at("candidate")[p], 0.f);
       }
+  EXPECT_GT(found, 0u);
+}
 
-      mesh::BodyMesh<dim>                   mesh;
-      std::pair<unsigned int, unsigned int> slave, master;
-      mesh::Surface<dim>                    surface;
-      std::vector<contact::Pair>            pairs;
-      std::vector<contact::RowPlace>        places;
-      std::vector<contact::SharedNode>      shared;
-      state::ContactState<dim>              state;
-    };
-
-    template <int dim>
-    void
-    expect_contact_faces(unsigned int degree)
+TEST(ContactOutput, TableReadsBackBitForBit)
+{
+  const test::ScratchDirectory scratch;
+  const ContactScene<3>        scene(1);
+  io::ContactOutput<3> output({scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
+                              scratch.path);
+  output.write(0., scene.state);
+  output.write(5., scene.state);
+  const auto x = scene.surface.gather(scene.state.positions);
+  if (!scratch.is_first())
+    return;
+  const auto table = test::read_csv(test::read_file(scratch.file("contact-0001.csv")));
+  ASSERT_EQ(table.size(), scene.state.contact.size() + 1);
+  EXPECT_EQ(table[0], (std::vector<std::string>{"pair", "x", "y", "z", "force", "pressure", "gap",
+                                                "area", "active", "weak"}));
+  for (unsigned int i = 0; i < scene.state.contact.size(); ++i)
     {
-      const test::ScratchDirectory scratch;
-      const ContactScene<dim>      scene(degree);
-      io::ContactOutput<dim>       output(
-        {scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
-        scratch.path);
-      output.write(0., scene.state);
-      if (!scratch.is_first())
-        return;
-
-      const auto vtu =
-        test::read_vtu(test::read_file(scratch.file("contact-0000.vtu")));
-      EXPECT_EQ(vtu.n_cells,
-                scene.surface.faces().size() *
-                  std::lround(std::pow(degree, dim - 1)));
-      const auto at = [&](const std::string &name, unsigned int p) {
-        return vtu.arrays.at(name)[p * vtu.components.at(name)];
-      };
-      unsigned int slaves = 0;
-      double       active = 0.;
-      for (unsigned int p = 0; p < vtu.n_points; ++p)
-        {
-          const double x     = at("", p);
-          const bool   slave = at("slave", p) == 1.f;
-          slaves += slave;
-          active += at("active", p);
-          EXPECT_EQ(at("body", p), slave ? 1.f : 0.f);
-          // the pressure is linear: hanging nodes interpolate it exactly
-          EXPECT_NEAR(at("pressure", p), slave ? pressure_at(x) : 0., 1e-6);
-          EXPECT_NEAR(at("gap", p), slave ? 1e-3 * x : 0., 1e-9);
-          EXPECT_EQ(at("active", p), slave && x < 0.6 ? 1.f : 0.f);
-          EXPECT_EQ(at("design_displacement", p), 0.f);
-          double u = 0.;
-          for (unsigned int c = 0; c < dim; ++c)
-            u += test::displacement_gradient<dim>()[0][c] *
-                 vtu.arrays.at("")[3 * p + c];
-          EXPECT_NEAR(at("displacement", p), u, 1e-6);
-        }
-      EXPECT_GT(slaves, 0u);
-      EXPECT_LT(slaves, vtu.n_points);
-      EXPECT_GT(active, 0.);
+      const auto &fields = table[i + 1];
+      const auto &point  = scene.state.contact[i];
+      ASSERT_EQ(fields.size(), 10u);
+      for (unsigned int c = 0; c < 3; ++c)
+        EXPECT_EQ(std::stod(fields[1 + c]), x[scene.places[i].slave][c]);
+      EXPECT_EQ(std::stod(fields[4]), point.force);
+      EXPECT_EQ(std::stod(fields[5]), point.pressure);
+      EXPECT_EQ(std::stod(fields[6]), point.gap);
+      EXPECT_EQ(std::stod(fields[7]), point.area);
+      EXPECT_EQ(fields[8], point.active ? "1" : "0");
+      EXPECT_EQ(fields[9], point.weak ? "1" : "0");
     }
+  const auto pvd = test::read_file(scratch.file("contact.pvd"));
+  EXPECT_EQ(test::count(pvd, "<DataSet"), 2u);
+  EXPECT_NE(pvd.find("timestep=\"5\""), std::string::npos);
+}
 
-    TEST(ContactOutput, ShowsBothSidesWithHangingNodes)
-    {
-      for (const unsigned int degree : {1, 2})
-        {
-          expect_contact_faces<2>(degree);
-          expect_contact_faces<3>(degree);
-        }
-    }
-
-    TEST(ContactOutput, NodesWithoutARowShowTheMeanOfThoseThatActForThem)
-    {
-      const test::ScratchDirectory scratch;
-      ContactScene<2>              scene(1);
-      const unsigned int           node = scene.places.back().slave;
-      scene.places.pop_back();
-      scene.state.contact.pop_back();
-      scene.shared.push_back({node, {{0, 0.25}, {1, 0.75}}});
-      io::ContactOutput<2> output(
-        {scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
-        scratch.path);
-      output.write(0., scene.state);
-      const auto x = scene.surface.gather(scene.state.positions)[node];
-      if (!scratch.is_first())
-        return;
-      const auto vtu =
-        test::read_vtu(test::read_file(scratch.file("contact-0000.vtu")));
-      const double mean = 0.25 * scene.state.contact[0].pressure +
-                          0.75 * scene.state.contact[1].pressure;
-      unsigned int found = 0;
-      for (unsigned int p = 0; p < vtu.n_points; ++p)
-        if (std::abs(vtu.arrays.at("")[3 * p] - x[0]) < 1e-6 &&
-            vtu.arrays.at("slave")[p] == 1.f)
-          {
-            ++found;
-            EXPECT_NEAR(vtu.arrays.at("pressure")[p], mean, 1e-6);
-            EXPECT_EQ(vtu.arrays.at("candidate")[p], 0.f);
-          }
-      EXPECT_GT(found, 0u);
-    }
-
-    TEST(ContactOutput, TableReadsBackBitForBit)
-    {
-      const test::ScratchDirectory scratch;
-      const ContactScene<3>        scene(1);
-      io::ContactOutput<3>         output(
-        {scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
-        scratch.path);
-      output.write(0., scene.state);
-      output.write(5., scene.state);
-      const auto x = scene.surface.gather(scene.state.positions);
-      if (!scratch.is_first())
-        return;
-      const auto table =
-        test::read_csv(test::read_file(scratch.file("contact-0001.csv")));
-      ASSERT_EQ(table.size(), scene.state.contact.size() + 1);
-      EXPECT_EQ(table[0],
-                (std::vector<std::string>{"pair",
-                                          "x",
-                                          "y",
-                                          "z",
-                                          "force",
-                                          "pressure",
-                                          "gap",
-                                          "area",
-                                          "active",
-                                          "weak"}));
-      for (unsigned int i = 0; i < scene.state.contact.size(); ++i)
-        {
-          const auto &fields = table[i + 1];
-          const auto &point  = scene.state.contact[i];
-          ASSERT_EQ(fields.size(), 10u);
-          for (unsigned int c = 0; c < 3; ++c)
-            EXPECT_EQ(std::stod(fields[1 + c]), x[scene.places[i].slave][c]);
-          EXPECT_EQ(std::stod(fields[4]), point.force);
-          EXPECT_EQ(std::stod(fields[5]), point.pressure);
-          EXPECT_EQ(std::stod(fields[6]), point.gap);
-          EXPECT_EQ(std::stod(fields[7]), point.area);
-          EXPECT_EQ(fields[8], point.active ? "1" : "0");
-          EXPECT_EQ(fields[9], point.weak ? "1" : "0");
-        }
-      const auto pvd = test::read_file(scratch.file("contact.pvd"));
-      EXPECT_EQ(test::count(pvd, "<DataSet"), 2u);
-      EXPECT_NE(pvd.find("timestep=\"5\""), std::string::npos);
-    }
-
-    TEST(ContactOutput, WithoutPairsIsEmptyButValid)
-    {
-      const test::ScratchDirectory           scratch;
-      const mesh::BodyMesh<2>                mesh(MPI_COMM_WORLD,
-                                   test::two_boxes<2>(false),
-                                   1);
-      const mesh::Surface<2>                 surface(mesh, {});
-      const std::vector<contact::Pair>       pairs;
-      const std::vector<contact::RowPlace>   places;
-      const std::vector<contact::SharedNode> shared;
-      io::ContactOutput<2>   output({mesh, surface, pairs, places, shared},
-                                  scratch.path);
-      state::ContactState<2> state;
-      state.positions    = mesh.reference_positions();
-      state.displacement = mesh.reference_positions();
-      output.write(0., state);
-      if (!scratch.is_first())
-        return;
-      EXPECT_EQ(test::read_vtu(
-                  test::read_file(scratch.file("contact-0000.vtu")))
-                  .n_points,
-                0u);
-    }
-  } // namespace
+TEST(ContactOutput, WithoutPairsIsEmptyButValid)
+{
+  const test::ScratchDirectory           scratch;
+  const mesh::BodyMesh<2>                mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
+  const mesh::Surface<2>                 surface(mesh, {});
+  const std::vector<contact::Pair>       pairs;
+  const std::vector<contact::RowPlace>   places;
+  const std::vector<contact::SharedNode> shared;
+  io::ContactOutput<2>   output({mesh, surface, pairs, places, shared}, scratch.path);
+  state::ContactState<2> state;
+  state.positions    = mesh.reference_positions();
+  state.displacement = mesh.reference_positions();
+  output.write(0., state);
+  if (!scratch.is_first())
+    return;
+  EXPECT_EQ(test::read_vtu(test::read_file(scratch.file("contact-0000.vtu"))).n_points, 0u);
+}
+} // namespace
 } // namespace snug

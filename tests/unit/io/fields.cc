@@ -8,198 +8,154 @@
 #include "scratch.h"
 #include "vtu_reader.h"
 
-namespace snug
+namespace snug {
+namespace {
+/// A linear displacement of a design moved by (0.25, 0.5, ..).
+template <int dim>
+state::ContactState<dim> linear_state(const mesh::BodyMesh<dim> &mesh)
 {
-  namespace
-  {
-    /// A linear displacement of a design moved by (0.25, 0.5, ..).
-    template <int dim>
-    state::ContactState<dim>
-    linear_state(const mesh::BodyMesh<dim> &mesh)
-    {
-      state::ContactState<dim> state;
-      state.positions = mesh.reference_positions();
-      for (auto &x : state.positions)
-        for (unsigned int k = 0; k < dim; ++k)
-          x[k] += 0.25 * (k + 1);
-      state.displacement = test::linear_field<dim>(state.positions);
-      return state;
-    }
+  state::ContactState<dim> state;
+  state.positions = mesh.reference_positions();
+  for (auto &x : state.positions)
+    for (unsigned int k = 0; k < dim; ++k)
+      x[k] += 0.25 * (k + 1);
+  state.displacement = test::linear_field<dim>(state.positions);
+  return state;
+}
 
-    std::string
-    piece_of_rank(const std::string &stem)
-    {
-      int rank;
-      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-      return stem + ".000" + std::to_string(rank) + ".vtu";
-    }
+std::string piece_of_rank(const std::string &stem)
+{
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return stem + ".000" + std::to_string(rank) + ".vtu";
+}
 
-    /// Component @p c of array @p name at @p point.
-    double
-    entry(const test::Vtu   &vtu,
-          const std::string &name,
-          unsigned int       point,
-          unsigned int       c = 0)
-    {
-      return vtu.arrays.at(name)[point * vtu.components.at(name) + c];
-    }
+/// Component @p c of array @p name at @p point.
+double entry(const test::Vtu &vtu, const std::string &name, unsigned int point, unsigned int c = 0)
+{
+  return vtu.arrays.at(name)[point * vtu.components.at(name) + c];
+}
 
-    template <int dim>
-    void
-    expect_linear_fields(unsigned int degree)
-    {
-      const test::ScratchDirectory scratch;
-      const mesh::BodyMesh<dim>    mesh(MPI_COMM_WORLD,
-                                     test::two_boxes<dim>(true),
-                                     degree);
-      const auto                   materials = test::two_materials();
-      io::FieldOutput<dim>         output(mesh,
-                                  test::one_subdomain_per_rank(mesh),
-                                  test::two_bodies<dim>(),
-                                  scratch.path);
-      output.write(0., linear_state(mesh));
+template <int dim>
+void expect_linear_fields(unsigned int degree)
+{
+  const test::ScratchDirectory scratch;
+  const mesh::BodyMesh<dim>    mesh(MPI_COMM_WORLD, test::two_boxes<dim>(true), degree);
+  const auto                   materials = test::two_materials();
+  io::FieldOutput<dim> output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<dim>(),
+                              scratch.path);
+  output.write(0., linear_state(mesh));
 
-      int rank;
-      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-      const auto vtu = test::read_vtu(
-        test::read_file(scratch.file(piece_of_rank("solution-0000"))));
-      EXPECT_EQ(vtu.n_cells,
-                mesh.cells().size() * std::lround(std::pow(degree, dim)));
-      const auto A = test::displacement_gradient<dim>();
-      for (unsigned int p = 0; p < vtu.n_points; ++p)
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+  EXPECT_EQ(vtu.n_cells, mesh.cells().size() * std::lround(std::pow(degree, dim)));
+  const auto A = test::displacement_gradient<dim>();
+  for (unsigned int p = 0; p < vtu.n_points; ++p)
+    {
+      dealii::Tensor<1, dim> x;
+      for (unsigned int c = 0; c < dim; ++c)
+        x[c] = entry(vtu, "", p, c);
+      const unsigned int body = x[dim - 1] < 1. + 0.25 * dim ? 0 : 1;
+      // on the interface of the bodies x does not tell which one it is
+      if (std::abs(x[dim - 1] - (1. + 0.25 * dim)) > 1e-6)
         {
-          dealii::Tensor<1, dim> x;
-          for (unsigned int c = 0; c < dim; ++c)
-            x[c] = entry(vtu, "", p, c);
-          const unsigned int body = x[dim - 1] < 1. + 0.25 * dim ? 0 : 1;
-          // on the interface of the bodies x does not tell which one it is
-          if (std::abs(x[dim - 1] - (1. + 0.25 * dim)) > 1e-6)
-            {
-              EXPECT_EQ(entry(vtu, "body", p), body);
-            }
-          const auto u = A * x;
-          // single precision of numbers of order 1 (fields) and 10 (stress)
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              EXPECT_NEAR(entry(vtu, "displacement", p, c), u[c], 1e-6);
-              EXPECT_NEAR(entry(vtu, "design_displacement", p, c),
-                          0.25 * (c + 1),
-                          1e-6);
-            }
-          const auto sigma =
-            test::hooke(materials[std::lround(entry(vtu, "body", p))], A);
-          for (unsigned int c = 0; c < 9; ++c)
-            EXPECT_NEAR(entry(vtu, "stress", p, c), sigma[c / 3][c % 3], 1e-5);
-          auto deviator = sigma;
-          for (unsigned int i = 0; i < 3; ++i)
-            deviator[i][i] -= trace(sigma) / 3.;
-          EXPECT_NEAR(entry(vtu, "von_mises", p),
-                      std::sqrt(1.5) * deviator.norm(),
-                      1e-5);
-          EXPECT_EQ(entry(vtu, "subdomain", p), rank);
+          EXPECT_EQ(entry(vtu, "body", p), body);
         }
+      const auto u = A * x;
+      // single precision of numbers of order 1 (fields) and 10 (stress)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          EXPECT_NEAR(entry(vtu, "displacement", p, c), u[c], 1e-6);
+          EXPECT_NEAR(entry(vtu, "design_displacement", p, c), 0.25 * (c + 1), 1e-6);
+        }
+      const auto sigma = test::hooke(materials[std::lround(entry(vtu, "body", p))], A);
+      for (unsigned int c = 0; c < 9; ++c)
+        EXPECT_NEAR(entry(vtu, "stress", p, c), sigma[c / 3][c % 3], 1e-5);
+      auto deviator = sigma;
+      for (unsigned int i = 0; i < 3; ++i)
+        deviator[i][i] -= trace(sigma) / 3.;
+      EXPECT_NEAR(entry(vtu, "von_mises", p), std::sqrt(1.5) * deviator.norm(), 1e-5);
+      EXPECT_EQ(entry(vtu, "subdomain", p), rank);
     }
+}
 
-    TEST(FieldOutput, HoldsALinearStateIn2D)
-    {
-      expect_linear_fields<2>(1);
-      expect_linear_fields<2>(2);
-    }
+TEST(FieldOutput, HoldsALinearStateIn2D)
+{
+  expect_linear_fields<2>(1);
+  expect_linear_fields<2>(2);
+}
 
-    TEST(FieldOutput, HoldsALinearStateIn3D)
-    {
-      expect_linear_fields<3>(1);
-      expect_linear_fields<3>(2);
-    }
+TEST(FieldOutput, HoldsALinearStateIn3D)
+{
+  expect_linear_fields<3>(1);
+  expect_linear_fields<3>(2);
+}
 
-    TEST(FieldOutput, ListsTimesAndPieces)
-    {
-      const test::ScratchDirectory scratch;
-      const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD,
-                                   test::two_boxes<2>(false),
-                                   1);
-      io::FieldOutput<2>           output(mesh,
-                                test::one_subdomain_per_rank(mesh),
-                                test::two_bodies<2>(),
-                                scratch.path);
-      output.write(0., linear_state(mesh));
-      output.write(17., linear_state(mesh));
-      MPI_Barrier(MPI_COMM_WORLD);
+TEST(FieldOutput, ListsTimesAndPieces)
+{
+  const test::ScratchDirectory scratch;
+  const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
+  io::FieldOutput<2> output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<2>(),
+                            scratch.path);
+  output.write(0., linear_state(mesh));
+  output.write(17., linear_state(mesh));
+  MPI_Barrier(MPI_COMM_WORLD);
 
-      const std::string pvd = test::read_file(scratch.file("solution.pvd"));
-      const std::string pvtu =
-        test::read_file(scratch.file("solution-0001.pvtu"));
-      int size;
-      MPI_Comm_size(MPI_COMM_WORLD, &size);
-      EXPECT_NE(pvd.find("timestep=\"0\""), std::string::npos);
-      EXPECT_NE(pvd.find("timestep=\"17\""), std::string::npos);
-      EXPECT_NE(pvd.find("file=\"solution-0001.pvtu\""), std::string::npos);
-      EXPECT_EQ(test::count(pvtu, "<Piece Source=\"solution-0001."), size);
-      for (const char *name : {"displacement",
-                               "stress",
-                               "von_mises",
-                               "body",
-                               "subdomain",
-                               "design_displacement"})
-        EXPECT_EQ(test::count(pvtu, std::string("Name=\"") + name + "\""), 1)
-          << name;
-    }
+  const std::string pvd  = test::read_file(scratch.file("solution.pvd"));
+  const std::string pvtu = test::read_file(scratch.file("solution-0001.pvtu"));
+  int               size;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  EXPECT_NE(pvd.find("timestep=\"0\""), std::string::npos);
+  EXPECT_NE(pvd.find("timestep=\"17\""), std::string::npos);
+  EXPECT_NE(pvd.find("file=\"solution-0001.pvtu\""), std::string::npos);
+  EXPECT_EQ(test::count(pvtu, "<Piece Source=\"solution-0001."), size);
+  for (const char *name :
+       {"displacement", "stress", "von_mises", "body", "subdomain", "design_displacement"})
+    EXPECT_EQ(test::count(pvtu, std::string("Name=\"") + name + "\""), 1) << name;
+}
 
-    TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
-    {
-      const test::ScratchDirectory scratch;
-      const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD,
-                                   test::two_boxes<2>(false),
-                                   1);
-      io::FieldOutput<2>           output(mesh,
-                                test::one_subdomain_per_rank(mesh),
-                                test::two_bodies<2>(),
-                                scratch.path);
-      const auto                   state = linear_state(mesh);
-      int                          rank;
-      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-      // all of a node's gradient on one rank, what it is from the position
-      auto share = state.displacement;
-      for (unsigned int node = 0; node < share.size(); ++node)
-        if (mesh.owner(node) != static_cast<unsigned int>(rank))
-          share[node] = 0.;
-      output.write(0., state, &share);
-      const auto vtu = test::read_vtu(
-        test::read_file(scratch.file(piece_of_rank("solution-0000"))));
-      for (unsigned int p = 0; p < vtu.n_points; ++p)
-        for (unsigned int c = 0; c < 2; ++c)
-          EXPECT_EQ(entry(vtu, "shape_gradient", p, c),
-                    entry(vtu, "displacement", p, c));
-    }
+TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
+{
+  const test::ScratchDirectory scratch;
+  const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
+  io::FieldOutput<2> output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<2>(),
+                            scratch.path);
+  const auto         state = linear_state(mesh);
+  int                rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  // all of a node's gradient on one rank, what it is from the position
+  auto share = state.displacement;
+  for (unsigned int node = 0; node < share.size(); ++node)
+    if (mesh.owner(node) != static_cast<unsigned int>(rank))
+      share[node] = 0.;
+  output.write(0., state, &share);
+  const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+  for (unsigned int p = 0; p < vtu.n_points; ++p)
+    for (unsigned int c = 0; c < 2; ++c)
+      EXPECT_EQ(entry(vtu, "shape_gradient", p, c), entry(vtu, "displacement", p, c));
+}
 
-    TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
-    {
-      const test::ScratchDirectory          scratch;
-      std::vector<mesh::BodyMeshParameters> bodies(1);
-      bodies[0].cells = {1, 1};
-      const mesh::BodyMesh<2>          mesh(MPI_COMM_WORLD, bodies, 1);
-      std::vector<state::BodyModel<2>> models(1);
-      models[0].materials = {{1., 0.3}};
-      io::FieldOutput<2> output(mesh,
-                                test::one_subdomain_per_rank(mesh),
-                                models,
-                                scratch.path);
-      output.write(0., linear_state(mesh));
-      const auto vtu = test::read_vtu(
-        test::read_file(scratch.file(piece_of_rank("solution-0000"))));
-      EXPECT_EQ(vtu.n_cells, mesh.cells().size());
-    }
+TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
+{
+  const test::ScratchDirectory          scratch;
+  std::vector<mesh::BodyMeshParameters> bodies(1);
+  bodies[0].cells = {1, 1};
+  const mesh::BodyMesh<2>          mesh(MPI_COMM_WORLD, bodies, 1);
+  std::vector<state::BodyModel<2>> models(1);
+  models[0].materials = {{1., 0.3}};
+  io::FieldOutput<2> output(mesh, test::one_subdomain_per_rank(mesh), models, scratch.path);
+  output.write(0., linear_state(mesh));
+  const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+  EXPECT_EQ(vtu.n_cells, mesh.cells().size());
+}
 
-    TEST(FieldOutput, EveryRankHearsOfFailure)
-    {
-      const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD,
-                                   test::two_boxes<2>(false),
-                                   1);
-      io::FieldOutput<2>      output(mesh,
-                                test::one_subdomain_per_rank(mesh),
-                                test::two_bodies<2>(),
-                                "/nowhere/at/all");
-      EXPECT_THROW(output.write(0., linear_state(mesh)), std::runtime_error);
-    }
-  } // namespace
+TEST(FieldOutput, EveryRankHearsOfFailure)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
+  io::FieldOutput<2>      output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<2>(),
+                                 "/nowhere/at/all");
+  EXPECT_THROW(output.write(0., linear_state(mesh)), std::runtime_error);
+}
+} // namespace
 } // namespace snug

@@ -9,159 +9,138 @@
 
 #include "scratch.h"
 
-namespace snug
+namespace snug {
+namespace {
+io::HistoryLine line_of_history(unsigned int iteration)
 {
-  namespace
-  {
-    io::HistoryLine
-    line_of_history(unsigned int iteration)
-    {
-      io::HistoryLine line;
-      line.iteration            = iteration;
-      line.objective            = -1. / (3. + iteration);
-      line.constraint_violation = std::nextafter(1e-9, 1.);
-      line.projected_gradient   = 0.1 * iteration;
-      line.active_contacts      = 21 + iteration;
-      line.f_mults              = 1234;
-      line.scaled_jacobian      = 2. / 3.;
-      line.seconds              = 12.345;
-      line.design               = {0.1, -0.2 / 3.};
-      return line;
-    }
+  io::HistoryLine line;
+  line.iteration            = iteration;
+  line.objective            = -1. / (3. + iteration);
+  line.constraint_violation = std::nextafter(1e-9, 1.);
+  line.projected_gradient   = 0.1 * iteration;
+  line.active_contacts      = 21 + iteration;
+  line.f_mults              = 1234;
+  line.scaled_jacobian      = 2. / 3.;
+  line.seconds              = 12.345;
+  line.design               = {0.1, -0.2 / 3.};
+  return line;
+}
 
-    TEST(History, ReadsBackBitForBit)
+TEST(History, ReadsBackBitForBit)
+{
+  const test::ScratchDirectory scratch;
+  if (!scratch.is_first())
+    return;
+  io::History history(scratch.file("history.csv"), 2);
+  for (unsigned int i = 0; i < 3; ++i)
     {
-      const test::ScratchDirectory scratch;
-      if (!scratch.is_first())
-        return;
-      io::History history(scratch.file("history.csv"), 2);
-      for (unsigned int i = 0; i < 3; ++i)
+      history.add(line_of_history(i));
+      const auto table = test::read_csv(test::read_file(scratch.file("history.csv")));
+      ASSERT_EQ(table.size(), i + 2); // complete after each line
+      EXPECT_EQ(table[0],
+                (std::vector<std::string>{"iteration", "objective", "constraint_violation",
+                                          "projected_gradient", "active_contacts", "f_mults",
+                                          "scaled_jacobian", "seconds", "design_0", "design_1"}));
+      const auto &fields = table.back();
+      const auto  line   = line_of_history(i);
+      ASSERT_EQ(fields.size(), table[0].size());
+      EXPECT_EQ(std::stoul(fields[0]), i);
+      EXPECT_EQ(std::stod(fields[1]), line.objective);
+      EXPECT_EQ(std::stod(fields[2]), line.constraint_violation);
+      EXPECT_EQ(std::stod(fields[3]), line.projected_gradient);
+      EXPECT_EQ(std::stoul(fields[4]), line.active_contacts);
+      EXPECT_EQ(std::stoul(fields[5]), line.f_mults);
+      EXPECT_EQ(std::stod(fields[6]), line.scaled_jacobian);
+      EXPECT_EQ(std::stod(fields[7]), line.seconds);
+      EXPECT_EQ(std::stod(fields[8]), line.design[0]);
+      EXPECT_EQ(std::stod(fields[9]), line.design[1]);
+    }
+}
+
+TEST(History, LogLineStandsUnderItsHeader)
+{
+  const std::string header = io::log_header();
+  const std::string line   = io::log_line(line_of_history(7));
+  EXPECT_EQ(header.size(), line.size());
+  std::istringstream                  names(header), numbers(line);
+  const std::map<std::string, double> values = {{"it", 7.},
+                                                {"J", -0.1},
+                                                {"active", 28.},
+                                                {"F-mults", 1234.}};
+  std::vector<std::string>            columns;
+  for (std::string name; names >> name;)
+    {
+      columns.push_back(name);
+      double value;
+      EXPECT_TRUE(numbers >> value) << name;
+      const auto expected = values.find(name);
+      if (expected != values.end())
         {
-          history.add(line_of_history(i));
-          const auto table =
-            test::read_csv(test::read_file(scratch.file("history.csv")));
-          ASSERT_EQ(table.size(), i + 2); // complete after each line
-          EXPECT_EQ(table[0],
-                    (std::vector<std::string>{"iteration",
-                                              "objective",
-                                              "constraint_violation",
-                                              "projected_gradient",
-                                              "active_contacts",
-                                              "f_mults",
-                                              "scaled_jacobian",
-                                              "seconds",
-                                              "design_0",
-                                              "design_1"}));
-          const auto &fields = table.back();
-          const auto  line   = line_of_history(i);
-          ASSERT_EQ(fields.size(), table[0].size());
-          EXPECT_EQ(std::stoul(fields[0]), i);
-          EXPECT_EQ(std::stod(fields[1]), line.objective);
-          EXPECT_EQ(std::stod(fields[2]), line.constraint_violation);
-          EXPECT_EQ(std::stod(fields[3]), line.projected_gradient);
-          EXPECT_EQ(std::stoul(fields[4]), line.active_contacts);
-          EXPECT_EQ(std::stoul(fields[5]), line.f_mults);
-          EXPECT_EQ(std::stod(fields[6]), line.scaled_jacobian);
-          EXPECT_EQ(std::stod(fields[7]), line.seconds);
-          EXPECT_EQ(std::stod(fields[8]), line.design[0]);
-          EXPECT_EQ(std::stod(fields[9]), line.design[1]);
+          EXPECT_NEAR(value, expected->second, 1e-12);
         }
     }
+  EXPECT_EQ(columns, (std::vector<std::string>{"it", "J", "|g|", "constraint", "active", "F-mults",
+                                               "jacobian", "s"}));
+}
 
-    TEST(History, LogLineStandsUnderItsHeader)
-    {
-      const std::string header = io::log_header();
-      const std::string line   = io::log_line(line_of_history(7));
-      EXPECT_EQ(header.size(), line.size());
-      std::istringstream                  names(header), numbers(line);
-      const std::map<std::string, double> values = {{"it", 7.},
-                                                    {"J", -0.1},
-                                                    {"active", 28.},
-                                                    {"F-mults", 1234.}};
-      std::vector<std::string>            columns;
-      for (std::string name; names >> name;)
-        {
-          columns.push_back(name);
-          double value;
-          EXPECT_TRUE(numbers >> value) << name;
-          const auto expected = values.find(name);
-          if (expected != values.end())
-            {
-              EXPECT_NEAR(value, expected->second, 1e-12);
-            }
-        }
-      EXPECT_EQ(columns,
-                (std::vector<std::string>{"it",
-                                          "J",
-                                          "|g|",
-                                          "constraint",
-                                          "active",
-                                          "F-mults",
-                                          "jacobian",
-                                          "s"}));
-    }
+TEST(TextFile, ExactNumbersReadBack)
+{
+  for (const double x : {0., -1. / 3., 5e-324, 1.7976931348623157e308})
+    EXPECT_EQ(std::strtod(io::exact(x).c_str(), nullptr), x);
+}
 
-    TEST(TextFile, ExactNumbersReadBack)
-    {
-      for (const double x : {0., -1. / 3., 5e-324, 1.7976931348623157e308})
-        EXPECT_EQ(std::strtod(io::exact(x).c_str(), nullptr), x);
-    }
+TEST(TextFile, PadsWithoutCutting)
+{
+  EXPECT_EQ(io::padded(7, 4), "0007");
+  EXPECT_EQ(io::padded(12345, 4), "12345");
+}
 
-    TEST(TextFile, PadsWithoutCutting)
+TEST(TextFile, NamesTheFileItCannotWrite)
+{
+  try
     {
-      EXPECT_EQ(io::padded(7, 4), "0007");
-      EXPECT_EQ(io::padded(12345, 4), "12345");
+      io::write_text_file("/nowhere/at/all.txt", "text");
+      FAIL() << "no exception";
     }
+  catch (const std::runtime_error &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("/nowhere/at/all.txt"), std::string::npos);
+    }
+}
 
-    TEST(TextFile, NamesTheFileItCannotWrite)
-    {
-      try
-        {
-          io::write_text_file("/nowhere/at/all.txt", "text");
-          FAIL() << "no exception";
-        }
-      catch (const std::runtime_error &error)
-        {
-          EXPECT_NE(std::string(error.what()).find("/nowhere/at/all.txt"),
-                    std::string::npos);
-        }
-    }
+TEST(TextFile, ReplacesAFileAndLeavesNothingBeside)
+{
+  const test::ScratchDirectory scratch;
+  if (!scratch.is_first())
+    return;
+  io::write_text_file(scratch.file("a"), "a long first text");
+  io::write_text_file(scratch.file("a"), "short");
+  EXPECT_EQ(test::read_file(scratch.file("a")), "short");
+  const std::filesystem::directory_iterator files(scratch.path);
+  EXPECT_EQ(std::distance(files, {}), 1);
+}
 
-    TEST(TextFile, ReplacesAFileAndLeavesNothingBeside)
-    {
-      const test::ScratchDirectory scratch;
-      if (!scratch.is_first())
-        return;
-      io::write_text_file(scratch.file("a"), "a long first text");
-      io::write_text_file(scratch.file("a"), "short");
-      EXPECT_EQ(test::read_file(scratch.file("a")), "short");
-      const std::filesystem::directory_iterator files(scratch.path);
-      EXPECT_EQ(std::distance(files, {}), 1);
-    }
+TEST(OutputDirectory, IsMadeWithItsParents)
+{
+  const test::ScratchDirectory scratch;
+  std::ostringstream           log;
+  const RunContext             context(MPI_COMM_WORLD, log);
+  const std::string            path = scratch.file("some/deep/place");
+  io::make_output_directory(context, path);
+  io::make_output_directory(context, path);
+  EXPECT_TRUE(std::filesystem::is_directory(path));
+  EXPECT_TRUE(std::filesystem::is_empty(path));
+}
 
-    TEST(OutputDirectory, IsMadeWithItsParents)
-    {
-      const test::ScratchDirectory scratch;
-      std::ostringstream           log;
-      const RunContext             context(MPI_COMM_WORLD, log);
-      const std::string            path = scratch.file("some/deep/place");
-      io::make_output_directory(context, path);
-      io::make_output_directory(context, path);
-      EXPECT_TRUE(std::filesystem::is_directory(path));
-      EXPECT_TRUE(std::filesystem::is_empty(path));
-    }
-
-    TEST(OutputDirectory, EveryRankHearsOfFailure)
-    {
-      const test::ScratchDirectory scratch;
-      if (scratch.is_first())
-        io::write_text_file(scratch.file("file"), "in the way");
-      std::ostringstream log;
-      const RunContext   context(MPI_COMM_WORLD, log);
-      EXPECT_THROW(io::make_output_directory(context, scratch.file("file/x")),
-                   InputError);
-      EXPECT_THROW(io::make_output_directory(context, scratch.file("file")),
-                   InputError);
-    }
-  } // namespace
+TEST(OutputDirectory, EveryRankHearsOfFailure)
+{
+  const test::ScratchDirectory scratch;
+  if (scratch.is_first())
+    io::write_text_file(scratch.file("file"), "in the way");
+  std::ostringstream log;
+  const RunContext   context(MPI_COMM_WORLD, log);
+  EXPECT_THROW(io::make_output_directory(context, scratch.file("file/x")), InputError);
+  EXPECT_THROW(io::make_output_directory(context, scratch.file("file")), InputError);
+}
+} // namespace
 } // namespace snug

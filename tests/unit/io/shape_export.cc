@@ -7,169 +7,150 @@
 #include "boxes.h"
 #include "scratch.h"
 
-namespace snug
+namespace snug {
+namespace {
+struct Stl
 {
-  namespace
-  {
-    struct Stl
-    {
-      double               area      = 0.;
-      unsigned int         triangles = 0;
-      dealii::Tensor<1, 3> area_vector; ///< by the order of the corners
-      double largest_normal_error = 0.; ///< written against computed normal
-    };
+  double               area      = 0.;
+  unsigned int         triangles = 0;
+  dealii::Tensor<1, 3> area_vector;               ///< by the order of the corners
+  double               largest_normal_error = 0.; ///< written against computed normal
+};
 
-    Stl
-    read_stl(const std::string &text)
+Stl read_stl(const std::string &text)
+{
+  Stl                               stl;
+  std::istringstream                words(text);
+  std::vector<dealii::Tensor<1, 3>> corners;
+  dealii::Tensor<1, 3>              normal;
+  for (std::string word; words >> word;)
     {
-      Stl                               stl;
-      std::istringstream                words(text);
-      std::vector<dealii::Tensor<1, 3>> corners;
-      dealii::Tensor<1, 3>              normal;
-      for (std::string word; words >> word;)
-        {
-          dealii::Tensor<1, 3> x;
-          if (word == "normal" || word == "vertex")
-            words >> x[0] >> x[1] >> x[2];
-          if (word == "normal")
-            normal = x;
-          if (word == "vertex")
-            corners.push_back(x);
-          if (word != "endloop")
-            continue;
-          EXPECT_EQ(corners.size(), 3u);
-          const auto area = 0.5 * cross_product_3d(corners[1] - corners[0],
-                                                   corners[2] - corners[0]);
-          stl.area += area.norm();
-          stl.area_vector += area;
-          stl.largest_normal_error =
-            std::max(stl.largest_normal_error,
-                     (normal - area / area.norm()).norm());
-          ++stl.triangles;
-          corners.clear();
-        }
-      return stl;
+      dealii::Tensor<1, 3> x;
+      if (word == "normal" || word == "vertex")
+        words >> x[0] >> x[1] >> x[2];
+      if (word == "normal")
+        normal = x;
+      if (word == "vertex")
+        corners.push_back(x);
+      if (word != "endloop")
+        continue;
+      EXPECT_EQ(corners.size(), 3u);
+      const auto area = 0.5 * cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]);
+      stl.area += area.norm();
+      stl.area_vector += area;
+      stl.largest_normal_error =
+        std::max(stl.largest_normal_error, (normal - area / area.norm()).norm());
+      ++stl.triangles;
+      corners.clear();
     }
+  return stl;
+}
 
-    template <int dim>
-    mesh::Surface<dim>
-    surface_of(const mesh::BodyMesh<dim> &mesh, const std::string &face)
-    {
-      return mesh::Surface<dim>(
-        mesh, {{1u, mesh::boundary_index(mesh.geometry(1), face)}});
-    }
+template <int dim>
+mesh::Surface<dim> surface_of(const mesh::BodyMesh<dim> &mesh, const std::string &face)
+{
+  return mesh::Surface<dim>(mesh, {{1u, mesh::boundary_index(mesh.geometry(1), face)}});
+}
 
-    TEST(SurfaceExport, FlatFaceHasItsAreaAndPointsOut)
+TEST(SurfaceExport, FlatFaceHasItsAreaAndPointsOut)
+{
+  const std::map<std::string, dealii::Tensor<1, 3>> outward = {
+    {"top", dealii::Tensor<1, 3>({0., 0., 1.})},
+    {"bottom", dealii::Tensor<1, 3>({0., 0., -1.})},
+    {"left", dealii::Tensor<1, 3>({-1., 0., 0.})},
+    {"back", dealii::Tensor<1, 3>({0., 1., 0.})}};
+  for (const unsigned int degree : {1, 2})
     {
-      const std::map<std::string, dealii::Tensor<1, 3>> outward = {
-        {"top", dealii::Tensor<1, 3>({0., 0., 1.})},
-        {"bottom", dealii::Tensor<1, 3>({0., 0., -1.})},
-        {"left", dealii::Tensor<1, 3>({-1., 0., 0.})},
-        {"back", dealii::Tensor<1, 3>({0., 1., 0.})}};
-      for (const unsigned int degree : {1, 2})
+      const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, test::two_boxes<3>(true), degree);
+      for (const auto &face : outward)
         {
-          const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD,
-                                       test::two_boxes<3>(true),
-                                       degree);
-          for (const auto &face : outward)
-            {
-              const auto surface = surface_of(mesh, face.first);
-              const auto stl     = read_stl(
-                io::surface_text(surface,
-                                 surface.gather(mesh.reference_positions()),
-                                 face.first));
-              EXPECT_EQ(stl.triangles,
-                        2 * degree * degree * surface.faces().size());
-              EXPECT_NEAR(stl.area, 1., 1e-12) << face.first;
-              EXPECT_NEAR((stl.area_vector - face.second).norm(), 0., 1e-12)
-                << face.first;
-              EXPECT_LT(stl.largest_normal_error, 1e-12);
-            }
+          const auto surface = surface_of(mesh, face.first);
+          const auto stl     = read_stl(
+                io::surface_text(surface, surface.gather(mesh.reference_positions()), face.first));
+          EXPECT_EQ(stl.triangles, 2 * degree * degree * surface.faces().size());
+          EXPECT_NEAR(stl.area, 1., 1e-12) << face.first;
+          EXPECT_NEAR((stl.area_vector - face.second).norm(), 0., 1e-12) << face.first;
+          EXPECT_LT(stl.largest_normal_error, 1e-12);
         }
     }
+}
 
-    TEST(SurfaceExport, IsNamedAfterItsFile)
+TEST(SurfaceExport, IsNamedAfterItsFile)
+{
+  const test::ScratchDirectory scratch;
+  const mesh::BodyMesh<3>      mesh(MPI_COMM_WORLD, test::two_boxes<3>(false), 1);
+  const auto                   surface   = surface_of(mesh, "top");
+  const auto                   positions = surface.gather(mesh.reference_positions());
+  if (!scratch.is_first())
+    return;
+  io::write_surface(scratch.file("shape"), surface, positions);
+  const auto text = test::read_file(scratch.file("shape.stl"));
+  EXPECT_EQ(text.rfind("solid shape\n", 0), 0u);
+  EXPECT_NE(text.find("\nendsolid shape\n"), std::string::npos);
+}
+
+TEST(SurfaceExport, PolylineRunsWithTheBodyOnItsLeft)
+{
+  const test::ScratchDirectory scratch;
+  const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(true), 2);
+  const auto                   surface   = surface_of(mesh, "top");
+  const auto                   positions = surface.gather(mesh.reference_positions());
+  if (!scratch.is_first())
+    return;
+  io::write_surface(scratch.file("shape"), surface, positions);
+  const auto table = test::read_csv(test::read_file(scratch.file("shape.csv")));
+  // cells of size 1/4, 1/4, 1/2 with two steps each, and the header
+  ASSERT_EQ(table.size(), 8u);
+  EXPECT_EQ(table[0], (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(std::stod(table[1][0]), 1.);
+  EXPECT_EQ(std::stod(table.back()[0]), 0.);
+  for (unsigned int i = 2; i < table.size(); ++i)
     {
-      const test::ScratchDirectory scratch;
-      const mesh::BodyMesh<3>      mesh(MPI_COMM_WORLD,
-                                   test::two_boxes<3>(false),
-                                   1);
-      const auto                   surface = surface_of(mesh, "top");
-      const auto positions = surface.gather(mesh.reference_positions());
-      if (!scratch.is_first())
-        return;
-      io::write_surface(scratch.file("shape"), surface, positions);
-      const auto text = test::read_file(scratch.file("shape.stl"));
-      EXPECT_EQ(text.rfind("solid shape\n", 0), 0u);
-      EXPECT_NE(text.find("\nendsolid shape\n"), std::string::npos);
+      EXPECT_LT(std::stod(table[i][0]), std::stod(table[i - 1][0]));
+      EXPECT_EQ(std::stod(table[i][1]), 2.);
     }
+}
 
-    TEST(SurfaceExport, PolylineRunsWithTheBodyOnItsLeft)
+TEST(SurfaceExport, PolylineOfAllSidesIsClosed)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
+  const mesh::Surface<2>  surface(mesh, {{1, 0}, {1, 1}, {1, 2}, {1, 3}});
+  const auto              table =
+    test::read_csv(io::surface_text(surface, surface.gather(mesh.reference_positions()), ""));
+  ASSERT_EQ(table.size(), 10u);
+  EXPECT_EQ(table[1], table.back());
+  double twice_area = 0.;
+  for (unsigned int i = 2; i < table.size(); ++i)
+    twice_area += std::stod(table[i - 1][0]) * std::stod(table[i][1]) -
+                  std::stod(table[i][0]) * std::stod(table[i - 1][1]);
+  EXPECT_NEAR(twice_area, 2., 1e-12); // anticlockwise: positive
+}
+
+TEST(ControlPoints, ReadBackBitForBit)
+{
+  const test::ScratchDirectory scratch;
+  if (!scratch.is_first())
+    return;
+  std::vector<shape::MovedPoint<3>> points(2);
+  points[0]         = {"a", 0, {0.1, 0.2, 1. / 3.}, {}};
+  points[1]         = {"a", 1, {-1., 0., 1e-30}, {}};
+  points[0].move[2] = 0.7;
+  points[1].move[0] = -0.1;
+  io::write_control_points<3>(scratch.file("c.csv"), points);
+  const auto table = test::read_csv(test::read_file(scratch.file("c.csv")));
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_EQ(table[0],
+            (std::vector<std::string>{"shape", "index", "x", "y", "z", "dx", "dy", "dz"}));
+  for (unsigned int i = 0; i < 2; ++i)
     {
-      const test::ScratchDirectory scratch;
-      const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(true), 2);
-      const auto              surface = surface_of(mesh, "top");
-      const auto positions = surface.gather(mesh.reference_positions());
-      if (!scratch.is_first())
-        return;
-      io::write_surface(scratch.file("shape"), surface, positions);
-      const auto table =
-        test::read_csv(test::read_file(scratch.file("shape.csv")));
-      // cells of size 1/4, 1/4, 1/2 with two steps each, and the header
-      ASSERT_EQ(table.size(), 8u);
-      EXPECT_EQ(table[0], (std::vector<std::string>{"x", "y"}));
-      EXPECT_EQ(std::stod(table[1][0]), 1.);
-      EXPECT_EQ(std::stod(table.back()[0]), 0.);
-      for (unsigned int i = 2; i < table.size(); ++i)
+      EXPECT_EQ(table[i + 1][0], "a");
+      EXPECT_EQ(table[i + 1][1], std::to_string(i));
+      for (unsigned int c = 0; c < 3; ++c)
         {
-          EXPECT_LT(std::stod(table[i][0]), std::stod(table[i - 1][0]));
-          EXPECT_EQ(std::stod(table[i][1]), 2.);
+          EXPECT_EQ(std::stod(table[i + 1][2 + c]), points[i].position[c]);
+          EXPECT_EQ(std::stod(table[i + 1][5 + c]), points[i].move[c]);
         }
     }
-
-    TEST(SurfaceExport, PolylineOfAllSidesIsClosed)
-    {
-      const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD,
-                                   test::two_boxes<2>(false),
-                                   1);
-      const mesh::Surface<2>  surface(mesh, {{1, 0}, {1, 1}, {1, 2}, {1, 3}});
-      const auto              table = test::read_csv(io::surface_text(
-        surface, surface.gather(mesh.reference_positions()), ""));
-      ASSERT_EQ(table.size(), 10u);
-      EXPECT_EQ(table[1], table.back());
-      double twice_area = 0.;
-      for (unsigned int i = 2; i < table.size(); ++i)
-        twice_area += std::stod(table[i - 1][0]) * std::stod(table[i][1]) -
-                      std::stod(table[i][0]) * std::stod(table[i - 1][1]);
-      EXPECT_NEAR(twice_area, 2., 1e-12); // anticlockwise: positive
-    }
-
-    TEST(ControlPoints, ReadBackBitForBit)
-    {
-      const test::ScratchDirectory scratch;
-      if (!scratch.is_first())
-        return;
-      std::vector<shape::MovedPoint<3>> points(2);
-      points[0]         = {"a", 0, {0.1, 0.2, 1. / 3.}, {}};
-      points[1]         = {"a", 1, {-1., 0., 1e-30}, {}};
-      points[0].move[2] = 0.7;
-      points[1].move[0] = -0.1;
-      io::write_control_points<3>(scratch.file("c.csv"), points);
-      const auto table = test::read_csv(test::read_file(scratch.file("c.csv")));
-      ASSERT_EQ(table.size(), 3u);
-      EXPECT_EQ(table[0],
-                (std::vector<std::string>{
-                  "shape", "index", "x", "y", "z", "dx", "dy", "dz"}));
-      for (unsigned int i = 0; i < 2; ++i)
-        {
-          EXPECT_EQ(table[i + 1][0], "a");
-          EXPECT_EQ(table[i + 1][1], std::to_string(i));
-          for (unsigned int c = 0; c < 3; ++c)
-            {
-              EXPECT_EQ(std::stod(table[i + 1][2 + c]), points[i].position[c]);
-              EXPECT_EQ(std::stod(table[i + 1][5 + c]), points[i].move[c]);
-            }
-        }
-    }
-  } // namespace
+}
+} // namespace
 } // namespace snug

@@ -8,179 +8,164 @@
 
 #include "scratch.h"
 
-namespace snug
+namespace snug {
+namespace {
+using Json = nlohmann::ordered_json;
+
+/// The keys other tools read, as the issue fixes them.
+const std::map<std::string, std::string> fixed_keys = {
+  {"program", "version dealii petsc blas compiler ranks"},
+  {"mesh", "bodies cells dofs subdomains ranks dual_rows contact_rows "
+           "kernel_dimension"},
+  {"state", "least_scaled_jacobian energy compliance strain_energy contact_force "
+            "contact_area "
+            "max_pressure active_contacts outer_iterations f_mults linear_f_mults "
+            "certificate"},
+  {"gradient", "method f_mults values"},
+  {"optimization", "algorithm iterations evaluations objective_initial objective_final "
+                   "constraint_violation projected_gradient stop_reason design"},
+  {"work", "f_mults preconditioner_applications coarse_solves "
+           "symbolic_factorizations numeric_factorizations assembled_subdomains"},
+  {"times", "setup assembly factorization solve gradient output total"}};
+
+void expect_fixed_keys(const Json &json)
 {
-  namespace
-  {
-    using Json = nlohmann::ordered_json;
-
-    /// The keys other tools read, as the issue fixes them.
-    const std::map<std::string, std::string> fixed_keys = {
-      {"program", "version dealii petsc blas compiler ranks"},
-      {"mesh",
-       "bodies cells dofs subdomains ranks dual_rows contact_rows "
-       "kernel_dimension"},
-      {"state",
-       "least_scaled_jacobian energy compliance strain_energy contact_force "
-       "contact_area "
-       "max_pressure active_contacts outer_iterations f_mults linear_f_mults "
-       "certificate"},
-      {"gradient", "method f_mults values"},
-      {"optimization",
-       "algorithm iterations evaluations objective_initial objective_final "
-       "constraint_violation projected_gradient stop_reason design"},
-      {"work",
-       "f_mults preconditioner_applications coarse_solves "
-       "symbolic_factorizations numeric_factorizations assembled_subdomains"},
-      {"times", "setup assembly factorization solve gradient output total"}};
-
-    void
-    expect_fixed_keys(const Json &json)
+  for (const auto &part : fixed_keys)
     {
-      for (const auto &part : fixed_keys)
-        {
-          ASSERT_TRUE(json.contains(part.first)) << part.first;
-          std::istringstream keys(part.second);
-          for (std::string key; keys >> key;)
-            EXPECT_TRUE(json[part.first].contains(key))
-              << part.first << ": " << key;
-        }
-      for (const char *key : {"equilibrium",
-                              "continuity",
-                              "penetration",
-                              "negative_pressure",
-                              "complementarity"})
-        EXPECT_TRUE(json["state"]["certificate"].contains(key)) << key;
+      ASSERT_TRUE(json.contains(part.first)) << part.first;
+      std::istringstream keys(part.second);
+      for (std::string key; keys >> key;)
+        EXPECT_TRUE(json[part.first].contains(key)) << part.first << ": " << key;
     }
+  for (const char *key :
+       {"equilibrium", "continuity", "penetration", "negative_pressure", "complementarity"})
+    EXPECT_TRUE(json["state"]["certificate"].contains(key)) << key;
+}
 
-    TEST(Summary, HasTheFixedKeysWhateverTheTask)
+TEST(Summary, HasTheFixedKeysWhateverTheTask)
+{
+  io::Summary summary;
+  expect_fixed_keys(Json::parse(summary.json()));
+  summary.gradient.emplace();
+  summary.optimization.emplace();
+  summary.initial_state.emplace();
+  expect_fixed_keys(Json::parse(summary.json()));
+}
+
+TEST(Summary, NumbersReadBackBitForBit)
+{
+  io::Summary summary;
+  summary.state.energy        = -0.1 - 0.2;
+  summary.state.contact_force = {1. / 3., 4.9406564584124654e-324, -0.};
+  summary.optimization.emplace();
+  summary.optimization->design = {std::nextafter(1., 2.), 1e300};
+  summary.work.f_mults         = 1ul << 60;
+  const Json json              = Json::parse(summary.json());
+  EXPECT_EQ(json["state"]["energy"].get<double>(), -0.1 - 0.2);
+  EXPECT_EQ(json["state"]["contact_force"].get<std::vector<double>>(), summary.state.contact_force);
+  EXPECT_EQ(json["optimization"]["design"].get<std::vector<double>>(),
+            summary.optimization->design);
+  EXPECT_EQ(json["work"]["f_mults"].get<unsigned long>(), 1ul << 60);
+}
+
+TEST(Summary, WhatIsNotComputedIsNull)
+{
+  io::Summary summary;
+  summary.state.energy = std::numeric_limits<double>::infinity();
+  const Json json      = Json::parse(summary.json());
+  EXPECT_TRUE(json["state"]["energy"].is_null());
+  EXPECT_TRUE(json["state"]["compliance"].is_null());
+  EXPECT_TRUE(json["state"]["linear_f_mults"].is_null());
+  EXPECT_TRUE(json["optimization"]["iterations"].is_null());
+  EXPECT_TRUE(json["gradient"]["values"].is_null());
+}
+
+TEST(Summary, WarningsMayHoldAnything)
+{
+  io::Summary summary;
+  summary.warnings = {"a \"quoted\" \\ line\n", "not UTF-8: \xff"};
+  const Json json  = Json::parse(summary.json());
+  EXPECT_EQ(json["warnings"][0].get<std::string>(), summary.warnings[0]);
+}
+
+TEST(Summary, IsWrittenAsItIs)
+{
+  const test::ScratchDirectory scratch;
+  io::Summary                  summary;
+  summary.task = "state";
+  if (!scratch.is_first())
+    return;
+  summary.write(scratch.file("summary.json"));
+  EXPECT_EQ(test::read_file(scratch.file("summary.json")), summary.json());
+}
+
+TEST(Summary, CopiesAState)
+{
+  state::ContactState<3> state;
+  state.energy                  = 1.5;
+  state.contact_force[2]        = -7.;
+  state.active_contacts         = 11;
+  state.dual.outer_iterations   = 4;
+  state.dual.method             = "active set";
+  state.linear_f_mults          = 19;
+  state.certificate.penetration = 1e-9;
+  io::Summary summary;
+  summary.state   = io::summarize(state);
+  const Json json = Json::parse(summary.json())["state"];
+  EXPECT_EQ(json["energy"], 1.5);
+  EXPECT_EQ(json["contact_force"], Json::parse("[0.0, 0.0, -7.0]"));
+  EXPECT_EQ(json["active_contacts"], 11);
+  EXPECT_EQ(json["outer_iterations"], 4);
+  EXPECT_EQ(json["method"], "active set");
+  EXPECT_EQ(json["linear_f_mults"], 19);
+  EXPECT_EQ(json["certificate"]["penetration"], 1e-9);
+}
+
+TEST(Summary, TimesAreThoseOfTheSlowestRank)
+{
+  std::ostringstream log;
+  RunContext         context(MPI_COMM_WORLD, log);
+  if (context.rank() + 1 == context.n_ranks())
     {
-      io::Summary summary;
-      expect_fixed_keys(Json::parse(summary.json()));
-      summary.gradient.emplace();
-      summary.optimization.emplace();
-      summary.initial_state.emplace();
-      expect_fixed_keys(Json::parse(summary.json()));
+      const RunContext::Timer timer(context, "solve");
+      while (context.seconds() < 0.02)
+        continue;
     }
+  const auto times = io::collect_times(context);
+  EXPECT_GT(times.solve, 0.);
+  EXPECT_GE(times.total, times.solve);
+  EXPECT_EQ(times.gradient, 0.);
+}
 
-    TEST(Summary, NumbersReadBackBitForBit)
-    {
-      io::Summary summary;
-      summary.state.energy        = -0.1 - 0.2;
-      summary.state.contact_force = {1. / 3., 4.9406564584124654e-324, -0.};
-      summary.optimization.emplace();
-      summary.optimization->design = {std::nextafter(1., 2.), 1e300};
-      summary.work.f_mults         = 1ul << 60;
-      const Json json              = Json::parse(summary.json());
-      EXPECT_EQ(json["state"]["energy"].get<double>(), -0.1 - 0.2);
-      EXPECT_EQ(json["state"]["contact_force"].get<std::vector<double>>(),
-                summary.state.contact_force);
-      EXPECT_EQ(json["optimization"]["design"].get<std::vector<double>>(),
-                summary.optimization->design);
-      EXPECT_EQ(json["work"]["f_mults"].get<unsigned long>(), 1ul << 60);
-    }
+TEST(ProgramInfo, TellsVersionsAndBlas)
+{
+  std::ostringstream log;
+  const RunContext   context(MPI_COMM_WORLD, log);
+  const auto         program = io::program_info(context);
+  EXPECT_EQ(program.ranks, context.n_ranks());
+  for (const auto &text : {program.version, program.dealii, program.petsc, program.compiler})
+    EXPECT_FALSE(text.empty());
+  EXPECT_NE(program.blas, "unknown");
+}
 
-    TEST(Summary, WhatIsNotComputedIsNull)
-    {
-      io::Summary summary;
-      summary.state.energy = std::numeric_limits<double>::infinity();
-      const Json json      = Json::parse(summary.json());
-      EXPECT_TRUE(json["state"]["energy"].is_null());
-      EXPECT_TRUE(json["state"]["compliance"].is_null());
-      EXPECT_TRUE(json["state"]["linear_f_mults"].is_null());
-      EXPECT_TRUE(json["optimization"]["iterations"].is_null());
-      EXPECT_TRUE(json["gradient"]["values"].is_null());
-    }
+TEST(ProgramInfo, KnowsTheReferenceBlasFromOthers)
+{
+  const std::string lib = "/usr/lib/x86_64-linux-gnu/";
+  EXPECT_EQ(io::blas_name(lib + "blas/libblas.so.3.11.0", ""), "reference");
+  // OpenBLAS loaded by another library does not make dgemm fast
+  EXPECT_EQ(io::blas_name(lib + "blas/libblas.so.3.11.0", "OpenBLAS 0.3"), "reference");
+  EXPECT_EQ(io::blas_name(lib + "openblas-serial/libblas.so.3", "OpenBLAS 0.3.21"),
+            "OpenBLAS 0.3.21");
+  EXPECT_EQ(io::blas_name(lib + "libopenblas.so.0", ""), "OpenBLAS");
+  EXPECT_EQ(io::blas_name("/opt/intel/libmkl_rt.so.2", ""), "mkl");
+  EXPECT_EQ(io::blas_name("", ""), "unknown");
 
-    TEST(Summary, WarningsMayHoldAnything)
-    {
-      io::Summary summary;
-      summary.warnings = {"a \"quoted\" \\ line\n", "not UTF-8: \xff"};
-      const Json json  = Json::parse(summary.json());
-      EXPECT_EQ(json["warnings"][0].get<std::string>(), summary.warnings[0]);
-    }
-
-    TEST(Summary, IsWrittenAsItIs)
-    {
-      const test::ScratchDirectory scratch;
-      io::Summary                  summary;
-      summary.task = "state";
-      if (!scratch.is_first())
-        return;
-      summary.write(scratch.file("summary.json"));
-      EXPECT_EQ(test::read_file(scratch.file("summary.json")), summary.json());
-    }
-
-    TEST(Summary, CopiesAState)
-    {
-      state::ContactState<3> state;
-      state.energy                  = 1.5;
-      state.contact_force[2]        = -7.;
-      state.active_contacts         = 11;
-      state.dual.outer_iterations   = 4;
-      state.dual.method             = "active set";
-      state.linear_f_mults          = 19;
-      state.certificate.penetration = 1e-9;
-      io::Summary summary;
-      summary.state   = io::summarize(state);
-      const Json json = Json::parse(summary.json())["state"];
-      EXPECT_EQ(json["energy"], 1.5);
-      EXPECT_EQ(json["contact_force"], Json::parse("[0.0, 0.0, -7.0]"));
-      EXPECT_EQ(json["active_contacts"], 11);
-      EXPECT_EQ(json["outer_iterations"], 4);
-      EXPECT_EQ(json["method"], "active set");
-      EXPECT_EQ(json["linear_f_mults"], 19);
-      EXPECT_EQ(json["certificate"]["penetration"], 1e-9);
-    }
-
-    TEST(Summary, TimesAreThoseOfTheSlowestRank)
-    {
-      std::ostringstream log;
-      RunContext         context(MPI_COMM_WORLD, log);
-      if (context.rank() + 1 == context.n_ranks())
-        {
-          const RunContext::Timer timer(context, "solve");
-          while (context.seconds() < 0.02)
-            continue;
-        }
-      const auto times = io::collect_times(context);
-      EXPECT_GT(times.solve, 0.);
-      EXPECT_GE(times.total, times.solve);
-      EXPECT_EQ(times.gradient, 0.);
-    }
-
-    TEST(ProgramInfo, TellsVersionsAndBlas)
-    {
-      std::ostringstream log;
-      const RunContext   context(MPI_COMM_WORLD, log);
-      const auto         program = io::program_info(context);
-      EXPECT_EQ(program.ranks, context.n_ranks());
-      for (const auto &text :
-           {program.version, program.dealii, program.petsc, program.compiler})
-        EXPECT_FALSE(text.empty());
-      EXPECT_NE(program.blas, "unknown");
-    }
-
-    TEST(ProgramInfo, KnowsTheReferenceBlasFromOthers)
-    {
-      const std::string lib = "/usr/lib/x86_64-linux-gnu/";
-      EXPECT_EQ(io::blas_name(lib + "blas/libblas.so.3.11.0", ""), "reference");
-      // OpenBLAS loaded by another library does not make dgemm fast
-      EXPECT_EQ(io::blas_name(lib + "blas/libblas.so.3.11.0", "OpenBLAS 0.3"),
-                "reference");
-      EXPECT_EQ(io::blas_name(lib + "openblas-serial/libblas.so.3",
-                              "OpenBLAS 0.3.21"),
-                "OpenBLAS 0.3.21");
-      EXPECT_EQ(io::blas_name(lib + "libopenblas.so.0", ""), "OpenBLAS");
-      EXPECT_EQ(io::blas_name("/opt/intel/libmkl_rt.so.2", ""), "mkl");
-      EXPECT_EQ(io::blas_name("", ""), "unknown");
-
-      io::Summary::Program program;
-      program.blas = "reference";
-      EXPECT_NE(io::blas_warning(program).find("openblas"), std::string::npos);
-      EXPECT_EQ(io::blas_warning(program).find('\n'), std::string::npos);
-      program.blas = "mkl";
-      EXPECT_EQ(io::blas_warning(program), "");
-    }
-  } // namespace
+  io::Summary::Program program;
+  program.blas = "reference";
+  EXPECT_NE(io::blas_warning(program).find("openblas"), std::string::npos);
+  EXPECT_EQ(io::blas_warning(program).find('\n'), std::string::npos);
+  program.blas = "mkl";
+  EXPECT_EQ(io::blas_warning(program), "");
+}
+} // namespace
 } // namespace snug

@@ -14,80 +14,69 @@
 #include <string>
 #include <vector>
 
-namespace snug
+namespace snug::test {
+/// The points and float arrays of a VTU text as VTK's format defines them.
+struct Vtu
 {
-  namespace test
-  {
-    /// The points and float arrays of a VTU text as VTK's format defines them.
-    struct Vtu
-    {
-      unsigned long                             n_points = 0, n_cells = 0;
-      std::map<std::string, std::vector<float>> arrays; ///< "": the points
-      std::map<std::string, unsigned int>       components;
-    };
+  unsigned long                             n_points = 0, n_cells = 0;
+  std::map<std::string, std::vector<float>> arrays; ///< "": the points
+  std::map<std::string, unsigned int>       components;
+};
 
-    inline std::string
-    xml_attribute(const std::string &tag, const std::string &name)
-    {
-      const auto at = tag.find(" " + name + "=\"");
-      if (at == std::string::npos)
-        return "";
-      const auto begin = at + name.size() + 3;
-      return tag.substr(begin, tag.find('"', begin) - begin);
-    }
+inline std::string xml_attribute(const std::string &tag, const std::string &name)
+{
+  const auto at = tag.find(" " + name + "=\"");
+  if (at == std::string::npos)
+    return "";
+  const auto begin = at + name.size() + 3;
+  return tag.substr(begin, tag.find('"', begin) - begin);
+}
 
-    /// Base64 of the header (4 integers for one block), then of zlib's block.
-    inline std::vector<float>
-    decode_vtu_array(std::string text)
-    {
-      const auto blank = [](char c) { return std::isspace(c) != 0; };
-      text.erase(std::remove_if(text.begin(), text.end(), blank), text.end());
-      if (text.empty())
-        return {};
-      const auto    head = dealii::Utilities::decode_base64(text.substr(0, 24));
-      std::uint32_t header[4];
-      std::memcpy(header, head.data(), sizeof(header));
-      const auto block = dealii::Utilities::decode_base64(text.substr(24));
-      std::vector<float> values(header[1] / sizeof(float));
-      uLongf             size = header[1];
-      if (header[0] != 1 ||
-          uncompress(reinterpret_cast<Bytef *>(values.data()),
-                     &size,
-                     block.data(),
-                     header[3]) != Z_OK ||
-          size != header[1])
-        throw std::runtime_error("damaged VTU array");
-      return values;
-    }
+/// Base64 of the header (4 integers for one block), then of zlib's block.
+inline std::vector<float> decode_vtu_array(std::string text)
+{
+  const auto blank = [](char c) { return std::isspace(c) != 0; };
+  text.erase(std::remove_if(text.begin(), text.end(), blank), text.end());
+  if (text.empty())
+    return {};
+  const auto    head = dealii::Utilities::decode_base64(text.substr(0, 24));
+  std::uint32_t header[4];
+  std::memcpy(header, head.data(), sizeof(header));
+  const auto         block = dealii::Utilities::decode_base64(text.substr(24));
+  std::vector<float> values(header[1] / sizeof(float));
+  uLongf             size = header[1];
+  if (header[0] != 1 ||
+      uncompress(reinterpret_cast<Bytef *>(values.data()), &size, block.data(), header[3]) !=
+        Z_OK ||
+      size != header[1])
+    throw std::runtime_error("damaged VTU array");
+  return values;
+}
 
-    inline Vtu
-    read_vtu(const std::string &text)
+inline Vtu read_vtu(const std::string &text)
+{
+  Vtu        vtu;
+  const auto piece = text.find("<Piece");
+  if (piece == std::string::npos)
+    throw std::runtime_error("no <Piece> in VTU text");
+  const auto tag = text.substr(piece, text.find('>', piece) - piece);
+  vtu.n_points   = std::stoul(xml_attribute(tag, "NumberOfPoints"));
+  vtu.n_cells    = std::stoul(xml_attribute(tag, "NumberOfCells"));
+  for (auto at = text.find("<DataArray"); at != std::string::npos;
+       at      = text.find("<DataArray", at + 1))
     {
-      Vtu        vtu;
-      const auto piece = text.find("<Piece");
-      if (piece == std::string::npos)
-        throw std::runtime_error("no <Piece> in VTU text");
-      const auto tag = text.substr(piece, text.find('>', piece) - piece);
-      vtu.n_points   = std::stoul(xml_attribute(tag, "NumberOfPoints"));
-      vtu.n_cells    = std::stoul(xml_attribute(tag, "NumberOfCells"));
-      for (auto at = text.find("<DataArray"); at != std::string::npos;
-           at      = text.find("<DataArray", at + 1))
-        {
-               const auto end       = text.find('>', at);
-               const auto array_tag = text.substr(at, end - at);
-               if (xml_attribute(array_tag, "type") != "Float32")
-            continue;
-          const auto name = xml_attribute(array_tag, "Name");
-               const auto components =
-                 xml_attribute(array_tag, "NumberOfComponents");
-               vtu.components[name] =
-            components.empty() ? 1 : std::stoul(components);
-               vtu.arrays[name] = decode_vtu_array(
-            text.substr(end + 1, text.find("</DataArray>", end) - end - 1));
-        }
-      return vtu;
+           const auto end       = text.find('>', at);
+           const auto array_tag = text.substr(at, end - at);
+           if (xml_attribute(array_tag, "type") != "Float32")
+        continue;
+      const auto name       = xml_attribute(array_tag, "Name");
+           const auto components = xml_attribute(array_tag, "NumberOfComponents");
+           vtu.components[name]  = components.empty() ? 1 : std::stoul(components);
+           vtu.arrays[name] =
+             decode_vtu_array(text.substr(end + 1, text.find("</DataArray>", end) - end - 1));
     }
-  } // namespace test
-} // namespace snug
+  return vtu;
+}
+} // namespace snug::test
 
 #endif

@@ -10,103 +10,90 @@
 using namespace snug;
 using dealii::Point;
 
-namespace
+namespace {
+template <int dim>
+std::unique_ptr<mesh::GridGeometry<dim>> box(const mesh::BodyMeshParameters &parameters)
 {
-  template <int dim>
-  std::unique_ptr<mesh::GridGeometry<dim>>
-  box(const mesh::BodyMeshParameters &parameters)
-  {
-    auto body =
-      choose(mesh::body_geometry_table<dim>(), "box").make(parameters);
-    return std::unique_ptr<mesh::GridGeometry<dim>>(
-      dynamic_cast<mesh::GridGeometry<dim> *>(body.release()));
-  }
+  auto body = choose(mesh::body_geometry_table<dim>(), "box").make(parameters);
+  return std::unique_ptr<mesh::GridGeometry<dim>>(
+    dynamic_cast<mesh::GridGeometry<dim> *>(body.release()));
+}
 
-  /// The message of the InputError that making the box throws; "" if none.
-  template <int dim>
-  std::string
-  box_complaint(const mesh::BodyMeshParameters &parameters)
-  {
-    try
-      {
-        box<dim>(parameters);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
+/// The message of the InputError that making the box throws; "" if none.
+template <int dim>
+std::string box_complaint(const mesh::BodyMeshParameters &parameters)
+{
+  try
+    {
+      box<dim>(parameters);
+    }
+  catch (const InputError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
 
-  mesh::BodyMeshParameters
-  curved(const std::string &face, const std::string &value)
-  {
-    mesh::BodyMeshParameters parameters;
-    parameters.corner             = {1., 2., 3.};
-    parameters.size               = {2., 3., 4.};
-    parameters.cells              = {2, 2, 2};
-    parameters.curved_faces[face] = value;
-    return parameters;
-  }
+mesh::BodyMeshParameters curved(const std::string &face, const std::string &value)
+{
+  mesh::BodyMeshParameters parameters;
+  parameters.corner             = {1., 2., 3.};
+  parameters.size               = {2., 3., 4.};
+  parameters.cells              = {2, 2, 2};
+  parameters.curved_faces[face] = value;
+  return parameters;
+}
 
-  mesh::BodyMeshParameters
-  curved_2d(const std::string &face, const std::string &value)
-  {
-    mesh::BodyMeshParameters parameters = curved(face, value);
-    parameters.corner.pop_back();
-    parameters.size.pop_back();
-    parameters.cells.pop_back();
-    return parameters;
-  }
+mesh::BodyMeshParameters curved_2d(const std::string &face, const std::string &value)
+{
+  mesh::BodyMeshParameters parameters = curved(face, value);
+  parameters.corner.pop_back();
+  parameters.size.pop_back();
+  parameters.cells.pop_back();
+  return parameters;
+}
 
-  /// Points of the logical unit cube, its face @p face (if < 2 dim).
-  template <int dim>
-  std::vector<Point<dim>>
-  logical_points(unsigned int face)
-  {
-    std::mt19937                           random(1);
-    std::uniform_real_distribution<double> uniform(0., 1.);
-    std::vector<Point<dim>>                points(50);
-    for (auto &point : points)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          point[d] = uniform(random);
-        if (face < 2 * dim)
-          point[face / 2] = face % 2;
-      }
-    return points;
-  }
+/// Points of the logical unit cube, its face @p face (if < 2 dim).
+template <int dim>
+std::vector<Point<dim>> logical_points(unsigned int face)
+{
+  std::mt19937                           random(1);
+  std::uniform_real_distribution<double> uniform(0., 1.);
+  std::vector<Point<dim>>                points(50);
+  for (auto &point : points)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        point[d] = uniform(random);
+      if (face < 2 * dim)
+        point[face / 2] = face % 2;
+    }
+  return points;
+}
 
-  template <int dim>
-  void
-  expect_on_sphere(double radius)
-  {
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      {
-        const auto plain =
-          dim == 3 ? curved("top", "0") : curved_2d("top", "0");
-        const std::string face  = box<dim>(plain)->boundary_names()[f];
-        const std::string value = "sphere " + std::to_string(radius);
-        const auto        geometry =
-          box<dim>(dim == 3 ? curved(face, value) : curved_2d(face, value));
-        Point<dim> centre;
-        for (unsigned int d = 0; d < dim; ++d)
-          centre[d] = 0.5;
-        centre[f / 2]          = f % 2;
-        Point<dim> ball_centre = geometry->grid_position(centre);
-        ball_centre[f / 2] -= (f % 2 == 1 ? 1. : -1.) * radius;
-        for (const auto &point : logical_points<dim>(f))
-          EXPECT_NEAR(geometry->grid_position(point).distance(ball_centre),
-                      std::abs(radius),
-                      1e-13);
-        for (const auto &point : logical_points<dim>(f ^ 1))
-          EXPECT_NEAR((geometry->grid_position(point) -
-                       geometry->box_position(geometry->box_fraction(point)))
-                        .norm(),
-                      0.,
-                      1e-14);
-      }
-  }
+template <int dim>
+void expect_on_sphere(double radius)
+{
+  for (unsigned int f = 0; f < 2 * dim; ++f)
+    {
+      const auto        plain = dim == 3 ? curved("top", "0") : curved_2d("top", "0");
+      const std::string face  = box<dim>(plain)->boundary_names()[f];
+      const std::string value = "sphere " + std::to_string(radius);
+      const auto geometry     = box<dim>(dim == 3 ? curved(face, value) : curved_2d(face, value));
+      Point<dim> centre;
+      for (unsigned int d = 0; d < dim; ++d)
+        centre[d] = 0.5;
+      centre[f / 2]          = f % 2;
+      Point<dim> ball_centre = geometry->grid_position(centre);
+      ball_centre[f / 2] -= (f % 2 == 1 ? 1. : -1.) * radius;
+      for (const auto &point : logical_points<dim>(f))
+        EXPECT_NEAR(geometry->grid_position(point).distance(ball_centre), std::abs(radius), 1e-13);
+      for (const auto &point : logical_points<dim>(f ^ 1))
+        EXPECT_NEAR((geometry->grid_position(point) -
+                     geometry->box_position(geometry->box_fraction(point)))
+                      .norm(),
+                    0., 1e-14);
+    }
+}
 } // namespace
 
 TEST(BodyGeometry, GradedCellsAreInGeometricProgression)
@@ -156,11 +143,9 @@ TEST(BodyGeometry, FinePartMustLeaveARest)
   parameters.size        = {2., 1.};
   parameters.cells       = {6, 1};
   parameters.fine_length = {2., 0.};
-  EXPECT_NE(box_complaint<2>(parameters).find("Box fine length"),
-            std::string::npos);
+  EXPECT_NE(box_complaint<2>(parameters).find("Box fine length"), std::string::npos);
   parameters.fine_length = {0.5, 0.5}; // a single cell along y
-  EXPECT_NE(box_complaint<2>(parameters).find("Box fine length"),
-            std::string::npos);
+  EXPECT_NE(box_complaint<2>(parameters).find("Box fine length"), std::string::npos);
 }
 
 TEST(BodyGeometry, SphericalFacesLieOnSpheres)
@@ -182,9 +167,7 @@ TEST(BodyGeometry, CylindricalFaceIsStraightAlongItsAxis)
     }
   const auto arc = box<2>(curved_2d("top", "cylinder z -6"));
   for (const auto &point : logical_points<2>(3))
-    EXPECT_NEAR(arc->grid_position(point).distance(Point<2>(2., 11.)),
-                6.,
-                1e-13);
+    EXPECT_NEAR(arc->grid_position(point).distance(Point<2>(2., 11.)), 6., 1e-13);
 }
 
 TEST(BodyGeometry, FormulaMovesFaceOutwardsAndFadesLinearly)
@@ -201,9 +184,7 @@ TEST(BodyGeometry, FormulaMovesFaceOutwardsAndFadesLinearly)
       // the left face lies at x = 1
       const double left = 0.1 * y + 0.01 * z * z + 1., right = 0.2 * z;
       const auto   moved = geometry->grid_position(point) - flat;
-      EXPECT_NEAR(moved[0],
-                  -left * (1. - fraction[0]) + right * fraction[0],
-                  1e-14);
+      EXPECT_NEAR(moved[0], -left * (1. - fraction[0]) + right * fraction[0], 1e-14);
       EXPECT_EQ(moved[1], 0.);
       EXPECT_EQ(moved[2], 0.);
     }
@@ -221,9 +202,9 @@ TEST(BodyGeometry, CoarseMeshFillsTheUnitCubeAndNamesItsFaces)
   for (const auto &cell : coarse.cells)
     {
       const auto &o = coarse.vertices[cell[0]];
-      volume += dealii::cross_product_3d(coarse.vertices[cell[1]] - o,
-                                         coarse.vertices[cell[2]] - o) *
-                (coarse.vertices[cell[4]] - o);
+      volume +=
+        dealii::cross_product_3d(coarse.vertices[cell[1]] - o, coarse.vertices[cell[2]] - o) *
+        (coarse.vertices[cell[4]] - o);
     }
   EXPECT_NEAR(volume, 1., 1e-14);
   ASSERT_EQ(coarse.boundary_faces.size(), 2u * (6 + 8 + 12));
@@ -244,8 +225,7 @@ TEST(BodyGeometry, CoarseMeshFillsTheUnitCubeAndNamesItsFaces)
     {
       const std::string message = error.what();
       EXPECT_NE(message.find("roof"), std::string::npos);
-      EXPECT_NE(message.find("left, right, front, back, bottom, top"),
-                std::string::npos);
+      EXPECT_NE(message.find("left, right, front, back, bottom, top"), std::string::npos);
     }
 }
 
@@ -254,8 +234,7 @@ TEST(BodyGeometry, RejectsBadEntriesByName)
   const auto expect_entry = [](const std::string              &entry,
                                const mesh::BodyMeshParameters &parameters) {
     const std::string message = box_complaint<3>(parameters);
-    EXPECT_NE(message.find("'" + entry + "'"), std::string::npos)
-      << entry << ": " << message;
+    EXPECT_NE(message.find("'" + entry + "'"), std::string::npos) << entry << ": " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
   };
   const auto with = [](auto member, auto value) {
@@ -295,6 +274,5 @@ TEST(BodyGeometry, FormulaErrorQuotesTheParserAndPrintsNothing)
   const std::string message = box_complaint<3>(curved("top", "x + foo(y)"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_NE(message.find("x + foo(y)"), std::string::npos);
-  EXPECT_NE(message.find("Unexpected token \"foo\""), std::string::npos)
-    << message;
+  EXPECT_NE(message.find("Unexpected token \"foo\""), std::string::npos) << message;
 }

@@ -6,28 +6,24 @@
 
 using namespace snug;
 
-namespace
+namespace {
+mesh::BodyMeshParameters layered_box()
 {
-  mesh::BodyMeshParameters
-  layered_box()
-  {
-    mesh::BodyMeshParameters parameters;
-    parameters.size            = {2., 1., 1.};
-    parameters.cells           = {4, 2, 2};
-    parameters.shift           = {10., 0., 0.};
-    parameters.rotate          = {{"x", "90"}};
-    parameters.region_formulas = {{"core", "x - 11"}, {"skin", "z - 0.6"}};
-    return parameters;
-  }
+  mesh::BodyMeshParameters parameters;
+  parameters.size            = {2., 1., 1.};
+  parameters.cells           = {4, 2, 2};
+  parameters.shift           = {10., 0., 0.};
+  parameters.rotate          = {{"x", "90"}};
+  parameters.region_formulas = {{"core", "x - 11"}, {"skin", "z - 0.6"}};
+  return parameters;
+}
 } // namespace
 
 TEST(Regions, FormulasAreTakenInPlaceAndInOrder)
 {
   const auto geometry = mesh::make_geometry<3>(layered_box());
-  EXPECT_EQ(geometry->region_names(),
-            (std::vector<std::string>{"body", "core", "skin"}));
-  EXPECT_EQ(mesh::cells_of_regions(*geometry),
-            (std::vector<unsigned long>{4, 8, 4}));
+  EXPECT_EQ(geometry->region_names(), (std::vector<std::string>{"body", "core", "skin"}));
+  EXPECT_EQ(mesh::cells_of_regions(*geometry), (std::vector<unsigned long>{4, 8, 4}));
 }
 
 TEST(Regions, RefinedCellsStayInTheirRegions)
@@ -61,8 +57,6 @@ TEST(Regions, WrongFormulasAreNamed)
     return std::string();
   };
   using Formulas = std::vector<std::pair<std::string, std::string>>;
-  EXPECT_NE(complaint(Formulas{{"core", "x +"}}).find("'Region formulas'"),
-            std::string::npos);
-  EXPECT_NE(complaint(Formulas{{"a", "x"}, {"a", "y"}}).find("twice"),
-            std::string::npos);
+  EXPECT_NE(complaint(Formulas{{"core", "x +"}}).find("'Region formulas'"), std::string::npos);
+  EXPECT_NE(complaint(Formulas{{"a", "x"}, {"a", "y"}}).find("twice"), std::string::npos);
 }

@@ -8,96 +8,87 @@
 
 using namespace snug;
 
-namespace
+namespace {
+/// Two boxes, the first refined for x > 0.5 of its own so that nodes hang
+/// on its faces.
+template <int dim>
+std::vector<mesh::BodyMeshParameters> hanging_boxes()
 {
-  /// Two boxes, the first refined for x > 0.5 of its own so that nodes hang
-  /// on its faces.
-  template <int dim>
-  std::vector<mesh::BodyMeshParameters>
-  hanging_boxes()
-  {
-    std::vector<mesh::BodyMeshParameters> bodies(2);
-    bodies[0].size              = std::vector<double>(dim, 1.);
-    bodies[0].cells             = std::vector<unsigned int>(dim, 2);
-    bodies[0].refine_where      = "x-0.5";
-    bodies[0].local_refinements = 1;
-    bodies[1].corner            = std::vector<double>(dim, 0.);
-    bodies[1].corner[dim - 1]   = 1.;
-    bodies[1].size              = std::vector<double>(dim, 2.);
-    bodies[1].cells             = std::vector<unsigned int>(dim, 3);
-    return bodies;
-  }
+  std::vector<mesh::BodyMeshParameters> bodies(2);
+  bodies[0].size              = std::vector<double>(dim, 1.);
+  bodies[0].cells             = std::vector<unsigned int>(dim, 2);
+  bodies[0].refine_where      = "x-0.5";
+  bodies[0].local_refinements = 1;
+  bodies[1].corner            = std::vector<double>(dim, 0.);
+  bodies[1].corner[dim - 1]   = 1.;
+  bodies[1].size              = std::vector<double>(dim, 2.);
+  bodies[1].cells             = std::vector<unsigned int>(dim, 3);
+  return bodies;
+}
 
-  template <int dim>
-  struct SurfaceScene
-  {
-    SurfaceScene(MPI_Comm communicator, unsigned int degree)
-      : bodies(communicator, hanging_boxes<dim>(), degree)
-      , surface(bodies, {{0, 2 * dim - 1}, {1, 2 * dim - 2}})
-      , positions(surface.gather(bodies.reference_positions()))
+template <int dim>
+struct SurfaceScene
+{
+  SurfaceScene(MPI_Comm communicator, unsigned int degree)
+    : bodies(communicator, hanging_boxes<dim>(), degree)
+    , surface(bodies, {{0, 2 * dim - 1}, {1, 2 * dim - 2}})
+    , positions(surface.gather(bodies.reference_positions()))
+  {}
+
+  mesh::BodyMesh<dim>                bodies;
+  mesh::Surface<dim>                 surface;
+  typename mesh::Surface<dim>::Field positions;
+};
+
+/// Centre and outward area vector (t1 x t2 between the corners) of a face.
+template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
+centre_and_area(const SurfaceScene<dim> &scene, unsigned int f)
+{
+  const auto            &nodes = scene.surface.faces()[f].nodes;
+  dealii::Tensor<1, dim> centre, area;
+  for (const unsigned int node : nodes)
+    centre += scene.positions[node] / double(nodes.size());
+  const unsigned int p = scene.bodies.degree();
+  const auto         t = scene.positions[nodes[p]] - scene.positions[nodes[0]];
+  if constexpr (dim == 2)
+    area = dealii::cross_product_2d(t);
+  else
+    area =
+      dealii::cross_product_3d(t, scene.positions[nodes[p * (p + 1)]] - scene.positions[nodes[0]]);
+  return {centre, area};
+}
+
+template <int dim>
+void expect_whole_faces_outwards(unsigned int degree)
+{
+  const SurfaceScene<dim> scene(MPI_COMM_WORLD, degree);
+  dealii::Tensor<1, dim>  area[2];
+  for (unsigned int f = 0; f < scene.surface.faces().size(); ++f)
     {
+      const auto &face = scene.surface.faces()[f];
+      const auto  a    = centre_and_area(scene, f).second;
+      EXPECT_GT(a[dim - 1] * (face.body == 0 ? 1. : -1.), 0.);
+      area[face.body] += a;
     }
+  EXPECT_NEAR(area[0][dim - 1], 1., 1e-13);
+  EXPECT_NEAR(area[1][dim - 1], -std::pow(2., dim - 1), 1e-13);
+}
 
-    mesh::BodyMesh<dim>                bodies;
-    mesh::Surface<dim>                 surface;
-    typename mesh::Surface<dim>::Field positions;
-  };
-
-  /// Centre and outward area vector (t1 x t2 between the corners) of a face.
-  template <int dim>
-  std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
-  centre_and_area(const SurfaceScene<dim> &scene, unsigned int f)
-  {
-    const auto            &nodes = scene.surface.faces()[f].nodes;
-    dealii::Tensor<1, dim> centre, area;
-    for (const unsigned int node : nodes)
-      centre += scene.positions[node] / double(nodes.size());
-    const unsigned int p = scene.bodies.degree();
-    const auto t = scene.positions[nodes[p]] - scene.positions[nodes[0]];
-    if constexpr (dim == 2)
-      area = dealii::cross_product_2d(t);
-    else
-      area = dealii::cross_product_3d(t,
-                                      scene.positions[nodes[p * (p + 1)]] -
-                                        scene.positions[nodes[0]]);
-    return {centre, area};
-  }
-
-  template <int dim>
-  void
-  expect_whole_faces_outwards(unsigned int degree)
-  {
-    const SurfaceScene<dim> scene(MPI_COMM_WORLD, degree);
-    dealii::Tensor<1, dim>  area[2];
-    for (unsigned int f = 0; f < scene.surface.faces().size(); ++f)
-      {
-        const auto &face = scene.surface.faces()[f];
-        const auto  a    = centre_and_area(scene, f).second;
-        EXPECT_GT(a[dim - 1] * (face.body == 0 ? 1. : -1.), 0.);
-        area[face.body] += a;
-      }
-    EXPECT_NEAR(area[0][dim - 1], 1., 1e-13);
-    EXPECT_NEAR(area[1][dim - 1], -std::pow(2., dim - 1), 1e-13);
-  }
-
-  template <int dim>
-  void
-  expect_order_of_one_rank(unsigned int degree)
-  {
-    const SurfaceScene<dim> all(MPI_COMM_WORLD, degree);
-    const SurfaceScene<dim> self(MPI_COMM_SELF, degree);
-    ASSERT_EQ(all.surface.faces().size(), self.surface.faces().size());
-    EXPECT_EQ(all.surface.n_nodes(), self.surface.n_nodes());
-    for (unsigned int f = 0; f < all.surface.faces().size(); ++f)
-      {
-        EXPECT_EQ(all.surface.faces()[f].body, self.surface.faces()[f].body);
-        EXPECT_NEAR((centre_and_area(all, f).first -
-                     centre_and_area(self, f).first)
-                      .norm(),
-                    0.,
-                    1e-14);
-      }
-  }
+template <int dim>
+void expect_order_of_one_rank(unsigned int degree)
+{
+  const SurfaceScene<dim> all(MPI_COMM_WORLD, degree);
+  const SurfaceScene<dim> self(MPI_COMM_SELF, degree);
+  ASSERT_EQ(all.surface.faces().size(), self.surface.faces().size());
+  EXPECT_EQ(all.surface.n_nodes(), self.surface.n_nodes());
+  for (unsigned int f = 0; f < all.surface.faces().size(); ++f)
+    {
+      EXPECT_EQ(all.surface.faces()[f].body, self.surface.faces()[f].body);
+      EXPECT_NEAR((centre_and_area(all, f).first - centre_and_area(self, f).first).norm(), 0.,
+                  1e-14);
+    }
+}
 } // namespace
 
 TEST(Surface, HoldsWholeFacesOrientedOutwards)
@@ -145,8 +136,7 @@ TEST(Surface, GatherAndAddOwnedMoveEachNodeOnce)
   const SurfaceScene<3> scene(MPI_COMM_WORLD, 2);
   const auto           &bodies = scene.bodies;
   for (unsigned int node = 1; node < scene.surface.n_nodes(); ++node)
-    EXPECT_LT(scene.surface.global_node(node - 1),
-              scene.surface.global_node(node));
+    EXPECT_LT(scene.surface.global_node(node - 1), scene.surface.global_node(node));
 
   mesh::BodyMesh<3>::Field numbers(bodies.n_local_nodes());
   for (unsigned int node = 0; node < numbers.size(); ++node)

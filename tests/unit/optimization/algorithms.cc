@@ -11,45 +11,41 @@
 using namespace snug;
 using namespace snug::optimization;
 
-namespace
+namespace {
+/// The knapsack holds at most its total; a second limit is never reached.
+DesignProblem at_most(const Knapsack &knapsack)
 {
-  /// The knapsack holds at most its total; a second limit is never reached.
-  DesignProblem
-  at_most(const Knapsack &knapsack)
-  {
-    auto problem              = knapsack.problem();
-    problem.relations         = {Relation::at_most, Relation::at_most};
-    problem.constraint_scales = {knapsack.total, knapsack.total};
-    problem.evaluate = [knapsack, inner = problem.evaluate](const auto &x) {
-      auto value = inner(x);
-      value.constraints.push_back(value.constraints[0] - 100. * knapsack.total);
-      value.jacobian.push_back(value.jacobian[0]);
-      return value;
-    };
-    return problem;
-  }
+  auto problem              = knapsack.problem();
+  problem.relations         = {Relation::at_most, Relation::at_most};
+  problem.constraint_scales = {knapsack.total, knapsack.total};
+  problem.evaluate          = [knapsack, inner = problem.evaluate](const auto &x) {
+    auto value = inner(x);
+    value.constraints.push_back(value.constraints[0] - 100. * knapsack.total);
+    value.jacobian.push_back(value.jacobian[0]);
+    return value;
+  };
+  return problem;
+}
 
-  /// Half a knapsack: its total is reached (the solution is that of the
-  /// equality).
-  Knapsack
-  full()
-  {
-    Knapsack knapsack(9);
-    for (double &target : knapsack.t)
-      target += 1.;
-    return knapsack;
-  }
+/// Half a knapsack: its total is reached (the solution is that of the
+/// equality).
+Knapsack full()
+{
+  Knapsack knapsack(9);
+  for (double &target : knapsack.t)
+    target += 1.;
+  return knapsack;
+}
 
-  OptimizationParameters
-  with(const std::string &algorithm)
-  {
-    OptimizationParameters parameters;
-    parameters.objective_tolerance  = 1e-10;
-    parameters.algorithm            = algorithm;
-    parameters.maximum_evaluations  = 2000;
-    parameters.constraint_tolerance = 1e-7;
-    return parameters;
-  }
+OptimizationParameters with(const std::string &algorithm)
+{
+  OptimizationParameters parameters;
+  parameters.objective_tolerance  = 1e-10;
+  parameters.algorithm            = algorithm;
+  parameters.maximum_evaluations  = 2000;
+  parameters.constraint_tolerance = 1e-7;
+  return parameters;
+}
 } // namespace
 
 TEST(Algorithms, HoldInequalities)
@@ -104,8 +100,7 @@ TEST(Algorithms, ReportDesignsThatGetBetter)
       hooks.on_iteration = [&](const Iteration &it) { reported.push_back(it); };
       const auto result  = minimize(at_most(full()), with(row.name), hooks);
       ASSERT_EQ(reported.size(), result.iterations + 1) << row.name;
-      EXPECT_EQ(reported.front().evaluation.objective,
-                result.objective_initial);
+      EXPECT_EQ(reported.front().evaluation.objective, result.objective_initial);
       EXPECT_GT(reported.front().projected_gradient, 1e-1);
     }
 }
@@ -117,9 +112,8 @@ TEST(Algorithms, StepBackFromDesignsWithoutAValue)
       // the minimum is beside the hole
       const auto knapsack = full();
       const auto minimum  = knapsack.solution();
-      const auto problem =
-        with_hole(at_most(knapsack), minimum[0] + 0.05, minimum[0] + 0.1);
-      const auto result = minimize(problem, with(row.name));
+      const auto problem  = with_hole(at_most(knapsack), minimum[0] + 0.05, minimum[0] + 0.1);
+      const auto result   = minimize(problem, with(row.name));
       EXPECT_NE(result.stop_reason, "") << row.name;
       EXPECT_LE(result.objective_final, result.objective_initial);
     }
@@ -127,10 +121,7 @@ TEST(Algorithms, StepBackFromDesignsWithoutAValue)
 
 TEST(Limit, ReadsSidesValuesAndMultiples)
 {
-  const auto expect = [](const std::string &text,
-                         Limit::Side        side,
-                         double             value,
-                         bool               of_initial) {
+  const auto expect = [](const std::string &text, Limit::Side side, double value, bool of_initial) {
     const auto limit = read_limit(text);
     EXPECT_EQ(limit.side, side) << text;
     EXPECT_EQ(limit.value, value) << text;

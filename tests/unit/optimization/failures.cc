@@ -53,8 +53,7 @@ TEST(SlsqpFailures, StopsAtTheBestDesignIfTheMinimumIsTangled)
       const auto result = minimize(problem, tight(), hooks);
       EXPECT_FALSE(result.success);
       EXPECT_EQ(result.stop_reason.rfind("restarts exhausted (", 0), 0u);
-      EXPECT_EQ(result.stop_reason.find("is tangled") == std::string::npos,
-                as_nan)
+      EXPECT_EQ(result.stop_reason.find("is tangled") == std::string::npos, as_nan)
         << result.stop_reason;
       EXPECT_EQ(restarts, 5u);
       EXPECT_LE(result.x[0], 0.6);
@@ -70,14 +69,12 @@ TEST(SlsqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
   const auto result              = minimize(rosenbrock_on_circle(), parameters);
   EXPECT_EQ(result.stop_reason, "maximum evaluations");
   for (const double violation : {0., 0.9, 1.1, 1e5})
-    for (const std::string reason :
-         {"interrupted", "maximum evaluations", "round-off"})
+    for (const std::string reason : {"interrupted", "maximum evaluations", "round-off"})
       {
-        auto other        = result;
-        other.stop_reason = reason;
-        other.constraint_violation =
-          violation * parameters.constraint_tolerance;
-        const auto text = complaint(other, parameters);
+        auto other                 = result;
+        other.stop_reason          = reason;
+        other.constraint_violation = violation * parameters.constraint_tolerance;
+        const auto text            = complaint(other, parameters);
         EXPECT_EQ(text.empty(), violation < 1. && reason != "round-off");
         EXPECT_EQ(text.find("violates") != std::string::npos, violation > 1.);
       }
@@ -134,8 +131,7 @@ TEST(SlsqpFailures, ErrorsOfTheHookPassEvenSolveErrors)
         if (iteration.number == failing)
           throw SolveError("cannot write the picture");
       };
-      EXPECT_THROW(minimize(rosenbrock_on_circle(), tight(), hooks),
-                   SolveError);
+      EXPECT_THROW(minimize(rosenbrock_on_circle(), tight(), hooks), SolveError);
     }
 }
 
@@ -169,8 +165,7 @@ TEST(SlsqpFailures, NoiseEndsTheSearchCloseToTheMinimum)
   auto           problem = knapsack.problem();
   problem.evaluate       = [inner = problem.evaluate](const auto &x) {
     auto value = inner(x);
-    value.objective *=
-      1. + 1e-7 * std::sin(1e9 * std::accumulate(x.begin(), x.end(), 0.1));
+    value.objective *= 1. + 1e-7 * std::sin(1e9 * std::accumulate(x.begin(), x.end(), 0.1));
     return value;
   };
   const auto result = minimize(problem, tight());

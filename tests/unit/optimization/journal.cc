@@ -9,41 +9,35 @@
 using namespace snug;
 using namespace snug::optimization;
 
-namespace
+namespace {
+void expect_same_bits(const Evaluation &a, const Evaluation &b)
 {
-  void
-  expect_same_bits(const Evaluation &a, const Evaluation &b)
-  {
-    EXPECT_TRUE(same_bits({a.objective}, {b.objective}));
-    EXPECT_TRUE(same_bits(a.gradient, b.gradient));
-    EXPECT_TRUE(same_bits(a.constraints, b.constraints));
-    EXPECT_TRUE(same_bits(a.notes, b.notes));
-    ASSERT_EQ(a.jacobian.size(), b.jacobian.size());
-    for (unsigned int j = 0; j < a.jacobian.size(); ++j)
-      EXPECT_TRUE(same_bits(a.jacobian[j], b.jacobian[j]));
-  }
+  EXPECT_TRUE(same_bits({a.objective}, {b.objective}));
+  EXPECT_TRUE(same_bits(a.gradient, b.gradient));
+  EXPECT_TRUE(same_bits(a.constraints, b.constraints));
+  EXPECT_TRUE(same_bits(a.notes, b.notes));
+  ASSERT_EQ(a.jacobian.size(), b.jacobian.size());
+  for (unsigned int j = 0; j < a.jacobian.size(); ++j)
+    EXPECT_TRUE(same_bits(a.jacobian[j], b.jacobian[j]));
+}
 
-  void
-  expect_same_path(const WarmProblem &a, const WarmProblem &b)
-  {
-    ASSERT_EQ(a.path.size(), b.path.size());
-    for (unsigned int i = 0; i < a.path.size(); ++i)
-      {
-        EXPECT_TRUE(same_bits(a.path[i].x, b.path[i].x)) << i;
-        EXPECT_EQ(a.path[i].evaluations, b.path[i].evaluations);
-        expect_same_bits(a.path[i].evaluation, b.path[i].evaluation);
-      }
-  }
+void expect_same_path(const WarmProblem &a, const WarmProblem &b)
+{
+  ASSERT_EQ(a.path.size(), b.path.size());
+  for (unsigned int i = 0; i < a.path.size(); ++i)
+    {
+      EXPECT_TRUE(same_bits(a.path[i].x, b.path[i].x)) << i;
+      EXPECT_EQ(a.path[i].evaluations, b.path[i].evaluations);
+      expect_same_bits(a.path[i].evaluation, b.path[i].evaluation);
+    }
+}
 
-  void
-  run_until_killed(WarmProblem       &problem,
-                   WarmProblem::Where where,
-                   unsigned int       when)
-  {
-    problem.where = where;
-    problem.when  = when;
-    EXPECT_THROW(problem.run(), std::runtime_error);
-  }
+void run_until_killed(WarmProblem &problem, WarmProblem::Where where, unsigned int when)
+{
+  problem.where = where;
+  problem.when  = when;
+  EXPECT_THROW(problem.run(), std::runtime_error);
+}
 } // namespace
 
 TEST(Journal, ARunWithoutRestartDiffersInNothing)
@@ -79,8 +73,7 @@ TEST(Journal, KilledAnywhereTheRestartTakesTheSamePathBitForBit)
   const std::string text = folder.text();
 
   using Where = WarmProblem::Where;
-  for (const Where where :
-       {Where::evaluating, Where::before_saving, Where::after_saving})
+  for (const Where where : {Where::evaluating, Where::before_saving, Where::after_saving})
     for (unsigned int kill = 0; kill < whole.n_live; ++kill)
       {
         WarmProblem first(folder.path);
@@ -106,10 +99,8 @@ TEST(Journal, KilledWhileWritingTheRecordTheRestartIsTheSameToo)
         WarmProblem first(folder.path);
         run_until_killed(first, WarmProblem::Where::evaluating, kill);
         const std::string complete = folder.text();
-        const std::size_t begin =
-          complete.find("record " + std::to_string(kill - 1) + " on");
-        folder.write(complete.substr(
-          0, begin + std::size_t(kept * (complete.size() - begin))));
+        const std::size_t begin    = complete.find("record " + std::to_string(kill - 1) + " on");
+        folder.write(complete.substr(0, begin + std::size_t(kept * (complete.size() - begin))));
         WarmProblem second(folder.path, true);
         second.run();
         EXPECT_EQ(second.n_replayed, kill - 1);
@@ -179,9 +170,7 @@ TEST(Journal, AnotherDesignCutsTheRecordAndStartsCold)
   WarmProblem first(folder.path);
   first.run();
   WarmProblem second(folder.path, true);
-  const auto  evaluate = [&](const std::vector<double> &x) {
-    return second.live(x);
-  };
+  const auto  evaluate = [&](const std::vector<double> &x) { return second.live(x); };
   {
     Journal journal(second.settings, evaluate);
     journal.evaluate({0.1, 0.9});
@@ -191,8 +180,7 @@ TEST(Journal, AnotherDesignCutsTheRecordAndStartsCold)
   }
   EXPECT_NE(second.log.find("another design"), std::string::npos);
   EXPECT_EQ(second.n_loads, 0u);
-  const auto contents =
-    parse_journal(folder.text(), second.settings.fingerprint, "journal.txt");
+  const auto contents = parse_journal(folder.text(), second.settings.fingerprint, "journal.txt");
   ASSERT_EQ(contents.records.size(), 2u);
   EXPECT_EQ(contents.records[1].x, (std::vector<double>{0.2, 0.8}));
 }
@@ -204,8 +192,7 @@ TEST(Journal, CutAndKilledBeforeTheNextRecordItHasNoStaleWarmStart)
   run_until_killed(first, WarmProblem::Where::evaluating, 3);
   const auto cut_and_die = [&] {
     WarmProblem second(folder.path, true);
-    Journal     journal(second.settings,
-                    [](const auto &) -> Evaluation { throw Killed(); });
+    Journal     journal(second.settings, [](const auto &) -> Evaluation { throw Killed(); });
     journal.evaluate({0.1, 0.9});
     EXPECT_THROW(journal.evaluate({0.2, 0.8}), Killed);
     return second.n_loads;
@@ -243,8 +230,7 @@ TEST(Journal, OnAnotherNumberOfRanksItStartsColdAndSaysSo)
   run_until_killed(first, WarmProblem::Where::evaluating, 6);
   std::string       text  = folder.text();
   const std::string ranks = " on " + std::to_string(n_all_ranks()) + " ranks";
-  for (auto at = text.find(ranks); at != std::string::npos;
-       at      = text.find(ranks, at + 1))
+  for (auto at = text.find(ranks); at != std::string::npos; at = text.find(ranks, at + 1))
     text.replace(at, ranks.size(), " on 17 ranks");
   folder.write(text);
   for (unsigned int attempt = 0; attempt < 2; ++attempt)
@@ -266,8 +252,7 @@ TEST(Journal, StartsColdTogetherIfOneRankLostItsData)
   run_until_killed(first, WarmProblem::Where::evaluating, 6);
   const int loser = n_all_ranks() - 1;
   if (this_rank() == loser)
-    std::filesystem::remove(folder.path + "/warm-start." +
-                            std::to_string(loser) + ".1");
+    std::filesystem::remove(folder.path + "/warm-start." + std::to_string(loser) + ".1");
   WarmProblem second(folder.path, true);
   EXPECT_NO_THROW(second.run());
   EXPECT_EQ(second.n_loads, 0u);

@@ -52,11 +52,9 @@ TEST(JournalRecord, TornAnywhereKeepsTheCompleteRecords)
   const std::string text     = header + first + journal_text(record, 1);
   for (std::size_t size = 0; size < text.size(); ++size)
     {
-      const auto contents =
-        parse_journal(text.substr(0, size), "a = 1", "journal.txt");
+      const auto contents = parse_journal(text.substr(0, size), "a = 1", "journal.txt");
       EXPECT_EQ(contents.header_end, size < header.size() ? 0 : header.size());
-      EXPECT_EQ(contents.records.size(),
-                size < header.size() + first.size() ? 0u : 1u);
+      EXPECT_EQ(contents.records.size(), size < header.size() + first.size() ? 0u : 1u);
     }
 }
 
@@ -65,7 +63,7 @@ TEST(JournalRecord, DamageInTheMiddleAndForeignFilesAreErrors)
   JournalRecord record;
   record.x                 = {0.1};
   const std::string header = journal_header("a = 1");
-  std::string text = header + journal_text(record, 0) + journal_text(record, 1);
+  std::string       text   = header + journal_text(record, 0) + journal_text(record, 1);
   text.replace(text.find("objective"), 9, "obj%ctive");
   EXPECT_THROW(parse_journal(text, "a = 1", "journal.txt"), InputError);
   EXPECT_THROW(parse_journal("snug journal 9\n", "a = 1", "j"), InputError);

@@ -27,15 +27,14 @@ struct Knapsack
     total = 0.5 * std::accumulate(a.begin(), a.end(), 0.);
   }
 
-  snug::optimization::DesignProblem
-  problem() const
+  snug::optimization::DesignProblem problem() const
   {
     snug::optimization::DesignProblem problem;
     problem.lower.assign(d.size(), 0.);
     problem.upper.assign(d.size(), 1.);
     problem.start.assign(d.size(), 0.5);
     problem.constraint_scales = {total};
-    problem.evaluate = [knapsack = *this](const std::vector<double> &x) {
+    problem.evaluate          = [knapsack = *this](const std::vector<double> &x) {
       snug::optimization::Evaluation value;
       value.constraints = {-knapsack.total};
       value.jacobian    = {knapsack.a};
@@ -52,8 +51,7 @@ struct Knapsack
   }
 
   /// By bisection on the multiplier, independently of any optimizer.
-  std::vector<double>
-  solution() const
+  std::vector<double> solution() const
   {
     std::vector<double> x(d.size());
     double              low = -100., high = 100.;
@@ -76,8 +74,7 @@ struct Knapsack
 };
 
 /// Rosenbrock's valley on the unit circle: x^2 + y^2 = 1.
-inline snug::optimization::DesignProblem
-rosenbrock_on_circle()
+inline snug::optimization::DesignProblem rosenbrock_on_circle()
 {
   snug::optimization::DesignProblem problem;
   problem.lower    = {-1.5, -1.5};
@@ -96,8 +93,7 @@ rosenbrock_on_circle()
 }
 
 /// Its minimum, by scanning the circle finely and refining.
-inline std::vector<double>
-rosenbrock_minimum()
+inline std::vector<double> rosenbrock_minimum()
 {
   const auto f = [](double angle) {
     const double x = std::cos(angle), y = std::sin(angle);
@@ -120,8 +116,7 @@ rosenbrock_minimum()
 // design within about its root, 3e-7, times the problem's condition.
 constexpr double design_accuracy = 2e-5;
 
-inline snug::optimization::OptimizationParameters
-tight()
+inline snug::optimization::OptimizationParameters tight()
 {
   snug::optimization::OptimizationParameters parameters;
   parameters.gradient_tolerance  = 1e-13;
@@ -134,17 +129,15 @@ tight()
 inline snug::optimization::DesignProblem
 with_hole(snug::optimization::DesignProblem problem, double from, double to)
 {
-  problem.evaluate =
-    [inner = problem.evaluate, from, to](const std::vector<double> &x) {
-      if (x[0] > from && x[0] < to)
-        throw snug::TangledMesh("cell 5 of body punch is tangled");
-      return inner(x);
-    };
+  problem.evaluate = [inner = problem.evaluate, from, to](const std::vector<double> &x) {
+    if (x[0] > from && x[0] < to)
+      throw snug::TangledMesh("cell 5 of body punch is tangled");
+    return inner(x);
+  };
   return problem;
 }
 
-inline double
-distance(const std::vector<double> &a, const std::vector<double> &b)
+inline double distance(const std::vector<double> &a, const std::vector<double> &b)
 {
   double largest = 0.;
   for (unsigned int i = 0; i < a.size(); ++i)

@@ -8,29 +8,25 @@
 
 using namespace snug::optimization;
 
-namespace
+namespace {
+std::vector<double> random_vector(std::mt19937 &random, const unsigned int n)
 {
-  std::vector<double>
-  random_vector(std::mt19937 &random, const unsigned int n)
-  {
-    std::normal_distribution<double> normal;
-    std::vector<double>              v(n);
-    for (double &entry : v)
-      entry = normal(random);
-    return v;
-  }
+  std::normal_distribution<double> normal;
+  std::vector<double>              v(n);
+  for (double &entry : v)
+    entry = normal(random);
+  return v;
+}
 
-  double
-  projected_norm(const std::vector<double> &r, const std::vector<Place> &places)
-  {
-    double sum = 0.;
-    for (unsigned int i = 0; i < r.size(); ++i)
-      if (places[i] == Place::inside ||
-          (places[i] == Place::at_lower && r[i] < 0.) ||
-          (places[i] == Place::at_upper && r[i] > 0.))
-        sum += r[i] * r[i];
-    return std::sqrt(sum);
-  }
+double projected_norm(const std::vector<double> &r, const std::vector<Place> &places)
+{
+  double sum = 0.;
+  for (unsigned int i = 0; i < r.size(); ++i)
+    if (places[i] == Place::inside || (places[i] == Place::at_lower && r[i] < 0.) ||
+        (places[i] == Place::at_upper && r[i] > 0.))
+      sum += r[i] * r[i];
+  return std::sqrt(sum);
+}
 } // namespace
 
 TEST(ProjectedGradient, IsZeroAtAPointOfKarushKuhnAndTucker)
@@ -47,23 +43,15 @@ TEST(ProjectedGradient, IsZeroAtAPointOfKarushKuhnAndTucker)
                           : i < 9  ? Place::at_upper
                           : i < 10 ? Place::fixed
                                    : Place::inside;
-      g[i] =
-        3. * row_0[i] - 2. * row_1[i] + (i == 9 ? 11. : sign * std::abs(g[i]));
+      g[i]              = 3. * row_0[i] - 2. * row_1[i] + (i == 9 ? 11. : sign * std::abs(g[i]));
     }
-  EXPECT_NEAR(projected_gradient_norm(g,
-                                      {{row_0, false}, {row_1, false}},
-                                      places),
-              0.,
-              1e-13);
+  EXPECT_NEAR(projected_gradient_norm(g, {{row_0, false}, {row_1, false}}, places), 0., 1e-13);
   // a dependent row changes nothing
-  EXPECT_NEAR(projected_gradient_norm(
-                g, {{row_0, false}, {row_1, false}, {row_0, false}}, places),
-              0.,
-              1e-13);
+  EXPECT_NEAR(projected_gradient_norm(g, {{row_0, false}, {row_1, false}, {row_0, false}}, places),
+              0., 1e-13);
   // a bound multiplier of the wrong sign does
   g[2] -= 50. * std::abs(g[2]) + 50.;
-  EXPECT_GT(
-    projected_gradient_norm(g, {{row_0, false}, {row_1, false}}, places), 1.);
+  EXPECT_GT(projected_gradient_norm(g, {{row_0, false}, {row_1, false}}, places), 1.);
 }
 
 TEST(ProjectedGradient, IsTheMinimumOverTheMultiplier)
@@ -112,11 +100,7 @@ TEST(ProjectedGradient, InequalitiesOnlyPush)
 
 TEST(ProjectedGradient, WithoutConstraintsOrBoundsIsTheNorm)
 {
-  EXPECT_DOUBLE_EQ(
-    projected_gradient_norm({3., -4.}, {}, {Place::inside, Place::inside}), 5.);
-  EXPECT_DOUBLE_EQ(projected_gradient_norm({3., -4.},
-                                           {},
-                                           {Place::at_lower, Place::at_upper}),
-                   0.);
+  EXPECT_DOUBLE_EQ(projected_gradient_norm({3., -4.}, {}, {Place::inside, Place::inside}), 5.);
+  EXPECT_DOUBLE_EQ(projected_gradient_norm({3., -4.}, {}, {Place::at_lower, Place::at_upper}), 0.);
   EXPECT_DOUBLE_EQ(projected_gradient_norm({}, {}, {}), 0.);
 }

@@ -39,7 +39,7 @@ TEST(Slsqp, StaysWhereItStartsIfThatIsTheMinimum)
 TEST(Slsqp, EndsByItsOwnToleranceWithinDefaults)
 {
   const Knapsack knapsack(16);
-  const auto result = minimize(knapsack.problem(), OptimizationParameters());
+  const auto     result = minimize(knapsack.problem(), OptimizationParameters());
   EXPECT_TRUE(result.success);
   EXPECT_TRUE(result.stop_reason == "gradient tolerance" ||
               result.stop_reason == "objective tolerance" ||
@@ -72,8 +72,7 @@ TEST(Slsqp, ReachesTheSameDesignWhateverTheUnits)
           for (double &entry : *v)
             entry *= length;
         problem.constraint_scales = {f};
-        problem.evaluate          = [      =,
-                            inner = problem.evaluate](std::vector<double> x) {
+        problem.evaluate          = [=, inner = problem.evaluate](std::vector<double> x) {
           for (double &entry : x)
             entry /= length;
           auto value = inner(x);
@@ -91,9 +90,7 @@ TEST(Slsqp, ReachesTheSameDesignWhateverTheUnits)
           entry /= length;
         EXPECT_TRUE(result.success) << result.stop_reason;
         EXPECT_LT(distance(result.x, exact), design_accuracy);
-        EXPECT_NEAR(result.projected_gradient,
-                    reference.projected_gradient,
-                    1e-6);
+        EXPECT_NEAR(result.projected_gradient, reference.projected_gradient, 1e-6);
       }
 }
 
@@ -149,7 +146,7 @@ TEST(Slsqp, AsksForEachDesignOnceAndWithinTheBounds)
   auto                          problem = rosenbrock_on_circle();
   std::set<std::vector<double>> designs;
   unsigned int                  calls = 0;
-  problem.evaluate = [&, inner = problem.evaluate](const auto &x) {
+  problem.evaluate                    = [&, inner = problem.evaluate](const auto &x) {
     ++calls;
     designs.insert(x);
     for (unsigned int i = 0; i < x.size(); ++i)
@@ -179,8 +176,7 @@ TEST(Slsqp, ReportsEveryAcceptedDesignOnce)
     {
       EXPECT_EQ(reported[i].number, i);
       EXPECT_TRUE(designs.insert(reported[i].x).second);
-      EXPECT_EQ(reported[i].evaluation.objective,
-                problem.evaluate(reported[i].x).objective);
+      EXPECT_EQ(reported[i].evaluation.objective, problem.evaluate(reported[i].x).objective);
       EXPECT_LE(reported[i].evaluations, result.evaluations);
     }
   EXPECT_LT(reported.back().projected_gradient, 1e-5);
@@ -193,7 +189,7 @@ TEST(Slsqp, KeepsToTheNumberOfEvaluations)
     {
       OptimizationParameters parameters = tight();
       parameters.maximum_evaluations    = allowed;
-      const auto result = minimize(rosenbrock_on_circle(), parameters);
+      const auto result                 = minimize(rosenbrock_on_circle(), parameters);
       EXPECT_EQ(result.evaluations, allowed);
       EXPECT_EQ(result.stop_reason, "maximum evaluations");
       EXPECT_FALSE(result.success);
@@ -209,7 +205,7 @@ TEST(Slsqp, NeverClaimsSuccessForAVolumeThatCannotBe)
         knapsack.total *= 3.;
         OptimizationParameters parameters;
         parameters.objective_tolerance = tolerance;
-        const auto result = minimize(knapsack.problem(), parameters);
+        const auto result              = minimize(knapsack.problem(), parameters);
         EXPECT_FALSE(result.success);
         EXPECT_GT(result.constraint_violation, 0.3);
         EXPECT_EQ(result.stop_reason, "constraints violated");
@@ -223,7 +219,7 @@ TEST(Slsqp, MeetsNonlinearConstraintsAlsoWithLooseObjectiveTolerance)
     {
       OptimizationParameters parameters;
       parameters.objective_tolerance = tolerance;
-      const auto result = minimize(rosenbrock_on_circle(), parameters);
+      const auto result              = minimize(rosenbrock_on_circle(), parameters);
       EXPECT_TRUE(result.success) << result.stop_reason;
       EXPECT_LE(result.constraint_violation, 1e-8);
     }
@@ -232,8 +228,7 @@ TEST(Slsqp, MeetsNonlinearConstraintsAlsoWithLooseObjectiveTolerance)
 TEST(Slsqp, RejectsWrongInput)
 {
   const Knapsack knapsack(3);
-  const auto     rejects = [](const DesignProblem          &problem,
-                          const OptimizationParameters &parameters) {
+  const auto rejects = [](const DesignProblem &problem, const OptimizationParameters &parameters) {
     EXPECT_THROW(minimize(problem, parameters), InputError);
   };
   auto problem     = knapsack.problem();

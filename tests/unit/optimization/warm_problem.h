@@ -18,21 +18,17 @@
 /// What a kill looks like from inside.
 struct Killed : std::runtime_error
 {
-  Killed() : std::runtime_error("killed")
-  {
-  }
+  Killed() : std::runtime_error("killed") {}
 };
 
-inline int
-this_rank()
+inline int this_rank()
 {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   return rank;
 }
 
-inline int
-n_all_ranks()
+inline int n_all_ranks()
 {
   int size;
   MPI_Comm_size(MPI_COMM_WORLD, &size);
@@ -47,9 +43,8 @@ public:
   {
     int id = getpid();
     MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    path = (std::filesystem::temp_directory_path() /
-            ("snug-journal-" + std::to_string(id)))
-             .string();
+    path =
+      (std::filesystem::temp_directory_path() / ("snug-journal-" + std::to_string(id))).string();
     if (this_rank() == 0)
       std::filesystem::create_directory(path);
     MPI_Barrier(MPI_COMM_WORLD);
@@ -62,8 +57,7 @@ public:
     MPI_Barrier(MPI_COMM_WORLD);
   }
 
-  std::string
-  text() const
+  std::string text() const
   {
     MPI_Barrier(MPI_COMM_WORLD);
     std::ifstream      in(path + "/journal.txt", std::ios::binary);
@@ -73,8 +67,7 @@ public:
     return text.str();
   }
 
-  void
-  write(const std::string &text) const
+  void write(const std::string &text) const
   {
     MPI_Barrier(MPI_COMM_WORLD);
     if (this_rank() == 0)
@@ -105,15 +98,12 @@ public:
     settings.fingerprint     = "variables = 2\nobjective = energy";
     settings.restart         = restart;
     settings.communicator    = MPI_COMM_WORLD;
-    settings.save_warm_start = [this](unsigned int       index,
-                                      const std::string &path) {
+    settings.save_warm_start = [this](unsigned int index, const std::string &path) {
       die(Where::before_saving, index);
-      std::ofstream(path) << std::hexfloat << memory + this_rank() << ' '
-                          << index;
+      std::ofstream(path) << std::hexfloat << memory + this_rank() << ' ' << index;
       die(Where::after_saving, index);
     };
-    settings.load_warm_start = [this](unsigned int       index,
-                                      const std::string &path) {
+    settings.load_warm_start = [this](unsigned int index, const std::string &path) {
       ++n_loads;
       std::ifstream in(path);
       std::string   number;
@@ -125,8 +115,7 @@ public:
     settings.log = [this](const std::string &line) { log += line + '\n'; };
   }
 
-  snug::optimization::Evaluation
-  live(const std::vector<double> &x)
+  snug::optimization::Evaluation live(const std::vector<double> &x)
   {
     die(Where::evaluating, live_before + n_live);
     ++n_live;
@@ -138,23 +127,17 @@ public:
     return value;
   }
 
-  snug::optimization::OptimizationResult
-  run()
+  snug::optimization::OptimizationResult run()
   {
     snug::optimization::Journal journal(settings,
-                                        [this](const std::vector<double> &x) {
-                                          return live(x);
-                                        });
+                                        [this](const std::vector<double> &x) { return live(x); });
     live_before                                 = journal.n_records();
     snug::optimization::DesignProblem journaled = problem;
-    journaled.evaluate = [&](const std::vector<double> &x) {
-      return journal.evaluate(x);
-    };
+    journaled.evaluate = [&](const std::vector<double> &x) { return journal.evaluate(x); };
     snug::optimization::Hooks hooks;
-    hooks.on_iteration =
-      [this](const snug::optimization::Iteration &iteration) {
-        path.push_back(iteration);
-      };
+    hooks.on_iteration = [this](const snug::optimization::Iteration &iteration) {
+      path.push_back(iteration);
+    };
     snug::optimization::OptimizationParameters parameters;
     parameters.maximum_evaluations = 40;
     const auto result              = minimize(journaled, parameters, hooks);
@@ -165,13 +148,12 @@ public:
   snug::optimization::JournalSettings        settings;
   std::string                                log;
   std::vector<snug::optimization::Iteration> path;
-  unsigned int n_live = 0, n_loads = 0, n_replayed = 0;
-  Where        where = Where::nowhere;
-  unsigned int when  = 0;
+  unsigned int                               n_live = 0, n_loads = 0, n_replayed = 0;
+  Where                                      where = Where::nowhere;
+  unsigned int                               when  = 0;
 
 private:
-  void
-  die(Where place, unsigned int index) const
+  void die(Where place, unsigned int index) const
   {
     if (where == place && when == index)
       throw Killed();
@@ -182,11 +164,9 @@ private:
   unsigned int                      live_before = 0;
 };
 
-inline bool
-same_bits(const std::vector<double> &a, const std::vector<double> &b)
+inline bool same_bits(const std::vector<double> &a, const std::vector<double> &b)
 {
-  return a.size() == b.size() &&
-         std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 #endif

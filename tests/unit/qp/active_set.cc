@@ -11,37 +11,32 @@
 
 using namespace snug::qp;
 
-namespace
+namespace {
+/// F-mults of the linear problem on the active set, to the same tolerance.
+unsigned long linear_f_mults(const DenseProblem &problem, const RowSet &active, double tolerance)
 {
-  /// F-mults of the linear problem on the active set, to the same tolerance.
-  unsigned long
-  linear_f_mults(const DenseProblem &problem,
-                 const RowSet       &active,
-                 double              tolerance)
-  {
-    MultiVector  none(problem.n_owned(), 0);
-    const double scale  = equality_part(problem, none).scale;
-    const auto   face   = problem.face(active);
-    const auto   before = problem.context().work.f_mults;
-    MultiVector  lambda(problem.n_owned());
-    face->make_feasible(lambda, problem.e());
-    MultiVector residual = problem.d();
-    residual.add(-1., problem.apply(lambda));
-    pcpg(problem, *face, lambda, residual, {tolerance * scale}, 1000);
-    return problem.context().work.f_mults - before;
-  }
+  MultiVector  none(problem.n_owned(), 0);
+  const double scale  = equality_part(problem, none).scale;
+  const auto   face   = problem.face(active);
+  const auto   before = problem.context().work.f_mults;
+  MultiVector  lambda(problem.n_owned());
+  face->make_feasible(lambda, problem.e());
+  MultiVector residual = problem.d();
+  residual.add(-1., problem.apply(lambda));
+  pcpg(problem, *face, lambda, residual, {tolerance * scale}, 1000);
+  return problem.context().work.f_mults - before;
+}
 
-  Membranes::Shape
-  partial_contact()
-  {
-    Membranes::Shape shape;
-    shape.columns = 3;
-    shape.rows    = 2;
-    shape.cells   = 5;
-    shape.load    = 0.1;
-    shape.shift   = 0.03;
-    return shape;
-  }
+Membranes::Shape partial_contact()
+{
+  Membranes::Shape shape;
+  shape.columns = 3;
+  shape.rows    = 2;
+  shape.cells   = 5;
+  shape.load    = 0.1;
+  shape.shift   = 0.03;
+  return shape;
+}
 } // namespace
 
 TEST(ActiveSet, FindsKnownSolutions)
@@ -56,8 +51,7 @@ TEST(ActiveSet, FindsKnownSolutions)
           const DenseProblem problem(known.data);
           const auto         solution = solve_cold(problem, tolerance);
           expect_certified(problem, solution, tolerance);
-          EXPECT_LT(dense::distance(problem.gather(solution.lambda),
-                                    known.lambda),
+          EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
                     error_bound(known, tolerance));
           EXPECT_LT(dense::distance(solution.amplitudes, known.alpha),
                     error_bound(known, tolerance));
@@ -80,12 +74,9 @@ TEST(ActiveSet, TornEqualsUntornMembranes)
           const auto         solution = solve_cold(problem, tolerance);
           expect_certified(problem, solution, tolerance);
           const auto forces = membranes.forces(problem.gather(solution.lambda));
-          EXPECT_LT(dense::distance(forces, exact),
-                    10. * tolerance * (0.1 + load));
+          EXPECT_LT(dense::distance(forces, exact), 10. * tolerance * (0.1 + load));
           for (unsigned int c = 0; c < membranes.n_contacts(); ++c)
-            EXPECT_TRUE(tolerance == 1e-6 ||
-                        (forces(c) > 0.) == (exact(c) > 0.))
-              << c;
+            EXPECT_TRUE(tolerance == 1e-6 || (forces(c) > 0.) == (exact(c) > 0.)) << c;
         }
     }
 }
@@ -100,8 +91,7 @@ TEST(ActiveSet, CostsAboutTwoLinearSolvesColdAndOneWarm)
   EXPECT_LE(cold.f_mults, 1.8 * linear);
   shape.load *= 1.02;
   const DenseProblem moved(Membranes(shape).data());
-  const auto         warm =
-    ActiveSet(with_tolerance(1e-6)).solve(moved, {cold.lambda, cold.active});
+  const auto warm = ActiveSet(with_tolerance(1e-6)).solve(moved, {cold.lambda, cold.active});
   expect_certified(moved, warm, 1e-6);
   EXPECT_LE(warm.f_mults, 1.2 * linear);
 }
@@ -112,8 +102,7 @@ TEST(ActiveSet, StartAtTheSolutionEndsAtOnce)
   const DenseProblem problem(data);
   const auto         cold = solve_cold(problem, 1e-9);
   const DenseProblem again(data);
-  const auto         warm =
-    ActiveSet(with_tolerance(1e-8)).solve(again, {cold.lambda, cold.active});
+  const auto warm = ActiveSet(with_tolerance(1e-8)).solve(again, {cold.lambda, cold.active});
   EXPECT_EQ(warm.f_mults, 2u); // the residual and the scale
   EXPECT_EQ(warm.outer_iterations, 1u);
 }
@@ -135,13 +124,10 @@ TEST(ActiveSet, AnyStartLeadsToTheSolution)
       for (unsigned int i = 0; i < active.size(); ++i)
         wild(i) *= trial % 2 == 0 ? 0. : 100.;
       const DenseProblem problem(data);
-      const auto         solution =
-        ActiveSet(with_tolerance(1e-9))
-          .solve(problem, {problem.slice(wild), problem.slice(active)});
+      const auto         solution = ActiveSet(with_tolerance(1e-9))
+                              .solve(problem, {problem.slice(wild), problem.slice(active)});
       expect_certified(problem, solution, 1e-9);
-      EXPECT_LT(dense::distance(
-                  membranes.forces(problem.gather(solution.lambda)), exact),
-                1e-8);
+      EXPECT_LT(dense::distance(membranes.forces(problem.gather(solution.lambda)), exact), 1e-8);
     }
 }
 
@@ -149,15 +135,13 @@ TEST(ActiveSet, StartMayBeOnlyASetOrOnlyForces)
 {
   const auto         known = known_solution(KnownShape(), 3);
   const DenseProblem problem(known.data);
-  const auto         active =
-    problem.slice(loaded_rows(known.data.bounded, known.lambda));
-  WarmStart set, forces;
+  const auto         active = problem.slice(loaded_rows(known.data.bounded, known.lambda));
+  WarmStart          set, forces;
   set.active    = active;
   forces.lambda = problem.slice(known.lambda);
   for (const WarmStart &start : {set, forces})
     {
-      const auto solution =
-        ActiveSet(with_tolerance(1e-9)).solve(problem, start);
+      const auto solution = ActiveSet(with_tolerance(1e-9)).solve(problem, start);
       EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
                 error_bound(known, 1e-9));
     }
@@ -175,8 +159,7 @@ TEST(ActiveSet, WeaklyActiveRows)
           const DenseProblem problem(known.data);
           const auto         solution = solve_cold(problem, tolerance);
           expect_certified(problem, solution, tolerance);
-          EXPECT_LT(dense::distance(problem.gather(solution.lambda),
-                                    known.lambda),
+          EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
                     error_bound(known, tolerance));
         }
     }
@@ -190,8 +173,7 @@ TEST(ActiveSet, NoLoadNoForce)
   const DenseProblem problem(membranes.data());
   const auto         solution = solve_cold(problem, 1e-9);
   // bodies that touch at most: gaps are all that d holds
-  EXPECT_LT(dense::largest(membranes.forces(problem.gather(solution.lambda))),
-            1e-9);
+  EXPECT_LT(dense::largest(membranes.forces(problem.gather(solution.lambda))), 1e-9);
 }
 
 TEST(ActiveSet, StaticallyDeterminateProblem)
@@ -204,8 +186,7 @@ TEST(ActiveSet, StaticallyDeterminateProblem)
   const auto         known = known_solution(shape, 30);
   const DenseProblem problem(known.data);
   const auto         solution = solve_cold(problem, 1e-12);
-  EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
-            1e-11);
+  EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda), 1e-11);
 }
 
 TEST(ActiveSet, StopsAtRoundingOfTheRigidPart)
@@ -222,8 +203,7 @@ TEST(ActiveSet, StopsAtRoundingOfTheRigidPart)
   known.data.d.add(-1., dense::product(dense::transpose(known.data.G), rigid));
   const DenseProblem problem(known.data);
   const auto         solution = solve_cold(problem, 1e-9);
-  EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
-            1e-2);
+  EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda), 1e-2);
 }
 
 TEST(ActiveSet, PullingLoadHasNoEquilibrium)
@@ -254,8 +234,7 @@ TEST(ActiveSet, SaysWhenTheIterationsRunOut)
     }
   catch (const snug::SolveError &error)
     {
-      EXPECT_NE(std::string(error.what()).find("instead of 1e-09"),
-                std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("instead of 1e-09"), std::string::npos);
     }
   EXPECT_LE(problem.context().work.f_mults, 7u);
 }
@@ -285,14 +264,10 @@ TEST(RowSet, OneChangeIsTheLastOfAllRanks)
   RowSet             from(30, 0), to(30, 0), expected(30, 0);
   to[4] = to[17] = to[11] = 1;
   expected[17]            = 1;
-  EXPECT_EQ(with_one_change(problem.slice(from),
-                            problem.slice(to),
-                            MPI_COMM_WORLD),
+  EXPECT_EQ(with_one_change(problem.slice(from), problem.slice(to), MPI_COMM_WORLD),
             problem.slice(expected));
   EXPECT_NE(fingerprint(problem.slice(from), MPI_COMM_WORLD),
             fingerprint(problem.slice(to), MPI_COMM_WORLD));
-  EXPECT_EQ(with_one_change(problem.slice(to),
-                            problem.slice(to),
-                            MPI_COMM_WORLD),
+  EXPECT_EQ(with_one_change(problem.slice(to), problem.slice(to), MPI_COMM_WORLD),
             problem.slice(to));
 }

@@ -7,25 +7,21 @@
 
 #include <gtest/gtest.h>
 
-inline snug::qp::SolverParameters
-with_tolerance(double tolerance)
+inline snug::qp::SolverParameters with_tolerance(double tolerance)
 {
   snug::qp::SolverParameters parameters;
   parameters.relative_tolerance = tolerance;
   return parameters;
 }
 
-inline snug::qp::DualSolution
-solve_cold(const DenseProblem &problem, double tolerance)
+inline snug::qp::DualSolution solve_cold(const DenseProblem &problem, double tolerance)
 {
-  return snug::qp::ActiveSet(with_tolerance(tolerance))
-    .solve(problem, snug::qp::WarmStart());
+  return snug::qp::ActiveSet(with_tolerance(tolerance)).solve(problem, snug::qp::WarmStart());
 }
 
-inline void
-expect_certified(const DenseProblem           &problem,
-                 const snug::qp::DualSolution &solution,
-                 double                        tolerance)
+inline void expect_certified(const DenseProblem           &problem,
+                             const snug::qp::DualSolution &solution,
+                             double                        tolerance)
 {
   EXPECT_LE(solution.kkt_residual, tolerance);
   const auto lambda = problem.gather(solution.lambda);

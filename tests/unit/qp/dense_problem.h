@@ -24,8 +24,7 @@ public:
   using MultiVector = snug::qp::MultiVector;
   using RowSet      = snug::qp::RowSet;
 
-  explicit DenseProblem(const DenseData &data)
-    : data(data), run(MPI_COMM_WORLD, log)
+  explicit DenseProblem(const DenseData &data) : data(data), run(MPI_COMM_WORLD, log)
   {
     const unsigned int n = data.F.n_rows();
     first                = n * run.rank() / run.n_ranks();
@@ -37,16 +36,14 @@ public:
   }
 
   /// Estimate F_ii by @p factor F_ii.
-  void
-  scale_diagonal(double factor)
+  void scale_diagonal(double factor)
   {
     for (double &entry : my_diagonal)
       entry *= factor;
   }
 
   /// This rank's rows of a vector all ranks have.
-  MultiVector
-  slice(const MultiVector &x) const
+  MultiVector slice(const MultiVector &x) const
   {
     MultiVector part(end - first, x.n_columns());
     for (unsigned int j = 0; j < x.n_columns(); ++j)
@@ -54,30 +51,23 @@ public:
     return part;
   }
 
-  RowSet
-  slice(const RowSet &rows) const
+  RowSet slice(const RowSet &rows) const
   {
     return RowSet(rows.begin() + first, rows.begin() + end);
   }
 
   /// The whole vector on all ranks.
-  MultiVector
-  gather(const MultiVector &x) const
+  MultiVector gather(const MultiVector &x) const
   {
     MultiVector whole(data.F.n_rows(), x.n_columns());
     for (unsigned int j = 0; j < x.n_columns(); ++j)
       std::copy(x.column(j), x.column(j) + x.n_rows(), whole.column(j) + first);
-    MPI_Allreduce(MPI_IN_PLACE,
-                  whole.column(0),
-                  whole.n_rows() * whole.n_columns(),
-                  MPI_DOUBLE,
-                  MPI_SUM,
-                  MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, whole.column(0), whole.n_rows() * whole.n_columns(), MPI_DOUBLE,
+                  MPI_SUM, MPI_COMM_WORLD);
     return whole;
   }
 
-  RowSet
-  gather(const RowSet &rows) const
+  RowSet gather(const RowSet &rows) const
   {
     MultiVector flags(rows.size());
     for (unsigned int i = 0; i < rows.size(); ++i)
@@ -86,81 +76,47 @@ public:
     return RowSet(flags.column(0), flags.column(0) + flags.n_rows());
   }
 
-  snug::RunContext &
-  context() const override
-  {
-    return run;
-  }
+  snug::RunContext &context() const override { return run; }
 
-  unsigned int
-  n_owned() const override
-  {
-    return end - first;
-  }
+  unsigned int n_owned() const override { return end - first; }
 
-  const RowSet &
-  bounded() const override
-  {
-    return my_bounded;
-  }
+  const RowSet &bounded() const override { return my_bounded; }
 
-  const MultiVector &
-  d() const override
-  {
-    return my_d;
-  }
+  const MultiVector &d() const override { return my_d; }
 
-  const MultiVector &
-  e() const override
-  {
-    return data.e;
-  }
+  const MultiVector &e() const override { return data.e; }
 
-  const std::vector<double> &
-  diagonal() const override
-  {
-    return my_diagonal;
-  }
+  const std::vector<double> &diagonal() const override { return my_diagonal; }
 
-  MultiVector
-  apply(const MultiVector &x) const override
+  MultiVector apply(const MultiVector &x) const override
   {
     EXPECT_GT(x.n_columns(), 0u);
     run.work.f_mults += x.n_columns();
     return slice(dense::product(data.F, gather(x)));
   }
 
-  MultiVector
-  apply_G(const MultiVector &x) const override
+  MultiVector apply_G(const MultiVector &x) const override
   {
     return dense::product(data.G, gather(x));
   }
 
-  MultiVector
-  apply_Gt(const MultiVector &alpha) const override
+  MultiVector apply_Gt(const MultiVector &alpha) const override
   {
     return slice(dense::product(dense::transpose(data.G), alpha));
   }
 
-  double
-  feasibility_scale(const MultiVector &lambda) const override
+  double feasibility_scale(const MultiVector &lambda) const override
   {
     double square = 0.;
     for (unsigned int j = 0; j < data.G.n_columns(); ++j)
       for (unsigned int i = 0; i < data.G.n_rows(); ++i)
         square += data.G(i, j) * data.G(i, j);
-    return dense::largest(data.e) +
-           std::sqrt(square) * norms(lambda, MPI_COMM_WORLD)[0];
+    return dense::largest(data.e) + std::sqrt(square) * norms(lambda, MPI_COMM_WORLD)[0];
   }
 
-  std::unique_ptr<snug::qp::Face>
-  face(const RowSet &free) const override;
+  std::unique_ptr<snug::qp::Face> face(const RowSet &free) const override;
 
-  std::string
-  escaping_body() const override
-  {
-    return data.escaping;
-  }
+  std::string escaping_body() const override { return data.escaping; }
 
   const DenseData            data;
   mutable std::ostringstream log;
@@ -181,10 +137,7 @@ public:
   using RowSet      = snug::qp::RowSet;
 
   DenseFace(const DenseProblem &problem, const RowSet &free)
-    : problem(problem)
-    , free(free)
-    , whole(problem.gather(free))
-    , G(problem.data.G)
+    : problem(problem), free(free), whole(problem.gather(free)), G(problem.data.G)
   {
     for (unsigned int j = 0; j < G.n_columns(); ++j)
       if (!whole[j])
@@ -193,63 +146,48 @@ public:
     inverse = dense::pseudo_inverse(dense::product(G, dense::transpose(G)));
   }
 
-  const RowSet &
-  rows() const override
-  {
-    return free;
-  }
+  const RowSet &rows() const override { return free; }
 
-  void
-  project(MultiVector &x) const override
+  void project(MultiVector &x) const override
   {
     const MultiVector alpha = amplitudes(x);
     restrict(x);
     x.add(-1., problem.slice(dense::product(dense::transpose(G), alpha)));
   }
 
-  MultiVector
-  precondition(const MultiVector &r) const override
+  MultiVector precondition(const MultiVector &r) const override
   {
     problem.context().work.preconditioner_applications += r.n_columns();
     MultiVector z = r;
     restrict(z);
     if (problem.data.preconditioner.n_rows() == 0)
       return z;
-    z = problem.slice(
-      dense::product(problem.data.preconditioner, problem.gather(z)));
+    z = problem.slice(dense::product(problem.data.preconditioner, problem.gather(z)));
     restrict(z);
     return z;
   }
 
-  MultiVector
-  amplitudes(const MultiVector &x) const override
+  MultiVector amplitudes(const MultiVector &x) const override
   {
     return dense::product(inverse, dense::product(G, problem.gather(x)));
   }
 
-  std::vector<double>
-  make_feasible(MultiVector &x, const MultiVector &e) const override
+  std::vector<double> make_feasible(MultiVector &x, const MultiVector &e) const override
   {
     restrict(x);
     const MultiVector missing = unbalanced(x, e);
-    x.add(1.,
-          problem.slice(dense::product(dense::transpose(G),
-                                       dense::product(inverse, missing))));
+    x.add(1., problem.slice(dense::product(dense::transpose(G), dense::product(inverse, missing))));
     return norms(unbalanced(x, e), MPI_COMM_SELF);
   }
 
-  std::vector<double>
-  closing_rates(const MultiVector &e) const override
+  std::vector<double> closing_rates(const MultiVector &e) const override
   {
     // (I - G G' (G G')^+) e moves the bodies
     MultiVector motion = e;
     motion.add(-1.,
-               dense::product(G,
-                              dense::product(dense::transpose(G),
-                                             dense::product(inverse, e))));
+               dense::product(G, dense::product(dense::transpose(G), dense::product(inverse, e))));
     const MultiVector rates = problem.apply_Gt(motion);
-    return std::vector<double>(rates.column(0),
-                               rates.column(0) + rates.n_rows());
+    return std::vector<double>(rates.column(0), rates.column(0) + rates.n_rows());
   }
 
 private:
@@ -261,8 +199,7 @@ private:
           x(i, j) = 0.;
   }
 
-  MultiVector
-  unbalanced(const MultiVector &x, const MultiVector &e) const
+  MultiVector unbalanced(const MultiVector &x, const MultiVector &e) const
   {
     MultiVector result = e;
     result.add(-1., dense::product(G, problem.gather(x)));
@@ -274,8 +211,7 @@ private:
   dense::Matrix       G, inverse;
 };
 
-inline std::unique_ptr<snug::qp::Face>
-DenseProblem::face(const RowSet &free) const
+inline std::unique_ptr<snug::qp::Face> DenseProblem::face(const RowSet &free) const
 {
   ++n_faces;
   return std::make_unique<DenseFace>(*this, free);

@@ -9,26 +9,21 @@
 
 using namespace snug::qp;
 
-namespace
+namespace {
+/// The residual at @p lambda with alpha from its positive rows.
+KktResidual kkt_at(const DenseProblem &problem, const dense::Matrix &lambda)
 {
-  /// The residual at @p lambda with alpha from its positive rows.
-  KktResidual
-  kkt_at(const DenseProblem &problem, const dense::Matrix &lambda)
-  {
-    MultiVector none(problem.n_owned(), 0);
-    const auto  equality = equality_part(problem, none);
-    RowSet      rows     = problem.data.bounded;
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      rows[i] = !rows[i] || lambda(i) != 0.;
-    auto residual = problem.data.d;
-    residual.add(-1., dense::product(problem.data.F, lambda));
-    const auto face = problem.face(problem.slice(rows));
-    return kkt_residual(problem,
-                        *face,
-                        problem.slice(lambda),
-                        problem.slice(residual),
-                        equality.scale);
-  }
+  MultiVector none(problem.n_owned(), 0);
+  const auto  equality = equality_part(problem, none);
+  RowSet      rows     = problem.data.bounded;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    rows[i] = !rows[i] || lambda(i) != 0.;
+  auto residual = problem.data.d;
+  residual.add(-1., dense::product(problem.data.F, lambda));
+  const auto face = problem.face(problem.slice(rows));
+  return kkt_residual(problem, *face, problem.slice(lambda), problem.slice(residual),
+                      equality.scale);
+}
 } // namespace
 
 TEST(KktResidual, VanishesAtTheSolutionOnly)
@@ -66,20 +61,17 @@ TEST(KktResidual, FollowsItsDefinition)
   double square = 0.;
   for (unsigned int i = 0; i < 30; ++i)
     {
-      const double r = known.data.bounded[i]
-                         ? std::min(lambda(i) * known.data.F(i, i), -w(i))
-                         : w(i);
+      const double r =
+        known.data.bounded[i] ? std::min(lambda(i) * known.data.F(i, i), -w(i)) : w(i);
       square += r * r;
     }
-  EXPECT_NEAR(kkt.relative - kkt.feasibility,
-              std::sqrt(square) / norms(base, MPI_COMM_WORLD)[0],
+  EXPECT_NEAR(kkt.relative - kkt.feasibility, std::sqrt(square) / norms(base, MPI_COMM_WORLD)[0],
               1e-12);
   auto missing = known.data.e;
   missing.add(-1., dense::product(known.data.G, lambda));
   EXPECT_NEAR(kkt.feasibility,
-              norms(missing, MPI_COMM_SELF)[0] /
-                (norms(known.data.e, MPI_COMM_SELF)[0] +
-                 problem.feasibility_scale(problem.slice(lambda))),
+              norms(missing, MPI_COMM_SELF)[0] / (norms(known.data.e, MPI_COMM_SELF)[0] +
+                                                  problem.feasibility_scale(problem.slice(lambda))),
               1e-13);
 }
 
@@ -96,9 +88,7 @@ TEST(KktResidual, DoesNotDependOnTheGeneralizedInverse)
   other.d.add(1., dense::product(GtC, other.e));
   const DenseProblem one(known.data), two(other);
   MultiVector        none(one.n_owned(), 0);
-  EXPECT_NEAR(equality_part(one, none).scale,
-              equality_part(two, none).scale,
-              1e-11);
+  EXPECT_NEAR(equality_part(one, none).scale, equality_part(two, none).scale, 1e-11);
 }
 
 TEST(EqualityPart, AppliesFToTheStartInTheSameBlock)
@@ -111,8 +101,7 @@ TEST(EqualityPart, AppliesFToTheStartInTheSameBlock)
   auto residual = known.data.d;
   residual.add(-1., dense::product(known.data.F, known.lambda));
   EXPECT_LT(dense::distance(x, problem.slice(residual)), 1e-12);
-  EXPECT_LT(dense::distance(problem.apply_G(equality.lambda), known.data.e),
-            1e-12);
+  EXPECT_LT(dense::distance(problem.apply_G(equality.lambda), known.data.e), 1e-12);
 }
 
 TEST(EqualityPart, NamesTheEscapingBody)

@@ -24,8 +24,7 @@ struct KnownShape
  * then d = F lambda - G' alpha + w and e = G lambda have this solution, the
  * only one since F is positive definite.
  */
-inline KnownSolution
-known_solution(const KnownShape &shape, unsigned int seed)
+inline KnownSolution known_solution(const KnownShape &shape, unsigned int seed)
 {
   std::mt19937       generator(seed);
   const unsigned int n = shape.n;
@@ -62,8 +61,7 @@ known_solution(const KnownShape &shape, unsigned int seed)
  * kernel of G, the residual is relative to s <= ||d - F lambda_Im||, and F_ii
  * and 1 / smallest weigh it.
  */
-inline double
-error_bound(const KnownSolution &known, double tolerance)
+inline double error_bound(const KnownSolution &known, double tolerance)
 {
   return 1e3 * tolerance * (1. + dense::largest(known.data.d));
 }

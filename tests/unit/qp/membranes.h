@@ -36,15 +36,10 @@ public:
     make_data();
   }
 
-  const DenseData &
-  data() const
-  {
-    return dual;
-  }
+  const DenseData &data() const { return dual; }
 
   /// Contact forces of the dual solution lambda, in the order of the nodes.
-  dense::Matrix
-  forces(const dense::Matrix &lambda) const
+  dense::Matrix forces(const dense::Matrix &lambda) const
   {
     dense::Matrix p(nx);
     for (unsigned int c = 0; c < nx; ++c)
@@ -54,8 +49,7 @@ public:
 
   /// Contact forces by an exact active set method on the untorn bodies,
   /// checked to satisfy all conditions.
-  dense::Matrix
-  untorn_forces() const
+  dense::Matrix untorn_forces() const
   {
     const unsigned int N = 2 * nx * ny;
     dense::Matrix      stiffness(N, N);
@@ -110,29 +104,19 @@ public:
     return dense::Matrix(nx);
   }
 
-  unsigned int
-  n_contacts() const
-  {
-    return nx;
-  }
+  unsigned int n_contacts() const { return nx; }
 
 private:
   using Copy = std::pair<unsigned int, unsigned int>; // subdomain, dof
 
-  static dense::Matrix
-  cell_matrix_sum(unsigned int nx, unsigned int ny)
+  static dense::Matrix cell_matrix_sum(unsigned int nx, unsigned int ny)
   {
-    const double  cell[4][4] = {{4, -1, -1, -2},
-                                {-1, 4, -2, -1},
-                                {-1, -2, 4, -1},
-                                {-2, -1, -1, 4}};
+    const double  cell[4][4] = {{4, -1, -1, -2}, {-1, 4, -2, -1}, {-1, -2, 4, -1}, {-2, -1, -1, 4}};
     dense::Matrix K(nx * ny, nx * ny);
     for (unsigned int y = 0; y + 1 < ny; ++y)
       for (unsigned int x = 0; x + 1 < nx; ++x)
         {
-          const unsigned int node[4] = {x + nx * y,
-                                        x + 1 + nx * y,
-                                        x + nx * (y + 1),
+          const unsigned int node[4] = {x + nx * y, x + 1 + nx * y, x + nx * (y + 1),
                                         x + 1 + nx * (y + 1)};
           for (unsigned int i = 0; i < 4; ++i)
             for (unsigned int j = 0; j < 4; ++j)
@@ -141,22 +125,16 @@ private:
     return K;
   }
 
-  unsigned int
-  lower_top(unsigned int c) const
-  {
-    return nx * (ny - 1) + c;
-  }
+  unsigned int lower_top(unsigned int c) const { return nx * (ny - 1) + c; }
 
-  double
-  gap(unsigned int c) const
+  double gap(unsigned int c) const
   {
     const double x = double(c) / (nx - 1) - 0.5 - shape.shift;
     return shape.curvature * x * x;
   }
 
   /// Load in the direction of opening (upwards) at a node of a body.
-  double
-  node_load(unsigned int body, unsigned int node) const
+  double node_load(unsigned int body, unsigned int node) const
   {
     if (body == 0 || node < nx * (ny - 1))
       return 0.;
@@ -164,8 +142,7 @@ private:
     return -shape.load / (nx - 1) * (c == 0 || c == nx - 1 ? 0.5 : 1.);
   }
 
-  void
-  make_subdomains()
+  void make_subdomains()
   {
     const unsigned int m = shape.cells;
     for (unsigned int body = 0; body < 2; ++body)
@@ -173,12 +150,11 @@ private:
         for (unsigned int sx = 0; sx < shape.columns; ++sx, ++n_subdomains)
           for (unsigned int y = 0; y <= m; ++y)
             for (unsigned int x = 0; x <= m; ++x)
-              copies[body * nx * ny + sx * m + x + nx * (sy * m + y)]
-                .emplace_back(n_subdomains, x + (m + 1) * y);
+              copies[body * nx * ny + sx * m + x + nx * (sy * m + y)].emplace_back(n_subdomains,
+                                                                                   x + (m + 1) * y);
   }
 
-  void
-  make_rows()
+  void make_rows()
   {
     for (const auto &[node, of_node] : copies)
       {
@@ -201,12 +177,11 @@ private:
       }
   }
 
-  void
-  add_contact(unsigned int c)
+  void add_contact(unsigned int c)
   {
-    const auto  &slave  = copies[nx * ny + c];
-    const auto  &master = copies[lower_top(c)];
-    const double scale  = std::sqrt(1. / slave.size() + 1. / master.size());
+    const auto            &slave  = copies[nx * ny + c];
+    const auto            &master = copies[lower_top(c)];
+    const double           scale  = std::sqrt(1. / slave.size() + 1. / master.size());
     std::map<Copy, double> row;
     for (const Copy &copy : slave)
       row[copy] = -1. / slave.size() / scale;
@@ -217,8 +192,7 @@ private:
     add_row(row, gap(c) / scale, true);
   }
 
-  void
-  add_row(const std::map<Copy, double> &row, double g, bool bounded)
+  void add_row(const std::map<Copy, double> &row, double g, bool bounded)
   {
     B.push_back(row);
     gaps.push_back(g);
@@ -226,8 +200,7 @@ private:
   }
 
   /// S of the dofs that occur in B, zero elsewhere.
-  dense::Matrix
-  schur_complement(unsigned int s) const
+  dense::Matrix schur_complement(unsigned int s) const
   {
     const unsigned int n = K.n_rows();
     std::vector<bool>  boundary(n, false);
@@ -239,8 +212,7 @@ private:
     for (unsigned int i = 0; i < n; ++i)
       if (!boundary[i])
         inner.push_back(i);
-    dense::Matrix S(n, n), K_ii(inner.size(), inner.size()),
-      K_ib(inner.size(), n);
+    dense::Matrix S(n, n), K_ii(inner.size(), inner.size()), K_ib(inner.size(), n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         S(i, j) = boundary[i] && boundary[j] ? K(i, j) : 0.;
@@ -252,13 +224,11 @@ private:
           K_ib(i, j) = boundary[j] ? K(inner[i], j) : 0.;
       }
     if (!inner.empty())
-      S.add(-1.,
-            dense::product(dense::transpose(K_ib), dense::solve(K_ii, K_ib)));
+      S.add(-1., dense::product(dense::transpose(K_ib), dense::solve(K_ii, K_ib)));
     return S;
   }
 
-  void
-  make_data()
+  void make_data()
   {
     const unsigned int n = B.size(), n_dofs = K.n_rows();
     const auto         K_plus = dense::pseudo_inverse(K);
@@ -276,14 +246,12 @@ private:
         for (const auto &[node, of_node] : copies)
           for (const Copy &copy : of_node)
             if (copy.first == s)
-              f(copy.second) =
-                node_load(node / (nx * ny), node % (nx * ny)) / of_node.size();
+              f(copy.second) = node_load(node / (nx * ny), node % (nx * ny)) / of_node.size();
         for (unsigned int i = 0; i < n_dofs; ++i)
           R(i) = 1. / std::sqrt(n_dofs);
         const auto B_s = dense::transpose(Bt);
         dual.F.add(1., dense::product(B_s, dense::product(K_plus, Bt)));
-        dual.preconditioner.add(
-          1., dense::product(B_s, dense::product(schur_complement(s), Bt)));
+        dual.preconditioner.add(1., dense::product(B_s, dense::product(schur_complement(s), Bt)));
         dual.d.add(1., dense::product(B_s, dense::product(K_plus, f)));
         const auto G_s = dense::product(dense::transpose(R), Bt);
         for (unsigned int i = 0; i < n; ++i)

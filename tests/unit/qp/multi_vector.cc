@@ -6,19 +6,17 @@
 
 using snug::qp::MultiVector;
 
-namespace
+namespace {
+/// x * C by the definition.
+MultiVector product_by_loops(const MultiVector &x, const MultiVector &C)
 {
-  /// x * C by the definition.
-  MultiVector
-  product_by_loops(const MultiVector &x, const MultiVector &C)
-  {
-    MultiVector y(x.n_rows(), C.n_columns());
-    for (unsigned int i = 0; i < x.n_rows(); ++i)
-      for (unsigned int j = 0; j < C.n_columns(); ++j)
-        for (unsigned int k = 0; k < x.n_columns(); ++k)
-          y(i, j) += x(i, k) * C(k, j);
-    return y;
-  }
+  MultiVector y(x.n_rows(), C.n_columns());
+  for (unsigned int i = 0; i < x.n_rows(); ++i)
+    for (unsigned int j = 0; j < C.n_columns(); ++j)
+      for (unsigned int k = 0; k < x.n_columns(); ++k)
+        y(i, j) += x(i, k) * C(k, j);
+  return y;
+}
 } // namespace
 
 TEST(MultiVector, AddsProductsLikeLoops)
@@ -62,11 +60,9 @@ TEST(MultiVector, EmptySizesDoNothing)
 TEST(MultiVector, ReducesOverRanksOfWhichSomeAreEmpty)
 {
   // rank r owns r rows, all ones: sums are 0 + 1 + ... = R (R - 1) / 2
-  const unsigned int rank =
-    dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  const unsigned int n_ranks =
-    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  const double n_rows = n_ranks * (n_ranks - 1) / 2;
+  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const double       n_rows  = n_ranks * (n_ranks - 1) / 2;
   for (const unsigned int n_columns : {1u, 2u})
     {
       MultiVector X(rank, 2), Y(rank, n_columns);

@@ -10,56 +10,51 @@
 using snug::qp::MultiVector;
 using snug::qp::nnls;
 
-namespace
+namespace {
+double norm(const MultiVector &x)
 {
-  double
-  norm(const MultiVector &x)
-  {
-    return snug::qp::norms(x, MPI_COMM_SELF)[0];
-  }
+  return snug::qp::norms(x, MPI_COMM_SELF)[0];
+}
 
-  /// The smallest ||A x - b|| over all subsets of columns whose least squares
-  /// solution is not negative.
-  double
-  smallest_by_enumeration(const MultiVector &A, const MultiVector &b)
-  {
-    double best = norm(b);
-    for (unsigned int set = 1; set < 1u << A.n_columns(); ++set)
-      {
-        MultiVector part(A.n_rows(), 0);
-        for (unsigned int j = 0; j < A.n_columns(); ++j)
-          if (set >> j & 1)
-            part.append(A.columns_from(j, 1));
-        const auto T = dense::transpose(part);
-        const auto y =
-          dense::product(dense::pseudo_inverse(dense::product(T, part)),
-                         dense::product(T, b));
-        bool allowed = true;
-        for (unsigned int j = 0; j < y.n_rows(); ++j)
-          allowed = allowed && y(j) >= -1e-12;
-        MultiVector residual = b;
-        residual.add_product(-1., part, y);
-        if (allowed)
-          best = std::min(best, norm(residual));
-      }
-    return best;
-  }
+/// The smallest ||A x - b|| over all subsets of columns whose least squares
+/// solution is not negative.
+double smallest_by_enumeration(const MultiVector &A, const MultiVector &b)
+{
+  double best = norm(b);
+  for (unsigned int set = 1; set < 1u << A.n_columns(); ++set)
+    {
+      MultiVector part(A.n_rows(), 0);
+      for (unsigned int j = 0; j < A.n_columns(); ++j)
+        if (set >> j & 1)
+          part.append(A.columns_from(j, 1));
+      const auto T = dense::transpose(part);
+      const auto y =
+        dense::product(dense::pseudo_inverse(dense::product(T, part)), dense::product(T, b));
+      bool allowed = true;
+      for (unsigned int j = 0; j < y.n_rows(); ++j)
+        allowed = allowed && y(j) >= -1e-12;
+      MultiVector residual = b;
+      residual.add_product(-1., part, y);
+      if (allowed)
+        best = std::min(best, norm(residual));
+    }
+  return best;
+}
 
-  void
-  expect_optimal(const MultiVector &A, const MultiVector &b)
-  {
-    const auto  solution = nnls(A, b);
-    MultiVector residual = b;
-    residual.add_product(-1., A, solution.x);
-    EXPECT_LT(dense::distance(residual, solution.residual), 1e-13);
-    const auto slopes = dense::product(dense::transpose(A), residual);
-    for (unsigned int j = 0; j < A.n_columns(); ++j)
-      {
-        EXPECT_GE(solution.x(j), 0.);
-        EXPECT_LT(slopes(j), 1e-11);
-        EXPECT_NEAR(slopes(j) * solution.x(j), 0., 1e-11);
-      }
-  }
+void expect_optimal(const MultiVector &A, const MultiVector &b)
+{
+  const auto  solution = nnls(A, b);
+  MultiVector residual = b;
+  residual.add_product(-1., A, solution.x);
+  EXPECT_LT(dense::distance(residual, solution.residual), 1e-13);
+  const auto slopes = dense::product(dense::transpose(A), residual);
+  for (unsigned int j = 0; j < A.n_columns(); ++j)
+    {
+      EXPECT_GE(solution.x(j), 0.);
+      EXPECT_LT(slopes(j), 1e-11);
+      EXPECT_NEAR(slopes(j) * solution.x(j), 0., 1e-11);
+    }
+}
 } // namespace
 
 TEST(Nnls, EqualsEnumeration)
@@ -70,9 +65,7 @@ TEST(Nnls, EqualsEnumeration)
       const auto A = dense::random(3 + trial % 3, 7, generator);
       const auto b = dense::random(3 + trial % 3, 1, generator);
       expect_optimal(A, b);
-      EXPECT_NEAR(norm(nnls(A, b).residual),
-                  smallest_by_enumeration(A, b),
-                  1e-12);
+      EXPECT_NEAR(norm(nnls(A, b).residual), smallest_by_enumeration(A, b), 1e-12);
     }
 }
 
@@ -110,8 +103,7 @@ TEST(Nnls, DependentAndZeroColumns)
   // least squares without signs
   const auto  T        = dense::transpose(one);
   MultiVector residual = b;
-  residual.add_product(
-    -1., one, dense::solve(dense::product(T, one), dense::product(T, b)));
+  residual.add_product(-1., one, dense::solve(dense::product(T, one), dense::product(T, b)));
   EXPECT_NEAR(norm(nnls(A, b).residual), norm(residual), 1e-12);
 }
 

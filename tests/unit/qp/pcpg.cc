@@ -9,89 +9,82 @@
 
 using namespace snug::qp;
 
-namespace
+namespace {
+DenseData linear_data(unsigned int n, unsigned int n_kernel, unsigned int seed)
 {
-  DenseData
-  linear_data(unsigned int n, unsigned int n_kernel, unsigned int seed)
-  {
-    std::mt19937 generator(seed);
-    DenseData    data;
-    const auto   V = dense::random(n, n, generator);
-    data.F         = dense::product(V, dense::transpose(V));
-    for (unsigned int i = 0; i < n; ++i)
-      data.F(i, i) += 1.;
-    data.G = dense::random(n_kernel, n, generator);
-    data.d = dense::Matrix(n);
-    data.e = dense::Matrix(n_kernel);
-    data.bounded.assign(n, 0);
-    return data;
-  }
+  std::mt19937 generator(seed);
+  DenseData    data;
+  const auto   V = dense::random(n, n, generator);
+  data.F         = dense::product(V, dense::transpose(V));
+  for (unsigned int i = 0; i < n; ++i)
+    data.F(i, i) += 1.;
+  data.G = dense::random(n_kernel, n, generator);
+  data.d = dense::Matrix(n);
+  data.e = dense::Matrix(n_kernel);
+  data.bounded.assign(n, 0);
+  return data;
+}
 
-  /// P_M (b - F lambda) = 0 with G lambda = 0, lambda = 0 off M, by LU.
-  dense::Matrix
-  solve_directly(const DenseData     &data,
-                 const RowSet        &rows,
-                 const dense::Matrix &b)
-  {
-    const unsigned int n = data.F.n_rows(), m = data.G.n_rows();
-    dense::Matrix      A(n + m, n + m), right(n + m, b.n_columns());
-    for (unsigned int i = 0; i < n; ++i)
-      if (!rows[i])
-        A(i, i) = 1.;
-      else
-        {
-          for (unsigned int k = 0; k < b.n_columns(); ++k)
-            right(i, k) = b(i, k);
-          for (unsigned int j = 0; j < n; ++j)
-            A(i, j) = data.F(i, j);
-          for (unsigned int j = 0; j < m; ++j)
-            A(i, n + j) = A(n + j, i) = data.G(j, i);
-        }
-    const auto    x = dense::solve(A, right);
-    dense::Matrix lambda(n, b.n_columns());
-    for (unsigned int k = 0; k < b.n_columns(); ++k)
-      std::copy(x.column(k), x.column(k) + n, lambda.column(k));
-    return lambda;
-  }
+/// P_M (b - F lambda) = 0 with G lambda = 0, lambda = 0 off M, by LU.
+dense::Matrix solve_directly(const DenseData &data, const RowSet &rows, const dense::Matrix &b)
+{
+  const unsigned int n = data.F.n_rows(), m = data.G.n_rows();
+  dense::Matrix      A(n + m, n + m), right(n + m, b.n_columns());
+  for (unsigned int i = 0; i < n; ++i)
+    if (!rows[i])
+      A(i, i) = 1.;
+    else
+      {
+        for (unsigned int k = 0; k < b.n_columns(); ++k)
+          right(i, k) = b(i, k);
+        for (unsigned int j = 0; j < n; ++j)
+          A(i, j) = data.F(i, j);
+        for (unsigned int j = 0; j < m; ++j)
+          A(i, n + j) = A(n + j, i) = data.G(j, i);
+      }
+  const auto    x = dense::solve(A, right);
+  dense::Matrix lambda(n, b.n_columns());
+  for (unsigned int k = 0; k < b.n_columns(); ++k)
+    std::copy(x.column(k), x.column(k) + n, lambda.column(k));
+  return lambda;
+}
 
-  RowSet
-  every_row_but_fifths(unsigned int n)
-  {
-    RowSet rows(n, 1);
-    for (unsigned int i = 0; i < n; i += 5)
-      rows[i] = 0;
-    return rows;
-  }
+RowSet every_row_but_fifths(unsigned int n)
+{
+  RowSet rows(n, 1);
+  for (unsigned int i = 0; i < n; i += 5)
+    rows[i] = 0;
+  return rows;
+}
 
-  struct Solved
-  {
-    dense::Matrix lambda;
-    PcpgResult    result;
-    unsigned long f_mults;
-  };
+struct Solved
+{
+  dense::Matrix lambda;
+  PcpgResult    result;
+  unsigned long f_mults;
+};
 
-  /// From lambda = 0, tolerances relative to the right-hand sides.
-  Solved
-  solve_with_pcpg(const DenseProblem  &problem,
-                  const RowSet        &rows,
-                  const dense::Matrix &b,
-                  double               tolerance)
-  {
-    const auto  face = problem.face(problem.slice(rows));
-    MultiVector lambda(problem.n_owned(), b.n_columns());
-    MultiVector residual   = problem.slice(b);
-    auto        tolerances = norms(residual, MPI_COMM_WORLD);
-    for (double &size : tolerances)
-      size *= tolerance;
-    const auto before = problem.context().work.f_mults;
-    const auto result = pcpg(problem, *face, lambda, residual, tolerances, 500);
-    const auto mults  = problem.context().work.f_mults - before;
-    // the residual returned belongs to the solution returned
-    MultiVector check = problem.slice(b);
-    check.add(-1., problem.apply(lambda));
-    EXPECT_LT(dense::distance(check, residual), 1e-11 * dense::largest(b));
-    return {problem.gather(lambda), result, mults};
-  }
+/// From lambda = 0, tolerances relative to the right-hand sides.
+Solved solve_with_pcpg(const DenseProblem  &problem,
+                       const RowSet        &rows,
+                       const dense::Matrix &b,
+                       double               tolerance)
+{
+  const auto  face = problem.face(problem.slice(rows));
+  MultiVector lambda(problem.n_owned(), b.n_columns());
+  MultiVector residual   = problem.slice(b);
+  auto        tolerances = norms(residual, MPI_COMM_WORLD);
+  for (double &size : tolerances)
+    size *= tolerance;
+  const auto before = problem.context().work.f_mults;
+  const auto result = pcpg(problem, *face, lambda, residual, tolerances, 500);
+  const auto mults  = problem.context().work.f_mults - before;
+  // the residual returned belongs to the solution returned
+  MultiVector check = problem.slice(b);
+  check.add(-1., problem.apply(lambda));
+  EXPECT_LT(dense::distance(check, residual), 1e-11 * dense::largest(b));
+  return {problem.gather(lambda), result, mults};
+}
 } // namespace
 
 TEST(Pcpg, SolvesOnAFace)
@@ -103,9 +96,7 @@ TEST(Pcpg, SolvesOnAFace)
   const auto         solved = solve_with_pcpg(problem, rows, b, 1e-13);
   EXPECT_TRUE(solved.result.converged);
   // eigenvalues of F are between 1 and 100
-  EXPECT_LT(dense::distance(solved.lambda,
-                            solve_directly(problem.data, rows, b)),
-            1e-11);
+  EXPECT_LT(dense::distance(solved.lambda, solve_directly(problem.data, rows, b)), 1e-11);
   // conjugate gradients end after 32 - 3 steps, but for rounding
   EXPECT_LE(solved.result.iterations, 30u);
   EXPECT_EQ(solved.f_mults, solved.result.iterations);
@@ -152,8 +143,7 @@ TEST(Pcpg, DependentColumnsCostNothing)
   const auto all  = solve_with_pcpg(problem, rows, b, 1e-10);
   const auto some = solve_with_pcpg(problem, rows, two, 1e-10);
   EXPECT_TRUE(all.result.converged);
-  EXPECT_LT(dense::distance(all.lambda, solve_directly(problem.data, rows, b)),
-            1e-8);
+  EXPECT_LT(dense::distance(all.lambda, solve_directly(problem.data, rows, b)), 1e-8);
   EXPECT_EQ(dense::largest(all.lambda.columns_from(3, 1)), 0.);
   EXPECT_LE(all.f_mults, some.f_mults + 2);
 }
@@ -165,8 +155,7 @@ TEST(Pcpg, ConvergedColumnsLeaveTheBlock)
   std::mt19937       generator(8);
   MultiVector        lambda(problem.n_owned(), 3);
   MultiVector        residual = problem.slice(dense::random(40, 3, generator));
-  const auto         result =
-    pcpg(problem, *face, lambda, residual, {1e3, 1e-8, 1e3}, 500);
+  const auto         result   = pcpg(problem, *face, lambda, residual, {1e3, 1e-8, 1e3}, 500);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ(problem.context().work.f_mults, result.iterations);
 }
@@ -190,7 +179,7 @@ TEST(Pcpg, EndsAfterTheIterationsAllowed)
   std::mt19937       generator(12);
   MultiVector        lambda(problem.n_owned(), 1);
   MultiVector        residual = problem.slice(dense::random(40, 1, generator));
-  const auto         result = pcpg(problem, *face, lambda, residual, {1e-8}, 3);
+  const auto         result   = pcpg(problem, *face, lambda, residual, {1e-8}, 3);
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.iterations, 3u);
   EXPECT_EQ(problem.context().work.f_mults, 3u);
@@ -203,11 +192,11 @@ TEST(Pcpg, ContinuesWithTheSameDirections)
   std::mt19937       generator(14);
   const auto         b = problem.slice(dense::random(40, 1, generator));
   MultiVector        lambda(problem.n_owned(), 1), residual = b;
-  const auto   whole = pcpg(problem, *face, lambda, residual, {1e-10}, 100);
-  MultiVector  again(problem.n_owned(), 1);
-  Pcpg         solver(problem, *face);
-  unsigned int iterations = 0;
-  residual                = b;
+  const auto         whole = pcpg(problem, *face, lambda, residual, {1e-10}, 100);
+  MultiVector        again(problem.n_owned(), 1);
+  Pcpg               solver(problem, *face);
+  unsigned int       iterations = 0;
+  residual                      = b;
   for (const double tolerance : {1e-1, 1e-4, 1e-7, 1e-10})
     iterations += solver.solve(again, residual, {tolerance}, 100).iterations;
   EXPECT_EQ(iterations, whole.iterations);
@@ -230,8 +219,7 @@ TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
   MultiVector lambda(problem.n_owned(), 1), residual = problem.slice(b);
   Pcpg        on_all_rows(problem, *whole);
   const auto  first = on_all_rows.solve(lambda, residual, {1e-3}, 100);
-  const auto  known =
-    on_all_rows.directions().off(problem.slice(leaving), MPI_COMM_WORLD);
+  const auto  known = on_all_rows.directions().off(problem.slice(leaving), MPI_COMM_WORLD);
   // a direction is lost per row
   EXPECT_EQ(known.P.n_columns(), first.iterations - 3);
   const auto P = problem.gather(known.P), FP = problem.gather(known.FP);
@@ -246,16 +234,13 @@ TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
             EXPECT_EQ(P(i, j), 0.);
           }
     }
-  EXPECT_LT(dense::distance(dense::product(dense::transpose(P), FP), identity),
-            1e-12);
+  EXPECT_LT(dense::distance(dense::product(dense::transpose(P), FP), identity), 1e-12);
 
   MultiVector again(problem.n_owned(), 1);
-  residual = problem.slice(b);
-  const auto next =
-    Pcpg(problem, *part, known).solve(again, residual, {1e-11}, 100);
+  residual         = problem.slice(b);
+  const auto next  = Pcpg(problem, *part, known).solve(again, residual, {1e-11}, 100);
   const auto alone = solve_with_pcpg(problem, staying, b, 1e-12);
-  EXPECT_LT(dense::distance(problem.gather(again),
-                            solve_directly(problem.data, staying, b)),
+  EXPECT_LT(dense::distance(problem.gather(again), solve_directly(problem.data, staying, b)),
             1e-10);
   EXPECT_LE(next.iterations + known.P.n_columns(), alone.f_mults + 3);
 }
@@ -276,9 +261,7 @@ TEST(Pcpg, BlocksBeginInKnownDirections)
   residual = problem.slice(b);
   Pcpg next(problem, *face, first.directions());
   EXPECT_TRUE(next.solve(both, residual, {1e-10, 1e-10}, 100).converged);
-  EXPECT_LT(dense::distance(problem.gather(both),
-                            solve_directly(problem.data, all, b)),
-            1e-9);
+  EXPECT_LT(dense::distance(problem.gather(both), solve_directly(problem.data, all, b)), 1e-9);
   EXPECT_LE(next.directions().P.n_columns(), 40u);
 }
 
@@ -318,16 +301,14 @@ TEST(LeadingColumns, AreNearToAllOthers)
 TEST(NullSpace, OfDependentRows)
 {
   std::mt19937 generator(20);
-  const auto   A = dense::product(dense::random(6, 3, generator),
-                                dense::random(3, 8, generator));
+  const auto   A = dense::product(dense::random(6, 3, generator), dense::random(3, 8, generator));
   const auto   N = null_space(A);
   ASSERT_EQ(N.n_columns(), 5u);
   EXPECT_LT(dense::largest(dense::product(A, N)), 1e-14);
   dense::Matrix identity(5, 5);
   for (unsigned int i = 0; i < 5; ++i)
     identity(i, i) = 1.;
-  EXPECT_LT(dense::distance(dense::product(dense::transpose(N), N), identity),
-            1e-14);
+  EXPECT_LT(dense::distance(dense::product(dense::transpose(N), N), identity), 1e-14);
   EXPECT_EQ(null_space(dense::random(3, 3, generator)).n_columns(), 0u);
   EXPECT_EQ(null_space(dense::Matrix(0, 4)).n_columns(), 4u);
 }
@@ -342,7 +323,7 @@ TEST(Pcpg, SemidefiniteOperator)
   // G lambda = 0 hides nothing of the kernel's effect on B' lambda
   data.G = dense::product(dense::random(2, 20, generator), dense::transpose(B));
   const DenseProblem problem(data);
-  const auto         b = dense::product(B, dense::random(20, 2, generator));
+  const auto         b      = dense::product(B, dense::random(20, 2, generator));
   const auto         solved = solve_with_pcpg(problem, RowSet(30, 1), b, 1e-10);
   EXPECT_TRUE(solved.result.converged);
   EXPECT_LE(solved.f_mults, 22u);
@@ -377,11 +358,7 @@ TEST(OrthonormalCombinations, FindTheRank)
   dense::Matrix identity(3, 3);
   for (unsigned int i = 0; i < 3; ++i)
     identity(i, i) = 1.;
-  EXPECT_LT(dense::distance(dense::product(dense::transpose(C),
-                                           dense::product(S, C)),
-                            identity),
+  EXPECT_LT(dense::distance(dense::product(dense::transpose(C), dense::product(S, C)), identity),
             1e-10);
-  EXPECT_EQ(
-    orthonormal_combinations(dense::Matrix(2, 2), {0., 0.}, 1e-12).n_columns(),
-    0u);
+  EXPECT_EQ(orthonormal_combinations(dense::Matrix(2, 2), {0., 0.}, 1e-12).n_columns(), 0u);
 }

@@ -8,30 +8,25 @@
 
 using namespace snug::qp;
 
-namespace
+namespace {
+Membranes::Shape two_by_two()
 {
-  Membranes::Shape
-  two_by_two()
-  {
-    Membranes::Shape shape;
-    shape.rows  = 2;
-    shape.load  = 0.05;
-    shape.shift = 0.03;
-    return shape;
-  }
+  Membranes::Shape shape;
+  shape.rows  = 2;
+  shape.load  = 0.05;
+  shape.shift = 0.03;
+  return shape;
+}
 
-  DualSolution
-  solve_by(const std::string  &method,
-           const DenseProblem &problem,
-           double              tolerance,
-           const WarmStart    &start = WarmStart())
-  {
-    SolverParameters parameters;
-    parameters.relative_tolerance = tolerance;
-    return snug::choose(solver_table(), method)
-      .make(parameters)
-      ->solve(problem, start);
-  }
+DualSolution solve_by(const std::string  &method,
+                      const DenseProblem &problem,
+                      double              tolerance,
+                      const WarmStart    &start = WarmStart())
+{
+  SolverParameters parameters;
+  parameters.relative_tolerance = tolerance;
+  return snug::choose(solver_table(), method).make(parameters)->solve(problem, start);
+}
 } // namespace
 
 TEST(Smalse, FindsKnownSolutions)
@@ -45,12 +40,11 @@ TEST(Smalse, FindsKnownSolutions)
       for (const double tolerance : {1e-6, 1e-9})
         {
           const DenseProblem problem(known.data);
-          const auto solution = solve_by("SMALSE-M", problem, tolerance);
+          const auto         solution = solve_by("SMALSE-M", problem, tolerance);
           EXPECT_LE(solution.kkt_residual, tolerance);
           EXPECT_EQ(solution.f_mults, problem.context().work.f_mults);
           EXPECT_EQ(solution.method, "SMALSE-M");
-          EXPECT_LT(dense::distance(problem.gather(solution.lambda),
-                                    known.lambda),
+          EXPECT_LT(dense::distance(problem.gather(solution.lambda), known.lambda),
                     error_bound(known, tolerance));
         }
     }
@@ -66,9 +60,7 @@ TEST(Smalse, EqualsActiveSetOnMembranes)
       const auto         smalse = solve_by("SMALSE-M", one, tolerance);
       const auto         active = solve_by("active set", two, tolerance);
       const auto         forces = membranes.forces(one.gather(smalse.lambda));
-      EXPECT_LT(dense::distance(forces,
-                                membranes.forces(two.gather(active.lambda))),
-                tolerance);
+      EXPECT_LT(dense::distance(forces, membranes.forces(two.gather(active.lambda))), tolerance);
       EXPECT_LT(dense::distance(forces, exact), tolerance);
       EXPECT_EQ(smalse.active, active.active);
       EXPECT_LT(smalse.f_mults, 120u);
@@ -84,9 +76,7 @@ TEST(Smalse, WithoutPreconditioner)
   data.preconditioner = dense::Matrix(0, 0);
   const DenseProblem problem(data);
   const auto         solution = solve_by("SMALSE-M", problem, 1e-9);
-  EXPECT_LT(dense::distance(
-              Membranes(two_by_two()).forces(problem.gather(solution.lambda)),
-              exact),
+  EXPECT_LT(dense::distance(Membranes(two_by_two()).forces(problem.gather(solution.lambda)), exact),
             1e-8);
 }
 
@@ -95,8 +85,7 @@ TEST(Smalse, StartFromASolutionIsCheaper)
   const auto         data = Membranes(two_by_two()).data();
   const DenseProblem problem(data), again(data);
   const auto         cold = solve_by("SMALSE-M", problem, 1e-9);
-  const auto         warm =
-    solve_by("SMALSE-M", again, 1e-8, {cold.lambda, cold.active});
+  const auto         warm = solve_by("SMALSE-M", again, 1e-8, {cold.lambda, cold.active});
   // the scale, ten power steps, the start and the check of the result
   EXPECT_LE(warm.f_mults, 14u);
   EXPECT_LT(dense::distance(warm.lambda, cold.lambda), 1e-8);

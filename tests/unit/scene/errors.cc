@@ -15,46 +15,37 @@ TEST(Errors, TheSceneIsGoodWithoutThem)
 
 TEST(Errors, NameFileLineEntryAndValue)
 {
-  EXPECT_EQ(error_of({},
-                     replaced(scene_text(),
-                              "Poisson's ratio = 0.3",
-                              "Poisson's ratio = 0.7")),
+  EXPECT_EQ(error_of({}, replaced(scene_text(), "Poisson's ratio = 0.3", "Poisson's ratio = 0.7")),
             "scene.prm, line 11: entry 'Body punch/Poisson's ratio' = '0.7': "
             "must be above -1 and below 0.5");
   // Also where nobody set the entry, and after continued lines.
-  EXPECT_EQ(error_of({},
-                     replaced(scene_text(), "  set Box cells       = 2", "#")),
+  EXPECT_EQ(error_of({}, replaced(scene_text(), "  set Box cells       = 2", "#")),
             "scene.prm: entry 'Body foundation/Box cells' = '': must have 3 "
             "numbers separated by commas, one per dimension");
-  EXPECT_EQ(
-    error_of({}, replaced(scene_text(), "top: 100", "top: much")),
-    "scene.prm, line 14: entry 'Body punch/Pressure' = 'top: much': "
-    "'much' must be a formula of x,y,z (Unexpected token \"much\" found at "
-    "position 0)");
+  EXPECT_EQ(error_of({}, replaced(scene_text(), "top: 100", "top: much")),
+            "scene.prm, line 14: entry 'Body punch/Pressure' = 'top: much': "
+            "'much' must be a formula of x,y,z (Unexpected token \"much\" found at "
+            "position 0)");
 }
 
 TEST(Errors, UnknownEntriesAndSections)
 {
-  EXPECT_EQ(
-    error_of({}, replaced(scene_text(), "Young's modulus", "Yuong's modulus")),
-    "scene.prm, line 10: unknown entry 'Body punch/Yuong's modulus' = "
-    "'210000'; "
-    "did you mean 'Young's modulus'?");
-  EXPECT_EQ(
-    error_of({"Solver/Maximum evaluations=3"}),
-    "--set: unknown entry 'Solver/Maximum evaluations' = '3'; it belongs to "
-    "subsection 'Optimization'");
-  EXPECT_EQ(
-    error_of({"Optimization/Task=state"}),
-    "--set: unknown entry 'Optimization/Task' = 'state'; it belongs outside of "
-    "subsections");
+  EXPECT_EQ(error_of({}, replaced(scene_text(), "Young's modulus", "Yuong's modulus")),
+            "scene.prm, line 10: unknown entry 'Body punch/Yuong's modulus' = "
+            "'210000'; "
+            "did you mean 'Young's modulus'?");
+  EXPECT_EQ(error_of({"Solver/Maximum evaluations=3"}),
+            "--set: unknown entry 'Solver/Maximum evaluations' = '3'; it belongs to "
+            "subsection 'Optimization'");
+  EXPECT_EQ(error_of({"Optimization/Task=state"}),
+            "--set: unknown entry 'Optimization/Task' = 'state'; it belongs outside of "
+            "subsections");
   EXPECT_TRUE(has(error_of({}, scene_text() + "subsection Solvr\nend\n"),
                   "scene.prm, line 38: unknown subsection 'Solvr'; did you "
                   "mean 'Solver'?"));
   EXPECT_TRUE(has(error_of({}, replaced(scene_text(), "Body punch", "Body p")),
                   "line 6: unknown subsection 'Body p'"));
-  EXPECT_TRUE(has(error_of({"Body punhc/Box cells=1,1,1"}),
-                  "did you mean 'Body punch'?"));
+  EXPECT_TRUE(has(error_of({"Body punhc/Box cells=1,1,1"}), "did you mean 'Body punch'?"));
 }
 
 TEST(Errors, LinesThatAreNoStatements)
@@ -62,17 +53,10 @@ TEST(Errors, LinesThatAreNoStatements)
   const auto message = [](const std::string &line) {
     return error_of({}, "set Task = state\n" + line + "\n");
   };
-  for (const std::string line : {"Task : state",
-                                 "set Task",
-                                 "set = 1",
-                                 "subsection",
-                                 "sett Task = 1",
-                                 "include other.prm",
-                                 "end here"})
-    EXPECT_TRUE(has(message(line), "scene.prm, line 2: '" + line + "' must"))
-      << message(line);
-  EXPECT_EQ(message("subsection Solver"),
-            "scene.prm, line 2: 'subsection Solver' has no 'end'");
+  for (const std::string line : {"Task : state", "set Task", "set = 1", "subsection",
+                                 "sett Task = 1", "include other.prm", "end here"})
+    EXPECT_TRUE(has(message(line), "scene.prm, line 2: '" + line + "' must")) << message(line);
+  EXPECT_EQ(message("subsection Solver"), "scene.prm, line 2: 'subsection Solver' has no 'end'");
   EXPECT_EQ(message("end"), "scene.prm, line 2: 'end' without a 'subsection'");
   EXPECT_TRUE(has(error_of({"Task"}), "--set 'Task': must read"));
   EXPECT_TRUE(has(error_of({"Output directory=a#b"}), "must not contain '#'"));
@@ -80,8 +64,7 @@ TEST(Errors, LinesThatAreNoStatements)
 
 TEST(Errors, Choices)
 {
-  expect_error({"Task",
-                "optimise",
+  expect_error({"Task", "optimise",
                 "one of state, sensitivity, optimize; did "
                 "you mean 'optimize'?"});
   expect_error({"Dimension", "4", "one of 2, 3"});
@@ -156,15 +139,11 @@ TEST(Errors, BodiesAndBoundaries)
   expect_error({"Body punch/Pressure", "side: 1", "left, right, front, back"});
   expect_error({"Body punch/Traction", "side: 1 0 0", "is no boundary"});
   expect_error({"Body punch/Curved faces", "side: sphere 4", "the faces are"});
-  expect_error({"Contact/Pairs",
-                "punch.bottom: foundaton.top",
-                "did you mean 'foundation'?"});
-  expect_error(
-    {"Contact/Pairs", "punch.bottom: foundation.side", "bottom, top"});
+  expect_error({"Contact/Pairs", "punch.bottom: foundaton.top", "did you mean 'foundation'?"});
+  expect_error({"Contact/Pairs", "punch.bottom: foundation.side", "bottom, top"});
   expect_error({"Contact/Pairs", "punch: foundation.top", "body.boundary"});
   expect_error({"Contact/Pairs", "punch.top: punch.top", "with itself"});
-  expect_error({"Contact/Pairs",
-                "punch.bottom: foundation.top, foundation.top: punch.bottom",
+  expect_error({"Contact/Pairs", "punch.bottom: foundation.top, foundation.top: punch.bottom",
                 "paired twice"});
   expect_error({"Shape/Face", "foundation.topp", "did you mean 'top'?"});
   expect_error({"Shape/Face", "block.top", "there is no body 'block'"});
@@ -174,29 +153,21 @@ TEST(Errors, ObstaclesAndPairs)
 {
   const std::vector<std::string> floor = {"Obstacles=floor"};
   expect_error({"Obstacles", "floor, floor", "must not occur twice"});
-  expect_error({"Contact/Pairs", "floor: punch.bottom", "must come second"},
-               floor);
-  expect_error({"Contact/Pairs",
-                "punch.bottom: flor",
-                "or be an obstacle in 'Obstacles'"},
-               floor);
-  expect_error({"Obstacle floor/Shape", "plain", "did you mean 'plane'?"},
-               floor);
+  expect_error({"Contact/Pairs", "floor: punch.bottom", "must come second"}, floor);
+  expect_error({"Contact/Pairs", "punch.bottom: flor", "or be an obstacle in 'Obstacles'"}, floor);
+  expect_error({"Obstacle floor/Shape", "plain", "did you mean 'plane'?"}, floor);
   expect_error({"Obstacle floor/Point", "1, 2", "3 finite numbers"}, floor);
   expect_error({"Obstacle floor/Normal", "0, 0, 0", "not be all zero"}, floor);
   expect_error({"Obstacle floor/Axis", "0, 1", "3 finite"}, floor);
   expect_error({"Obstacle floor/Radius", "0", "must be above 0"}, floor);
-  expect_error({"Obstacle floor/Displacement", "1", "one per dimension"},
-               floor);
+  expect_error({"Obstacle floor/Displacement", "1", "one per dimension"}, floor);
   expect_error({"Obstacle floor/Formula", "x +", "must be a formula"},
                {"Obstacles=floor", "Obstacle floor/Shape=formula"});
   expect_error({"Contact/Search distance", "-1", "must be 0 or above"});
   expect_error({"Contact/Largest angle", "0", "at most 180"});
   expect_error({"Contact/Gap", "2 * t", "must be a formula of x,y,z"});
-  expect_error(
-    {"Pair punch.bottom: foundation.top/Gap", "", "must be a formula"});
-  expect_error(
-    {"Pair punch.bottom: foundation.top/Slave", "last", "one of finer, first"});
+  expect_error({"Pair punch.bottom: foundation.top/Gap", "", "must be a formula"});
+  expect_error({"Pair punch.bottom: foundation.top/Slave", "last", "one of finer, first"});
   EXPECT_TRUE(has(error_of({"Pair punch.bottom: foundation.side/Gap=1"}),
                   "unknown subsection 'Pair punch.bottom: foundation.side'"));
 }
@@ -217,8 +188,8 @@ TEST(Errors, PropertiesAndMeshes)
   EXPECT_EQ(error_of({"Body punch/Refine where=x-1"}), "");
   expect_error({"Body punch/Local refinements", "16", "at most 15"});
   expect_error({"Body punch/Refine where", "x+(", "formula"});
-  EXPECT_TRUE(has(error_of({"Body punch/Local refinements=1"}),
-                  "entry 'Body punch/Refine where' = ''"));
+  EXPECT_TRUE(
+    has(error_of({"Body punch/Local refinements=1"}), "entry 'Body punch/Refine where' = ''"));
   EXPECT_TRUE(has(error_of({"Body punch/Curved faces=bottom: sphere 0.1"}),
                   "--set: entry 'Body punch/Curved faces' = "));
   EXPECT_TRUE(has(error_of({"Body punch/Curved faces=bottom: x+("}),
@@ -230,8 +201,7 @@ TEST(Errors, Designs)
   expect_error({"Shape/Bounds", "0.1, -0.1", "the first below the second"});
   expect_error({"Shape/Bounds", "0.1, 0.1", "the first below the second"});
   expect_error({"Shape/Direction", "0, 0, 0", "not all zero"});
-  EXPECT_TRUE(has(error_of({"Shape/Initial=0.3"}),
-                  "0.3 must lie within the bounds -0.25, 0.25"));
+  EXPECT_TRUE(has(error_of({"Shape/Initial=0.3"}), "0.3 must lie within the bounds -0.25, 0.25"));
   expect_error({"Shape/Initial", "0, 0, 0, 0, 0, -0.3", "within the bounds"});
   expect_error({"Shape/Basis", "none", "for the task optimize"});
   EXPECT_EQ(error_of({"Shape/Basis=none", "Task=state"}), "");
@@ -243,10 +213,8 @@ TEST(Errors, Designs)
 TEST(Errors, Shapes)
 {
   const std::vector<std::string> box = {"Shape/Basis=Bezier box",
-                                        "Shape/Face=",
-                                        "Shape/Box corner=0, 0, 0",
-                                        "Shape/Box size=1, 1, 1",
-                                        "Shape/Control points=3, 3, 3"};
+                                        "Shape/Face=", "Shape/Box corner=0, 0, 0",
+                                        "Shape/Box size=1, 1, 1", "Shape/Control points=3, 3, 3"};
   EXPECT_EQ(error_of(box), "");
   expect_error({"Shape/Box size", "1, 0, 1", "positive"}, box);
   expect_error({"Shape/Box size", "1, 1", "3 numbers"}, box);
@@ -269,26 +237,21 @@ TEST(Errors, Shapes)
   expect_error({"Shape/Fixed", "edges", "'border'"}, splines);
   expect_error({"Shape/Symmetry", "w: 1", "axes of 'xyz'"}, splines);
   const std::vector<std::string> nodes = {"Shape/Basis=node-wise",
-                                          "Shape/Control points=",
-                                          "Shape/Filter radius=0.1"};
+                                          "Shape/Control points=", "Shape/Filter radius=0.1"};
   EXPECT_EQ(error_of(nodes), "");
   expect_error({"Shape/Filter radius", "0", "positive"}, nodes);
   expect_error({"Shape/Filter radius", "-0.1", "positive"}, nodes);
   expect_error({"Shape/Control points", "3, 3", "must be left out"}, nodes);
 
-  const std::vector<std::string> modes = {"Shape/Basis=formula modes",
-                                          "Shape/Control points=",
-                                          "Shape/Direction=",
-                                          "Shape/Modes=0,0,max(x,y); 1,0,z"};
+  const std::vector<std::string> modes = {"Shape/Basis=formula modes", "Shape/Control points=",
+                                          "Shape/Direction=", "Shape/Modes=0,0,max(x,y); 1,0,z"};
   EXPECT_EQ(error_of(modes), "");
   EXPECT_EQ(read_with(modes).shapes[0].modes[0][2], "max(x,y)");
   expect_error({"Shape/Modes", "0, x", "3 formulas"}, modes);
   expect_error({"Shape/Fixed", "border", "left out"}, modes);
   expect_error({"Shape/Bodies", "punch", "left out"}, modes);
   EXPECT_TRUE(has(error_of({"Shape/Basis=formula modes",
-                            "Shape/Control points=",
-                            "Shape/Direction=",
-                            "Shape/Modes=0, 0, x+("}),
+                            "Shape/Control points=", "Shape/Direction=", "Shape/Modes=0, 0, x+("}),
                   "--set: entry 'Shape/Modes' = 'x+(': must be a formula"));
 }
 
@@ -310,20 +273,16 @@ TEST(Errors, Methods)
 TEST(Errors, RequestsThatCannotMeanAnything)
 {
   expect_error({"Load case a/Weight", "0", "at least one"}, {"Load cases=a"});
-  expect_error({"Contact/Largest angle", "80", "at most 60 for mortar"},
-               {"Contact/Method=mortar"});
+  expect_error({"Contact/Largest angle", "80", "at most 60 for mortar"}, {"Contact/Method=mortar"});
   EXPECT_EQ(error_of({"Contact/Method=mortar"}), "");
   expect_error({"Optimization/Objective", "mass", "no 'Density'"});
   expect_error({"Optimization/Constraints", "mass: initial", "no 'Density'"});
-  EXPECT_EQ(error_of({"Optimization/Constraints=mass: initial",
-                      "Body punch/Density=1"}),
-            "");
+  EXPECT_EQ(error_of({"Optimization/Constraints=mass: initial", "Body punch/Density=1"}), "");
 }
 
 TEST(Errors, LongValuesAreCutAndStayOneLine)
 {
-  const std::string message =
-    error_of({"Body punch/Young's modulus=1\t" + std::string(1000, 'x')});
+  const std::string message = error_of({"Body punch/Young's modulus=1\t" + std::string(1000, 'x')});
   EXPECT_LT(message.size(), 200U);
   EXPECT_FALSE(has(message, "\t"));
 }

@@ -11,8 +11,8 @@ TEST(Errors, LoadCases)
   EXPECT_EQ(error_of(two), "");
   expect_error({"Load cases", "a, a", "'a' must not occur twice"});
   expect_error({"Load cases", "a/b", "letters, digits"});
-  EXPECT_TRUE(has(error_of({"Load case closing/Weight=1"}),
-                  "unknown subsection 'Load case closing'"));
+  EXPECT_TRUE(
+    has(error_of({"Load case closing/Weight=1"}), "unknown subsection 'Load case closing'"));
   expect_error({own + "Weight", "-1", "must not be negative"}, two);
   expect_error({own + "Gravity", "1, 2", "must have 3 numbers"}, two);
   expect_error({own + "Pressure", "top: 1", "'body.boundary'"}, two);
@@ -20,14 +20,10 @@ TEST(Errors, LoadCases)
   expect_error({own + "Traction", "punch.top: 1 2", "3 components"}, two);
   // what a body holds already
   expect_error({own + "Displacement", "punch.left: x = 1", "held twice"}, two);
-  expect_error({"Optimization/Constraints",
-                "strain energy: 1",
+  expect_error({"Optimization/Constraints", "strain energy: 1",
                 "its load case: 'closing.strain energy'"},
                two);
-  expect_error({"Optimization/Constraints",
-                "closing.beauty: 1",
-                "'beauty' is no response"},
-               two);
+  expect_error({"Optimization/Constraints", "closing.beauty: 1", "'beauty' is no response"}, two);
   expect_error({"Optimization/Combine", "best", "sum, worst"}, two);
   EXPECT_EQ(error_of({"Load cases=closing, opening",
                       "Optimization/Constraints=closing.strain energy: "
@@ -35,10 +31,9 @@ TEST(Errors, LoadCases)
             "");
 }
 
-namespace
-{
-  /// A box of two regions, each with its material.
-  const std::string two_regions = R"(
+namespace {
+/// A box of two regions, each with its material.
+const std::string two_regions = R"(
 set Dimension = 2
 set Bodies    = bar
 set Materials = steel, rubber
@@ -55,8 +50,7 @@ TEST(Errors, MaterialsAreInTheirRanges)
 {
   const auto says = [&](const std::string &set, const std::string &part) {
     const auto message = error_of({set}, two_regions);
-    EXPECT_TRUE(has(message, "--set: entry '" + set.substr(0, set.find('='))))
-      << message;
+    EXPECT_TRUE(has(message, "--set: entry '" + set.substr(0, set.find('=')))) << message;
     EXPECT_TRUE(has(message, part)) << message;
   };
   EXPECT_EQ(error_of({}, two_regions), "");
@@ -64,15 +58,13 @@ TEST(Errors, MaterialsAreInTheirRanges)
   says("Material steel/Young's modulus=0", "must be positive");
   says("Material rubber/Poisson's ratio=0.5", "below 0.5");
   says("Material rubber/Density=-1", "must not be negative");
-  EXPECT_TRUE(has(error_of({"Material tin/Density=1"}, two_regions),
-                  "unknown subsection"));
+  EXPECT_TRUE(has(error_of({"Material tin/Density=1"}, two_regions), "unknown subsection"));
 }
 
 TEST(Errors, RegionsHaveOneMaterial)
 {
   const auto says = [&](const std::string &materials, const std::string &part) {
-    const auto message =
-      error_of({"Body bar/Materials=" + materials}, two_regions);
+    const auto message = error_of({"Body bar/Materials=" + materials}, two_regions);
     EXPECT_TRUE(has(message, "--set: entry 'Body bar/Materials'")) << message;
     EXPECT_TRUE(has(message, part)) << message;
   };
@@ -81,16 +73,12 @@ TEST(Errors, RegionsHaveOneMaterial)
   says("core: steel, boddy: steel", "did you mean 'body'?");
   says("core: steel, core: rubber", "different regions");
   EXPECT_EQ(error_of({"Body bar/Materials=steel"}, two_regions), "");
+  EXPECT_TRUE(has(error_of({"Body bar/Region formulas=core: x - 50"}, two_regions),
+                  "the region 'core' has no cells"));
   EXPECT_TRUE(
-    has(error_of({"Body bar/Region formulas=core: x - 50"}, two_regions),
-        "the region 'core' has no cells"));
-  EXPECT_TRUE(has(error_of({"Body bar/Region formulas=core: t"}, two_regions),
-                  "'Body bar/Region formulas'"));
-  for (const std::string set :
-       {"Density=1", "Young's modulus=2", "Poisson's ratio=0.2"})
-    EXPECT_TRUE(
-      has(error_of({"Body bar/" + set}, two_regions), "must be left out"))
-      << set;
+    has(error_of({"Body bar/Region formulas=core: t"}, two_regions), "'Body bar/Region formulas'"));
+  for (const std::string set : {"Density=1", "Young's modulus=2", "Poisson's ratio=0.2"})
+    EXPECT_TRUE(has(error_of({"Body bar/" + set}, two_regions), "must be left out")) << set;
 }
 
 TEST(Errors, ModelsFitTheDimension)
@@ -123,15 +111,11 @@ end
   EXPECT_TRUE(has(message("axisymmetric"), "'Body disc/Box corner' = '-1, 0'"))
     << message("axisymmetric");
   EXPECT_EQ(message("plane strain"), "");
-  const auto shifted = error_of({"Model=axisymmetric",
-                                 "Body disc/Box corner=0, 0",
-                                 "Body disc/Shift=-1, 0"},
-                                text);
+  const auto shifted =
+    error_of({"Model=axisymmetric", "Body disc/Box corner=0, 0", "Body disc/Shift=-1, 0"}, text);
   EXPECT_TRUE(has(shifted, "entry 'Body disc/Shift' = '-1, 0'")) << shifted;
   EXPECT_EQ(shifted.find("entry '"), shifted.rfind("entry '")) << shifted;
-  EXPECT_TRUE(has(error_of({"Model=axisymmetric",
-                            "Body disc/Box corner=0, 0",
-                            "Thickness=0.5"},
-                           text),
-                  "left out for Model = axisymmetric"));
+  EXPECT_TRUE(
+    has(error_of({"Model=axisymmetric", "Body disc/Box corner=0, 0", "Thickness=0.5"}, text),
+        "left out for Model = axisymmetric"));
 }

@@ -25,8 +25,7 @@ TEST(ReadScene, FillsTheParametersOfEveryModule)
   EXPECT_EQ(scene.shapes[0].control_points, (Integers{3, 2}));
   EXPECT_EQ(scene.shapes[0].bounds, (Numbers{-0.25, 0.25}));
   EXPECT_EQ(scene.optimization.constraints,
-            (std::vector<std::pair<std::string, std::string>>{
-              {"volume", "initial"}}));
+            (std::vector<std::pair<std::string, std::string>>{{"volume", "initial"}}));
   EXPECT_EQ(scene.optimization.objective, "potential energy");
 }
 
@@ -66,12 +65,11 @@ TEST(ReadScene, FillsEmptyListsWithTheirDefaults)
 
 TEST(ReadScene, NamedShapesHaveTheirOwnSubsections)
 {
-  const std::string text  = replaced(scene_text(),
-                                    "subsection Shape\n",
-                                    "set Shapes = a, left side\n"
-                                     "subsection Shape left side\n"
-                                     "set Basis = none\nend\n"
-                                     "subsection Shape a\n");
+  const std::string text  = replaced(scene_text(), "subsection Shape\n",
+                                     "set Shapes = a, left side\n"
+                                      "subsection Shape left side\n"
+                                      "set Basis = none\nend\n"
+                                      "subsection Shape a\n");
   const auto        scene = read_with({"Shape left side/Bounds=0,1"}, text);
   ASSERT_EQ(scene.shapes.size(), 2U);
   EXPECT_EQ(scene.shapes[0].name, "a");
@@ -84,15 +82,13 @@ TEST(ReadScene, NamedShapesHaveTheirOwnSubsections)
 
 TEST(ReadScene, OverridesComeAfterTheFile)
 {
-  const scene::Scene scene = read_with({"Body punch/Box cells=4,4,4",
-                                        "Task = state",
-                                        "Body punch/Young's modulus=1",
-                                        "Body punch/Young's modulus=2"});
+  const scene::Scene scene =
+    read_with({"Body punch/Box cells=4,4,4", "Task = state", "Body punch/Young's modulus=1",
+               "Body punch/Young's modulus=2"});
   EXPECT_EQ(scene.bodies[0].mesh.cells, (Integers{4, 4, 4}));
   EXPECT_EQ(scene.task, scene::Task::state);
   EXPECT_EQ(scene.bodies[0].material.youngs_modulus, 2.);
-  EXPECT_EQ(scene::read_scene({"scene.prm", scene_text(), {}, "elsewhere"})
-              .output_directory,
+  EXPECT_EQ(scene::read_scene({"scene.prm", scene_text(), {}, "elsewhere"}).output_directory,
             "elsewhere");
 }
 
@@ -118,41 +114,28 @@ TEST(ReadScene, LaterStatementsOfAFileWinAndLineEndsDoNotMatter)
 TEST(PrintScene, ReadsBackToTheSameScene)
 {
   // Numbers without a short decimal form, and every kind of value.
-  const scene::Scene scene =
-    read_with({"Body punch/Young's modulus=0.1234567890123456789",
-               "Body punch/Poisson's ratio=-3.3333333333333333e-5",
-               "Body punch/Refine where=0.3-x^2-y^2",
-               "Body punch/Local refinements=2",
-               "Body foundation/Body force=0,0,-7.85e-5*max(x, y)",
-               "Body foundation/Density=7.85e-9",
-               "Gravity=0 0 -9810",
-               "Body punch/Moment=top: 0 0.1 0",
-               "Body punch/Displacement=top: z = -min(x, 0.1), top: x = 0",
-               "Load cases=closing, opening",
-               "Load case opening/Weight=0.3333333333333333",
-               "Load case opening/Force=punch.top: 0 0 -1e3, punch.left: 1 2 3",
-               "Optimization/Combine=worst",
-               "Decomposition/Subdomains=7",
-               "Solver/Relative tolerance=1e-9",
-               "Solver/Report linear reference=true",
-               "Shape/Initial=0.1,0.2,-0.1,0,0.01,0.02",
-               "Element degree=2"});
+  const scene::Scene scene = read_with(
+    {"Body punch/Young's modulus=0.1234567890123456789",
+     "Body punch/Poisson's ratio=-3.3333333333333333e-5", "Body punch/Refine where=0.3-x^2-y^2",
+     "Body punch/Local refinements=2", "Body foundation/Body force=0,0,-7.85e-5*max(x, y)",
+     "Body foundation/Density=7.85e-9", "Gravity=0 0 -9810", "Body punch/Moment=top: 0 0.1 0",
+     "Body punch/Displacement=top: z = -min(x, 0.1), top: x = 0", "Load cases=closing, opening",
+     "Load case opening/Weight=0.3333333333333333",
+     "Load case opening/Force=punch.top: 0 0 -1e3, punch.left: 1 2 3", "Optimization/Combine=worst",
+     "Decomposition/Subdomains=7", "Solver/Relative tolerance=1e-9",
+     "Solver/Report linear reference=true", "Shape/Initial=0.1,0.2,-0.1,0,0.01,0.02",
+     "Element degree=2"});
   const scene::Scene again = read_with({}, printed(scene));
   EXPECT_EQ(printed(again), printed(scene));
-  EXPECT_EQ(again.bodies[0].material.youngs_modulus,
-            scene.bodies[0].material.youngs_modulus);
-  EXPECT_EQ(again.bodies[0].material.poissons_ratio,
-            scene.bodies[0].material.poissons_ratio);
+  EXPECT_EQ(again.bodies[0].material.youngs_modulus, scene.bodies[0].material.youngs_modulus);
+  EXPECT_EQ(again.bodies[0].material.poissons_ratio, scene.bodies[0].material.poissons_ratio);
   EXPECT_EQ(again.bodies[0].loads.traction, scene.bodies[0].loads.traction);
-  EXPECT_EQ(again.bodies[0].mesh.curved_faces,
-            scene.bodies[0].mesh.curved_faces);
+  EXPECT_EQ(again.bodies[0].mesh.curved_faces, scene.bodies[0].mesh.curved_faces);
   EXPECT_EQ(again.bodies[0].mesh.refine_where, "0.3-x^2-y^2");
-  EXPECT_EQ(again.bodies[1].body_force,
-            (std::vector<std::string>{"0", "0", "-7.85e-5*max(x, y)"}));
+  EXPECT_EQ(again.bodies[1].body_force, (std::vector<std::string>{"0", "0", "-7.85e-5*max(x, y)"}));
   EXPECT_EQ(again.gravity, (Numbers{0, 0, -9810}));
   EXPECT_EQ(again.bodies[0].loads.displacements.size(), 2U);
-  EXPECT_EQ(again.bodies[0].loads.displacements,
-            scene.bodies[0].loads.displacements);
+  EXPECT_EQ(again.bodies[0].loads.displacements, scene.bodies[0].loads.displacements);
   ASSERT_EQ(again.load_cases.size(), 2U);
   EXPECT_EQ(again.load_cases[1].weight, 0.3333333333333333);
   EXPECT_EQ(again.load_cases[1].loads.force, scene.load_cases[1].loads.force);
@@ -204,21 +187,20 @@ TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
 {
   std::ostringstream reference;
   scene::print_reference(reference);
-  std::istringstream lines(printed(read_with({"Bodies=punch"},
-                                             "set Dimension = 2\n"
-                                             "set Obstacles = floor\n"
-                                             "set Load cases = heavy\n"
-                                             "set Materials = steel\n"
-                                             "set Responses = tip\n"
-                                             "subsection Response tip\n"
-                                             "set Quantity = volume\n"
-                                             "end\n"
-                                             "subsection Body punch\n"
-                                             "set Box cells = 1, 1\n"
-                                             "end\n"
-                                             "subsection Contact\n"
-                                             "set Pairs = punch.bottom: floor\n"
-                                             "end\n")));
+  std::istringstream lines(printed(read_with({"Bodies=punch"}, "set Dimension = 2\n"
+                                                               "set Obstacles = floor\n"
+                                                               "set Load cases = heavy\n"
+                                                               "set Materials = steel\n"
+                                                               "set Responses = tip\n"
+                                                               "subsection Response tip\n"
+                                                               "set Quantity = volume\n"
+                                                               "end\n"
+                                                               "subsection Body punch\n"
+                                                               "set Box cells = 1, 1\n"
+                                                               "end\n"
+                                                               "subsection Contact\n"
+                                                               "set Pairs = punch.bottom: floor\n"
+                                                               "end\n")));
   std::string        line;
   unsigned int       n_entries = 0;
   while (std::getline(lines, line))
@@ -228,8 +210,7 @@ TEST(PrintReference, HasOneRowForEachEntryOfAPrintedScene)
         continue;
       std::string name = line.substr(begin + 4, line.find('=') - begin - 4);
       name.erase(name.find_last_not_of(' ') + 1);
-      EXPECT_NE(reference.str().find("| `" + name + "` |"), std::string::npos)
-        << name;
+      EXPECT_NE(reference.str().find("| `" + name + "` |"), std::string::npos) << name;
       ++n_entries;
     }
   const std::string text = reference.str();
@@ -260,7 +241,6 @@ TEST(ReadText, NamesAFileThatCannotBeRead)
       }
     catch (const InputError &error)
       {
-        EXPECT_NE(std::string(error.what()).find("'" + file + "'"),
-                  std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("'" + file + "'"), std::string::npos);
       }
 }

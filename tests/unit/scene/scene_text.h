@@ -10,8 +10,7 @@
 
 /// A valid scene of 37 lines: two boxes of different meshes in contact, the top
 /// of the lower one shaped.
-inline std::string
-scene_text()
+inline std::string scene_text()
 {
   return R"(# comment
 set Task      = optimize
@@ -53,25 +52,22 @@ end
 )";
 }
 
-inline snug::scene::Scene
-read_with(const std::vector<std::string> &sets,
-          const std::string              &text = scene_text())
+inline snug::scene::Scene read_with(const std::vector<std::string> &sets,
+                                    const std::string              &text = scene_text())
 {
   return snug::scene::read_scene({"scene.prm", text, sets, ""});
 }
 
 /// @p text with the first @p from replaced by @p to.
-inline std::string
-replaced(std::string text, const std::string &from, const std::string &to)
+inline std::string replaced(std::string text, const std::string &from, const std::string &to)
 {
   const auto place = text.find(from);
   return place == std::string::npos ? "" : text.replace(place, from.size(), to);
 }
 
 /// Message of the InputError that reading throws; "" if there is none.
-inline std::string
-error_of(const std::vector<std::string> &sets,
-         const std::string              &text = scene_text())
+inline std::string error_of(const std::vector<std::string> &sets,
+                            const std::string              &text = scene_text())
 {
   try
     {
@@ -84,8 +80,7 @@ error_of(const std::vector<std::string> &sets,
   return "";
 }
 
-inline std::string
-printed(const snug::scene::Scene &scene)
+inline std::string printed(const snug::scene::Scene &scene)
 {
   std::ostringstream text;
   snug::scene::print(scene, text);

@@ -2,216 +2,192 @@
 
 #include "bodies.h"
 
-namespace snug
+namespace snug {
+namespace {
+using namespace test;
+
+double bernstein_value(unsigned int n, unsigned int j, double s)
 {
-  namespace
-  {
-    using namespace test;
+  double binomial = 1.;
+  for (unsigned int i = 1; i <= j; ++i)
+    binomial *= (n - i) / double(i);
+  return binomial * std::pow(s, j) * std::pow(1. - s, n - 1 - j);
+}
 
-    double
-    bernstein_value(unsigned int n, unsigned int j, double s)
+template <int dim>
+dealii::Point<dim> fraction_of(const mesh::BodyMesh<dim> &mesh, unsigned int node)
+{
+  return mesh.geometry(1).box_fraction(mesh.logical_positions()[node]);
+}
+
+template <int dim>
+bool is_free_node_of_foundation(const mesh::BodyMesh<dim> &mesh, unsigned int node)
+{
+  return mesh.body_of_node(node) == 1 && !mesh.is_hanging(node);
+}
+
+/// All heights 1 along (1.5, .., 2) / 2.5: the face moves as a whole and
+/// the rest by its distance from the opposite face.
+template <int dim>
+void expect_unit_heights_lift_the_face(const std::string &basis, const std::string &face)
+{
+  const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, shape_bodies<dim>(), 1);
+  auto                      parameters = on_top<dim>(basis);
+  parameters.face                      = "foundation." + face;
+  parameters.direction                 = std::vector<double>(dim, 0.);
+  parameters.direction[0]              = 1.5;
+  parameters.direction[dim - 1]        = 2.;
+  const shape::Shapes<dim> shapes(mesh, body_names(), {parameters});
+  const auto               moved = shapes.apply(std::vector<double>(shapes.n_variables(), 1.));
+  const unsigned int       f     = mesh::boundary_index(mesh.geometry(1), face);
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     {
-      double binomial = 1.;
-      for (unsigned int i = 1; i <= j; ++i)
-        binomial *= (n - i) / double(i);
-      return binomial * std::pow(s, j) * std::pow(1. - s, n - 1 - j);
+      if (mesh.is_hanging(node))
+        continue;
+      double expected = 0.;
+      if (mesh.body_of_node(node) == 1)
+        {
+          const double fraction = fraction_of(mesh, node)[f / 2];
+          expected              = f % 2 == 1 ? fraction : 1. - fraction;
+        }
+      EXPECT_NEAR(moved[node][0], 0.6 * expected, 1e-14);
+      EXPECT_NEAR(moved[node][dim - 1], 0.8 * expected, 1e-14);
+      EXPECT_NEAR(moved[node].norm(), expected, 1e-14);
     }
+}
 
-    template <int dim>
-    dealii::Point<dim>
-    fraction_of(const mesh::BodyMesh<dim> &mesh, unsigned int node)
+TEST(Patch, UnitHeightsLiftTheFaceByOneAndFadeLinearly)
+{
+  for (const std::string basis : {"Bezier patch", "B-spline patch"})
     {
-      return mesh.geometry(1).box_fraction(mesh.logical_positions()[node]);
+      expect_unit_heights_lift_the_face<2>(basis, "top");
+      expect_unit_heights_lift_the_face<2>(basis, "left");
+      expect_unit_heights_lift_the_face<3>(basis, "top");
+      expect_unit_heights_lift_the_face<3>(basis, "bottom");
+      expect_unit_heights_lift_the_face<3>(basis, "back");
     }
+}
 
-    template <int dim>
-    bool
-    is_free_node_of_foundation(const mesh::BodyMesh<dim> &mesh,
-                               unsigned int               node)
+TEST(Patch, ColumnsAreBernsteinPolynomialsFirstAxisFastest)
+{
+  const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 2);
+  const shape::Shapes<3>  shapes(mesh, body_names(), {on_top<3>("Bezier patch")});
+  ASSERT_EQ(shapes.n_variables(), 20u);
+  for (unsigned int i = 0; i < 20; ++i)
     {
-      return mesh.body_of_node(node) == 1 && !mesh.is_hanging(node);
-    }
-
-    /// All heights 1 along (1.5, .., 2) / 2.5: the face moves as a whole and
-    /// the rest by its distance from the opposite face.
-    template <int dim>
-    void
-    expect_unit_heights_lift_the_face(const std::string &basis,
-                                      const std::string &face)
-    {
-      const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, shape_bodies<dim>(), 1);
-      auto                      parameters = on_top<dim>(basis);
-      parameters.face                      = "foundation." + face;
-      parameters.direction                 = std::vector<double>(dim, 0.);
-      parameters.direction[0]              = 1.5;
-      parameters.direction[dim - 1]        = 2.;
-      const shape::Shapes<dim> shapes(mesh, body_names(), {parameters});
-      const auto               moved =
-        shapes.apply(std::vector<double>(shapes.n_variables(), 1.));
-      const unsigned int f = mesh::boundary_index(mesh.geometry(1), face);
+      const auto column = shapes.column(i);
       for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-        {
-          if (mesh.is_hanging(node))
-            continue;
-          double expected = 0.;
-          if (mesh.body_of_node(node) == 1)
-            {
-              const double fraction = fraction_of(mesh, node)[f / 2];
-              expected              = f % 2 == 1 ? fraction : 1. - fraction;
-            }
-          EXPECT_NEAR(moved[node][0], 0.6 * expected, 1e-14);
-          EXPECT_NEAR(moved[node][dim - 1], 0.8 * expected, 1e-14);
-          EXPECT_NEAR(moved[node].norm(), expected, 1e-14);
-        }
-    }
-
-    TEST(Patch, UnitHeightsLiftTheFaceByOneAndFadeLinearly)
-    {
-      for (const std::string basis : {"Bezier patch", "B-spline patch"})
-        {
-          expect_unit_heights_lift_the_face<2>(basis, "top");
-          expect_unit_heights_lift_the_face<2>(basis, "left");
-          expect_unit_heights_lift_the_face<3>(basis, "top");
-          expect_unit_heights_lift_the_face<3>(basis, "bottom");
-          expect_unit_heights_lift_the_face<3>(basis, "back");
-        }
-    }
-
-    TEST(Patch, ColumnsAreBernsteinPolynomialsFirstAxisFastest)
-    {
-      const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 2);
-      const shape::Shapes<3>  shapes(mesh,
-                                    body_names(),
-                                    {on_top<3>("Bezier patch")});
-      ASSERT_EQ(shapes.n_variables(), 20u);
-      for (unsigned int i = 0; i < 20; ++i)
-        {
-          const auto column = shapes.column(i);
-          for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-            if (is_free_node_of_foundation(mesh, node))
-              {
-                const auto at = fraction_of(mesh, node);
-                EXPECT_NEAR(column[node][2],
-                            at[2] * bernstein_value(4, i % 4, at[0]) *
-                              bernstein_value(5, i / 4, at[1]),
-                            1e-14);
-              }
-        }
-    }
-
-    TEST(Patch, BSplineOfOneSpanEqualsBezier)
-    {
-      const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 1);
-      auto                    splines = on_top<3>("B-spline patch");
-      splines.control_points          = {4, 4};
-      splines.degree                  = 3;
-      auto bezier                     = splines;
-      bezier.basis                    = "Bezier patch";
-      const auto alpha                = random_numbers(16, 5);
-      const auto a =
-        shape::Shapes<3>(mesh, body_names(), {splines}).apply(alpha);
-      const auto b =
-        shape::Shapes<3>(mesh, body_names(), {bezier}).apply(alpha);
-      for (unsigned int node = 0; node < a.size(); ++node)
-        EXPECT_NEAR((a[node] - b[node]).norm(), 0., 1e-15);
-    }
-
-    /// A cylinder's side: its nodes move along the radius.
-    TEST(Patch, FollowsTheNormalsOfACurvedFace)
-    {
-      auto bodies            = plain_cube<3>(8);
-      bodies[0].size         = {2., 1., 1.};
-      bodies[0].curved_faces = {{"top", "cylinder y 2"}};
-      const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, bodies, 2);
-      auto                    parameters = on_top<3>("Bezier patch", "cube");
-      const shape::Shapes<3>  shapes(mesh, {{"cube"}}, {parameters});
-      const auto              moved =
-        shapes.apply(std::vector<double>(shapes.n_variables(), 0.1));
-      unsigned int n_checked = 0;
-      for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-        if (mesh.logical_positions()[node][2] == 1.)
+        if (is_free_node_of_foundation(mesh, node))
           {
-            // the axis is at x = 1, z = 1 - 2
-            auto radius = mesh.reference_positions()[node];
-            radius[0] -= 1.;
-            radius[1] = 0.;
-            radius[2] += 1.;
-            EXPECT_NEAR(moved[node].norm(), 0.1, 1e-14);
-            // normals at the ends of parabolas: second order in h/R = 1/8
-            EXPECT_NEAR((moved[node] - 0.1 * radius / radius.norm()).norm(),
-                        0.,
-                        4e-3 * 0.1);
-            ++n_checked;
+            const auto at = fraction_of(mesh, node);
+            EXPECT_NEAR(column[node][2],
+                        at[2] * bernstein_value(4, i % 4, at[0]) * bernstein_value(5, i / 4, at[1]),
+                        1e-14);
           }
-      EXPECT_GT(dealii::Utilities::MPI::sum(n_checked, MPI_COMM_WORLD), 288u);
     }
+}
 
-    TEST(Patch, ControlPointsStandAtGrevilleAbscissae)
-    {
-      const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 1);
-      const shape::Shapes<3>  shapes(mesh,
-                                    body_names(),
-                                    {on_top<3>("Bezier patch")});
-      std::vector<double>     alpha(20, 0.);
-      alpha[9]          = 0.25;
-      const auto points = shapes.control_points(alpha);
-      ASSERT_EQ(points.size(), 20u);
-      const auto expect_at = [&](unsigned int i, const dealii::Point<3> &at) {
-        EXPECT_EQ(points[i].index, i);
-        EXPECT_NEAR(points[i].position.distance(at), 0., 1e-14);
-      };
-      expect_at(0, {-1., -1., 1.});
-      expect_at(3, {1., -1., 1.});
-      // 9 = 1 + 4 * 2: s = 1/3, t = 1/2
-      expect_at(9, {-1. / 3, 0., 1.25});
-      expect_at(19, {1., 1., 1.});
-      EXPECT_NEAR(points[9].move[2], 0.25, 1e-14);
-      EXPECT_EQ(points[6].move.norm(), 0.);
-    }
+TEST(Patch, BSplineOfOneSpanEqualsBezier)
+{
+  const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 1);
+  auto                    splines = on_top<3>("B-spline patch");
+  splines.control_points          = {4, 4};
+  splines.degree                  = 3;
+  auto bezier                     = splines;
+  bezier.basis                    = "Bezier patch";
+  const auto alpha                = random_numbers(16, 5);
+  const auto a                    = shape::Shapes<3>(mesh, body_names(), {splines}).apply(alpha);
+  const auto b                    = shape::Shapes<3>(mesh, body_names(), {bezier}).apply(alpha);
+  for (unsigned int node = 0; node < a.size(); ++node)
+    EXPECT_NEAR((a[node] - b[node]).norm(), 0., 1e-15);
+}
 
-    TEST(Patch, RejectsBadEntriesByName)
-    {
-      auto good = on_top<3>("B-spline patch");
-      EXPECT_EQ(complaint<3>(good), "");
-      const auto expect = [&](const std::string &entry,
-                              const std::string &says,
-                              void (*spoil)(shape::ShapeParameters &)) {
-        auto bad = good;
-        spoil(bad);
-        expect_complaint<3>(bad, entry, says);
-      };
-      using P = shape::ShapeParameters;
-      expect("Face", "punch, foundation", [](P &p) { p.face = "anvil.top"; });
-      expect("Face", "left, right", [](P &p) { p.face = "foundation.roof"; });
-      expect("Face", "body.face", [](P &p) { p.face = "foundation"; });
-      expect("Face", "body.face", [](P &p) { p.face = ""; });
-      expect("Control points", "2 numbers", [](P &p) {
-        p.control_points = {3};
-      });
-      expect("Control points", "at least one more than 'Degree'", [](P &p) {
-        p.control_points = {3, 2};
-      });
-      expect("Control points", "50", [](P &p) {
-        p.basis          = "Bezier patch";
-        p.control_points = {3, 51};
-      });
-      expect("Direction", "not all zero", [](P &p) {
-        p.direction = {0., 0., 0.};
-      });
-      expect("Direction", "3 numbers", [](P &p) { p.direction = {0., 1.}; });
-      expect("Direction", "numbers", [](P &p) { p.direction = {0., 1., NAN}; });
-    }
+/// A cylinder's side: its nodes move along the radius.
+TEST(Patch, FollowsTheNormalsOfACurvedFace)
+{
+  auto bodies            = plain_cube<3>(8);
+  bodies[0].size         = {2., 1., 1.};
+  bodies[0].curved_faces = {{"top", "cylinder y 2"}};
+  const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, bodies, 2);
+  auto                    parameters = on_top<3>("Bezier patch", "cube");
+  const shape::Shapes<3>  shapes(mesh, {{"cube"}}, {parameters});
+  const auto              moved     = shapes.apply(std::vector<double>(shapes.n_variables(), 0.1));
+  unsigned int            n_checked = 0;
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    if (mesh.logical_positions()[node][2] == 1.)
+      {
+        // the axis is at x = 1, z = 1 - 2
+        auto radius = mesh.reference_positions()[node];
+        radius[0] -= 1.;
+        radius[1] = 0.;
+        radius[2] += 1.;
+        EXPECT_NEAR(moved[node].norm(), 0.1, 1e-14);
+        // normals at the ends of parabolas: second order in h/R = 1/8
+        EXPECT_NEAR((moved[node] - 0.1 * radius / radius.norm()).norm(), 0., 4e-3 * 0.1);
+        ++n_checked;
+      }
+  EXPECT_GT(dealii::Utilities::MPI::sum(n_checked, MPI_COMM_WORLD), 288u);
+}
 
-    TEST(NoBasis, HasNoVariables)
-    {
-      const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, shape_bodies<2>(), 1);
-      const shape::Shapes<2>  none(mesh, body_names(), {{}});
-      EXPECT_EQ(none.n_variables(), 0u);
-      const auto moved = none.apply({});
-      EXPECT_EQ(moved.size(), mesh.n_local_nodes());
-      for (const auto &value : moved)
-        EXPECT_EQ(value.norm(), 0.);
-      EXPECT_TRUE(none.transpose(moved).empty());
-    }
-  } // namespace
+TEST(Patch, ControlPointsStandAtGrevilleAbscissae)
+{
+  const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 1);
+  const shape::Shapes<3>  shapes(mesh, body_names(), {on_top<3>("Bezier patch")});
+  std::vector<double>     alpha(20, 0.);
+  alpha[9]          = 0.25;
+  const auto points = shapes.control_points(alpha);
+  ASSERT_EQ(points.size(), 20u);
+  const auto expect_at = [&](unsigned int i, const dealii::Point<3> &at) {
+    EXPECT_EQ(points[i].index, i);
+    EXPECT_NEAR(points[i].position.distance(at), 0., 1e-14);
+  };
+  expect_at(0, {-1., -1., 1.});
+  expect_at(3, {1., -1., 1.});
+  // 9 = 1 + 4 * 2: s = 1/3, t = 1/2
+  expect_at(9, {-1. / 3, 0., 1.25});
+  expect_at(19, {1., 1., 1.});
+  EXPECT_NEAR(points[9].move[2], 0.25, 1e-14);
+  EXPECT_EQ(points[6].move.norm(), 0.);
+}
+
+TEST(Patch, RejectsBadEntriesByName)
+{
+  auto good = on_top<3>("B-spline patch");
+  EXPECT_EQ(complaint<3>(good), "");
+  const auto expect = [&](const std::string &entry, const std::string &says,
+                          void (*spoil)(shape::ShapeParameters &)) {
+    auto bad = good;
+    spoil(bad);
+    expect_complaint<3>(bad, entry, says);
+  };
+  using P = shape::ShapeParameters;
+  expect("Face", "punch, foundation", [](P &p) { p.face = "anvil.top"; });
+  expect("Face", "left, right", [](P &p) { p.face = "foundation.roof"; });
+  expect("Face", "body.face", [](P &p) { p.face = "foundation"; });
+  expect("Face", "body.face", [](P &p) { p.face = ""; });
+  expect("Control points", "2 numbers", [](P &p) { p.control_points = {3}; });
+  expect("Control points", "at least one more than 'Degree'", [](P &p) {
+    p.control_points = {3, 2};
+  });
+  expect("Control points", "50", [](P &p) {
+    p.basis          = "Bezier patch";
+    p.control_points = {3, 51};
+  });
+  expect("Direction", "not all zero", [](P &p) { p.direction = {0., 0., 0.}; });
+  expect("Direction", "3 numbers", [](P &p) { p.direction = {0., 1.}; });
+  expect("Direction", "numbers", [](P &p) { p.direction = {0., 1., NAN}; });
+}
+
+TEST(NoBasis, HasNoVariables)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, shape_bodies<2>(), 1);
+  const shape::Shapes<2>  none(mesh, body_names(), {{}});
+  EXPECT_EQ(none.n_variables(), 0u);
+  const auto moved = none.apply({});
+  EXPECT_EQ(moved.size(), mesh.n_local_nodes());
+  for (const auto &value : moved)
+    EXPECT_EQ(value.norm(), 0.);
+  EXPECT_TRUE(none.transpose(moved).empty());
+}
+} // namespace
 } // namespace snug
