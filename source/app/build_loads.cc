@@ -1,6 +1,6 @@
 #include <snug/app/build_loads.h>
 #include <snug/base/errors.h>
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 #include <snug/scene/values.h>
 
 namespace snug::app {
@@ -23,7 +23,7 @@ dealii::Tensor<1, dim> to_tensor(const std::vector<double> &values)
 template <int dim>
 ScalarFunction<dim> function_of(const std::string &entry, const std::string &text)
 {
-  const auto formula = std::make_shared<mesh::Formula<dim>>(entry, text);
+  const auto formula = std::make_shared<geometry::Formula<dim>>(entry, text);
   return [formula](const dealii::Point<dim> &x) { return formula->value(x); };
 }
 
@@ -150,7 +150,8 @@ state::LoadCase<dim> common_loads(const scene::Scene &scene, const mesh::BodyMes
 
 /// The index of a held component among @p supports, added if it is new.
 template <int dim>
-unsigned int index_of(const state::Support<dim> &wanted, std::vector<state::Support<dim>> &supports)
+unsigned int index_of(const supports::Support<dim>        &wanted,
+                      std::vector<supports::Support<dim>> &supports)
 {
   for (unsigned int i = 0; i < supports.size(); ++i)
     if (supports[i].body == wanted.body && supports[i].boundary == wanted.boundary &&
@@ -169,7 +170,7 @@ find_face(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std:
   const unsigned int body  = scene::body_index(scene, names.first);
   if (body == scene.bodies.size())
     throw InputError("there is no body '" + names.first + "'");
-  return {body, mesh::boundary_index(mesh.geometry(body), names.second)};
+  return {body, geometry::boundary_index(mesh.geometry(body), names.second)};
 }
 
 template <int dim>
@@ -192,17 +193,17 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
 }
 
 template <int dim>
-std::vector<state::Support<dim>> build_supports(const scene::Scene        &scene,
-                                                const mesh::BodyMesh<dim> &mesh)
+std::vector<supports::Support<dim>> build_supports(const scene::Scene        &scene,
+                                                   const mesh::BodyMesh<dim> &mesh)
 {
-  const unsigned int               n_cases = std::max<std::size_t>(1, scene.load_cases.size());
-  std::vector<state::Support<dim>> supports;
-  const auto                       support = [&](const std::string &entry, const std::string &face,
+  const unsigned int                  n_cases = std::max<std::size_t>(1, scene.load_cases.size());
+  std::vector<supports::Support<dim>> supports;
+  const auto support = [&](const std::string &entry, const std::string &face,
                            unsigned int component) {
     const auto where = find_face(scene, mesh, face);
-    return state::Support<dim>{where.first, where.second, component,
-                               std::vector<ScalarFunction<dim>>(n_cases),
-                               "'" + entry + "' of '" + face + "'"};
+    return supports::Support<dim>{where.first, where.second, component,
+                                  std::vector<ScalarFunction<dim>>(n_cases),
+                                  "'" + entry + "' of '" + face + "'"};
   };
   const auto prescribe = [&](const std::string &section, const std::string &prefix,
                              const scene::LoadParameters &loads, const auto &is_in_case) {
@@ -237,7 +238,7 @@ std::vector<state::Support<dim>> build_supports(const scene::Scene        &scene
                                                            const std::string &);                \
   template std::vector<state::LoadCase<dim>>     build_load_cases(const scene::Scene &,         \
                                                                   const mesh::BodyMesh<dim> &); \
-  template std::vector<state::Support<dim>>      build_supports(const scene::Scene &,           \
+  template std::vector<supports::Support<dim>>   build_supports(const scene::Scene &,           \
                                                                 const mesh::BodyMesh<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -21,9 +21,9 @@ contact::Pair find_pair(const scene::Scene                      &scene,
 }
 } // namespace
 
-std::vector<mesh::BodyMeshParameters> mesh_parameters(const scene::Scene &scene)
+std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene)
 {
-  std::vector<mesh::BodyMeshParameters> parameters;
+  std::vector<geometry::BodyMeshParameters> parameters;
   for (const auto &body : scene.bodies)
     parameters.push_back(body.mesh);
   return parameters;

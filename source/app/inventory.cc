@@ -1,8 +1,8 @@
 #include <snug/app/build_model.h>
 #include <snug/app/inventory.h>
-#include <snug/contact/tributary.h>
 #include <snug/elasticity/element.h>
-#include <snug/mesh/imported_mesh.h>
+#include <snug/faces/tributary.h>
+#include <snug/geometry/imported_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -66,10 +66,10 @@ double area_of(const mesh::BodyMesh<dim> &mesh, const mesh::Surface<dim> &surfac
   std::vector<unsigned int> faces;
   for (unsigned int f = 0; f < surface.faces().size(); ++f)
     faces.push_back(f);
-  const contact::FaceShape<dim> shape(mesh.degree());
-  const auto                    areas = contact::tributary_areas<dim>({surface, faces, shape},
-                                                   surface.gather(mesh.reference_positions()));
-  double                        sum   = 0.;
+  const faces::FaceShape<dim> shape(mesh.degree());
+  const auto                  areas = faces::tributary_areas<dim>({surface, faces, shape},
+                                                 surface.gather(mesh.reference_positions()));
+  double                      sum   = 0.;
   for (unsigned int node = 0; node < areas.size(); ++node)
     if (surface.masters(node).empty())
       sum += areas[node];

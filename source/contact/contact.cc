@@ -80,11 +80,11 @@ const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> &co
 }
 
 template <int dim>
-Contact<dim>::Contact(const mesh::Surface<dim>  &surface,
-                      const std::vector<Pair>   &pairs,
-                      unsigned int               degree,
-                      const Field               &positions,
-                      const HeldDirections<dim> &held)
+Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
+                      const std::vector<Pair>          &pairs,
+                      unsigned int                      degree,
+                      const Field                      &positions,
+                      const faces::HeldDirections<dim> &held)
   : surface(surface), shape(degree), chosen(pairs)
 {
   for (Pair &pair : chosen)
@@ -93,7 +93,7 @@ Contact<dim>::Contact(const mesh::Surface<dim>  &surface,
 }
 
 template <int dim>
-void Contact<dim>::pair(const Field &positions, const HeldDirections<dim> &held)
+void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim> &held)
 {
   AssertDimension(held.size(), surface.n_nodes());
   groups.clear();
@@ -165,7 +165,7 @@ typename Contact<dim>::Group Contact<dim>::make_group(const PairGeometry<dim> &g
                  : choose(contact_method_table<dim>(), parameters.method).make(geometry);
   group.step = gap_step * geometry.slave_size();
   if (parameters.gap != "0")
-    group.offset = std::make_unique<mesh::Formula<dim>>("Gap", parameters.gap);
+    group.offset = std::make_unique<geometry::Formula<dim>>("Gap", parameters.gap);
   return group;
 }
 

@@ -1,5 +1,5 @@
-#include <snug/contact/integral_gradient.h>
 #include <snug/contact/mortar_rows.h>
+#include <snug/mortar/integral_gradient.h>
 
 namespace snug::contact {
 /// x + u, hanging nodes displaced with their masters.
@@ -25,7 +25,7 @@ void MortarRows<dim>::add_energy_gradient(const Field               &positions,
                                           Field                     &gradient) const
 {
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
-  const auto                  sums = row_sums<double>(node_arrays<dim>(positions));
+  const auto                  sums = row_sums<double>(mortar::node_arrays<dim>(positions));
   Energy                      energy{positions, deformed(positions, displacement), {}, {}};
   Field                       normal_gradient(surface.n_nodes());
   for (unsigned int i = 0; i < sums.size(); ++i)
@@ -84,9 +84,9 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   // positions that stand in x + u, and the gradient of the integrals; as
   // the integrals of psi_j (1 - 1) vanish, from any origin
   const auto origin      = energy.deformed[nodes[0]];
-  const auto x           = node_arrays<dim>(energy.positions);
+  const auto x           = mortar::node_arrays<dim>(energy.positions);
   const auto of_shapes   = integrals(face, x);
-  const auto coupling    = couple(of_shapes, face.biorthogonal);
+  const auto coupling    = mortar::couple(of_shapes, face.biorthogonal);
   auto       to_coupling = coupling;
   to_coupling.multiplier = area_slope;
   const auto add         = [&](double sign, const dealii::Table<2, double> &integral,
@@ -99,17 +99,17 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
         }
   };
   add(1., coupling.multiplier_slave, nodes, to_coupling.multiplier_slave);
-  std::vector<FaceNodes<dim, double>> masters;
+  std::vector<mortar::FaceNodes<dim, double>> masters;
   for (unsigned int f = 0; f < face.masters.size(); ++f)
     {
       add(-1., coupling.multiplier_master[f], surface.faces()[face.masters[f]].nodes,
           to_coupling.multiplier_master[f]);
-      masters.push_back(face_nodes<dim>(surface, face.masters[f], x));
+      masters.push_back(mortar::face_nodes<dim>(surface, face.masters[f], x));
     }
-  const auto to_nodes =
-    integrate_transpose<dim>(quadrature, face_nodes<dim>(surface, face.face, x), masters,
-                             couple_transpose(of_shapes, face.biorthogonal, to_coupling));
-  const auto add_nodes = [&](unsigned int on, const FaceNodes<dim, double> &values) {
+  const auto to_nodes = mortar::integrate_transpose<dim>(
+    quadrature, mortar::face_nodes<dim>(surface, face.face, x), masters,
+    mortar::couple_transpose(of_shapes, face.biorthogonal, to_coupling));
+  const auto add_nodes = [&](unsigned int on, const mortar::FaceNodes<dim, double> &values) {
     for (unsigned int k = 0; k < n; ++k)
       for (int d = 0; d < dim; ++d)
         gradient[surface.faces()[on].nodes[k]][d] += values[k][d];

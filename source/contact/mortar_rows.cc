@@ -20,21 +20,22 @@ const double held_part = 0.1;
 template <int dim>
 std::vector<double> whole_integrals(const mesh::Surface<dim>                 &surface,
                                     unsigned int                              face,
-                                    const FaceShape<dim>                     &shape,
+                                    const faces::FaceShape<dim>              &shape,
                                     const typename mesh::Surface<dim>::Field &positions)
 {
-  const auto                     &nodes = surface.faces()[face].nodes;
-  const dealii::QGauss<dim - 1>   gauss(shape.degree() + 2);
-  typename FaceShape<dim>::Values values;
-  std::vector<double>             result(nodes.size(), 0.);
+  const auto                            &nodes = surface.faces()[face].nodes;
+  const dealii::QGauss<dim - 1>          gauss(shape.degree() + 2);
+  typename faces::FaceShape<dim>::Values values;
+  std::vector<double>                    result(nodes.size(), 0.);
   for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       shape.evaluate(gauss.point(q), values);
       dealii::Tensor<1, dim> x;
       for (unsigned int k = 0; k < nodes.size(); ++k)
         x += values.value[k] * positions[nodes[k]];
-      const double weight = gauss.weight(q) * surface.idealization().weight(x) *
-                            area_vector(tangents<dim>(values, nodes, positions)).norm();
+      const double weight =
+        gauss.weight(q) * surface.idealization().weight(x) *
+        faces::area_vector(faces::tangents<dim>(values, nodes, positions)).norm();
       for (unsigned int k = 0; k < nodes.size(); ++k)
         result[k] += weight * values.value[k];
     }
@@ -67,22 +68,22 @@ MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
 template <int dim>
 void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
 {
-  const NodalNormals<dim> normals(surface, sides.slave, shape, pair.positions);
-  std::vector<bool>       is_held(surface.n_nodes());
+  const faces::NodalNormals<dim> normals(surface, sides.slave, shape, pair.positions);
+  std::vector<bool>              is_held(surface.n_nodes());
   for (unsigned int node = 0; node < is_held.size(); ++node)
     is_held[node] =
-      pair.taken[node] || free_part(normals.normals()[node], held[node]).norm() < held_part;
-  const auto             x = node_arrays<dim>(pair.positions);
-  std::vector<FaceCover> covers;
+      pair.taken[node] || faces::free_part(normals.normals()[node], held[node]).norm() < held_part;
+  const auto                     x = mortar::node_arrays<dim>(pair.positions);
+  std::vector<mortar::FaceCover> covers;
   for (SlaveFace &face : faces)
     {
-      const FaceCover cover = {face.face, integrals(face, x).slave,
-                               whole_integrals(surface, face.face, shape, pair.positions)};
-      face.biorthogonal     = sum(cover.covered) >= least_biorthogonal_cover * sum(cover.whole);
+      const mortar::FaceCover cover = {face.face, integrals(face, x).slave,
+                                       whole_integrals(surface, face.face, shape, pair.positions)};
+      face.biorthogonal = sum(cover.covered) >= least_biorthogonal_cover * sum(cover.whole);
       if (sum(cover.covered) > 0.)
         covers.push_back(cover);
     }
-  multipliers = choose_multiplier_nodes(surface, covers, is_held, pair.positions);
+  multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, pair.positions);
 }
 
 template <int dim>
@@ -126,11 +127,11 @@ void MortarRows<dim>::collect_row_nodes()
 template <int dim>
 void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
 {
-  const Opposition<dim>     opposition(pair);
-  const auto                all           = rows(pair.positions);
-  const MultiplierNodes     old           = multipliers;
-  const auto                old_row_nodes = row_nodes;
-  std::vector<unsigned int> index(all.size(), all.size());
+  const Opposition<dim>         opposition(pair);
+  const auto                    all           = rows(pair.positions);
+  const mortar::MultiplierNodes old           = multipliers;
+  const auto                    old_row_nodes = row_nodes;
+  std::vector<unsigned int>     index(all.size(), all.size());
   multipliers.nodes.clear();
   row_nodes.clear();
   for (unsigned int i = 0; i < all.size(); ++i)
@@ -142,7 +143,7 @@ void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
       }
   for (auto &shares : multipliers.shares)
     {
-      MultiplierNodes::Shares kept;
+      mortar::MultiplierNodes::Shares kept;
       for (const auto &share : shares)
         if (index[share.first] < all.size())
           kept.emplace_back(index[share.first], share.second);
@@ -152,13 +153,14 @@ void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
 
 template <int dim>
 template <typename Number>
-FaceIntegrals<Number> MortarRows<dim>::integrals(const SlaveFace              &face,
-                                                 const FaceNodes<dim, Number> &x) const
+mortar::FaceIntegrals<Number>
+MortarRows<dim>::integrals(const SlaveFace &face, const mortar::FaceNodes<dim, Number> &x) const
 {
-  std::vector<FaceNodes<dim, Number>> masters;
+  std::vector<mortar::FaceNodes<dim, Number>> masters;
   for (const unsigned int master : face.masters)
-    masters.push_back(face_nodes<dim>(surface, master, x));
-  return integrate<dim>(quadrature, face_nodes<dim>(surface, face.face, x), masters);
+    masters.push_back(mortar::face_nodes<dim>(surface, master, x));
+  return mortar::integrate<dim>(quadrature, mortar::face_nodes<dim>(surface, face.face, x),
+                                masters);
 }
 
 /// Add @p coefficient at @p node, or at its masters if it hangs.
@@ -183,14 +185,14 @@ void MortarRows<dim>::add_to_row(RowSum<Number> &sum,
 template <int dim>
 template <typename Number>
 std::vector<typename MortarRows<dim>::template RowSum<Number>>
-MortarRows<dim>::row_sums(const FaceNodes<dim, Number> &x) const
+MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
 {
   std::vector<RowSum<Number>> sums(row_nodes.size());
   for (unsigned int i = 0; i < sums.size(); ++i)
     sums[i].coefficients.resize(row_nodes[i].size());
   for (const SlaveFace &face : faces)
     {
-      const auto  coupling = couple(integrals(face, x), face.biorthogonal);
+      const auto  coupling = mortar::couple(integrals(face, x), face.biorthogonal);
       const auto &nodes    = surface.faces()[face.face].nodes;
       // int psi_j N at one node of a face: coefficient and part of the gap
       const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
@@ -219,7 +221,7 @@ MortarRows<dim>::row_sums(const FaceNodes<dim, Number> &x) const
         }
     }
   for (unsigned int i = 0; i < sums.size(); ++i)
-    if (!(value_of(sums[i].area) > 0.))
+    if (!(faces::value_of(sums[i].area) > 0.))
       throw TangledMesh("the master side has moved away from contact "
                         "nodes that it was opposite to");
   return sums;
@@ -248,7 +250,7 @@ template <int dim>
 std::vector<Row<dim>> MortarRows<dim>::rows(const Field &positions) const
 {
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
-  const auto                  sums = row_sums<double>(node_arrays<dim>(positions));
+  const auto                  sums = row_sums<double>(mortar::node_arrays<dim>(positions));
   std::vector<Row<dim>>       result(sums.size());
   for (unsigned int i = 0; i < sums.size(); ++i)
     {
@@ -269,7 +271,7 @@ std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
 {
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
   const Field                 normal_slopes = normals.derivative(velocity);
-  const auto            sums = row_sums<Differential<1>>(node_arrays<dim>(positions, velocity));
+  const auto sums = row_sums<faces::Differential<1>>(mortar::node_arrays<dim>(positions, velocity));
   std::vector<Row<dim>> result(sums.size());
   for (unsigned int i = 0; i < sums.size(); ++i)
     {
@@ -294,18 +296,18 @@ template <int dim>
 std::vector<double> MortarRows<dim>::areas(const Field &positions) const
 {
   std::vector<double> result;
-  for (const auto &sum : row_sums<double>(node_arrays<dim>(positions)))
+  for (const auto &sum : row_sums<double>(mortar::node_arrays<dim>(positions)))
     result.push_back(sum.area);
   return result;
 }
 
 template class MortarRows<2>;
 template class MortarRows<3>;
-#define SNUG_INSTANTIATE(dim)                                                                      \
-  template FaceIntegrals<double> MortarRows<dim>::integrals(const SlaveFace &,                     \
-                                                            const FaceNodes<dim, double> &) const; \
-  template std::vector<MortarRows<dim>::RowSum<double>> MortarRows<dim>::row_sums(                 \
-    const FaceNodes<dim, double> &) const;
+#define SNUG_INSTANTIATE(dim)                                                      \
+  template mortar::FaceIntegrals<double> MortarRows<dim>::integrals(               \
+    const SlaveFace &, const mortar::FaceNodes<dim, double> &) const;              \
+  template std::vector<MortarRows<dim>::RowSum<double>> MortarRows<dim>::row_sums( \
+    const mortar::FaceNodes<dim, double> &) const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

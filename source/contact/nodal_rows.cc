@@ -1,6 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/contact/nodal_rows.h>
-#include <snug/contact/tributary.h>
+#include <snug/faces/tributary.h>
 
 #include <map>
 
@@ -129,7 +129,7 @@ std::vector<Row<dim>> NodalRows<dim>::row_derivatives(const Field &positions,
       const auto                  &projection = found[i];
       const auto                   normal     = row_normal<dim>(projection, normals.normals());
       const dealii::Tensor<1, dim> dv         = -1. * at_master<dim>(projection, derivatives);
-      const auto                   dn         = unit_vector_derivative(normal.n, normal.length, dv);
+      const auto                   dn = faces::unit_vector_derivative(normal.n, normal.length, dv);
       const double                 dgap =
         dn * (at_master<dim>(projection, positions) - positions[projection.slave]) +
         normal.n * (at_master<dim>(projection, velocity) - velocity[projection.slave]);
@@ -157,7 +157,7 @@ void NodalRows<dim>::add_energy_gradient(const Field               &positions,
       for (const auto &factor : factors[i])
         n_gradient += factor.second * displacement[factor.first];
       const auto v_gradient =
-        forces[i] * unit_vector_derivative(normal.n, normal.length, n_gradient);
+        forces[i] * faces::unit_vector_derivative(normal.n, normal.length, n_gradient);
       gradient[projection.slave] += forces[i] * normal.n;
       for (const auto &master : projection.masters)
         {
@@ -171,7 +171,7 @@ void NodalRows<dim>::add_energy_gradient(const Field               &positions,
 template <int dim>
 std::vector<double> NodalRows<dim>::areas(const Field &positions) const
 {
-  return tributary_areas<dim>({surface, sides.slave, shape}, slave_nodes, positions);
+  return faces::tributary_areas<dim>({surface, sides.slave, shape}, slave_nodes, positions);
 }
 
 template <int dim>
@@ -179,8 +179,8 @@ void NodalRows<dim>::add_area_gradient(const Field               &positions,
                                        const std::vector<double> &factors,
                                        Field                     &gradient) const
 {
-  add_tributary_gradient<dim>({surface, sides.slave, shape}, slave_nodes, positions, factors,
-                              gradient);
+  faces::add_tributary_gradient<dim>({surface, sides.slave, shape}, slave_nodes, positions, factors,
+                                     gradient);
 }
 
 template class NodalRows<2>;

@@ -1,6 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/contact/obstacle_rows.h>
-#include <snug/contact/tributary.h>
+#include <snug/faces/tributary.h>
 
 #include <sstream>
 
@@ -92,7 +92,7 @@ void ObstacleRows<dim>::add_energy_gradient(const Field               &positions
 template <int dim>
 std::vector<double> ObstacleRows<dim>::areas(const Field &positions) const
 {
-  return tributary_areas<dim>({surface, slave_faces, shape}, slave_nodes, positions);
+  return faces::tributary_areas<dim>({surface, slave_faces, shape}, slave_nodes, positions);
 }
 
 template <int dim>
@@ -100,8 +100,8 @@ void ObstacleRows<dim>::add_area_gradient(const Field               &positions,
                                           const std::vector<double> &factors,
                                           Field                     &gradient) const
 {
-  add_tributary_gradient<dim>({surface, slave_faces, shape}, slave_nodes, positions, factors,
-                              gradient);
+  faces::add_tributary_gradient<dim>({surface, slave_faces, shape}, slave_nodes, positions, factors,
+                                     gradient);
 }
 
 template class ObstacleRows<2>;

@@ -1,5 +1,5 @@
-#include <snug/contact/closest_point.h>
 #include <snug/contact/opposite_faces.h>
+#include <snug/faces/closest_point.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/numbers.h>
@@ -52,24 +52,25 @@ struct SearchFace
 
   SearchFace(const mesh::Surface<dim>                 &surface,
              unsigned int                              face,
-             const FaceShape<dim>                     &shape,
+             const faces::FaceShape<dim>              &shape,
              const typename mesh::Surface<dim>::Field &positions)
     : nodes(face_field<dim>(surface, face, positions)), box(bounding_box<dim>(nodes))
   {
-    typename FaceShape<dim>::Coordinates middle;
+    typename faces::FaceShape<dim>::Coordinates middle;
     for (int a = 0; a < dim - 1; ++a)
       middle[a] = 0.5;
-    typename FaceShape<dim>::Values values;
+    typename faces::FaceShape<dim>::Values values;
     shape.evaluate(middle, values);
     for (unsigned int k = 0; k < nodes.size(); ++k)
       centre += values.value[k] * nodes[k];
-    normal = area_vector(tangents<dim>(values, surface.faces()[face].nodes, positions));
+    normal =
+      faces::area_vector(faces::tangents<dim>(values, surface.faces()[face].nodes, positions));
     normal /= normal.norm();
   }
 
-  FaceNodes<dim, double> arrays() const
+  mortar::FaceNodes<dim, double> arrays() const
   {
-    FaceNodes<dim, double> result(nodes.size());
+    mortar::FaceNodes<dim, double> result(nodes.size());
     for (unsigned int k = 0; k < nodes.size(); ++k)
       for (int i = 0; i < dim; ++i)
         result[k][i] = nodes[k][i];
@@ -82,7 +83,7 @@ template <int dim>
 class MasterTree
 {
 public:
-  MasterTree(const std::vector<SearchFace<dim>> &faces, const FaceShape<dim> &shape)
+  MasterTree(const std::vector<SearchFace<dim>> &faces, const faces::FaceShape<dim> &shape)
     : faces(faces), shape(shape), boxes(boxes_of(faces)), tree(dealii::pack_rtree_of_indices(boxes))
   {}
 
@@ -94,7 +95,8 @@ public:
     for (const auto i :
          tree | bgi::adaptors::queried(bgi::nearest(dealii::Point<dim>(slave.centre), 4)))
       closest =
-        std::min(closest, closest_point(shape, faces[i].nodes, slave.centre).squared_distance);
+        std::min(closest,
+                 faces::closest_point(shape, faces[i].nodes, slave.centre).squared_distance);
     dealii::BoundingBox<dim> around = slave.box;
     around.extend(1.5 * std::sqrt(closest) + diameter(slave.box));
     std::vector<std::size_t> result;
@@ -116,7 +118,7 @@ private:
   }
 
   const std::vector<SearchFace<dim>>                                          &faces;
-  const FaceShape<dim>                                                        &shape;
+  const faces::FaceShape<dim>                                                 &shape;
   const Boxes                                                                  boxes;
   const decltype(dealii::pack_rtree_of_indices(std::declval<const Boxes &>())) tree;
 };
@@ -137,8 +139,8 @@ std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &p
     masters.push_back(search_face(face));
   if (masters.empty())
     return result;
-  const MasterTree<dim>        tree(masters, pair.shape);
-  const SegmentQuadrature<dim> quadrature(pair.shape.degree(), pair.surface.idealization());
+  const MasterTree<dim>                tree(masters, pair.shape);
+  const mortar::SegmentQuadrature<dim> quadrature(pair.shape.degree(), pair.surface.idealization());
   for (unsigned int i = 0; i < slaves.size(); ++i)
     {
       const SearchFace<dim> slave = search_face(slaves[i]);

@@ -1,5 +1,5 @@
-#include <snug/contact/nodal_normals.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/faces/nodal_normals.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -50,7 +50,8 @@ double PairGeometry<dim>::slave_size() const
 
 template <int dim>
 Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
-  : normals(NodalNormals<dim>(pair.surface, pair.sides.slave, pair.shape, pair.positions).normals())
+  : normals(faces::NodalNormals<dim>(pair.surface, pair.sides.slave, pair.shape, pair.positions)
+              .normals())
 {
   const PairParameters &parameters = pair.pair.parameters;
   largest_distance                 = parameters.search_distance == 0.

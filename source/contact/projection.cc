@@ -1,6 +1,6 @@
-#include <snug/contact/closest_point.h>
-#include <snug/contact/outer_edges.h>
 #include <snug/contact/projection.h>
+#include <snug/faces/closest_point.h>
+#include <snug/faces/outer_edges.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -19,7 +19,7 @@ const double least_weight = 1e-12;
  * contains the face, also a quadratic one that bulges beyond its nodes.
  */
 template <int dim>
-std::vector<dealii::Tensor<1, dim>> hull_points(const FaceShape<dim>               &shape,
+std::vector<dealii::Tensor<1, dim>> hull_points(const faces::FaceShape<dim>        &shape,
                                                 std::vector<dealii::Tensor<1, dim>> nodes)
 {
   if (shape.degree() == 1)
@@ -46,13 +46,13 @@ public:
 
   struct Found
   {
-    unsigned int      face; ///< surface index
-    ClosestPoint<dim> point;
+    unsigned int             face; ///< surface index
+    faces::ClosestPoint<dim> point;
   };
 
   MasterSide(const mesh::Surface<dim>        &surface,
              const std::vector<unsigned int> &faces,
-             const FaceShape<dim>            &shape,
+             const faces::FaceShape<dim>     &shape,
              const Field                     &positions)
     : shape(shape)
     , faces(faces)
@@ -67,7 +67,7 @@ private:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
   using Boxes = std::vector<dealii::BoundingBox<dim>>;
 
-  const FaceShape<dim>                                                        &shape;
+  const faces::FaceShape<dim>                                                 &shape;
   const std::vector<unsigned int>                                             &faces;
   const std::vector<Nodes>                                                     nodes;
   const Boxes                                                                  boxes;
@@ -76,9 +76,11 @@ private:
   static std::vector<Nodes> node_positions(const mesh::Surface<dim>        &surface,
                                            const std::vector<unsigned int> &faces,
                                            const Field                     &positions);
-  static Boxes face_boxes(const FaceShape<dim> &shape, const std::vector<Nodes> &nodes);
+  static Boxes face_boxes(const faces::FaceShape<dim> &shape, const std::vector<Nodes> &nodes);
   double       extent(std::size_t i) const;
-  bool         ties(const ClosestPoint<dim> &a, const ClosestPoint<dim> &best, double extent) const;
+  bool         ties(const faces::ClosestPoint<dim> &a,
+                    const faces::ClosestPoint<dim> &best,
+                    double                          extent) const;
 };
 
 template <int dim>
@@ -95,8 +97,8 @@ MasterSide<dim>::node_positions(const mesh::Surface<dim>        &surface,
 }
 
 template <int dim>
-typename MasterSide<dim>::Boxes MasterSide<dim>::face_boxes(const FaceShape<dim>     &shape,
-                                                            const std::vector<Nodes> &nodes)
+typename MasterSide<dim>::Boxes MasterSide<dim>::face_boxes(const faces::FaceShape<dim> &shape,
+                                                            const std::vector<Nodes>    &nodes)
 {
   Boxes result;
   for (const Nodes &face : nodes)
@@ -120,9 +122,9 @@ double MasterSide<dim>::extent(std::size_t i) const
 /// the same distance but for round-off. Points in between are different
 /// answers, of which the closer is right.
 template <int dim>
-bool MasterSide<dim>::ties(const ClosestPoint<dim> &a,
-                           const ClosestPoint<dim> &best,
-                           double                   extent) const
+bool MasterSide<dim>::ties(const faces::ClosestPoint<dim> &a,
+                           const faces::ClosestPoint<dim> &best,
+                           double                          extent) const
 {
   const double apart = (a.position - best.position).norm();
   return apart <= 1e-11 * extent ||
@@ -138,7 +140,7 @@ typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1,
   // then all faces whose boxes meet the cube of that size around p.
   double bound = std::numeric_limits<double>::infinity();
   for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 4)))
-    bound = std::min(bound, closest_point(shape, nodes[i], p).squared_distance);
+    bound = std::min(bound, faces::closest_point(shape, nodes[i], p).squared_distance);
   double reach = 0.;
   for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 1)))
     reach = extent(i);
@@ -155,11 +157,11 @@ typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1,
   for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(cube)))
     candidates.push_back(i);
   std::sort(candidates.begin(), candidates.end());
-  std::vector<ClosestPoint<dim>> points;
-  std::size_t                    best = 0;
+  std::vector<faces::ClosestPoint<dim>> points;
+  std::size_t                           best = 0;
   for (const std::size_t i : candidates)
     {
-      points.push_back(closest_point(shape, nodes[i], p));
+      points.push_back(faces::closest_point(shape, nodes[i], p));
       if (points.back().squared_distance < points[best].squared_distance)
         best = points.size() - 1;
     }
@@ -170,11 +172,11 @@ typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1,
 }
 
 template <int dim>
-std::vector<std::pair<unsigned int, double>> weights(const FaceShape<dim>            &shape,
+std::vector<std::pair<unsigned int, double>> weights(const faces::FaceShape<dim>     &shape,
                                                      const dealii::Point<dim - 1>    &xi,
                                                      const std::vector<unsigned int> &nodes)
 {
-  typename FaceShape<dim>::Values values;
+  typename faces::FaceShape<dim>::Values values;
   shape.evaluate(xi, values);
   std::vector<std::pair<unsigned int, double>> result;
   double                                       sum = 0.;
@@ -194,15 +196,15 @@ std::vector<std::pair<unsigned int, double>> weights(const FaceShape<dim>       
 template <int dim>
 std::vector<Projection> project(const mesh::Surface<dim>                 &surface,
                                 const PairFaces                          &sides,
-                                const FaceShape<dim>                     &shape,
+                                const faces::FaceShape<dim>              &shape,
                                 const typename mesh::Surface<dim>::Field &positions)
 {
   std::vector<Projection> result;
   if (sides.master.empty())
     return result;
-  const MasterSide<dim> master(surface, sides.master, shape, positions);
-  const OuterEdges<dim> edges(surface, sides.master, shape);
-  std::vector<bool>     visited(surface.n_nodes(), false);
+  const MasterSide<dim>        master(surface, sides.master, shape, positions);
+  const faces::OuterEdges<dim> edges(surface, sides.master, shape);
+  std::vector<bool>            visited(surface.n_nodes(), false);
   for (const unsigned int slave_face : sides.slave)
     for (const unsigned int slave : surface.faces()[slave_face].nodes)
       {
@@ -221,10 +223,10 @@ std::vector<Projection> project(const mesh::Surface<dim>                 &surfac
 
 template std::vector<Projection> project(const mesh::Surface<2> &,
                                          const PairFaces &,
-                                         const FaceShape<2> &,
+                                         const faces::FaceShape<2> &,
                                          const mesh::Surface<2>::Field &);
 template std::vector<Projection> project(const mesh::Surface<3> &,
                                          const PairFaces &,
-                                         const FaceShape<3> &,
+                                         const faces::FaceShape<3> &,
                                          const mesh::Surface<3>::Field &);
 } // namespace snug::contact

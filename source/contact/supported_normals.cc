@@ -7,11 +7,11 @@ const double least_free_part = 0.9;
 } // namespace
 
 template <int dim>
-SupportedNormals<dim>::SupportedNormals(const mesh::Surface<dim>        &surface,
-                                        const std::vector<unsigned int> &faces,
-                                        const FaceShape<dim>            &shape,
-                                        const Field                     &positions,
-                                        const HeldDirections<dim>       &held)
+SupportedNormals<dim>::SupportedNormals(const mesh::Surface<dim>         &surface,
+                                        const std::vector<unsigned int>  &faces,
+                                        const faces::FaceShape<dim>      &shape,
+                                        const Field                      &positions,
+                                        const faces::HeldDirections<dim> &held)
   : nodal(surface, faces, shape, positions)
   , held(held)
   , unit(nodal.normals())
@@ -19,7 +19,7 @@ SupportedNormals<dim>::SupportedNormals(const mesh::Surface<dim>        &surface
 {
   for (unsigned int node = 0; node < unit.size(); ++node)
     {
-      const auto   v    = free_part(unit[node], held[node]);
+      const auto   v    = faces::free_part(unit[node], held[node]);
       const double size = v.norm();
       if (!held[node].empty() && size > least_free_part)
         {
@@ -41,8 +41,8 @@ typename SupportedNormals<dim>::Field SupportedNormals<dim>::derivative(const Fi
   Field result = nodal.derivative(velocity);
   for (unsigned int node = 0; node < result.size(); ++node)
     if (length[node] > 0.)
-      result[node] =
-        unit_vector_derivative(unit[node], length[node], free_part(result[node], held[node]));
+      result[node] = faces::unit_vector_derivative(unit[node], length[node],
+                                                   faces::free_part(result[node], held[node]));
   return result;
 }
 
@@ -52,9 +52,9 @@ void SupportedNormals<dim>::add_transpose(const Field &normal_gradient, Field &g
   Field to_nodal = normal_gradient;
   for (unsigned int node = 0; node < to_nodal.size(); ++node)
     if (length[node] > 0.)
-      to_nodal[node] =
-        free_part(unit_vector_derivative(unit[node], length[node], normal_gradient[node]),
-                  held[node]);
+      to_nodal[node] = faces::free_part(faces::unit_vector_derivative(unit[node], length[node],
+                                                                      normal_gradient[node]),
+                                        held[node]);
   nodal.add_transpose(to_nodal, gradient);
 }
 

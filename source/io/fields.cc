@@ -3,8 +3,8 @@
 #include <snug/io/fields.h>
 #include <snug/io/nodal_stress.h>
 #include <snug/io/patch_list.h>
-#include <snug/io/shared_nodes.h>
 #include <snug/io/text_file.h>
+#include <snug/mesh/shared_nodes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,7 +24,7 @@ std::vector<double> summed(const mesh::BodyMesh<dim>                 &mesh,
   for (unsigned int node = 0; node < field.size(); ++node)
     for (unsigned int c = 0; c < dim; ++c)
       values[dim * node + c] = field[node][c];
-  sum_at_shared_nodes(mesh, dim, values);
+  mesh::sum_at_shared_nodes(mesh, dim, values);
   return values;
 }
 

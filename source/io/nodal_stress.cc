@@ -1,6 +1,6 @@
 #include <snug/elasticity/element.h>
 #include <snug/io/nodal_stress.h>
-#include <snug/io/shared_nodes.h>
+#include <snug/mesh/shared_nodes.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -124,7 +124,7 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
   AssertDimension(bodies.size(), mesh.n_bodies());
   auto               sums      = stress_sums(mesh, bodies, positions, displacement);
   const unsigned int n_regions = n_stress_regions(mesh);
-  sum_at_shared_nodes(mesh, (n_stress + 1) * n_regions, sums);
+  mesh::sum_at_shared_nodes(mesh, (n_stress + 1) * n_regions, sums);
 
   std::vector<dealii::SymmetricTensor<2, 3>> stress(n_regions * mesh.n_local_nodes());
   const auto                                 weight = [&](unsigned int i) {

@@ -30,20 +30,20 @@ struct BodyMesh<dim>::Data
     , nodes(triangulation)
   {}
 
-  MPI_Comm                                               comm;
-  unsigned int                                           degree;
-  Idealization                                           idealization;
-  dealii::FE_Q<dim>                                      fe;
-  std::vector<std::unique_ptr<BodyGeometry<dim>>>        geometries;
-  dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
-  dealii::DoFHandler<dim>                                nodes;
+  MPI_Comm                                                  comm;
+  unsigned int                                              degree;
+  Idealization                                              idealization;
+  dealii::FE_Q<dim>                                         fe;
+  std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>> geometries;
+  dealii::parallel::fullydistributed::Triangulation<dim>    triangulation;
+  dealii::DoFHandler<dim>                                   nodes;
 
   dealii::IndexSet                                   relevant;
   std::vector<unsigned int>                          first_node_of_rank; ///< n_ranks + 1
   std::vector<unsigned int>                          node_body;
   std::vector<dealii::Point<dim>>                    logical;
   Field                                              reference;
-  CoarseCells<dim>                                   coarse;
+  geometry::CoarseCells<dim>                         coarse;
   std::vector<unsigned int>                          parts; ///< of cells
   std::vector<Cell>                                  cells;
   std::vector<Face>                                  faces;
@@ -54,7 +54,8 @@ struct BodyMesh<dim>::Data
 
   unsigned int local(unsigned int global) const { return relevant.index_within_set(global); }
 
-  void triangulate(const std::vector<BodyMeshParameters> &bodies, const TearingParameters &tearing);
+  void triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
+                   const TearingParameters                         &tearing);
   void number_nodes();
   void collect_nodes();
   void collect_hanging();
@@ -63,14 +64,14 @@ struct BodyMesh<dim>::Data
 };
 
 template <int dim>
-void BodyMesh<dim>::Data::triangulate(const std::vector<BodyMeshParameters> &bodies,
-                                      const TearingParameters               &tearing)
+void BodyMesh<dim>::Data::triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
+                                      const TearingParameters                         &tearing)
 {
   for (const auto &body : bodies)
-    geometries.push_back(make_geometry<dim>(body));
+    geometries.push_back(geometry::make_geometry<dim>(body));
   dealii::parallel::distributed::Triangulation<dim> refined(comm);
   create_coarse_mesh(geometries, refined);
-  coarse = CoarseCells<dim>(refined);
+  coarse = geometry::CoarseCells<dim>(refined);
   refine(bodies, geometries, coarse, refined);
   parts = distribute(geometries, tearing, cells_per_subdomain(dim, degree, idealization), refined,
                      triangulation);
@@ -189,11 +190,11 @@ void BodyMesh<dim>::Data::snap_to_axis()
 }
 
 template <int dim>
-BodyMesh<dim>::BodyMesh(MPI_Comm                               communicator,
-                        const std::vector<BodyMeshParameters> &bodies,
-                        unsigned int                           degree,
-                        const Idealization                    &idealization,
-                        const TearingParameters               &tearing)
+BodyMesh<dim>::BodyMesh(MPI_Comm                                         communicator,
+                        const std::vector<geometry::BodyMeshParameters> &bodies,
+                        unsigned int                                     degree,
+                        const Idealization                              &idealization,
+                        const TearingParameters                         &tearing)
   : data(std::make_unique<Data>(communicator, degree, idealization))
 {
   data->triangulate(bodies, tearing);
@@ -216,7 +217,7 @@ const Idealization &BodyMesh<dim>::idealization() const
 }
 
 template <int dim>
-const BodyGeometry<dim> &BodyMesh<dim>::geometry(unsigned int body) const
+const geometry::BodyGeometry<dim> &BodyMesh<dim>::geometry(unsigned int body) const
 {
   return *data->geometries[body];
 }

@@ -50,10 +50,10 @@ bool has_one_level(unsigned int body, const Refined<dim> &refined)
 }
 
 template <int dim>
-CellSet<dim> cell_set(const BodyGeometry<dim> &geometry,
-                      unsigned int             body,
-                      const CoarseCells<dim>  &coarse,
-                      const Refined<dim>      &refined)
+CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
+                      unsigned int                       body,
+                      const geometry::CoarseCells<dim>  &coarse,
+                      const Refined<dim>                &refined)
 {
   CellSet<dim> set;
   set.communicator = refined.get_communicator();
@@ -219,8 +219,8 @@ std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
                                      const Refined<dim>      &refined,
                                      dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
-  const CoarseCells<dim>    coarse(refined);
-  std::vector<CellSet<dim>> sets;
+  const geometry::CoarseCells<dim> coarse(refined);
+  std::vector<CellSet<dim>>        sets;
   for (unsigned int body = 0; body < geometries.size(); ++body)
     sets.push_back(cell_set(*geometries[body], body, coarse, refined));
   const Parts parts = decide_parts(sets, parameters, cells_by_size);

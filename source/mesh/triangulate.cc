@@ -1,5 +1,5 @@
 #include <snug/base/run_context.h>
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 #include <snug/mesh/triangulate.h>
 
 #include <deal.II/grid/tria_description.h>
@@ -66,21 +66,22 @@ void refine_step(
 } // namespace
 
 template <int dim>
-void refine(const std::vector<BodyMeshParameters>             &bodies,
+void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
             const Geometries<dim>                             &geometries,
-            const CoarseCells<dim>                            &coarse,
+            const geometry::CoarseCells<dim>                  &coarse,
             dealii::parallel::distributed::Triangulation<dim> &triangulation)
 {
-  unsigned int                               global_steps = 0, local_steps = 0;
-  std::vector<std::unique_ptr<Formula<dim>>> formulas;
+  unsigned int                                         global_steps = 0, local_steps = 0;
+  std::vector<std::unique_ptr<geometry::Formula<dim>>> formulas;
   for (const auto &body : bodies)
     {
       const bool local = !body.refine_where.empty();
       global_steps     = std::max(global_steps, body.refinements);
       if (local)
         local_steps = std::max(local_steps, body.local_refinements);
-      formulas.push_back(local ? std::make_unique<Formula<dim>>("Refine where", body.refine_where)
-                               : nullptr);
+      formulas.push_back(
+        local ? std::make_unique<geometry::Formula<dim>>("Refine where", body.refine_where)
+              : nullptr);
     }
   dealii::Point<dim> centre;
   for (unsigned int d = 0; d < dim; ++d)
@@ -100,14 +101,14 @@ void refine(const std::vector<BodyMeshParameters>             &bodies,
 
 template void create_coarse_mesh(const Geometries<2> &,
                                  dealii::parallel::distributed::Triangulation<2> &);
-template void refine(const std::vector<BodyMeshParameters> &,
+template void refine(const std::vector<geometry::BodyMeshParameters> &,
                      const Geometries<2> &,
-                     const CoarseCells<2> &,
+                     const geometry::CoarseCells<2> &,
                      dealii::parallel::distributed::Triangulation<2> &);
 template void create_coarse_mesh(const Geometries<3> &,
                                  dealii::parallel::distributed::Triangulation<3> &);
-template void refine(const std::vector<BodyMeshParameters> &,
+template void refine(const std::vector<geometry::BodyMeshParameters> &,
                      const Geometries<3> &,
-                     const CoarseCells<3> &,
+                     const geometry::CoarseCells<3> &,
                      dealii::parallel::distributed::Triangulation<3> &);
 } // namespace snug::mesh

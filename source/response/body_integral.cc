@@ -1,5 +1,5 @@
 #include <snug/response/body_integral.h>
-#include <snug/response/cell_gradients.h>
+#include <snug/state/cell_gradients.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -37,7 +37,7 @@ double BodyIntegral<dim>::value(const state::StateSolver<dim>  &solver,
     integral += weight_of(assembler.material(i)) *
                 assembler.element().volume(assembler.cell_field(i, state.positions));
   };
-  for_each_cell<dim>(solver, body, add);
+  state::for_each_cell<dim>(solver, body, add);
   return dealii::Utilities::MPI::sum(integral, solver.context().communicator());
 }
 
@@ -52,9 +52,9 @@ Partials<dim> BodyIntegral<dim>::partials(const state::StateSolver<dim>  &solver
     const auto                          X         = assembler.cell_field(i, state.positions);
     std::vector<dealii::Tensor<1, dim>> values(X.size());
     assembler.element().add_volume_gradient(X, weight_of(assembler.material(i)), values);
-    add_to_cell_nodes(solver, s, i, values, result.positions);
+    state::add_to_cell_nodes(solver, s, i, values, result.positions);
   };
-  for_each_cell<dim>(solver, body, add);
+  state::for_each_cell<dim>(solver, body, add);
   return result;
 }
 

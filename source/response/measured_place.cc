@@ -1,6 +1,6 @@
 #include <snug/elasticity/cell_point.h>
-#include <snug/response/cell_gradients.h>
 #include <snug/response/measured_place.h>
+#include <snug/state/cell_gradients.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -141,7 +141,7 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
     if (found.empty())
       found.push_back({s, i, *weights});
   };
-  for_each_cell<dim>(solver, parameters.body, look);
+  state::for_each_cell<dim>(solver, parameters.body, look);
   dealii::Utilities::MPI::max(holds, comm, holds);
   require_one_body(parameters, solver.model().body_names, holds);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);

@@ -1,5 +1,5 @@
-#include <snug/response/cell_gradients.h>
 #include <snug/response/von_mises_norm.h>
+#include <snug/state/cell_gradients.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,7 +28,7 @@ VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
   const MPI_Comm comm = solver.context().communicator();
   Integrals      result;
   const Power    stress(mesh.degree(), mesh.idealization(), p, 1.);
-  for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+  state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
     const auto  X         = assembler.cell_field(i, state.positions);
     result.volume += assembler.element().volume(X);
@@ -41,7 +41,7 @@ VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
   if (result.scale == 0.)
     return result;
   const Power power(mesh.degree(), mesh.idealization(), p, result.scale);
-  for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+  state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
     result.power += power.value(assembler.cell_field(i, state.positions), assembler.material(i),
                                 assembler.cell_values(i, state.u[s].column(0)));
@@ -73,7 +73,7 @@ Partials<dim> VonMisesNorm<dim>::partials(const state::StateSolver<dim>  &solver
   const double                         J = of.scale * std::pow(of.power / of.volume, 1. / p);
   const elasticity::VonMisesPower<dim> power(solver.mesh().degree(), solver.mesh().idealization(),
                                              p, of.scale);
-  for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+  state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
     const auto                         &assembler = *solver.assemblers()[s];
     const auto                          X         = assembler.cell_field(i, state.positions);
     std::vector<dealii::Tensor<1, dim>> by_u(X.size()), by_X(X.size());
@@ -81,7 +81,7 @@ Partials<dim> VonMisesNorm<dim>::partials(const state::StateSolver<dim>  &solver
                         J / (p * of.power), by_u, by_X);
     assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
     assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
-    add_to_cell_nodes(solver, s, i, by_X, result.positions);
+    state::add_to_cell_nodes(solver, s, i, by_X, result.positions);
   });
   return result;
 }

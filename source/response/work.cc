@@ -1,5 +1,5 @@
-#include <snug/response/cell_gradients.h>
 #include <snug/response/work.h>
+#include <snug/state/cell_gradients.h>
 
 namespace snug::response {
 template <int dim>
@@ -33,9 +33,9 @@ Partials<dim> Work<dim>::partials(const state::StateSolver<dim> &solver, const S
         solver.feti().subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
     }
   if (stiffness != 0.)
-    add_stiffness_gradient(solver, state, state.u, stiffness / 2., result.positions);
+    state::add_stiffness_gradient(solver, state, state.u, stiffness / 2., result.positions);
   if (load != 0.)
-    add_load_gradient(solver, state, state.u, load, result.positions);
+    state::add_load_gradient(solver, state, state.u, load, result.positions);
   return result;
 }
 

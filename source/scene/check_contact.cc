@@ -1,4 +1,4 @@
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 #include <snug/scene/check.h>
 #include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
@@ -39,9 +39,9 @@ public:
     try
       {
         if (scene.dimension == 2)
-          mesh::Formula<2>(entry, text);
+          geometry::Formula<2>(entry, text);
         else
-          mesh::Formula<3>(entry, text);
+          geometry::Formula<3>(entry, text);
       }
     catch (const InputError &error)
       {

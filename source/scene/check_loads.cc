@@ -1,4 +1,4 @@
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 #include <snug/scene/check.h>
 #include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
@@ -192,9 +192,9 @@ void require_formula(const unsigned int dimension,
   try
     {
       if (dimension == 2)
-        mesh::Formula<2>(path, formula);
+        geometry::Formula<2>(path, formula);
       else
-        mesh::Formula<3>(path, formula);
+        geometry::Formula<3>(path, formula);
     }
   catch (const InputError &error)
     {

@@ -1,4 +1,4 @@
-#include <snug/mesh/regions.h>
+#include <snug/geometry/regions.h>
 #include <snug/scene/check.h>
 #include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
@@ -41,9 +41,9 @@ struct Region
 template <int dim>
 std::vector<Region> regions_in(const Body &body)
 {
-  const auto          geometry = mesh::make_geometry<dim>(body.mesh);
+  const auto          geometry = geometry::make_geometry<dim>(body.mesh);
   const auto          names    = geometry->region_names();
-  const auto          n_cells  = mesh::cells_of_regions(*geometry);
+  const auto          n_cells  = geometry::cells_of_regions(*geometry);
   std::vector<Region> regions;
   for (unsigned int r = 0; r < names.size(); ++r)
     regions.push_back({names[r], n_cells[r]});

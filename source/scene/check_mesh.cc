@@ -1,4 +1,4 @@
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 #include <snug/scene/check.h>
 #include <snug/scene/section_check.h>
 #include <snug/scene/values.h>
@@ -63,8 +63,8 @@ private:
   {
     const auto geometry = made([&]() {
       if (!mesh.refine_where.empty())
-        mesh::Formula<dim>("Refine where", mesh.refine_where);
-      return mesh::make_geometry<dim>(mesh);
+        geometry::Formula<dim>("Refine where", mesh.refine_where);
+      return geometry::make_geometry<dim>(mesh);
     });
     made([&]() { evaluate_ends(*geometry); });
     check_size(geometry->n_coarse_cells());
@@ -106,7 +106,7 @@ private:
   /// Formulas of positions are finite at two vertices of each cell, which
   /// are most; they are evaluated at all nodes once there is a mesh.
   template <int dim>
-  void evaluate_ends(const mesh::BodyGeometry<dim> &geometry) const
+  void evaluate_ends(const geometry::BodyGeometry<dim> &geometry) const
   {
     if (mesh.warp.empty() && mesh.curved_faces.empty())
       return;
@@ -122,7 +122,7 @@ private:
   /// below. The nodes between them, of curved faces, are checked once
   /// there is a mesh.
   template <int dim>
-  static double least_radius(const mesh::BodyGeometry<dim> &geometry)
+  static double least_radius(const geometry::BodyGeometry<dim> &geometry)
   {
     double least = 0., largest = 0.;
     for (unsigned int cell = 0; cell < geometry.n_coarse_cells(); ++cell)
@@ -165,10 +165,10 @@ private:
             entry, to_text(values), "must be positive");
   }
 
-  unsigned int                    dimension;
-  const std::string              &model;
-  const Body                     &body;
-  const mesh::BodyMeshParameters &mesh;
+  unsigned int                        dimension;
+  const std::string                  &model;
+  const Body                         &body;
+  const geometry::BodyMeshParameters &mesh;
 };
 } // namespace
 

@@ -5,7 +5,7 @@
 
 namespace snug::scene {
 namespace {
-void declare_box(Entries &entries, mesh::BodyMeshParameters &mesh)
+void declare_box(Entries &entries, geometry::BodyMeshParameters &mesh)
 {
   entries.add("Box corner", mesh.corner,
               "Corner with the smallest coordinates [length]; empty: "
@@ -38,7 +38,7 @@ void declare_box(Entries &entries, mesh::BodyMeshParameters &mesh)
               "centre and radius are found.");
 }
 
-void declare_round(Entries &entries, mesh::BodyMeshParameters &mesh)
+void declare_round(Entries &entries, geometry::BodyMeshParameters &mesh)
 {
   entries.add("Radius", mesh.radius, "Outer radius of round bodies [length].");
   entries.add("Inner radius", mesh.inner_radius, "Inner radius of rings and shells [length].");
@@ -54,7 +54,7 @@ void declare_round(Entries &entries, mesh::BodyMeshParameters &mesh)
               "a shell around, across. Empty: 4 each.");
 }
 
-void declare_file(Entries &entries, mesh::BodyMeshParameters &mesh)
+void declare_file(Entries &entries, geometry::BodyMeshParameters &mesh)
 {
   entries.add("Mesh file", mesh.file, anything("the path of a file"),
               "Gmsh .msh 2 or 4.1, Abaqus .inp, VTK legacy, or UCD in "
@@ -77,7 +77,7 @@ void declare_file(Entries &entries, mesh::BodyMeshParameters &mesh)
               "only numbers, as VTK and UCD do: '1: bottom, 7: bore'.");
 }
 
-void declare_regions(Entries &entries, mesh::BodyMeshParameters &mesh)
+void declare_regions(Entries &entries, geometry::BodyMeshParameters &mesh)
 {
   entries.add("Region formulas",
               {[&mesh]() { return to_text(mesh.region_formulas, ';'); },
@@ -91,7 +91,7 @@ void declare_regions(Entries &entries, mesh::BodyMeshParameters &mesh)
               "x^2 - y^2; coat: z > 0.9'.");
 }
 
-void declare_placement(Entries &entries, mesh::BodyMeshParameters &mesh)
+void declare_placement(Entries &entries, geometry::BodyMeshParameters &mesh)
 {
   entries.add("Warp",
               {[&mesh]() {
@@ -124,7 +124,7 @@ void declare_placement(Entries &entries, mesh::BodyMeshParameters &mesh)
               "none.");
 }
 
-void declare_refinement(Entries &entries, mesh::BodyMeshParameters &mesh)
+void declare_refinement(Entries &entries, geometry::BodyMeshParameters &mesh)
 {
   entries.add("Refinements", mesh.refinements,
               "How often every cell is split into 4 (2D) or 8 (3D).");
@@ -137,9 +137,10 @@ void declare_refinement(Entries &entries, mesh::BodyMeshParameters &mesh)
 }
 } // namespace
 
-void declare_mesh(Entries &entries, mesh::BodyMeshParameters &mesh)
+void declare_mesh(Entries &entries, geometry::BodyMeshParameters &mesh)
 {
-  add_choice(entries, "Mesh", mesh.source, mesh::body_geometry_table<3>(), "Source of the mesh.");
+  add_choice(entries, "Mesh", mesh.source, geometry::body_geometry_table<3>(),
+             "Source of the mesh.");
   declare_box(entries, mesh);
   declare_round(entries, mesh);
   declare_file(entries, mesh);

@@ -1,4 +1,4 @@
-#include <snug/mesh/imported_mesh.h>
+#include <snug/mesh_file/import_mesh.h>
 #include <snug/scene/check.h>
 #include <snug/scene/entries.h>
 #include <snug/scene/read_scene.h>
@@ -161,7 +161,8 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
           mesh.file    = fs::absolute(fs::path(source.file).parent_path() / mesh.file)
                         .lexically_normal()
                         .string();
-          mesh.imported = mesh::import_mesh(source.read_file(mesh.file), mesh, scene.dimension);
+          mesh.imported =
+            mesh_file::import_mesh(source.read_file(mesh.file), mesh, scene.dimension);
         }
       catch (const InputError &error)
         {

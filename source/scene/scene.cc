@@ -10,9 +10,9 @@
 namespace snug::scene {
 namespace {
 template <int dim>
-std::vector<std::string> boundary_names_in(const mesh::BodyMeshParameters &parameters)
+std::vector<std::string> boundary_names_in(const geometry::BodyMeshParameters &parameters)
 {
-  return mesh::make_geometry<dim>(parameters)->boundary_names();
+  return geometry::make_geometry<dim>(parameters)->boundary_names();
 }
 } // namespace
 

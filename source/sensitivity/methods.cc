@@ -1,8 +1,8 @@
-#include <snug/response/cell_gradients.h>
 #include <snug/sensitivity/data_derivatives.h>
 #include <snug/sensitivity/methods.h>
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/sensitivity/tangent_system.h>
+#include <snug/state/cell_gradients.h>
 #include <snug/state/describe.h>
 
 namespace snug::sensitivity {
@@ -96,7 +96,7 @@ Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
                          "'adjoint' or 'direct'");
       auto field = response->partials(problem.solver, problem.state).positions;
       if (response->stationary() && exact)
-        response::add_constraint_gradient(problem.solver, problem.state, field);
+        state::add_constraint_gradient(problem.solver, problem.state, field);
       Gradient<dim> gradient{"energy", "", problem.basis.transpose(field)};
       if (response->stationary() && !exact)
         {

@@ -1,5 +1,5 @@
-#include <snug/response/cell_gradients.h>
 #include <snug/sensitivity/residual_gradient.h>
+#include <snug/state/cell_gradients.h>
 #include <snug/state/describe.h>
 
 namespace snug::sensitivity {
@@ -69,8 +69,8 @@ void add_residual_gradient(const state::StateSolver<dim>       &solver,
   feti::PrimalVectors w;
   for (const auto &part : adjoint.primal)
     w.push_back(part.columns_from(j, 1));
-  response::add_stiffness_gradient(solver, state, w, -1., gradient);
-  response::add_load_gradient(solver, state, w, 1., gradient);
+  state::add_stiffness_gradient(solver, state, w, -1., gradient);
+  state::add_load_gradient(solver, state, w, 1., gradient);
   add_rows(solver, state, adjoint, j, gradient);
   add_held(solver, state, adjoint, j, gradient);
 }

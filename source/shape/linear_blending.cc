@@ -1,4 +1,4 @@
-#include <snug/contact/face_shape.h>
+#include <snug/faces/face_shape.h>
 #include <snug/shape/linear_blending.h>
 
 #include <deal.II/base/mpi.h>
@@ -125,7 +125,7 @@ private:
         result[t] = (at[t] - box.lower[t]) / (box.upper[t] - box.lower[t]);
       return result;
     };
-    typename contact::FaceShape<dim>::Values values;
+    typename faces::FaceShape<dim>::Values values;
     shape.evaluate(xi(place), values);
     std::vector<std::pair<unsigned int, double>> result;
     // The faces' own coordinates may be turned against the box's.
@@ -143,7 +143,7 @@ private:
 
   const ShapedFace<dim>                 &face;
   unsigned int                           normal;
-  contact::FaceShape<dim>                shape;
+  faces::FaceShape<dim>                  shape;
   typename mesh::Surface<dim>::Field     positions; ///< logical
   unsigned int                           n_bins;
   std::vector<std::vector<unsigned int>> bins;

@@ -1,4 +1,4 @@
-#include <snug/contact/face_shape.h>
+#include <snug/faces/face_shape.h>
 #include <snug/shape/near_points.h>
 #include <snug/shape/node_roles.h>
 
@@ -31,13 +31,13 @@ plane_normals(const mesh::Surface<dim>                 &surface,
               const typename mesh::Surface<dim>::Field &positions,
               const unsigned int                        degree)
 {
-  const contact::FaceShape<dim>                    shape(degree);
+  const faces::FaceShape<dim>                      shape(degree);
   std::vector<std::vector<dealii::Tensor<1, dim>>> sums(surface.n_nodes());
   for (const auto &face : surface.faces())
     for (unsigned int k = 0; k < face.nodes.size(); ++k)
       {
         const auto area =
-          contact::area_vector(contact::tangents<dim>(shape.at_node(k), face.nodes, positions));
+          faces::area_vector(faces::tangents<dim>(shape.at_node(k), face.nodes, positions));
         auto      &planes = sums[face.nodes[k]];
         const auto same   = std::find_if(planes.begin(), planes.end(), [&area](const auto &plane) {
           const double cosine = plane * area / (plane.norm() * area.norm());

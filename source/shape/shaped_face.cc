@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/contact/nodal_normals.h>
+#include <snug/faces/nodal_normals.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/shaped_face.h>
 
@@ -49,16 +49,15 @@ ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
 template <int dim>
 void ShapedFace<dim>::measure()
 {
-  const contact::FaceShape<dim> shape(body_mesh.degree());
-  std::vector<unsigned int>     all(nodes.faces().size());
+  const faces::FaceShape<dim> shape(body_mesh.degree());
+  std::vector<unsigned int>   all(nodes.faces().size());
   std::iota(all.begin(), all.end(), 0u);
-  unit_normals = contact::NodalNormals<dim>(nodes, all, shape, reference).normals();
+  unit_normals = faces::NodalNormals<dim>(nodes, all, shape, reference).normals();
   Field weights(nodes.n_nodes());
   for (const auto &face : nodes.faces())
     for (unsigned int k = 0; k < face.nodes.size(); ++k)
       weights[face.nodes[k]][0] +=
-        contact::area_vector(contact::tangents<dim>(shape.at_node(k), face.nodes, reference))
-          .norm() /
+        faces::area_vector(faces::tangents<dim>(shape.at_node(k), face.nodes, reference)).norm() /
         face.nodes.size();
   distribute_hanging(weights);
   for (const auto &weight : weights)

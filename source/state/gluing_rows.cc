@@ -45,11 +45,11 @@ struct GluingRows<dim>::Message
 };
 
 template <int dim>
-GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>  &mesh,
-                            const mesh::Tearing        &tearing,
-                            const mesh::Surface<dim>   &surface,
-                            const HeldNodes<dim>       &held,
-                            const RowCoefficients<dim> &reference)
+GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>      &mesh,
+                            const mesh::Tearing            &tearing,
+                            const mesh::Surface<dim>       &surface,
+                            const supports::HeldNodes<dim> &held,
+                            const RowCoefficients<dim>     &reference)
   : mesh(mesh), surface(surface), held(held)
 {
   collect_surface(tearing);
@@ -63,9 +63,10 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>  &mesh,
 }
 
 template <int dim>
-dealii::Tensor<1, dim> GluingRows<dim>::projected(unsigned int                       surface_node,
-                                                  const dealii::Tensor<1, dim>      &coefficient,
-                                                  const std::vector<HeldFrame<dim>> &frames) const
+dealii::Tensor<1, dim>
+GluingRows<dim>::projected(unsigned int                                 surface_node,
+                           const dealii::Tensor<1, dim>                &coefficient,
+                           const std::vector<supports::HeldFrame<dim>> &frames) const
 {
   dealii::Tensor<1, dim> result = coefficient;
   if (held_of_surface[surface_node] < frames.size())

@@ -184,7 +184,7 @@ SNUG_GETTER(const mesh::Tearing &, tearing, data->problem.tearing)
 SNUG_GETTER(const Model<dim> &, model, data->problem.model)
 SNUG_GETTER(const mesh::Surface<dim> &, surface, data->problem.surface)
 SNUG_GETTER(const contact::Contact<dim> &, contact, *data->problem.contact)
-SNUG_GETTER(const HeldNodes<dim> &, held, *data->problem.held)
+SNUG_GETTER(const supports::HeldNodes<dim> &, held, *data->problem.held)
 SNUG_GETTER(const elasticity::FaceLoad<dim> &, face_load, data->problem.face_load)
 SNUG_GETTER(const ResultantLoads<dim> &, resultants, data->problem.resultants)
 SNUG_GETTER(const std::vector<std::unique_ptr<Assembler<dim>>> &,

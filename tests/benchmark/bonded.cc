@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/state/support.h>
+#include <snug/supports/support.h>
 
 #include <benchmark/bonded.h>
 

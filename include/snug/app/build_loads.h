@@ -16,8 +16,8 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
 /// What holds the bodies: supports, and the displacements that bodies and
 /// load cases prescribe.
 template <int dim>
-std::vector<state::Support<dim>> build_supports(const scene::Scene        &scene,
-                                                const mesh::BodyMesh<dim> &mesh);
+std::vector<supports::Support<dim>> build_supports(const scene::Scene        &scene,
+                                                   const mesh::BodyMesh<dim> &mesh);
 
 /// (body, boundary) of "body.boundary".
 template <int dim>

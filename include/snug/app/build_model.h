@@ -27,7 +27,7 @@ template <int dim>
 std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &scene, MPI_Comm communicator);
 
 /// Mesh entries of all bodies, in their order.
-std::vector<mesh::BodyMeshParameters> mesh_parameters(const scene::Scene &scene);
+std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene);
 
 /// The state problem of a scene: names of bodies and boundaries become
 /// indices. @throws InputError for names that do not exist.

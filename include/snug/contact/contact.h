@@ -3,7 +3,7 @@
 
 #include <snug/contact/pair_geometry.h>
 #include <snug/contact/row_group.h>
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 
 namespace snug::contact {
 /// The methods a pair of faces can meet by.
@@ -33,15 +33,15 @@ public:
   /// Pair at @p positions, where supports hold @p held. @p surface must
   /// outlive this object.
   /// @throws InputError naming a pair that is left without rows.
-  Contact(const mesh::Surface<dim>  &surface,
-          const std::vector<Pair>   &pairs,
-          unsigned int               degree,
-          const Field               &positions,
-          const HeldDirections<dim> &held);
+  Contact(const mesh::Surface<dim>         &surface,
+          const std::vector<Pair>          &pairs,
+          unsigned int                      degree,
+          const Field                      &positions,
+          const faces::HeldDirections<dim> &held);
 
   /// Pair anew at @p positions, with the slaves chosen before.
   /// @throws InputError as the constructor does.
-  void pair(const Field &positions, const HeldDirections<dim> &held);
+  void pair(const Field &positions, const faces::HeldDirections<dim> &held);
 
   /// Groups refer to the shape.
   Contact(const Contact &)            = delete;
@@ -82,19 +82,19 @@ private:
   /// The rows of a pair and what is added to their gaps, if anything.
   struct Group
   {
-    std::unique_ptr<RowGroup<dim>>      rows;
-    std::unique_ptr<mesh::Formula<dim>> offset;
-    double                              step; ///< of its differences
+    std::unique_ptr<RowGroup<dim>>          rows;
+    std::unique_ptr<geometry::Formula<dim>> offset;
+    double                                  step; ///< of its differences
   };
 
-  const mesh::Surface<dim> &surface;
-  const FaceShape<dim>      shape;
-  std::vector<Pair>         chosen;
-  std::vector<Group>        groups; ///< one per pair
-  std::vector<RowPlace>     row_places;
-  std::vector<SharedNode>   shared;
-  Field                     paired_offsets; ///< of each row, when paired
-  std::vector<double>       deepest;        ///< of each pair, when paired
+  const mesh::Surface<dim>   &surface;
+  const faces::FaceShape<dim> shape;
+  std::vector<Pair>           chosen;
+  std::vector<Group>          groups; ///< one per pair
+  std::vector<RowPlace>       row_places;
+  std::vector<SharedNode>     shared;
+  Field                       paired_offsets; ///< of each row, when paired
+  std::vector<double>         deepest;        ///< of each pair, when paired
 
   void  collect_shared_nodes();
   void  measure_pairing(const Field &positions);

@@ -2,7 +2,7 @@
 #define snug_contact_level_set_h
 
 #include <snug/contact/obstacle.h>
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 
 namespace snug::contact {
 /**
@@ -31,10 +31,10 @@ private:
   bool                descend(const dealii::Point<dim> &x, Foot &foot) const;
   std::optional<Foot> foot(const dealii::Point<dim> &x) const;
 
-  const mesh::Formula<dim> formula;
-  const dealii::Point<dim> origin;
-  dealii::Tensor<2, dim>   rotation; ///< local coordinates to global ones
-  const double             size, step;
+  const geometry::Formula<dim> formula;
+  const dealii::Point<dim>     origin;
+  dealii::Tensor<2, dim>       rotation; ///< local coordinates to global ones
+  const double                 size, step;
 };
 } // namespace snug::contact
 

@@ -1,12 +1,12 @@
 #ifndef snug_contact_mortar_rows_h
 #define snug_contact_mortar_rows_h
 
-#include <snug/contact/face_arrays.h>
-#include <snug/contact/mortar_coupling.h>
-#include <snug/contact/multiplier_nodes.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/contact/row_group.h>
 #include <snug/contact/supported_normals.h>
+#include <snug/mortar/face_arrays.h>
+#include <snug/mortar/mortar_coupling.h>
+#include <snug/mortar/multiplier_nodes.h>
 
 namespace snug::contact {
 /**
@@ -67,26 +67,27 @@ private:
   };
 
   const mesh::Surface<dim>              &surface;
-  const FaceShape<dim>                  &shape;
-  SegmentQuadrature<dim>                 quadrature;
+  const faces::FaceShape<dim>           &shape;
+  mortar::SegmentQuadrature<dim>         quadrature;
   PairFaces                              sides;
   std::vector<SlaveFace>                 faces;
-  HeldDirections<dim>                    held;
-  MultiplierNodes                        multipliers;
+  faces::HeldDirections<dim>             held;
+  mortar::MultiplierNodes                multipliers;
   std::vector<std::vector<unsigned int>> row_nodes; ///< ascending
 
   void choose_multipliers(const PairGeometry<dim> &pair);
   void collect_row_nodes();
   void leave_out_far_rows(const PairGeometry<dim> &pair);
   template <typename Number>
-  FaceIntegrals<Number> integrals(const SlaveFace &face, const FaceNodes<dim, Number> &x) const;
+  mortar::FaceIntegrals<Number> integrals(const SlaveFace                      &face,
+                                          const mortar::FaceNodes<dim, Number> &x) const;
   template <typename Number>
   void add_to_row(RowSum<Number> &sum,
                   unsigned int    row,
                   unsigned int    node,
                   const Number   &coefficient) const;
   template <typename Number>
-  std::vector<RowSum<Number>> row_sums(const FaceNodes<dim, Number> &x) const;
+  std::vector<RowSum<Number>> row_sums(const mortar::FaceNodes<dim, Number> &x) const;
 
   /// The energy of the rows, sum_i force_i / a_i n_i . r_i with r_i the
   /// integral of psi_i (y_slave - y_master), y = x + u.

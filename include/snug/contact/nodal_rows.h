@@ -39,12 +39,12 @@ public:
                                                      Field                     &gradient) const override;
 
 private:
-  const mesh::Surface<dim> &surface;
-  const FaceShape<dim>     &shape;
-  PairFaces                 sides;
-  HeldDirections<dim>       held;
-  std::vector<Projection>   found;
-  std::vector<unsigned int> slave_nodes;
+  const mesh::Surface<dim>    &surface;
+  const faces::FaceShape<dim> &shape;
+  PairFaces                    sides;
+  faces::HeldDirections<dim>   held;
+  std::vector<Projection>      found;
+  std::vector<unsigned int>    slave_nodes;
   /// of each row: surface nodes, ascending, and their factors of n in the
   /// coefficients: 1 (slave) or -w (masters, none hanging)
   std::vector<std::vector<std::pair<unsigned int, double>>> factors;

@@ -37,7 +37,7 @@ public:
 
 private:
   const mesh::Surface<dim>      &surface;
-  const FaceShape<dim>          &shape;
+  const faces::FaceShape<dim>   &shape;
   std::unique_ptr<Obstacle<dim>> obstacle;
   dealii::Tensor<1, dim>         shift; ///< w
   std::vector<unsigned int>      slave_faces, slave_nodes;

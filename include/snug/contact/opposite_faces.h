@@ -2,7 +2,7 @@
 #define snug_contact_opposite_faces_h
 
 #include <snug/contact/pair_geometry.h>
-#include <snug/contact/segment_points.h>
+#include <snug/mortar/segment_points.h>
 
 namespace snug::contact {
 /**

@@ -1,9 +1,9 @@
 #ifndef snug_contact_pair_geometry_h
 #define snug_contact_pair_geometry_h
 
-#include <snug/contact/face_shape.h>
-#include <snug/contact/held_directions.h>
 #include <snug/contact/pair.h>
+#include <snug/faces/face_shape.h>
+#include <snug/faces/held_directions.h>
 
 namespace snug::contact {
 /// The two sides of a pair: indices of surface faces.
@@ -21,13 +21,13 @@ struct PairGeometry
 {
   using Field = typename mesh::Surface<dim>::Field;
 
-  const mesh::Surface<dim> &surface;
-  const FaceShape<dim>     &shape;
-  const Pair               &pair;
-  PairFaces                 sides;
-  const Field              &positions;
+  const mesh::Surface<dim>    &surface;
+  const faces::FaceShape<dim> &shape;
+  const Pair                  &pair;
+  PairFaces                    sides;
+  const Field                 &positions;
   /// what supports hold, per surface node
-  const HeldDirections<dim> &held;
+  const faces::HeldDirections<dim> &held;
   /// surface nodes with a row against this master by an earlier pair: a
   /// second one would be the same
   std::vector<bool> taken;

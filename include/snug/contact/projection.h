@@ -38,7 +38,7 @@ constexpr double edge_tolerance = 0.05;
 template <int dim>
 std::vector<Projection> project(const mesh::Surface<dim>                 &surface,
                                 const PairFaces                          &sides,
-                                const FaceShape<dim>                     &shape,
+                                const faces::FaceShape<dim>              &shape,
                                 const typename mesh::Surface<dim>::Field &positions);
 } // namespace snug::contact
 

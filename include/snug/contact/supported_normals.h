@@ -1,8 +1,8 @@
 #ifndef snug_contact_supported_normals_h
 #define snug_contact_supported_normals_h
 
-#include <snug/contact/held_directions.h>
-#include <snug/contact/nodal_normals.h>
+#include <snug/faces/held_directions.h>
+#include <snug/faces/nodal_normals.h>
 
 namespace snug::contact {
 /**
@@ -21,11 +21,11 @@ public:
 
   /// Arguments as of NodalNormals. The references must outlive this.
   /// @throws TangledMesh.
-  SupportedNormals(const mesh::Surface<dim>        &surface,
-                   const std::vector<unsigned int> &faces,
-                   const FaceShape<dim>            &shape,
-                   const Field                     &positions,
-                   const HeldDirections<dim>       &held);
+  SupportedNormals(const mesh::Surface<dim>         &surface,
+                   const std::vector<unsigned int>  &faces,
+                   const faces::FaceShape<dim>      &shape,
+                   const Field                      &positions,
+                   const faces::HeldDirections<dim> &held);
 
   const Field &normals() const;
 
@@ -36,10 +36,10 @@ public:
   void add_transpose(const Field &normal_gradient, Field &gradient) const;
 
 private:
-  NodalNormals<dim>          nodal;
-  const HeldDirections<dim> &held;
-  Field                      unit;
-  std::vector<double>        length; ///< |v|; 0 where n is not changed
+  faces::NodalNormals<dim>          nodal;
+  const faces::HeldDirections<dim> &held;
+  Field                             unit;
+  std::vector<double>               length; ///< |v|; 0 where n is not changed
 };
 } // namespace snug::contact
 

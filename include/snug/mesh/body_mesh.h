@@ -1,7 +1,7 @@
 #ifndef snug_mesh_body_mesh_h
 #define snug_mesh_body_mesh_h
 
-#include <snug/mesh/body_geometry.h>
+#include <snug/geometry/body_geometry.h>
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/partition.h>
 
@@ -58,19 +58,19 @@ public:
   };
 
   /// Collective. @throws InputError for bad mesh entries.
-  BodyMesh(MPI_Comm                               communicator,
-           const std::vector<BodyMeshParameters> &bodies,
-           unsigned int                           degree,
-           const Idealization                    &idealization = Idealization::natural(dim),
-           const TearingParameters               &tearing      = TearingParameters());
+  BodyMesh(MPI_Comm                                         communicator,
+           const std::vector<geometry::BodyMeshParameters> &bodies,
+           unsigned int                                     degree,
+           const Idealization      &idealization = Idealization::natural(dim),
+           const TearingParameters &tearing      = TearingParameters());
   ~BodyMesh();
 
   MPI_Comm     communicator() const;
   unsigned int degree() const;
   /// What the mesh stands for.
-  const Idealization      &idealization() const;
-  unsigned int             n_bodies() const;
-  const BodyGeometry<dim> &geometry(unsigned int body) const;
+  const Idealization                &idealization() const;
+  unsigned int                       n_bodies() const;
+  const geometry::BodyGeometry<dim> &geometry(unsigned int body) const;
 
   const std::vector<Cell>    &cells() const;
   const std::vector<Face>    &boundary_faces() const;

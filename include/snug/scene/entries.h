@@ -101,7 +101,7 @@ void declare(Entries &entries, Scene &scene);
 
 /// @name Parts of declare()
 /// @{
-void declare_mesh(Entries &entries, mesh::BodyMeshParameters &mesh);
+void declare_mesh(Entries &entries, geometry::BodyMeshParameters &mesh);
 void add_gravity(Entries &entries, std::vector<double> &gravity);
 /// Loads on faces, each called as @p key says.
 void declare_loads(Entries &entries, LoadParameters &loads, const std::string &key);

@@ -4,7 +4,7 @@
 #include <snug/contact/pair.h>
 #include <snug/elasticity/material.h>
 #include <snug/feti/feti_parameters.h>
-#include <snug/mesh/body_geometry.h>
+#include <snug/geometry/body_geometry.h>
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/tearing.h>
 #include <snug/optimization/optimization_parameters.h>
@@ -39,8 +39,8 @@ struct NamedMaterial
 /// Entries of `subsection Body NAME`.
 struct Body
 {
-  std::string              name;
-  mesh::BodyMeshParameters mesh;
+  std::string                  name;
+  geometry::BodyMeshParameters mesh;
   /// of the whole body, if the next is empty
   elasticity::Material material;
   /// region -> name of its material; "" is the whole body

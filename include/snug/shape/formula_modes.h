@@ -1,7 +1,7 @@
 #ifndef snug_shape_formula_modes_h
 #define snug_shape_formula_modes_h
 
-#include <snug/mesh/formula.h>
+#include <snug/geometry/formula.h>
 #include <snug/shape/face_basis.h>
 
 namespace snug::shape {
@@ -20,7 +20,7 @@ public:
   dealii::Tensor<1, dim> value(unsigned int i, const dealii::Tensor<1, dim> &x) const;
 
 private:
-  std::vector<std::vector<mesh::Formula<dim>>> formulas;
+  std::vector<std::vector<geometry::Formula<dim>>> formulas;
 };
 
 /// u(x) = sum_i alpha_i v_i(x) at the nodes of a face.

@@ -24,11 +24,11 @@ public:
    * @p reference has at the reference geometry (equal on all ranks).
    * @p held must outlive this object. Collective.
    */
-  Gluing(const mesh::BodyMesh<dim>  &mesh,
-         const mesh::Tearing        &tearing,
-         const mesh::Surface<dim>   &surface,
-         const HeldNodes<dim>       &held,
-         const RowCoefficients<dim> &reference);
+  Gluing(const mesh::BodyMesh<dim>      &mesh,
+         const mesh::Tearing            &tearing,
+         const mesh::Surface<dim>       &surface,
+         const supports::HeldNodes<dim> &held,
+         const RowCoefficients<dim>     &reference);
 
   const feti::RowLayout &layout() const;
 
@@ -87,9 +87,9 @@ private:
                         const RowCoefficients<dim> &derivative,
                         unsigned int                load_case) const;
 
-  const HeldNodes<dim>     &held;
-  GluingRows<dim>           rows;
-  std::vector<unsigned int> owned_contact;
+  const supports::HeldNodes<dim> &held;
+  GluingRows<dim>                 rows;
+  std::vector<unsigned int>       owned_contact;
 };
 } // namespace snug::state
 

@@ -7,7 +7,7 @@
 #include <snug/feti/feti_parameters.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/qp/solver.h>
-#include <snug/state/support.h>
+#include <snug/supports/support.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -62,11 +62,11 @@ struct LoadCase
 template <int dim>
 struct Model
 {
-  std::vector<std::string>    body_names;
-  std::vector<BodyModel<dim>> bodies;
-  std::vector<LoadCase<dim>>  load_cases; ///< at least one
-  std::vector<Support<dim>>   supports;
-  std::vector<contact::Pair>  pairs;
+  std::vector<std::string>            body_names;
+  std::vector<BodyModel<dim>>         bodies;
+  std::vector<LoadCase<dim>>          load_cases; ///< at least one
+  std::vector<supports::Support<dim>> supports;
+  std::vector<contact::Pair>          pairs;
   /// meshes and designs with a cell of less are refused
   double               least_scaled_jacobian = 0.;
   feti::FetiParameters feti;

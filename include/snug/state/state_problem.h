@@ -54,7 +54,7 @@ public:
   ResultantLoads<dim>                          resultants;
   mesh::Surface<dim>                           surface;
   std::unique_ptr<contact::Contact<dim>>       contact;
-  std::unique_ptr<HeldNodes<dim>>              held;
+  std::unique_ptr<supports::HeldNodes<dim>>    held;
   std::unique_ptr<Gluing<dim>>                 gluing;
   std::vector<std::unique_ptr<Assembler<dim>>> assemblers;
   std::vector<feti::SubdomainSystem>           systems;

@@ -44,12 +44,12 @@ public:
   /// Volume of one body at @p positions [length^3]. Collective.
   double volume(unsigned int body, const Field &positions) const;
 
-  const mesh::BodyMesh<dim>   &mesh() const;
-  const mesh::Tearing         &tearing() const;
-  const Model<dim>            &model() const;
-  const mesh::Surface<dim>    &surface() const;
-  const contact::Contact<dim> &contact() const;
-  const HeldNodes<dim>        &held() const;
+  const mesh::BodyMesh<dim>      &mesh() const;
+  const mesh::Tearing            &tearing() const;
+  const Model<dim>               &model() const;
+  const mesh::Surface<dim>       &surface() const;
+  const contact::Contact<dim>    &contact() const;
+  const supports::HeldNodes<dim> &held() const;
   /// What the rows of B are made of at @p positions. Collective.
   RowCoefficients<dim> rows(const Field &positions) const;
   /// Its derivative along @p velocity, exact. Collective.

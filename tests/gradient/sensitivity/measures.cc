@@ -21,7 +21,7 @@ TestScene<dim> driven(unsigned int n_cells, const std::vector<double> &depths)
     body.material.density = 0.7;
   scene.bodies[0].loads.clear();
   scene.bodies[1].loads[face_index(0, 1)].pressure = 0.5;
-  state::Support<dim> top{0, face_index(dim - 1, 1), dim - 1, {}, "punch"};
+  supports::Support<dim> top{0, face_index(dim - 1, 1), dim - 1, {}, "punch"};
   for (const double depth : depths)
     top.values.push_back(
       [depth](const dealii::Point<dim> &x) { return -depth * (1. + 0.2 * x[0]); });

@@ -1,7 +1,7 @@
 #include "two_boxes.h"
 
-#include <snug/contact/closest_point.h>
-#include <snug/contact/outer_edges.h>
+#include <snug/faces/closest_point.h>
+#include <snug/faces/outer_edges.h>
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ template <int dim>
 struct TwoBoxes
 {
   using Field  = typename snug::mesh::Surface<dim>::Field;
-  using Bodies = std::vector<snug::mesh::BodyMeshParameters>;
+  using Bodies = std::vector<snug::geometry::BodyMeshParameters>;
 
   TwoBoxes(const Bodies &bodies, unsigned int degree, MPI_Comm communicator)
     : mesh(communicator, bodies, degree)
@@ -70,7 +70,7 @@ struct TwoBoxes
     snug::contact::PairFaces sides;
     for (unsigned int f = 0; f < surface.faces().size(); ++f)
       (surface.faces()[f].body == 0 ? sides.slave : sides.master).push_back(f);
-    return snug::contact::project(surface, sides, snug::contact::FaceShape<dim>(mesh.degree()),
+    return snug::contact::project(surface, sides, snug::faces::FaceShape<dim>(mesh.degree()),
                                   positions);
   }
 
@@ -128,8 +128,8 @@ struct TwoBoxes
   snug::mesh::Surface<dim>  surface;
   Field                     positions;
 
-  snug::contact::HeldDirections<dim> held;
-  std::string                        method = "nodal";
+  snug::faces::HeldDirections<dim> held;
+  std::string                      method = "nodal";
 };
 
 /// a + factor * b

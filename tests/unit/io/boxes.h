@@ -10,9 +10,9 @@ namespace snug::test {
 /// Body 0: a unit box; body 1: one on top of it, locally refined where its
 /// x < 0.5 if @p hanging.
 template <int dim>
-std::vector<mesh::BodyMeshParameters> two_boxes(bool hanging)
+std::vector<geometry::BodyMeshParameters> two_boxes(bool hanging)
 {
-  std::vector<mesh::BodyMeshParameters> bodies(2);
+  std::vector<geometry::BodyMeshParameters> bodies(2);
   for (auto &body : bodies)
     {
       body.corner.assign(dim, 0.);

@@ -22,8 +22,8 @@ struct ContactScene
 {
   explicit ContactScene(unsigned int degree)
     : mesh(MPI_COMM_WORLD, test::two_boxes<dim>(true), degree)
-    , slave(1, mesh::boundary_index(mesh.geometry(1), "bottom"))
-    , master(0, mesh::boundary_index(mesh.geometry(0), "top"))
+    , slave(1, geometry::boundary_index(mesh.geometry(1), "bottom"))
+    , master(0, geometry::boundary_index(mesh.geometry(0), "top"))
     , surface(mesh, {slave, master})
     , pairs{{slave, master}}
   {

@@ -138,8 +138,8 @@ TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
 
 TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
 {
-  const test::ScratchDirectory          scratch;
-  std::vector<mesh::BodyMeshParameters> bodies(1);
+  const test::ScratchDirectory              scratch;
+  std::vector<geometry::BodyMeshParameters> bodies(1);
   bodies[0].cells = {1, 1};
   const mesh::BodyMesh<2>          mesh(MPI_COMM_WORLD, bodies, 1);
   std::vector<state::BodyModel<2>> models(1);

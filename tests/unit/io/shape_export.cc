@@ -49,7 +49,7 @@ Stl read_stl(const std::string &text)
 template <int dim>
 mesh::Surface<dim> surface_of(const mesh::BodyMesh<dim> &mesh, const std::string &face)
 {
-  return mesh::Surface<dim>(mesh, {{1u, mesh::boundary_index(mesh.geometry(1), face)}});
+  return mesh::Surface<dim>(mesh, {{1u, geometry::boundary_index(mesh.geometry(1), face)}});
 }
 
 TEST(SurfaceExport, FlatFaceHasItsAreaAndPointsOut)

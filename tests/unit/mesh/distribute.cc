@@ -22,9 +22,9 @@ unsigned int n_ranks()
 
 /// Two boxes; a corner of the first is refined.
 template <int dim>
-std::vector<mesh::BodyMeshParameters> boxes(unsigned int n)
+std::vector<geometry::BodyMeshParameters> boxes(unsigned int n)
 {
-  std::vector<mesh::BodyMeshParameters> bodies(2);
+  std::vector<geometry::BodyMeshParameters> bodies(2);
   for (auto &body : bodies)
     body.cells.assign(dim, n);
   bodies[0].refine_where      = "0.45 - x - y";
@@ -190,8 +190,8 @@ TEST(Distribute, ThereAreAsManyPartsAsRanks)
 
 TEST(Distribute, RanksMayBeWithoutCells)
 {
-  const std::vector<mesh::BodyMeshParameters> cube(1);
-  const mesh::BodyMesh<3>                     mesh(MPI_COMM_WORLD, cube, 2);
+  const std::vector<geometry::BodyMeshParameters> cube(1);
+  const mesh::BodyMesh<3>                         mesh(MPI_COMM_WORLD, cube, 2);
   EXPECT_EQ(mesh.n_global_cells(), 1u);
   EXPECT_EQ(mesh.n_global_free_nodes(), 27u);
   const auto tearing = mesh::tear(mesh);

@@ -12,9 +12,9 @@ namespace {
 /// Two boxes, the first refined for x > 0.5 of its own so that nodes hang
 /// on its faces.
 template <int dim>
-std::vector<mesh::BodyMeshParameters> hanging_boxes()
+std::vector<geometry::BodyMeshParameters> hanging_boxes()
 {
-  std::vector<mesh::BodyMeshParameters> bodies(2);
+  std::vector<geometry::BodyMeshParameters> bodies(2);
   bodies[0].size              = std::vector<double>(dim, 1.);
   bodies[0].cells             = std::vector<unsigned int>(dim, 2);
   bodies[0].refine_where      = "x-0.5";

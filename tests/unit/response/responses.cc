@@ -1,5 +1,5 @@
-#include <snug/response/cell_gradients.h>
 #include <snug/response/response.h>
+#include <snug/state/cell_gradients.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -139,7 +139,7 @@ void check_gradients(unsigned int degree)
       partial[name]       = dot<dim>(gradient, V);
       if (!response->stationary())
         continue;
-      response::add_constraint_gradient(problem.solver, state, gradient);
+      state::add_constraint_gradient(problem.solver, state, gradient);
       total[name] = dot<dim>(gradient, V);
     }
   // round-off and the fourth order error are near 1e-11

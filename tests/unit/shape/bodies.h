@@ -15,9 +15,9 @@ inline shape::BodyNames body_names()
 
 /// A plain box and a graded one with a curved bottom and hanging nodes.
 template <int dim>
-std::vector<mesh::BodyMeshParameters> shape_bodies()
+std::vector<geometry::BodyMeshParameters> shape_bodies()
 {
-  std::vector<mesh::BodyMeshParameters> bodies(2);
+  std::vector<geometry::BodyMeshParameters> bodies(2);
   bodies[0].corner            = std::vector<double>(dim, 5.);
   bodies[0].cells             = std::vector<unsigned int>(dim, 2);
   bodies[1].corner            = std::vector<double>(dim, -1.);
@@ -32,9 +32,9 @@ std::vector<mesh::BodyMeshParameters> shape_bodies()
 
 /// The unit cube of n cells per edge.
 template <int dim>
-std::vector<mesh::BodyMeshParameters> plain_cube(unsigned int n)
+std::vector<geometry::BodyMeshParameters> plain_cube(unsigned int n)
 {
-  std::vector<mesh::BodyMeshParameters> bodies(1);
+  std::vector<geometry::BodyMeshParameters> bodies(1);
   bodies[0].cells = std::vector<unsigned int>(dim, n);
   return bodies;
 }

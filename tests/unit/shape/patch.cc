@@ -39,7 +39,7 @@ void expect_unit_heights_lift_the_face(const std::string &basis, const std::stri
   parameters.direction[dim - 1]        = 2.;
   const shape::Shapes<dim> shapes(mesh, body_names(), {parameters});
   const auto               moved = shapes.apply(std::vector<double>(shapes.n_variables(), 1.));
-  const unsigned int       f     = mesh::boundary_index(mesh.geometry(1), face);
+  const unsigned int       f     = geometry::boundary_index(mesh.geometry(1), face);
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     {
       if (mesh.is_hanging(node))

@@ -10,9 +10,9 @@ using Parameters = shape::ShapeParameters;
 
 const shape::BodyNames two_names{{"upper", "lower"}};
 
-std::vector<mesh::BodyMeshParameters> two_squares()
+std::vector<geometry::BodyMeshParameters> two_squares()
 {
-  std::vector<mesh::BodyMeshParameters> bodies(2);
+  std::vector<geometry::BodyMeshParameters> bodies(2);
   for (auto &body : bodies)
     body.cells = {4, 4};
   bodies[0].corner = {0., 1.};

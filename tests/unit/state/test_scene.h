@@ -44,7 +44,7 @@ struct TestBody
   /// boundary -> fixed components, dim: the normal
   std::map<unsigned int, std::vector<unsigned int>> supports;
   /// prescribed displacements; the scene fills in the body
-  std::vector<state::Support<dim>> prescribed;
+  std::vector<supports::Support<dim>> prescribed;
 };
 
 /**
@@ -185,12 +185,12 @@ public:
 
   state::ContactState<dim> solve() { return solve(scene.design); }
 
-  static std::vector<mesh::BodyMeshParameters> mesh_parameters(const TestScene<dim> &scene)
+  static std::vector<geometry::BodyMeshParameters> mesh_parameters(const TestScene<dim> &scene)
   {
-    std::vector<mesh::BodyMeshParameters> result;
+    std::vector<geometry::BodyMeshParameters> result;
     for (const auto &body : scene.bodies)
       {
-        mesh::BodyMeshParameters parameters;
+        geometry::BodyMeshParameters parameters;
         for (unsigned int d = 0; d < dim; ++d)
           {
             parameters.corner.push_back(body.corner[d]);

@@ -1,0 +1,55 @@
+#ifndef snug_faces_face_map_h
+#define snug_faces_face_map_h
+
+#include <snug/faces/differential.h>
+
+#include <array>
+#include <vector>
+
+namespace snug::faces {
+/// Coordinates xi in [0,1]^(dim-1) of a face, or in a plane.
+template <int dim, typename Number>
+using FaceCoordinates = std::array<Number, dim - 1>;
+
+/// The shape functions of FaceShape and their derivatives at one point,
+/// also where its coordinates are differentiated.
+template <int dim, typename Number>
+struct FaceValues
+{
+  static constexpr unsigned int max_nodes = dim == 2 ? 3 : 9;
+
+  FaceValues(unsigned int degree, const FaceCoordinates<dim, Number> &xi);
+
+  unsigned int                                        n_nodes;
+  std::array<Number, max_nodes>                       value;
+  std::array<FaceCoordinates<dim, Number>, max_nodes> gradient;
+};
+
+/// A face of degree @p degree projected into a plane.
+template <int dim, typename Number>
+class PlaneFace
+{
+public:
+  using Point = FaceCoordinates<dim, Number>;
+
+  /// The nodes y_k in the plane, in units of about the face's size.
+  PlaneFace(unsigned int degree, const std::vector<Point> &nodes);
+
+  const std::vector<Point> &nodes() const;
+
+  /**
+   * The coordinates xi with sum_k N_k(xi) y_k = @p y, which may lie a
+   * little outside the face: Newton's method for the values, then one step
+   * of it for the derivatives.
+   * @throws TangledMesh where the face is folded.
+   */
+  Point coordinates(const Point &y) const;
+
+private:
+  unsigned int                              degree;
+  std::vector<Point>                        points;
+  std::vector<FaceCoordinates<dim, double>> values; ///< of points
+};
+} // namespace snug::faces
+
+#endif

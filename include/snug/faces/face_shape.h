@@ -1,0 +1,77 @@
+#ifndef snug_faces_face_shape_h
+#define snug_faces_face_shape_h
+
+#include <snug/mesh/surface.h>
+
+#include <deal.II/base/tensor_product_polynomials.h>
+
+#include <array>
+#include <vector>
+
+namespace snug::faces {
+/**
+ * Lagrange shape functions with equispaced nodes of a boundary face,
+ * coordinates xi in [0,1]^(dim-1), nodes in tensor order, the first
+ * coordinate fastest: linear or quadratic segments in 2D, bilinear or
+ * biquadratic quadrilaterals in 3D.
+ */
+template <int dim>
+class FaceShape
+{
+public:
+  static constexpr int n_tangents = dim - 1;
+  using Coordinates               = dealii::Point<dim - 1>;
+  using Field                     = typename mesh::Surface<dim>::Field;
+  using Tangents                  = std::array<dealii::Tensor<1, dim>, dim - 1>;
+
+  /// Values and derivatives of all shape functions at one point.
+  struct Values
+  {
+    std::vector<double>                     value;
+    std::vector<dealii::Tensor<1, dim - 1>> gradient;
+    std::vector<dealii::Tensor<2, dim - 1>> hessian;
+  };
+
+  explicit FaceShape(unsigned int degree);
+
+  unsigned int n_nodes() const;
+  unsigned int degree() const;
+
+  /// Coordinates of node @p k.
+  Coordinates node(unsigned int k) const;
+
+  void evaluate(const Coordinates &xi, Values &values) const;
+
+  /// Values at node @p k.
+  const Values &at_node(unsigned int k) const;
+
+private:
+  unsigned int                              p;
+  dealii::TensorProductPolynomials<dim - 1> polynomials;
+  std::vector<Values>                       node_values;
+};
+
+/// x,_1 and x,_2 of the face with @p nodes at a point with shape @p values.
+template <int dim>
+typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values    &values,
+                                           const std::vector<unsigned int>          &nodes,
+                                           const typename mesh::Surface<dim>::Field &field);
+
+/// t1 x t2 in 3D, (t_y, -t_x) in 2D: the outward area vector.
+dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t);
+dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t);
+
+/// Derivative of area_vector() at @p t along @p dt.
+dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &t,
+                                            const std::array<dealii::Tensor<1, 2>, 1> &dt);
+dealii::Tensor<1, 3> area_vector_derivative(const std::array<dealii::Tensor<1, 3>, 2> &t,
+                                            const std::array<dealii::Tensor<1, 3>, 2> &dt);
+
+/// Its transpose: b . area_vector_derivative(t, dt) = sum_i result_i . dt_i
+std::array<dealii::Tensor<1, 2>, 1>
+area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &t, const dealii::Tensor<1, 2> &b);
+std::array<dealii::Tensor<1, 3>, 2>
+area_vector_transpose(const std::array<dealii::Tensor<1, 3>, 2> &t, const dealii::Tensor<1, 3> &b);
+} // namespace snug::faces
+
+#endif

@@ -1,0 +1,24 @@
+#ifndef snug_faces_held_directions_h
+#define snug_faces_held_directions_h
+
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace snug::faces {
+/// Orthonormal directions that supports hold, per surface node.
+template <int dim>
+using HeldDirections = std::vector<std::vector<dealii::Tensor<1, dim>>>;
+
+/// @p v without its components along @p held.
+template <int dim>
+dealii::Tensor<1, dim> free_part(dealii::Tensor<1, dim>                     v,
+                                 const std::vector<dealii::Tensor<1, dim>> &held)
+{
+  for (const auto &q : held)
+    v -= (v * q) * q;
+  return v;
+}
+} // namespace snug::faces
+
+#endif

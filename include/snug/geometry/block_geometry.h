@@ -1,0 +1,58 @@
+#ifndef snug_geometry_block_geometry_h
+#define snug_geometry_block_geometry_h
+
+#include <snug/geometry/block_mesh.h>
+#include <snug/geometry/body_geometry.h>
+
+namespace snug::geometry {
+/**
+ * A body of blocks. A point with coordinates u in a block lies at the
+ * transfinite interpolation of its faces (Gordon, Hall, Numer. Math. 21,
+ * 1973), in 3D
+ * @f[ x(u) = \sum_{f} w_f S_f - \sum_{e} w_e C_e + \sum_v w_v x_v, @f]
+ * w products of u_d or 1 - u_d over the axes normal to face f, edge e and
+ * vertex v. Faces S and edges C of curved boundaries lie on them.
+ */
+template <int dim>
+class BlockGeometry : public BodyGeometry<dim>
+{
+public:
+  explicit BlockGeometry(std::shared_ptr<const BlockMesh<dim>> mesh);
+
+  typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override;
+
+  double n_coarse_cells() const override;
+
+  const std::vector<std::string> &boundary_names() const override;
+
+  std::vector<std::string> region_names() const override;
+
+  unsigned int region(unsigned int coarse_cell) const override;
+
+  dealii::Point<dim> position(const MeshPoint<dim> &point) const override;
+
+  dealii::Point<dim> logical(const MeshPoint<dim> &point) const override;
+
+  dealii::Tensor<1, dim> extent() const override;
+
+private:
+  using Manifold = const dealii::Manifold<dim, dim>;
+  using Point    = dealii::Point<dim>;
+
+  std::shared_ptr<const BlockMesh<dim>> mesh;
+  /// curved edges and faces by their vertices in ascending order
+  std::map<std::vector<unsigned int>, Manifold *> curved;
+  std::vector<bool>                               is_curved;    ///< per block
+  Point                                           lower, upper; ///< of the vertices
+
+  unsigned int cells_per_block() const;
+  Point        block_position(unsigned int block, const Point &u) const;
+  Point        edge_position(const std::vector<unsigned int> &vertices, double t) const;
+  Point face_position(const std::vector<unsigned int> &vertices, const dealii::Point<2> &u) const;
+  Point interpolated(const std::vector<unsigned int> &vertices,
+                     const std::vector<double>       &weights,
+                     Manifold                        *manifold) const;
+};
+} // namespace snug::geometry
+
+#endif

@@ -1,0 +1,58 @@
+#ifndef snug_geometry_curved_face_h
+#define snug_geometry_curved_face_h
+
+#include <snug/geometry/formula.h>
+
+#include <memory>
+#include <string>
+
+namespace snug::geometry {
+/// The face 2d+s of a box before it is curved.
+template <int dim>
+struct FlatFace
+{
+  unsigned int       boundary;
+  std::string        name;
+  dealii::Point<dim> centre;    ///< [length]
+  dealii::Point<dim> half_size; ///< of the box [length]
+};
+
+/**
+ * The outward displacement of a box face that makes it a sphere, a
+ * cylinder or the graph of a formula.
+ *
+ * Sphere and cylinder of radius R touch the flat face at its centre:
+ *   displacement = -sign(R) (|R| - sqrt(R^2 - r^2)),
+ * r: distance from the centre, or from the cylinder's centre line.
+ */
+template <int dim>
+class CurvedFace
+{
+public:
+  /**
+   * @p value: "sphere R", "cylinder AXIS R" or a formula [length].
+   * @throws InputError naming the entry Curved faces if @p value is none
+   *   of these, the axis is not tangent to the face, or |R| does not
+   *   exceed the largest r on the face.
+   */
+  CurvedFace(const FlatFace<dim> &flat, const std::string &value);
+
+  unsigned int boundary() const;
+
+  /// Outward displacement [length] of the flat face at the projection of
+  /// @p point onto it. @throws InputError if a formula is not finite.
+  double displacement(const dealii::Point<dim> &point) const;
+
+private:
+  FlatFace<dim>                 flat;
+  std::unique_ptr<Formula<dim>> formula; ///< null: sphere or cylinder
+  double                        radius        = 0.;
+  unsigned int                  straight_axis = dim; ///< cylinder's, in the box
+
+  void   set_radius(const std::string &number, const std::string &value);
+  void   set_axis(const std::string &axis, const std::string &value);
+  double squared_distance(const dealii::Point<dim> &offset) const;
+};
+} // namespace snug::geometry
+
+#endif

@@ -1,0 +1,47 @@
+#ifndef snug_geometry_formula_h
+#define snug_geometry_formula_h
+
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <string>
+
+namespace dealii {
+template <int dim>
+class FunctionParser;
+}
+
+namespace snug::geometry {
+/**
+ * A muParser formula of the coordinates x, y (2D) or x, y, z (3D), as
+ * users write it in an entry of the parameter file.
+ */
+template <int dim>
+class Formula
+{
+public:
+  /**
+   * Parse @p text, found in the entry called @p entry.
+   * @throws InputError naming entry, formula and the parser's complaint.
+   */
+  Formula(const std::string &entry, const std::string &text);
+  ~Formula();
+  Formula(Formula &&) noexcept;
+
+  /// @throws InputError if the value is not finite.
+  double value(const dealii::Point<dim> &point) const;
+
+  /// First and second derivatives by central differences of sixth order
+  /// over distances up to 3 @p step. Errors of first derivatives are about
+  /// step^6/140 of the seventh ones and eps/step of the value, of second
+  /// ones step^6/560 of the eighth and 4 eps/step^2.
+  dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &point, double step) const;
+  dealii::Tensor<2, dim> hessian(const dealii::Point<dim> &point, double step) const;
+
+private:
+  std::string                                  entry, text;
+  std::unique_ptr<dealii::FunctionParser<dim>> parser;
+};
+} // namespace snug::geometry
+
+#endif

@@ -1,0 +1,48 @@
+#ifndef snug_geometry_wrapped_geometry_h
+#define snug_geometry_wrapped_geometry_h
+
+#include <snug/geometry/body_geometry.h>
+
+namespace snug::geometry {
+/// The geometry of another one; derived classes change what they say.
+template <int dim>
+class WrappedGeometry : public BodyGeometry<dim>
+{
+public:
+  using Point = dealii::Point<dim>;
+
+  explicit WrappedGeometry(std::unique_ptr<BodyGeometry<dim>> body) : body(std::move(body)) {}
+
+  typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override
+  {
+    return body->coarse_mesh();
+  }
+
+  double n_coarse_cells() const override { return body->n_coarse_cells(); }
+
+  const std::vector<std::string> &boundary_names() const override { return body->boundary_names(); }
+
+  std::vector<std::string> region_names() const override { return body->region_names(); }
+
+  unsigned int region(unsigned int coarse_cell) const override { return body->region(coarse_cell); }
+
+  Point position(const MeshPoint<dim> &point) const override { return body->position(point); }
+
+  Point logical(const MeshPoint<dim> &point) const override { return body->logical(point); }
+
+  dealii::Tensor<1, dim> extent() const override { return body->extent(); }
+
+  bool has_grid() const override { return body->has_grid(); }
+
+  bool has_frame() const override { return body->has_frame(); }
+
+  Point box_fraction(const Point &logical) const override { return body->box_fraction(logical); }
+
+  Point box_position(const Point &fraction) const override { return body->box_position(fraction); }
+
+protected:
+  std::unique_ptr<BodyGeometry<dim>> body;
+};
+} // namespace snug::geometry
+
+#endif

@@ -1,0 +1,29 @@
+#ifndef snug_mesh_file_import_mesh_h
+#define snug_mesh_file_import_mesh_h
+
+#include <snug/geometry/imported_mesh.h>
+
+namespace snug::mesh_file {
+/**
+ * Make cells of the contents @p text of a mesh file:
+ *
+ * - elements of the dimension @p dim in the wanted regions; if triangles,
+ *   tetrahedra or prisms are among them, each is split at the middles of
+ *   its edges, faces and itself into quadrilaterals or hexahedra, and all
+ *   others with them; so are hexahedra whose edges cannot be given common
+ *   directions, see order_consistently();
+ * - groups of elements one dimension lower are the boundaries; boundary
+ *   faces without a group are called free;
+ * - boundaries that lie on spheres or cylinders, as the entry Curved faces
+ *   says, are fitted to them, and stay so when refined.
+ *
+ * @throws InputError naming an entry and, for what is wrong in the file,
+ *   its line and element.
+ */
+std::shared_ptr<const geometry::ImportedMesh>
+import_mesh(const std::string                  &text,
+            const geometry::BodyMeshParameters &parameters,
+            unsigned int                        dim);
+} // namespace snug::mesh_file
+
+#endif

@@ -1,0 +1,46 @@
+#ifndef snug_mesh_file_mesh_formats_h
+#define snug_mesh_file_mesh_formats_h
+
+#include <snug/mesh_file/mesh_file.h>
+
+namespace snug::mesh_file {
+/// @name Readers of file formats @throws InputError: "line 17: ..."
+/// @{
+
+/// Gmsh .msh 2 and 4.1; groups are the physical ones. Source: Gmsh
+/// reference manual, file formats.
+MeshFile read_gmsh(const std::string &text);
+
+/**
+ * Abaqus .inp; groups are the element sets and element surfaces. One part;
+ * keywords other than NODE, ELEMENT, ELSET and SURFACE are skipped.
+ * Source: Abaqus keywords reference.
+ */
+MeshFile read_abaqus(const std::string &text);
+
+/// VTK legacy file of an unstructured grid, ASCII or binary; groups are the
+/// numbers of the cell data MaterialID or CellEntityIds. Source: VTK file
+/// formats.
+MeshFile read_vtk(const std::string &text);
+
+/// UCD of AVS in ASCII; groups are the material numbers.
+MeshFile read_ucd(const std::string &text);
+/// @}
+
+/// Points by the numbers a file gives them.
+class PointNumbers
+{
+public:
+  /// @throws InputError if the number occurred before.
+  void add(unsigned long number, unsigned long line);
+
+  /// Index of the point; @p element is for the message.
+  /// @throws InputError if there is none.
+  unsigned int index(unsigned long number, const std::string &element, unsigned long line) const;
+
+private:
+  std::map<unsigned long, unsigned int> indices;
+};
+} // namespace snug::mesh_file
+
+#endif

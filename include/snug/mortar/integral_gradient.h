@@ -1,0 +1,24 @@
+#ifndef snug_mortar_integral_gradient_h
+#define snug_mortar_integral_gradient_h
+
+#include <snug/mortar/mortar_coupling.h>
+
+namespace snug::mortar {
+/// Gradient with respect to the nodes of a slave and some master faces.
+template <int dim>
+struct FaceGradient
+{
+  FaceNodes<dim, double>              slave;
+  std::vector<FaceNodes<dim, double>> masters;
+};
+
+/// The transpose of the derivative of integrate(): from the gradient of a
+/// scalar with respect to the integrals, that to the nodes.
+template <int dim>
+FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>              &quadrature,
+                                      const FaceNodes<dim, double>              &slave,
+                                      const std::vector<FaceNodes<dim, double>> &masters,
+                                      const FaceIntegrals<double>               &gradient);
+} // namespace snug::mortar
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef snug_supports_support_h
+#define snug_supports_support_h
+
+#include <deal.II/base/point.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace snug::supports {
+/// One displacement component held on one boundary of a body.
+template <int dim>
+struct Support
+{
+  /// Component number of the nodal normal, which points outwards.
+  static constexpr unsigned int normal = dim;
+
+  unsigned int body, boundary;
+  unsigned int component; ///< 0, 1, 2: x, y, z; or normal
+  /// Prescribed displacement [length] per load case as a function of the
+  /// reference position; zero where there is none.
+  std::vector<std::function<double(const dealii::Point<dim> &)>> values;
+  std::string name; ///< of what the user wrote, for messages
+};
+} // namespace snug::supports
+
+#endif

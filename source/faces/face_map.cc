@@ -1,0 +1,169 @@
+#include <snug/base/errors.h>
+#include <snug/faces/face_map.h>
+
+namespace snug::faces {
+namespace {
+/// The Lagrange polynomials of [0,1] and their derivatives.
+template <typename Number>
+struct Lagrange
+{
+  std::array<Number, 3> value, slope;
+
+  Lagrange(unsigned int degree, const Number &x)
+  {
+    if (degree == 1)
+      {
+        value = {{1. - x, x, 0.}};
+        slope = {{-1., 1., 0.}};
+      }
+    else
+      {
+        value = {{(1. - x) * (1. - 2. * x), 4. * x * (1. - x), x * (2. * x - 1.)}};
+        slope = {{4. * x - 3., 4. - 8. * x, 4. * x - 1.}};
+      }
+  }
+};
+
+template <typename Number>
+void fill(FaceValues<2, Number> &values, unsigned int degree, const FaceCoordinates<2, Number> &xi)
+{
+  const Lagrange<Number> x(degree, xi[0]);
+  for (unsigned int k = 0; k <= degree; ++k)
+    {
+      values.value[k]       = x.value[k];
+      values.gradient[k][0] = x.slope[k];
+    }
+}
+
+template <typename Number>
+void fill(FaceValues<3, Number> &values, unsigned int degree, const FaceCoordinates<3, Number> &xi)
+{
+  const Lagrange<Number> x(degree, xi[0]), y(degree, xi[1]);
+  unsigned int           k = 0;
+  for (unsigned int j = 0; j <= degree; ++j)
+    for (unsigned int i = 0; i <= degree; ++i, ++k)
+      {
+        values.value[k]       = x.value[i] * y.value[j];
+        values.gradient[k][0] = x.slope[i] * y.value[j];
+        values.gradient[k][1] = x.value[i] * y.slope[j];
+      }
+}
+
+/// x with A x = b
+template <typename Number>
+std::array<Number, 1> solve(const std::array<std::array<double, 1>, 1> &A,
+                            const std::array<Number, 1>                &b)
+{
+  return {{b[0] * (1. / A[0][0])}};
+}
+
+template <typename Number>
+std::array<Number, 2> solve(const std::array<std::array<double, 2>, 2> &A,
+                            const std::array<Number, 2>                &b)
+{
+  const double d = 1. / (A[0][0] * A[1][1] - A[0][1] * A[1][0]);
+  return {{(b[0] * A[1][1] - b[1] * A[0][1]) * d, (b[1] * A[0][0] - b[0] * A[1][0]) * d}};
+}
+
+/// y - sum_k N_k(xi) y_k, and the derivative of the sum.
+template <int dim, typename Number>
+struct Residual
+{
+  FaceCoordinates<dim, Number>                     value;
+  std::array<std::array<double, dim - 1>, dim - 1> jacobian{};
+
+  Residual(unsigned int                                     degree,
+           const std::vector<FaceCoordinates<dim, Number>> &nodes,
+           const FaceCoordinates<dim, Number>              &y,
+           const FaceCoordinates<dim, double>              &xi)
+    : value(y)
+  {
+    const FaceValues<dim, double> shape(degree, xi);
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      for (int i = 0; i < dim - 1; ++i)
+        {
+          value[i] -= nodes[k][i] * shape.value[k];
+          for (int j = 0; j < dim - 1; ++j)
+            jacobian[i][j] += value_of(nodes[k][i]) * shape.gradient[k][j];
+        }
+  }
+};
+
+template <int dim, typename Number>
+FaceCoordinates<dim, double> values_of(const FaceCoordinates<dim, Number> &x)
+{
+  FaceCoordinates<dim, double> result;
+  for (int i = 0; i < dim - 1; ++i)
+    result[i] = value_of(x[i]);
+  return result;
+}
+} // namespace
+
+template <int dim, typename Number>
+FaceValues<dim, Number>::FaceValues(unsigned int degree, const FaceCoordinates<dim, Number> &xi)
+  : n_nodes(dim == 2 ? degree + 1 : (degree + 1) * (degree + 1))
+{
+  fill(*this, degree, xi);
+}
+
+template <int dim, typename Number>
+PlaneFace<dim, Number>::PlaneFace(unsigned int degree, const std::vector<Point> &nodes)
+  : degree(degree), points(nodes)
+{
+  for (const auto &node : nodes)
+    values.push_back(values_of<dim>(node));
+}
+
+template <int dim, typename Number>
+const std::vector<FaceCoordinates<dim, Number>> &PlaneFace<dim, Number>::nodes() const
+{
+  return points;
+}
+
+template <int dim, typename Number>
+FaceCoordinates<dim, Number> PlaneFace<dim, Number>::coordinates(const Point &y) const
+{
+  const double       round_off = 1e-14, converged = 1e-10;
+  const unsigned int max_iterations = 50;
+  const auto         wanted         = values_of<dim>(y);
+
+  FaceCoordinates<dim, double> xi;
+  xi.fill(0.5);
+  double move = 1., last_move = 2.;
+  for (unsigned int i = 0; i < max_iterations && move > round_off; ++i)
+    {
+      const Residual<dim, double> at(degree, values, wanted, xi);
+      const auto                  step = solve(at.jacobian, at.value);
+      last_move                        = move;
+      move                             = 0.;
+      for (int a = 0; a < dim - 1; ++a)
+        {
+          xi[a] += step[a];
+          move += std::abs(step[a]);
+        }
+      if (move < converged && move >= last_move)
+        break;
+    }
+  if (!(move < converged))
+    throw TangledMesh("a contact face is folded: a point opposite to it "
+                      "has no coordinates in it");
+  const Residual<dim, Number> at(degree, points, y, xi);
+  Point                       result = solve(at.jacobian, at.value);
+  for (int a = 0; a < dim - 1; ++a)
+    result[a] += xi[a];
+  return result;
+}
+
+#define SNUG_INSTANTIATE(dim, Number)      \
+  template struct FaceValues<dim, Number>; \
+  template class PlaneFace<dim, Number>;
+SNUG_INSTANTIATE(2, double)
+SNUG_INSTANTIATE(2, Differential<1>)
+SNUG_INSTANTIATE(2, Differential<8>)
+SNUG_INSTANTIATE(2, Differential<12>)
+SNUG_INSTANTIATE(3, double)
+SNUG_INSTANTIATE(3, Differential<1>)
+SNUG_INSTANTIATE(3, Differential<24>)
+SNUG_INSTANTIATE(3, Differential<54>)
+#undef SNUG_INSTANTIATE
+} // namespace snug::faces

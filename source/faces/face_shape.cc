@@ -1,0 +1,108 @@
+#include <snug/faces/face_shape.h>
+
+#include <deal.II/base/polynomial.h>
+
+namespace snug::faces {
+template <int dim>
+FaceShape<dim>::FaceShape(unsigned int degree)
+  : p(degree)
+  , polynomials(dealii::Polynomials::LagrangeEquidistant::generate_complete_basis(degree))
+  , node_values(polynomials.n())
+{
+  for (unsigned int k = 0; k < n_nodes(); ++k)
+    evaluate(node(k), node_values[k]);
+}
+
+template <int dim>
+unsigned int FaceShape<dim>::n_nodes() const
+{
+  return polynomials.n();
+}
+
+template <int dim>
+unsigned int FaceShape<dim>::degree() const
+{
+  return p;
+}
+
+template <int dim>
+typename FaceShape<dim>::Coordinates FaceShape<dim>::node(unsigned int k) const
+{
+  Coordinates xi;
+  for (int i = 0; i < n_tangents; ++i, k /= p + 1)
+    xi[i] = static_cast<double>(k % (p + 1)) / p;
+  return xi;
+}
+
+template <int dim>
+void FaceShape<dim>::evaluate(const Coordinates &xi, Values &values) const
+{
+  std::vector<dealii::Tensor<3, dim - 1>> third;
+  std::vector<dealii::Tensor<4, dim - 1>> fourth;
+  values.value.resize(n_nodes());
+  values.gradient.resize(n_nodes());
+  values.hessian.resize(n_nodes());
+  polynomials.evaluate(xi, values.value, values.gradient, values.hessian, third, fourth);
+}
+
+template <int dim>
+const typename FaceShape<dim>::Values &FaceShape<dim>::at_node(unsigned int k) const
+{
+  return node_values[k];
+}
+
+template <int dim>
+typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values    &values,
+                                           const std::vector<unsigned int>          &nodes,
+                                           const typename mesh::Surface<dim>::Field &field)
+{
+  typename FaceShape<dim>::Tangents t;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    for (int i = 0; i < dim - 1; ++i)
+      t[i] += values.gradient[k][i] * field[nodes[k]];
+  return t;
+}
+
+dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
+{
+  return dealii::cross_product_2d(t[0]);
+}
+
+dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t)
+{
+  return dealii::cross_product_3d(t[0], t[1]);
+}
+
+dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &,
+                                            const std::array<dealii::Tensor<1, 2>, 1> &dt)
+{
+  return area_vector(dt);
+}
+
+dealii::Tensor<1, 3> area_vector_derivative(const std::array<dealii::Tensor<1, 3>, 2> &t,
+                                            const std::array<dealii::Tensor<1, 3>, 2> &dt)
+{
+  return dealii::cross_product_3d(dt[0], t[1]) + dealii::cross_product_3d(t[0], dt[1]);
+}
+
+std::array<dealii::Tensor<1, 2>, 1>
+area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &, const dealii::Tensor<1, 2> &b)
+{
+  return {{-dealii::cross_product_2d(b)}};
+}
+
+std::array<dealii::Tensor<1, 3>, 2>
+area_vector_transpose(const std::array<dealii::Tensor<1, 3>, 2> &t, const dealii::Tensor<1, 3> &b)
+{
+  return {{dealii::cross_product_3d(t[1], b), dealii::cross_product_3d(b, t[0])}};
+}
+
+template class FaceShape<2>;
+template class FaceShape<3>;
+template typename FaceShape<2>::Tangents tangents<2>(const FaceShape<2>::Values &,
+                                                     const std::vector<unsigned int> &,
+                                                     const mesh::Surface<2>::Field &);
+template typename FaceShape<3>::Tangents tangents<3>(const FaceShape<3>::Values &,
+                                                     const std::vector<unsigned int> &,
+                                                     const mesh::Surface<3>::Field &);
+} // namespace snug::faces

@@ -1,0 +1,146 @@
+#include <snug/faces/outer_edges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::faces {
+namespace {
+/// xi closer than this to 0 or 1 is on the edge.
+const double edge_width = 1e-12;
+
+bool at_bound(double x)
+{
+  return x < edge_width || x > 1. - edge_width;
+}
+} // namespace
+
+template <int dim>
+OuterEdges<dim>::OuterEdges(const mesh::Surface<dim>        &surface,
+                            const std::vector<unsigned int> &faces,
+                            const FaceShape<dim>            &shape)
+  : surface(surface), shape(shape)
+{
+  // Faces with these edge nodes; and whether edges with these masters are
+  // found with (fine) and without (coarse) hanging nodes: the halves of an
+  // edge reach the same masters as the coarse edge they lie on.
+  struct Halves
+  {
+    bool coarse = false, fine = false;
+  };
+  std::map<std::vector<unsigned int>, unsigned int> n_faces;
+  std::map<std::vector<unsigned int>, Halves>       halves;
+  for (const unsigned int face : faces)
+    for (unsigned int edge = 0; edge < 2 * (dim - 1); ++edge)
+      {
+        const auto nodes   = edge_nodes(face, edge);
+        const bool hanging = std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
+          return !surface.masters(node).empty();
+        });
+        ++n_faces[nodes];
+        auto &half                          = halves[edge_masters(nodes)];
+        (hanging ? half.fine : half.coarse) = true;
+      }
+  for (const unsigned int face : faces)
+    for (unsigned int edge = 0; edge < 2 * (dim - 1); ++edge)
+      {
+        const auto nodes = edge_nodes(face, edge);
+        const auto half  = halves.at(edge_masters(nodes));
+        if (n_faces.at(nodes) > 1 || (half.coarse && half.fine))
+          continue;
+        outer.emplace_back(face, edge);
+        for (const unsigned int node : nodes)
+          outer_at_vertex[node].emplace_back(face, edge);
+      }
+  std::sort(outer.begin(), outer.end());
+}
+
+template <int dim>
+std::vector<unsigned int> OuterEdges<dim>::edge_nodes(unsigned int face, unsigned int edge) const
+{
+  std::vector<unsigned int> nodes;
+  for (unsigned int k = 0; k < shape.n_nodes(); ++k)
+    if (shape.node(k)[edge / 2] == edge % 2)
+      nodes.push_back(surface.faces()[face].nodes[k]);
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+template <int dim>
+std::vector<unsigned int>
+OuterEdges<dim>::edge_masters(const std::vector<unsigned int> &nodes) const
+{
+  std::vector<unsigned int> reached;
+  for (const unsigned int node : nodes)
+    {
+      if (surface.masters(node).empty())
+        reached.push_back(node);
+      for (const auto &master : surface.masters(node))
+        reached.push_back(master.first);
+    }
+  std::sort(reached.begin(), reached.end());
+  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+  return reached;
+}
+
+template <int dim>
+double OuterEdges<dim>::excess(unsigned int                              face,
+                               const dealii::Point<dim - 1>             &xi,
+                               const dealii::Tensor<1, dim>             &offset,
+                               const typename mesh::Surface<dim>::Field &positions) const
+{
+  unsigned int n_bounds = 0, edge = 0;
+  for (unsigned int i = 0; i < dim - 1; ++i)
+    if (at_bound(xi[i]))
+      {
+        ++n_bounds;
+        edge = 2 * i + (xi[i] > 0.5 ? 1 : 0);
+      }
+  if (n_bounds == 0)
+    return 0.;
+  if (n_bounds < dim - 1)
+    {
+      const Edge only(face, edge);
+      return std::binary_search(outer.begin(), outer.end(), only)
+               ? excess_at_edge(only, xi, offset, positions)
+               : 0.;
+    }
+  unsigned int corner = 0;
+  while (!(shape.node(corner).distance(xi) < 0.25 / shape.degree()))
+    ++corner;
+  const unsigned int vertex = surface.faces()[face].nodes[corner];
+  const auto         found  = outer_at_vertex.find(vertex);
+  double             result = 0.;
+  if (found != outer_at_vertex.end())
+    for (const Edge &incident : found->second)
+      {
+        const auto        &nodes = surface.faces()[incident.first].nodes;
+        const unsigned int k     = std::find(nodes.begin(), nodes.end(), vertex) - nodes.begin();
+        result = std::max(result, excess_at_edge(incident, shape.node(k), offset, positions));
+      }
+  return result;
+}
+
+template <int dim>
+double OuterEdges<dim>::excess_at_edge(const Edge                               &edge,
+                                       const dealii::Point<dim - 1>             &xi,
+                                       const dealii::Tensor<1, dim>             &offset,
+                                       const typename mesh::Surface<dim>::Field &positions) const
+{
+  typename FaceShape<dim>::Values values;
+  shape.evaluate(xi, values);
+  const auto             t = tangents<dim>(values, surface.faces()[edge.first].nodes, positions);
+  const unsigned int     across  = edge.second / 2;
+  dealii::Tensor<1, dim> outward = t[across];
+  if (dim == 3)
+    {
+      const auto &along = t[dim - 2 - across];
+      outward -= (outward * along / along.norm_square()) * along;
+    }
+  if (edge.second % 2 == 0)
+    outward *= -1.;
+  return offset * outward / (outward.norm() * t[across].norm());
+}
+
+template class OuterEdges<2>;
+template class OuterEdges<3>;
+} // namespace snug::faces

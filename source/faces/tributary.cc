@@ -1,0 +1,116 @@
+#include <snug/faces/tributary.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace snug::faces {
+namespace {
+/// A Gauss point of a face: its area is weight * |area|.
+template <int dim>
+struct AreaPoint
+{
+  const std::vector<unsigned int>        &nodes;
+  const typename FaceShape<dim>::Values  &values;
+  const typename FaceShape<dim>::Tangents t;
+  const dealii::Tensor<1, dim>            area; ///< vector
+  const double                            weight;
+  const dealii::Tensor<1, dim>            weight_gradient;
+};
+
+template <int dim, typename Work>
+void for_each_point(const TributaryFaces<dim>                &of,
+                    const typename mesh::Surface<dim>::Field &positions,
+                    const Work                               &work)
+{
+  const dealii::QGauss<dim - 1>   quadrature(of.shape.degree() + 2);
+  typename FaceShape<dim>::Values values;
+  const auto                     &section = of.surface.idealization();
+  for (const unsigned int f : of.faces)
+    {
+      const auto &nodes = of.surface.faces()[f].nodes;
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          of.shape.evaluate(quadrature.point(q), values);
+          dealii::Tensor<1, dim> x;
+          for (unsigned int k = 0; k < nodes.size(); ++k)
+            x += values.value[k] * positions[nodes[k]];
+          const double weight = quadrature.weight(q);
+          const auto   t      = tangents<dim>(values, nodes, positions);
+          work(AreaPoint<dim>{nodes, values, t, area_vector(t), weight * section.weight(x),
+                              weight * section.template weight_gradient<dim>()});
+        }
+    }
+}
+} // namespace
+
+template <int dim>
+std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
+                                    const typename mesh::Surface<dim>::Field &positions)
+{
+  std::vector<double> share(of.surface.n_nodes(), 0.);
+  for_each_point(of, positions, [&](const AreaPoint<dim> &point) {
+    for (unsigned int k = 0; k < point.nodes.size(); ++k)
+      share[point.nodes[k]] += point.values.value[k] * point.weight * point.area.norm();
+  });
+  for (unsigned int node = 0; node < share.size(); ++node)
+    for (const auto &master : of.surface.masters(node))
+      share[master.first] += master.second * share[node];
+  return share;
+}
+
+template <int dim>
+std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
+                                    const std::vector<unsigned int>          &nodes,
+                                    const typename mesh::Surface<dim>::Field &positions)
+{
+  const auto          share = tributary_areas(of, positions);
+  std::vector<double> result;
+  for (const unsigned int node : nodes)
+    result.push_back(share[node]);
+  return result;
+}
+
+template <int dim>
+void add_tributary_gradient(const TributaryFaces<dim>                &of,
+                            const std::vector<unsigned int>          &nodes,
+                            const typename mesh::Surface<dim>::Field &positions,
+                            const std::vector<double>                &factors,
+                            typename mesh::Surface<dim>::Field       &gradient)
+{
+  AssertDimension(factors.size(), nodes.size());
+  std::vector<double> of_nodes(of.surface.n_nodes(), 0.);
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    of_nodes[nodes[i]] = factors[i];
+  auto share = of_nodes; // what the integral of a node's function counts
+  for (unsigned int node = 0; node < share.size(); ++node)
+    for (const auto &master : of.surface.masters(node))
+      share[node] += master.second * of_nodes[master.first];
+  for_each_point(of, positions, [&](const AreaPoint<dim> &point) {
+    double factor = 0.;
+    for (unsigned int k = 0; k < point.nodes.size(); ++k)
+      factor += share[point.nodes[k]] * point.values.value[k];
+    const auto by_tangents =
+      area_vector_transpose(point.t, factor * point.weight / point.area.norm() * point.area);
+    for (unsigned int k = 0; k < point.nodes.size(); ++k)
+      {
+        auto &sum = gradient[point.nodes[k]];
+        sum += factor * point.area.norm() * point.values.value[k] * point.weight_gradient;
+        for (int i = 0; i < dim - 1; ++i)
+          sum += point.values.gradient[k][i] * by_tangents[i];
+      }
+  });
+}
+
+#define SNUG_INSTANTIATE(dim)                                                            \
+  template std::vector<double> tributary_areas(const TributaryFaces<dim> &,              \
+                                               const mesh::Surface<dim>::Field &);       \
+  template std::vector<double> tributary_areas(const TributaryFaces<dim> &,              \
+                                               const std::vector<unsigned int> &,        \
+                                               const mesh::Surface<dim>::Field &);       \
+  template void                add_tributary_gradient(const TributaryFaces<dim> &,       \
+                                                      const std::vector<unsigned int> &, \
+                                                      const mesh::Surface<dim>::Field &, \
+                                                      const std::vector<double> &, mesh::Surface<dim>::Field &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::faces

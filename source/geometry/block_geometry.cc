@@ -1,0 +1,295 @@
+#include <snug/geometry/block_geometry.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/geometry_info.h>
+
+#include <deal.II/grid/manifold.h>
+
+#include <algorithm>
+
+namespace snug::geometry {
+namespace {
+using Vertices = std::vector<unsigned int>;
+
+Vertices sorted(Vertices vertices)
+{
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+template <int dim>
+Vertices face_of(const Vertices &block, unsigned int face)
+{
+  using Info = dealii::GeometryInfo<dim>;
+  Vertices result(Info::vertices_per_face);
+  for (unsigned int v = 0; v < result.size(); ++v)
+    result[v] = block[Info::face_to_cell_vertices(face, v)];
+  return result;
+}
+
+template <int dim>
+Vertices edge_of(const Vertices &block, unsigned int edge)
+{
+  using Info = dealii::GeometryInfo<dim>;
+  return {block[Info::line_to_cell_vertices(edge, 0)], block[Info::line_to_cell_vertices(edge, 1)]};
+}
+
+/// Multilinear weights of the vertices of a cell at @p u.
+template <int dim>
+std::vector<double> weights(const dealii::Point<dim> &u)
+{
+  std::vector<double> result;
+  for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
+    result.push_back(dealii::GeometryInfo<dim>::d_linear_shape_function(u, v));
+  return result;
+}
+
+/// Multi-index of cell @p cell in a grid, the first axis fastest.
+template <int dim>
+std::array<unsigned int, dim> multi_index(unsigned int cell, const std::array<unsigned int, dim> &n)
+{
+  std::array<unsigned int, dim> index;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      index[d] = cell % n[d];
+      cell /= n[d];
+    }
+  return index;
+}
+
+/// A point of the grids of blocks: vertices of its block and their
+/// weights, times the numbers of cells of the axes it lies within. Equal
+/// in all blocks that have it.
+using GridPoint = std::vector<std::pair<unsigned int, unsigned int>>;
+
+template <int dim>
+GridPoint grid_point(const Vertices                      &block,
+                     const std::array<unsigned int, dim> &place,
+                     const std::array<unsigned int, dim> &n)
+{
+  GridPoint result;
+  for (unsigned int v = 0; v < block.size(); ++v)
+    {
+      unsigned int weight = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (place[d] == 0 || place[d] == n[d])
+          weight *= (place[d] == 0) == ((v >> d & 1) == 0);
+        else
+          weight *= (v >> d & 1) == 1 ? place[d] : n[d] - place[d];
+      if (weight > 0)
+        result.emplace_back(block[v], weight);
+    }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+} // namespace
+
+template <int dim>
+BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_mesh)
+  : mesh(std::move(block_mesh)), is_curved(mesh->blocks.size(), false)
+{
+  using Info = dealii::GeometryInfo<dim>;
+  for (const Vertices &block : mesh->blocks)
+    for (const unsigned int f : Info::face_indices())
+      {
+        const Vertices face  = face_of<dim>(block, f);
+        const auto     found = mesh->boundaries.find(sorted(face));
+        if (found == mesh->boundaries.end() || mesh->surfaces.count(found->second) == 0)
+          continue;
+        Manifold *surface    = mesh->surfaces.at(found->second).get();
+        curved[sorted(face)] = surface;
+        if (dim == 3)
+          for (unsigned int e = 0; e < 4; ++e)
+            curved.emplace(sorted(edge_of<2>(face, e)), surface);
+      }
+  for (unsigned int b = 0; b < is_curved.size() && !curved.empty(); ++b)
+    for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
+      if (curved.count(sorted(edge_of<dim>(mesh->blocks[b], e))) > 0)
+        is_curved[b] = true;
+  upper = mesh->vertices.front();
+  lower = upper;
+  for (const Point &vertex : mesh->vertices)
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::min(lower[d], vertex[d]);
+        upper[d] = std::max(upper[d], vertex[d]);
+      }
+}
+
+template <int dim>
+unsigned int BlockGeometry<dim>::cells_per_block() const
+{
+  unsigned int n = 1;
+  for (const unsigned int cells : mesh->cells)
+    n *= cells;
+  return n;
+}
+
+template <int dim>
+typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
+{
+  using Info = dealii::GeometryInfo<dim>;
+  typename BodyGeometry<dim>::CoarseMesh result;
+  std::map<GridPoint, unsigned int>      numbers;
+  const auto                            &n = mesh->cells;
+  for (unsigned int b = 0; b < mesh->blocks.size(); ++b)
+    for (unsigned int c = 0; c < cells_per_block(); ++c)
+      {
+        const auto index = multi_index<dim>(c, n);
+        Vertices   cell(Info::vertices_per_cell);
+        for (unsigned int v = 0; v < cell.size(); ++v)
+          {
+            auto  place = index;
+            Point u;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                place[d] += v >> d & 1;
+                u[d] = static_cast<double>(place[d]) / n[d];
+              }
+            const auto entry =
+              numbers.emplace(grid_point<dim>(mesh->blocks[b], place, n), result.vertices.size());
+            if (entry.second)
+              result.vertices.push_back(block_position(b, u));
+            cell[v] = entry.first->second;
+          }
+        result.cells.push_back(cell);
+        for (const unsigned int f : Info::face_indices())
+          if (index[f / 2] == (f % 2 == 1 ? n[f / 2] - 1 : 0))
+            {
+              const auto found = mesh->boundaries.find(sorted(face_of<dim>(mesh->blocks[b], f)));
+              if (found != mesh->boundaries.end())
+                result.boundary_faces.emplace_back(face_of<dim>(cell, f), found->second);
+            }
+      }
+  return result;
+}
+
+template <int dim>
+double BlockGeometry<dim>::n_coarse_cells() const
+{
+  double n = mesh->blocks.size();
+  for (const unsigned int along : mesh->cells)
+    n *= along;
+  return n;
+}
+
+template <int dim>
+const std::vector<std::string> &BlockGeometry<dim>::boundary_names() const
+{
+  return mesh->boundary_names;
+}
+
+template <int dim>
+std::vector<std::string> BlockGeometry<dim>::region_names() const
+{
+  return mesh->region_names;
+}
+
+template <int dim>
+unsigned int BlockGeometry<dim>::region(unsigned int coarse_cell) const
+{
+  return mesh->regions[coarse_cell / cells_per_block()];
+}
+
+template <int dim>
+dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) const
+{
+  const auto index = multi_index<dim>(point.cell % cells_per_block(), mesh->cells);
+  Point      u;
+  for (unsigned int d = 0; d < dim; ++d)
+    u[d] = (index[d] + point.unit[d]) / mesh->cells[d];
+  return block_position(point.cell / cells_per_block(), u);
+}
+
+template <int dim>
+dealii::Point<dim> BlockGeometry<dim>::logical(const MeshPoint<dim> &point) const
+{
+  return Point((position(point) - lower) / lower.distance(upper));
+}
+
+template <int dim>
+dealii::Tensor<1, dim> BlockGeometry<dim>::extent() const
+{
+  return upper - lower;
+}
+
+template <int dim>
+dealii::Point<dim> BlockGeometry<dim>::interpolated(const Vertices            &vertices,
+                                                    const std::vector<double> &weights,
+                                                    Manifold                  *manifold) const
+{
+  std::vector<Point> points;
+  for (const unsigned int vertex : vertices)
+    points.push_back(mesh->vertices[vertex]);
+  if (manifold != nullptr)
+    return manifold->get_new_point(dealii::make_array_view(points),
+                                   dealii::make_array_view(weights));
+  Point result;
+  for (unsigned int i = 0; i < points.size(); ++i)
+    result += weights[i] * points[i];
+  return result;
+}
+
+template <int dim>
+dealii::Point<dim> BlockGeometry<dim>::edge_position(const Vertices &vertices, double t) const
+{
+  const auto found = curved.find(sorted(vertices));
+  return interpolated(vertices, {1. - t, t}, found == curved.end() ? nullptr : found->second);
+}
+
+template <int dim>
+dealii::Point<dim> BlockGeometry<dim>::face_position(const Vertices         &vertices,
+                                                     const dealii::Point<2> &u) const
+{
+  const auto found = curved.find(sorted(vertices));
+  if (found != curved.end())
+    return interpolated(vertices, weights<2>(u), found->second);
+  Point result = -1. * interpolated(vertices, weights<2>(u), nullptr);
+  for (unsigned int e = 0; e < 4; ++e)
+    {
+      const unsigned int normal = e / 2;
+      const double       w      = e % 2 == 1 ? u[normal] : 1. - u[normal];
+      result += w * edge_position(edge_of<2>(vertices, e), u[1 - normal]);
+    }
+  return result;
+}
+
+template <>
+dealii::Point<2> BlockGeometry<2>::block_position(unsigned int            block,
+                                                  const dealii::Point<2> &u) const
+{
+  const Vertices &vertices = mesh->blocks[block];
+  if (mesh->inside || !is_curved[block])
+    return interpolated(vertices, weights<2>(u), mesh->inside.get());
+  return face_position(vertices, u);
+}
+
+template <>
+dealii::Point<3> BlockGeometry<3>::block_position(unsigned int            block,
+                                                  const dealii::Point<3> &u) const
+{
+  const Vertices &vertices = mesh->blocks[block];
+  if (mesh->inside || !is_curved[block])
+    return interpolated(vertices, weights<3>(u), mesh->inside.get());
+  const auto side   = [&](unsigned int d, unsigned int s) { return s == 1 ? u[d] : 1. - u[d]; };
+  Point      result = interpolated(vertices, weights<3>(u), nullptr);
+  for (unsigned int f = 0; f < 6; ++f)
+    {
+      // tangents of deal.II's faces: y z, z x, x y
+      const dealii::Point<2> t(u[(f / 2 + 1) % 3], u[(f / 2 + 2) % 3]);
+      result += side(f / 2, f % 2) * face_position(face_of<3>(vertices, f), t);
+    }
+  for (unsigned int d = 0; d < 3; ++d)
+    for (unsigned int k = 0; k < 4; ++k)
+      {
+        const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
+        const unsigned int first = (k & 1) << a | (k >> 1) << b;
+        result -= side(a, k & 1) * side(b, k >> 1) *
+                  edge_position({vertices[first], vertices[first | 1 << d]}, u[d]);
+      }
+  return result;
+}
+
+template class BlockGeometry<2>;
+template class BlockGeometry<3>;
+} // namespace snug::geometry

@@ -1,0 +1,146 @@
+#include <snug/geometry/block_mesh.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/geometry_info.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <set>
+
+namespace snug::geometry {
+template <int dim>
+void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name)
+{
+  using Face             = typename BlockMesh<dim>::Face;
+  const auto is_on_plane = [&](unsigned int vertex) { return mesh.vertices[vertex][axis] == 0.; };
+  std::vector<unsigned int> image;
+  const unsigned int        n_vertices = mesh.vertices.size();
+  for (unsigned int v = 0; v < n_vertices; ++v)
+    {
+      image.push_back(is_on_plane(v) ? v : mesh.vertices.size());
+      if (is_on_plane(v))
+        continue;
+      mesh.vertices.push_back(mesh.vertices[v]);
+      mesh.vertices.back()[axis] *= -1.;
+    }
+  const unsigned int n_blocks = mesh.blocks.size();
+  for (unsigned int b = 0; b < n_blocks; ++b)
+    {
+      // the first axis of a block turns round to keep it right-handed
+      std::vector<unsigned int> block(mesh.blocks[b].size());
+      for (unsigned int v = 0; v < block.size(); ++v)
+        block[v] = image[mesh.blocks[b][v ^ 1]];
+      mesh.blocks.push_back(block);
+      mesh.regions.push_back(mesh.regions[b]);
+    }
+  const auto old = mesh.boundaries;
+  for (const auto &face : old)
+    {
+      if (mesh.boundary_names[face.second] == name)
+        {
+          mesh.boundaries.erase(face.first);
+          continue;
+        }
+      Face key;
+      for (const unsigned int v : face.first)
+        key.push_back(image[v]);
+      std::sort(key.begin(), key.end());
+      mesh.boundaries[key] = face.second;
+    }
+}
+
+template <int dim>
+void remove_unused_boundaries(BlockMesh<dim> &mesh)
+{
+  std::map<unsigned int, unsigned int> number;
+  for (const auto &face : mesh.boundaries)
+    number[face.second] = 0;
+  std::vector<std::string>                                 names;
+  std::map<unsigned int, typename BlockMesh<dim>::Surface> surfaces;
+  for (auto &entry : number)
+    {
+      entry.second = names.size();
+      names.push_back(mesh.boundary_names[entry.first]);
+      if (mesh.surfaces.count(entry.first) > 0)
+        surfaces[entry.second] = mesh.surfaces.at(entry.first);
+    }
+  for (auto &face : mesh.boundaries)
+    face.second = number[face.second];
+  mesh.boundary_names = names;
+  mesh.surfaces       = surfaces;
+}
+
+namespace {
+template <int dim>
+bool is_consistent(const std::vector<dealii::CellData<dim>> &cells)
+{
+  using Info = dealii::GeometryInfo<dim>;
+  std::set<std::pair<unsigned int, unsigned int>> edges;
+  for (const auto &cell : cells)
+    for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
+      edges.emplace(cell.vertices[Info::line_to_cell_vertices(e, 0)],
+                    cell.vertices[Info::line_to_cell_vertices(e, 1)]);
+  return std::none_of(edges.begin(), edges.end(), [&](const auto &edge) {
+    return edges.count({edge.second, edge.first}) > 0;
+  });
+}
+
+template <int dim>
+std::vector<dealii::CellData<dim>>
+first_vertices(const std::vector<std::vector<unsigned int>> &blocks)
+{
+  std::vector<dealii::CellData<dim>> cells;
+  for (const auto &block : blocks)
+    {
+      cells.emplace_back(1u << dim);
+      std::copy_n(block.begin(), 1u << dim, cells.back().vertices.begin());
+    }
+  return cells;
+}
+} // namespace
+
+template <int dim>
+bool order_consistently(BlockMesh<dim> &mesh)
+{
+  auto cells = first_vertices<dim>(mesh.blocks);
+  if (is_consistent(cells))
+    return true;
+  try
+    {
+      dealii::GridTools::consistently_order_cells(cells);
+    }
+  catch (const dealii::ExceptionBase &)
+    {
+      return false;
+    }
+  if (!is_consistent(cells))
+    return false;
+  for (unsigned int b = 0; b < cells.size(); ++b)
+    mesh.blocks[b] = cells[b].vertices;
+  return true;
+}
+
+void order_layer_consistently(BlockMesh<3> &mesh)
+{
+  auto cells = first_vertices<2>(mesh.blocks);
+  dealii::GridTools::consistently_order_cells(cells);
+  for (unsigned int b = 0; b < cells.size(); ++b)
+    {
+      const auto old = mesh.blocks[b];
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          const auto place      = std::find(old.begin(), old.end(), cells[b].vertices[v]);
+          mesh.blocks[b][v]     = *place;
+          mesh.blocks[b][v + 4] = *(place + 4);
+        }
+    }
+}
+
+template void mirror(BlockMesh<2> &, unsigned int, const std::string &);
+template void mirror(BlockMesh<3> &, unsigned int, const std::string &);
+template void remove_unused_boundaries(BlockMesh<2> &);
+template void remove_unused_boundaries(BlockMesh<3> &);
+template bool order_consistently(BlockMesh<2> &);
+template bool order_consistently(BlockMesh<3> &);
+} // namespace snug::geometry

@@ -1,0 +1,100 @@
+#include <snug/base/errors.h>
+#include <snug/geometry/curved_face.h>
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace snug::geometry {
+namespace {
+const std::string curved_entry = "Curved faces";
+
+std::vector<std::string> words(const std::string &text)
+{
+  std::istringstream       stream(text);
+  std::vector<std::string> result;
+  for (std::string word; stream >> word;)
+    result.push_back(word);
+  return result;
+}
+} // namespace
+
+template <int dim>
+CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value) : flat(flat)
+{
+  const std::vector<std::string> word  = words(value);
+  const std::string              shape = word.empty() ? "" : word[0];
+  if (shape != "sphere" && shape != "cylinder")
+    {
+      formula = std::make_unique<Formula<dim>>(curved_entry, value);
+      return;
+    }
+  if (word.size() != (shape == "sphere" ? 2 : 3))
+    throw bad_entry(curved_entry, flat.name + ": " + value,
+                    "must be 'sphere R', 'cylinder AXIS R' or a formula");
+  if (shape == "cylinder")
+    set_axis(word[1], value);
+  set_radius(word.back(), value);
+}
+
+template <int dim>
+void CurvedFace<dim>::set_axis(const std::string &axis, const std::string &value)
+{
+  const auto index   = axis.size() == 1 ? std::string("xyz").find(axis) : std::string::npos;
+  const bool tangent = dim == 2 ? index == 2 : index < 3 && index != flat.boundary / 2;
+  if (!tangent)
+    throw bad_entry(curved_entry, flat.name + ": " + value,
+                    dim == 2 ? "the axis of a cylinder must be z in 2D"
+                             : "the axis must be x, y or z and tangent to the face");
+  straight_axis = index;
+}
+
+template <int dim>
+void CurvedFace<dim>::set_radius(const std::string &number, const std::string &value)
+{
+  std::istringstream stream(number);
+  const double       least = std::sqrt(squared_distance(flat.half_size));
+  if (!(stream >> radius) || !stream.eof() || !std::isfinite(radius) || std::abs(radius) <= least)
+    {
+      std::ostringstream allowed;
+      allowed << "the radius must be a number R with |R| > " << least
+              << ", half the extent of the face";
+      throw bad_entry(curved_entry, flat.name + ": " + value, allowed.str());
+    }
+}
+
+template <int dim>
+double CurvedFace<dim>::squared_distance(const dealii::Point<dim> &offset) const
+{
+  double sum = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (d != flat.boundary / 2 && d != straight_axis)
+      sum += offset[d] * offset[d];
+  return sum;
+}
+
+template <int dim>
+unsigned int CurvedFace<dim>::boundary() const
+{
+  return flat.boundary;
+}
+
+template <int dim>
+double CurvedFace<dim>::displacement(const dealii::Point<dim> &point) const
+{
+  if (formula)
+    {
+      dealii::Point<dim> on_face = point;
+      on_face[flat.boundary / 2] = flat.centre[flat.boundary / 2];
+      return formula->value(on_face);
+    }
+  const double r2 = squared_distance(dealii::Point<dim>(point - flat.centre));
+  // |R| - sqrt(R^2 - r^2) without cancellation for r << |R|
+  const double R      = std::abs(radius);
+  const double recede = r2 / (R + std::sqrt(R * R - r2));
+  return radius > 0. ? -recede : recede;
+}
+
+template class CurvedFace<2>;
+template class CurvedFace<3>;
+} // namespace snug::geometry

@@ -1,0 +1,131 @@
+#include <snug/base/errors.h>
+#include <snug/geometry/fitted_surface.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <deal.II/grid/manifold_lib.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace snug::geometry {
+namespace {
+/// Axis of "cylinder AXIS", dim of a sphere.
+template <int dim>
+unsigned int read_axis(const std::string &boundary, const std::string &value)
+{
+  const auto words = dealii::Utilities::split_string_list(value, ' ');
+  if (words.size() == 1 && words[0] == "sphere")
+    return dim;
+  const auto axis = words.size() == 2 && words[0] == "cylinder" && words[1].size() == 1
+                      ? std::string("xyz").find(words[1])
+                      : std::string::npos;
+  if (axis == std::string::npos || (dim == 2 && axis != 2))
+    throw bad_entry("Curved faces", boundary + ": " + value,
+                    dim == 2 ? "of a mesh file must be 'sphere' or "
+                               "'cylinder z'"
+                             : "of a mesh file must be 'sphere' or "
+                               "'cylinder AXIS'");
+  return axis;
+}
+} // namespace
+
+template <int dim>
+FittedSurface<dim>::FittedSurface(const std::string                     &boundary,
+                                  const std::string                     &value,
+                                  const std::vector<dealii::Point<dim>> &points)
+  : straight_axis(read_axis<dim>(boundary, value))
+{
+  fit(points);
+  double largest = 0.;
+  for (const auto &point : points)
+    largest = std::max(largest, std::abs(offset(point).norm() - radius));
+  const double allowed = 1e-4, flat = 1e3;
+  const double length = points.front().distance(points.back());
+  if (!(largest <= allowed * radius && radius < flat * length))
+    {
+      std::ostringstream text;
+      text << "does not fit: nodes of '" << boundary << "' are up to " << largest
+           << " off the best one, of radius " << radius;
+      throw bad_entry("Curved faces", boundary + ": " + value, text.str());
+    }
+}
+
+template <int dim>
+dealii::Tensor<1, dim> FittedSurface<dim>::offset(const dealii::Point<dim> &point) const
+{
+  dealii::Tensor<1, dim> result = point - centre;
+  if (straight_axis < dim)
+    result[straight_axis] = 0.;
+  return result;
+}
+
+template <int dim>
+void FittedSurface<dim>::fit(const std::vector<dealii::Point<dim>> &points)
+{
+  dealii::Point<dim> mean;
+  for (const auto &point : points)
+    mean += point / double(points.size());
+  centre      = mean;
+  double size = 0.;
+  for (const auto &point : points)
+    size = std::max(size, offset(point).norm());
+  // unknowns: centre, dropping the straight axis, and the last term
+  dealii::FullMatrix<double> A(dim + 1, dim + 1);
+  dealii::Vector<double>     b(dim + 1), x(dim + 1);
+  for (const auto &point : points)
+    {
+      const dealii::Tensor<1, dim> y = offset(point) / size;
+      for (unsigned int i = 0; i <= dim; ++i)
+        {
+          const double left = i < dim ? 2. * y[i] : 1.;
+          for (unsigned int j = 0; j <= dim; ++j)
+            A(i, j) += left * (j < dim ? 2. * y[j] : 1.);
+          b(i) += left * y.norm_square();
+        }
+    }
+  if (straight_axis < dim)
+    A(straight_axis, straight_axis) = 1.;
+  // flat boundaries give a singular matrix, and a huge radius
+  for (unsigned int i = 0; i <= dim; ++i)
+    A(i, i) *= 1. + 1e-14;
+  A.gauss_jordan();
+  A.vmult(x, b);
+  double square = x(dim);
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      centre[d] += size * x(d);
+      square += x(d) * x(d);
+    }
+  radius = size * std::sqrt(square);
+}
+
+template <int dim>
+dealii::Point<dim> FittedSurface<dim>::project(const dealii::Point<dim> &point) const
+{
+  const auto from = offset(point);
+  return point + (radius / from.norm() - 1.) * from;
+}
+
+template <>
+BlockMesh<2>::Surface FittedSurface<2>::manifold() const
+{
+  return std::make_shared<dealii::SphericalManifold<2>>(centre);
+}
+
+template <>
+BlockMesh<3>::Surface FittedSurface<3>::manifold() const
+{
+  if (straight_axis == 3)
+    return std::make_shared<dealii::SphericalManifold<3>>(centre);
+  dealii::Tensor<1, 3> direction;
+  direction[straight_axis] = 1.;
+  return std::make_shared<dealii::CylindricalManifold<3>>(direction, centre);
+}
+
+template class FittedSurface<2>;
+template class FittedSurface<3>;
+} // namespace snug::geometry

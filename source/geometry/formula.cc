@@ -1,0 +1,153 @@
+#include <snug/base/errors.h>
+#include <snug/geometry/formula.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace snug::geometry {
+namespace {
+/// Keeps std::cerr silent: deal.II 9.4 prints each parser error there,
+/// on every rank, before it throws it.
+class SilentErrors
+{
+public:
+  SilentErrors() : saved(std::cerr.rdbuf(nullptr)) {}
+
+  ~SilentErrors()
+  {
+    std::cerr.rdbuf(saved);
+    std::cerr.clear();
+  }
+
+  SilentErrors(const SilentErrors &)            = delete;
+  SilentErrors &operator=(const SilentErrors &) = delete;
+
+private:
+  std::streambuf *saved;
+};
+
+/// muParser's own words within deal.II's message, in one line.
+std::string parser_message(const dealii::ExceptionBase &error)
+{
+  std::ostringstream stream;
+  error.print_info(stream);
+  std::string       message = stream.str();
+  const std::string mark    = "The parser said: ";
+  const auto        found   = message.find(mark);
+  if (found == std::string::npos)
+    return "not one formula";
+  message = message.substr(found + mark.size());
+  return message.substr(0, message.find_last_not_of(" .\n") + 1);
+}
+/// f'(0) of sixth order.
+template <typename Function>
+double difference(const Function &f, const double h)
+{
+  const double weights[] = {45., -9., 1.};
+  double       sum       = 0.;
+  for (unsigned int k = 1; k <= 3; ++k)
+    sum += weights[k - 1] * (f(k * h) - f(-(k * h)));
+  return sum / (60. * h);
+}
+
+/// f''(0) of sixth order.
+template <typename Function>
+double second_difference(const Function &f, const double h)
+{
+  const double weights[] = {270., -27., 2.};
+  double       sum       = -490. * f(0.);
+  for (unsigned int k = 1; k <= 3; ++k)
+    sum += weights[k - 1] * (f(k * h) + f(-(k * h)));
+  return sum / (180. * h * h);
+}
+} // namespace
+
+template <int dim>
+Formula<dim>::Formula(const std::string &entry, const std::string &text)
+  : entry(entry), text(text), parser(std::make_unique<dealii::FunctionParser<dim>>())
+{
+  const std::string variables = dim == 2 ? "x,y" : "x,y,z";
+  try
+    {
+      const SilentErrors guard;
+      parser->initialize(variables, text, {});
+      parser->value(dealii::Point<dim>());
+    }
+  catch (const dealii::ExceptionBase &error)
+    {
+      throw bad_entry(entry, text,
+                      "must be a formula of " + variables + " (" + parser_message(error) + ")");
+    }
+}
+
+template <int dim>
+Formula<dim>::~Formula() = default;
+
+template <int dim>
+Formula<dim>::Formula(Formula &&) noexcept = default;
+
+template <int dim>
+double Formula<dim>::value(const dealii::Point<dim> &point) const
+{
+  const double value = parser->value(point);
+  if (!std::isfinite(value))
+    {
+      std::ostringstream where;
+      where << "must be finite everywhere, but is not at (" << point << ")";
+      throw bad_entry(entry, text, where.str());
+    }
+  return value;
+}
+
+template <int dim>
+dealii::Tensor<1, dim> Formula<dim>::gradient(const dealii::Point<dim> &point,
+                                              const double              step) const
+{
+  dealii::Tensor<1, dim> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    result[i] = difference(
+      [&](const double t) {
+        dealii::Point<dim> p = point;
+        p[i] += t;
+        return value(p);
+      },
+      step);
+  return result;
+}
+
+template <int dim>
+dealii::Tensor<2, dim> Formula<dim>::hessian(const dealii::Point<dim> &point,
+                                             const double              step) const
+{
+  dealii::Tensor<2, dim> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    {
+      const auto along = [&](const double t) {
+        dealii::Point<dim> p = point;
+        p[i] += t;
+        return value(p);
+      };
+      result[i][i] = second_difference(along, step);
+      for (unsigned int j = 0; j < i; ++j)
+        result[i][j] = result[j][i] = difference(
+          [&](const double s) {
+            return difference(
+              [&](const double t) {
+                dealii::Point<dim> p = point;
+                p[i] += s;
+                p[j] += t;
+                return value(p);
+              },
+              step);
+          },
+          step);
+    }
+  return result;
+}
+
+template class Formula<2>;
+template class Formula<3>;
+} // namespace snug::geometry

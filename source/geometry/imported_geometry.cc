@@ -1,0 +1,20 @@
+#include <snug/base/errors.h>
+#include <snug/geometry/block_geometry.h>
+#include <snug/geometry/body_sources.h>
+#include <snug/geometry/imported_mesh.h>
+
+namespace snug::geometry {
+template <int dim>
+std::unique_ptr<BodyGeometry<dim>> make_imported(const BodyMeshParameters &parameters)
+{
+  if (!parameters.imported)
+    throw bad_entry("Mesh file", parameters.file, "must be read before a mesh is made of it");
+  if constexpr (dim == 2)
+    return std::make_unique<BlockGeometry<2>>(parameters.imported->flat);
+  else
+    return std::make_unique<BlockGeometry<3>>(parameters.imported->solid);
+}
+
+template std::unique_ptr<BodyGeometry<2>> make_imported(const BodyMeshParameters &);
+template std::unique_ptr<BodyGeometry<3>> make_imported(const BodyMeshParameters &);
+} // namespace snug::geometry

@@ -1,0 +1,119 @@
+#include <snug/geometry/entry_values.h>
+#include <snug/geometry/formula.h>
+#include <snug/geometry/placement.h>
+#include <snug/geometry/wrapped_geometry.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/tensor.h>
+
+namespace snug::geometry {
+namespace {
+const std::string rotate_entry = "Rotate";
+
+/// Rotation by @p degrees about an axis; exact for multiples of 90.
+dealii::Tensor<2, 3> rotation(unsigned int axis, double degrees)
+{
+  const double         turn  = std::remainder(degrees, 360.);
+  const double         angle = turn * dealii::numbers::PI / 180.;
+  const bool           right = std::remainder(turn, 90.) == 0.;
+  const double         c     = right ? std::round(std::cos(angle)) : std::cos(angle);
+  const double         s     = right ? std::round(std::sin(angle)) : std::sin(angle);
+  const unsigned int   a = (axis + 1) % 3, b = (axis + 2) % 3;
+  dealii::Tensor<2, 3> result;
+  result[axis][axis] = 1.;
+  result[a][a]       = c;
+  result[b][b]       = c;
+  result[a][b]       = -s;
+  result[b][a]       = s;
+  return result;
+}
+
+template <int dim>
+dealii::Tensor<2, dim> rotation(const BodyMeshParameters &parameters)
+{
+  dealii::Tensor<2, 3> whole;
+  for (unsigned int d = 0; d < 3; ++d)
+    whole[d][d] = 1.;
+  for (const auto &turn : parameters.rotate)
+    {
+      const auto         axis = std::string("xyz").find(turn.first);
+      std::istringstream text(turn.second);
+      double             degrees = 0.;
+      if (turn.first.size() != 1 || axis == std::string::npos || (dim == 2 && axis != 2) ||
+          !(text >> degrees) || !(text >> std::ws).eof() || !std::isfinite(degrees))
+        throw bad_entry(rotate_entry, turn.first + ": " + turn.second,
+                        dim == 2 ? "must be 'z: degrees'"
+                                 : "must be 'axis: degrees, ...', axes "
+                                   "x, y, z");
+      whole = rotation(axis, degrees) * whole;
+    }
+  dealii::Tensor<2, dim> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      result[i][j] = whole[i][j];
+  return result;
+}
+
+template <int dim>
+class PlacedGeometry : public WrappedGeometry<dim>
+{
+public:
+  using Point = dealii::Point<dim>;
+
+  PlacedGeometry(std::unique_ptr<BodyGeometry<dim>> body, const BodyMeshParameters &parameters)
+    : WrappedGeometry<dim>(std::move(body)), scale(parameters.scale)
+  {
+    if (!(std::isfinite(scale) && scale > 0.))
+      throw bad_entry("Scale", joined(std::vector<double>{scale}), "must be positive");
+    const auto shifts = per_axis<dim, double>("Shift", parameters.shift, 0., false);
+    for (unsigned int d = 0; d < dim; ++d)
+      shift[d] = shifts[d];
+    turned = rotation<dim>(parameters);
+    if (!parameters.warp.empty() && parameters.warp.size() != dim)
+      throw bad_entry("Warp", joined(parameters.warp),
+                      "must be " + std::to_string(dim) + " formulas separated by semicolons");
+    for (const auto &text : parameters.warp)
+      warp.emplace_back("Warp", text);
+  }
+
+  Point position(const MeshPoint<dim> &point) const override
+  {
+    return place(this->body->position(point));
+  }
+
+  Point box_position(const Point &fraction) const override
+  {
+    return place(this->body->box_position(fraction));
+  }
+
+private:
+  std::vector<Formula<dim>> warp;
+  double                    scale;
+  dealii::Tensor<2, dim>    turned;
+  dealii::Tensor<1, dim>    shift;
+
+  Point place(const Point &position) const
+  {
+    Point warped = position;
+    for (unsigned int d = 0; d < warp.size(); ++d)
+      warped[d] += warp[d].value(position);
+    return Point(turned * (scale * warped) + shift);
+  }
+};
+} // namespace
+
+template <int dim>
+std::unique_ptr<BodyGeometry<dim>> placed(std::unique_ptr<BodyGeometry<dim>> geometry,
+                                          const BodyMeshParameters          &parameters)
+{
+  if (parameters.warp.empty() && parameters.scale == 1. && parameters.rotate.empty() &&
+      parameters.shift.empty())
+    return geometry;
+  return std::make_unique<PlacedGeometry<dim>>(std::move(geometry), parameters);
+}
+
+template std::unique_ptr<BodyGeometry<2>> placed(std::unique_ptr<BodyGeometry<2>>,
+                                                 const BodyMeshParameters &);
+template std::unique_ptr<BodyGeometry<3>> placed(std::unique_ptr<BodyGeometry<3>>,
+                                                 const BodyMeshParameters &);
+} // namespace snug::geometry

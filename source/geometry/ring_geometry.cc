@@ -1,0 +1,110 @@
+#include <snug/geometry/body_sources.h>
+#include <snug/geometry/entry_values.h>
+#include <snug/geometry/grid_geometry.h>
+#include <snug/geometry/round_body.h>
+
+#include <deal.II/base/numbers.h>
+
+namespace snug::geometry {
+namespace {
+/**
+ * Logical axes: 2D radius, angle; 3D height, radius, angle. The angle,
+ * last, is closed in a full ring, which has no frame then.
+ */
+template <int dim>
+class RingGeometry : public GridGeometry<dim>
+{
+public:
+  explicit RingGeometry(const BodyMeshParameters &parameters);
+
+  dealii::Tensor<1, dim> extent() const override
+  {
+    dealii::Tensor<1, dim> result;
+    result[0]       = length;
+    result[dim - 2] = outer - inner;
+    result[dim - 1] = angle * (inner + outer) / 2.;
+    return result;
+  }
+
+  bool has_frame() const override { return angle < 1.5 * dealii::numbers::PI; }
+
+  dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
+  {
+    return logical;
+  }
+
+  dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const override;
+
+  dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const override
+  {
+    return box_position(logical);
+  }
+
+private:
+  double inner, outer, length, angle;
+};
+
+template <int dim>
+std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
+{
+  const auto given = round_cells(parameters, dim);
+  if (parameters.part == "full" && given[0] < 3)
+    throw bad_entry("Cells", joined(given), "must be at least 3 around a full ring");
+  std::array<unsigned int, dim> cells;
+  cells[dim - 1] = given[0];
+  cells[dim - 2] = given[1];
+  if (dim == 3)
+    cells[0] = given[2];
+  return cells;
+}
+
+template <int dim>
+std::vector<std::string> ring_faces(const std::string &part)
+{
+  std::vector<std::string> names;
+  if (dim == 3)
+    names = {"bottom", "top"};
+  names.insert(names.end(), {"inner", "outer"});
+  if (part != "full")
+    names.insert(names.end(), {"start", "end"});
+  return names;
+}
+
+template <int dim>
+RingGeometry<dim>::RingGeometry(const BodyMeshParameters &parameters)
+  : GridGeometry<dim>(ring_cells<dim>(parameters),
+                      ring_faces<dim>(parameters.part),
+                      parameters.part == "full")
+  , inner(parameters.inner_radius)
+  , outer(parameters.radius)
+  , length(parameters.length)
+  , angle(2. * dealii::numbers::PI / n_of_part(parameters, 4))
+{
+  require_radii(parameters);
+  if (dim == 3)
+    require_positive("Length", length);
+}
+
+template <int dim>
+dealii::Point<dim> RingGeometry<dim>::box_position(const dealii::Point<dim> &fraction) const
+{
+  const double       r   = inner + (outer - inner) * fraction[dim - 2];
+  const double       phi = angle * fraction[dim - 1];
+  dealii::Point<dim> position;
+  position[0] = r * std::cos(phi);
+  position[1] = r * std::sin(phi);
+  if (dim == 3)
+    position[dim - 1] = length * fraction[0];
+  return position;
+}
+} // namespace
+
+template <int dim>
+std::unique_ptr<BodyGeometry<dim>> make_ring(const BodyMeshParameters &parameters)
+{
+  return std::make_unique<RingGeometry<dim>>(parameters);
+}
+
+template std::unique_ptr<BodyGeometry<2>> make_ring(const BodyMeshParameters &);
+template std::unique_ptr<BodyGeometry<3>> make_ring(const BodyMeshParameters &);
+} // namespace snug::geometry

@@ -1,0 +1,45 @@
+#include <snug/geometry/entry_values.h>
+#include <snug/geometry/round_body.h>
+
+namespace snug::geometry {
+std::vector<unsigned int> round_cells(const BodyMeshParameters &parameters, unsigned int n)
+{
+  const auto &given = parameters.round_cells;
+  if (given.empty())
+    return std::vector<unsigned int>(n, 4);
+  if (given.size() != n || std::count(given.begin(), given.end(), 0u) > 0)
+    throw bad_entry("Cells", joined(given),
+                    "must be " + std::to_string(n) + " numbers of at least 1 for a " +
+                      parameters.source);
+  return given;
+}
+
+unsigned int n_of_part(const BodyMeshParameters &parameters, unsigned int largest)
+{
+  unsigned int n = 1;
+  for (const std::string part : {"full", "half", "quarter", "eighth"})
+    {
+      if (parameters.part == part && n <= largest)
+        return n;
+      n *= 2;
+    }
+  throw bad_entry("Part", parameters.part,
+                  largest == 4 ? "must be full, half or quarter for a " + parameters.source
+                               : "must be full, half, quarter or eighth");
+}
+
+void require_positive(const std::string &entry, double value)
+{
+  if (!(std::isfinite(value) && value > 0.))
+    throw bad_entry(entry, joined(std::vector<double>{value}), "must be positive");
+}
+
+void require_radii(const BodyMeshParameters &parameters)
+{
+  require_positive("Radius", parameters.radius);
+  require_positive("Inner radius", parameters.inner_radius);
+  if (parameters.inner_radius >= parameters.radius)
+    throw bad_entry("Inner radius", joined(std::vector<double>{parameters.inner_radius}),
+                    "must be below the radius");
+}
+} // namespace snug::geometry

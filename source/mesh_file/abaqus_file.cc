@@ -1,0 +1,256 @@
+#include <snug/mesh_file/mesh_formats.h>
+#include <snug/mesh_file/mesh_text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace snug::mesh_file {
+namespace {
+std::string upper_case(std::string text)
+{
+  for (char &c : text)
+    c = std::toupper(static_cast<unsigned char>(c));
+  return text;
+}
+
+/// Shape and number of nodes of an element type such as C3D8R.
+struct AbaqusType
+{
+  ElementShape shape;
+  unsigned int n_nodes;
+};
+
+AbaqusType abaqus_type(const std::string &name, unsigned long line)
+{
+  using S                                      = ElementShape;
+  static const std::map<unsigned int, S> solid = {{4, S::tetrahedron},  {5, S::pyramid},
+                                                  {6, S::prism},        {8, S::hexahedron},
+                                                  {10, S::tetrahedron}, {15, S::prism},
+                                                  {20, S::hexahedron},  {27, S::hexahedron}};
+  static const std::map<unsigned int, S> flat  = {{3, S::triangle},
+                                                  {4, S::quadrilateral},
+                                                  {6, S::triangle},
+                                                  {8, S::quadrilateral},
+                                                  {9, S::quadrilateral}};
+  static const std::map<unsigned int, S> thin  = {{2, S::line}, {3, S::line}};
+  using Families = std::vector<std::pair<std::string, const std::map<unsigned int, S> *>>;
+  // longer names before those they begin with
+  static const Families families = {{"DC3D", &solid}, {"C3D", &solid}, {"CPS", &flat},
+                                    {"CPEG", &flat},  {"CPE", &flat},  {"CAX", &flat},
+                                    {"SFM3D", &flat}, {"STRI", &flat}, {"SAX", &thin},
+                                    {"S", &flat},     {"M3D", &flat},  {"R3D", &flat},
+                                    {"DC2D", &flat},  {"T2D", &thin},  {"T3D", &thin},
+                                    {"R2D", &thin},   {"DC1D", &thin}};
+  for (const auto &family : families)
+    if (name.rfind(family.first, 0) == 0)
+      {
+        const unsigned int n     = std::atoi(name.c_str() + family.first.size());
+        const auto         found = family.second->find(n);
+        if (found != family.second->end())
+          return {found->second, n};
+      }
+  throw error_at_line(line, "elements of the type '" + name + "' cannot be read");
+}
+
+/// Corners, from 0, of face @p number, from 1.
+const std::vector<unsigned int> *abaqus_face(ElementShape shape, unsigned long number)
+{
+  using S                               = ElementShape;
+  using Faces                           = std::vector<std::vector<unsigned int>>;
+  static const std::map<S, Faces> faces = {
+    {S::triangle, {{0, 1}, {1, 2}, {2, 0}}},
+    {S::quadrilateral, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+    {S::tetrahedron, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}},
+    {S::prism, {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}},
+    {S::hexahedron,
+     {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}}};
+  const auto found = faces.find(shape);
+  if (found == faces.end() || number == 0 || number > found->second.size())
+    return nullptr;
+  return &found->second[number - 1];
+}
+
+/// Reads an .inp file keyword by keyword.
+class AbaqusReader
+{
+public:
+  explicit AbaqusReader(const std::string &text) : in(text) {}
+
+  MeshFile read()
+  {
+    while (!in.at_end())
+      {
+        at                     = in.line();
+        const std::string line = in.rest_of_line();
+        if (line.empty() || line.rfind("**", 0) == 0)
+          continue;
+        if (line[0] == '*')
+          begin_keyword(line);
+        else
+          read_data(comma_list(line), line);
+      }
+    if (!pending.empty())
+      throw error_at_line(at, "the file ends within element " + pending[0]);
+    return mesh;
+  }
+
+private:
+  MeshText                                          in;
+  unsigned long                                     at = 0; ///< line that is read
+  std::string                                       keyword;
+  std::map<std::string, std::string>                options; ///< of the keyword
+  AbaqusType                                        type{ElementShape::line, 0};
+  std::vector<std::string>                          pending; ///< an element over several lines
+  unsigned int                                      n_parts = 0;
+  MeshFile                                          mesh;
+  PointNumbers                                      numbers;
+  std::map<unsigned long, unsigned int>             element_index;
+  std::map<std::string, std::vector<unsigned long>> sets;
+
+  void begin_keyword(const std::string &line)
+  {
+    if (!pending.empty())
+      throw error_at_line(at, "element " + pending[0] + " is cut off");
+    options.clear();
+    for (const auto &part : comma_list(line))
+      {
+        const auto equals = part.find('=');
+        const auto key    = upper_case(dealii::Utilities::trim(part.substr(0, equals)));
+        options[key] =
+          equals == std::string::npos ? "" : dealii::Utilities::trim(part.substr(equals + 1));
+      }
+    keyword = upper_case(comma_list(line)[0]);
+    if (keyword == "*PART" && ++n_parts > 1)
+      throw error_at_line(at, "the file has more than one part");
+    if (keyword == "*ELEMENT")
+      type = abaqus_type(upper_case(options["TYPE"]), at);
+  }
+
+  void read_data(const std::vector<std::string> &words, const std::string &line)
+  {
+    if (keyword == "*NODE")
+      read_node(words);
+    else if (keyword == "*ELEMENT")
+      read_element(words);
+    else if (keyword == "*ELSET")
+      read_set(words);
+    else if (keyword == "*SURFACE")
+      read_surface(words);
+    else if (keyword.empty())
+      throw error_at_line(at, "a keyword is expected, not '" + line + "'");
+  }
+
+  void read_node(const std::vector<std::string> &words)
+  {
+    if (words.size() < 3)
+      throw error_at_line(at, "a node and its coordinates are expected");
+    numbers.add(to_whole(words[0], at), at);
+    dealii::Point<3> point;
+    for (unsigned int d = 0; d < 3 && d + 1 < words.size(); ++d)
+      point[d] = to_number(words[d + 1], at);
+    mesh.points.push_back(point);
+  }
+
+  void read_element(const std::vector<std::string> &words)
+  {
+    pending.insert(pending.end(), words.begin(), words.end());
+    if (pending.size() < 1 + type.n_nodes)
+      return;
+    const auto        number = to_whole(pending[0], at);
+    const std::string name   = "element " + pending[0];
+    if (!element_index.emplace(number, mesh.elements.size()).second)
+      throw error_at_line(at, name + " occurs twice");
+    MeshFile::Element element{type.shape, {}, {}, number, at};
+    for (unsigned int i = 0; i < n_corners(type.shape); ++i)
+      element.corners.push_back(numbers.index(to_whole(pending[i + 1], at), name, at));
+    mesh.corners_only = mesh.corners_only || type.n_nodes > n_corners(type.shape);
+    mesh.elements.push_back(element);
+    pending.clear();
+    if (!options["ELSET"].empty())
+      add_to_set(options["ELSET"], number);
+  }
+
+  void add_to_set(const std::string &name, unsigned long number)
+  {
+    const auto found = element_index.find(number);
+    if (found == element_index.end())
+      throw error_at_line(at, "set '" + name + "' has the element " + std::to_string(number) +
+                                ", which is not there");
+    sets[upper_case(name)].push_back(number);
+    mesh.elements[found->second].groups.push_back(name);
+  }
+
+  void read_set(const std::vector<std::string> &words)
+  {
+    const std::string name = options["ELSET"];
+    if (options.count("GENERATE") > 0)
+      {
+        if (words.size() < 2)
+          throw error_at_line(at, "first and last element are expected");
+        const auto last = to_whole(words[1], at);
+        const auto step = words.size() > 2 ? std::max(1ul, to_whole(words[2], at)) : 1ul;
+        for (auto e = to_whole(words[0], at); e <= last; e += step)
+          add_to_set(name, e);
+        return;
+      }
+    for (const auto &word : words)
+      for (const auto number : elements_of(word))
+        add_to_set(name, number);
+  }
+
+  /// Elements of a set or, by its number, one.
+  std::vector<unsigned long> elements_of(const std::string &word) const
+  {
+    const auto found = sets.find(upper_case(word));
+    if (found != sets.end())
+      return found->second;
+    return {to_whole(word, at)};
+  }
+
+  void read_surface(const std::vector<std::string> &words)
+  {
+    if (options.count("TYPE") > 0 && upper_case(options["TYPE"]) != "ELEMENT")
+      return;
+    const std::string name = options["NAME"];
+    for (const auto number : elements_of(words[0]))
+      {
+        const auto found = element_index.find(number);
+        if (found == element_index.end())
+          throw error_at_line(at, "surface '" + name + "' has the element " +
+                                    std::to_string(number) + ", which is not there");
+        const MeshFile::Element cell = mesh.elements[found->second];
+        const std::string       face = words.size() > 1 ? upper_case(words[1]) : "";
+        const auto             *corners =
+          abaqus_face(cell.shape, face.size() == 2 && face[0] == 'S' ? face[1] - '0' : 0);
+        if (corners == nullptr)
+          throw error_at_line(at,
+                              "element " + std::to_string(number) + " has no face '" + face + "'");
+        add_face(cell, *corners, name);
+      }
+  }
+
+  void add_face(const MeshFile::Element         &cell,
+                const std::vector<unsigned int> &corners,
+                const std::string               &name)
+  {
+    MeshFile::Element face = cell;
+    face.shape             = corners.size() == 2   ? ElementShape::line
+                             : corners.size() == 3 ? ElementShape::triangle
+                                                   : ElementShape::quadrilateral;
+    face.line              = at;
+    face.groups            = {name};
+    face.corners.clear();
+    for (const unsigned int corner : corners)
+      face.corners.push_back(cell.corners[corner]);
+    mesh.elements.push_back(face);
+  }
+};
+} // namespace
+
+MeshFile read_abaqus(const std::string &text)
+{
+  return AbaqusReader(text).read();
+}
+} // namespace snug::mesh_file

@@ -1,0 +1,165 @@
+#include <snug/geometry/entry_values.h>
+#include <snug/mesh_file/element_split.h>
+#include <snug/mesh_file/file_cells.h>
+#include <snug/mesh_file/mesh_text.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <set>
+
+namespace snug::mesh_file {
+namespace {
+using Element = MeshFile::Element;
+
+bool is_wanted(const Element &element, const std::vector<std::string> &regions)
+{
+  for (const auto &group : element.groups)
+    if (std::find(regions.begin(), regions.end(), group) != regions.end())
+      return true;
+  return regions.empty();
+}
+
+/// Regions that are wanted must be there.
+void check_regions(const std::vector<std::string> &regions, const std::set<std::string> &known)
+{
+  for (const auto &region : regions)
+    if (known.count(region) == 0)
+      throw bad_entry("Mesh regions", geometry::joined(regions),
+                      "'" + region + "' is no region of the file, " +
+                        (known.empty() ? "there are none"
+                                       : "they are " + geometry::joined(std::vector<std::string>(
+                                                         known.begin(), known.end()))));
+}
+
+[[noreturn]] void throw_without_cells(const MeshFile &file, unsigned int dim)
+{
+  std::map<ElementShape, unsigned int> n;
+  for (const auto &element : file.elements)
+    ++n[element.shape];
+  std::string held;
+  for (const auto &entry : n)
+    if (dimension(entry.first) > 0)
+      held += (held.empty() ? "" : ", ") + std::to_string(entry.second) + " " + plural(entry.first);
+  throw InputError(std::string("the file has no ") +
+                   (dim == 3 ? "tetrahedra, prisms or hexahedra, which Dimension = 3 "
+                               "needs to fill the body"
+                             : "triangles or quadrilaterals, which Dimension = 2 "
+                               "needs") +
+                   "; it has " + (held.empty() ? "only points" : held));
+}
+
+/// All elements of a flat mesh must have the same z.
+void check_plane(const MeshFile &file)
+{
+  const auto &points = file.points;
+  for (const auto &element : file.elements)
+    if (dimension(element.shape) > 2)
+      throw element_error(element, "is a solid, but Dimension = 2");
+  for (const auto &element : file.elements)
+    for (const unsigned int corner : element.corners)
+      if (points[corner][2] != points[file.elements[0].corners[0]][2])
+        throw element_error(element, "leaves the plane of the others, its z is " +
+                                       std::to_string(points[corner][2]));
+}
+
+/// 1 if the element is convex and right-handed at all corners, -1 if
+/// left-handed, 0 if neither.
+template <int dim>
+int orientation(const Element &element, const std::vector<dealii::Point<3>> &points)
+{
+  int         sum        = 0;
+  const auto &neighbours = corner_neighbours(element.shape);
+  for (unsigned int c = 0; c < neighbours.size(); ++c)
+    {
+      dealii::Tensor<2, dim> edges;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int i = 0; i < dim; ++i)
+          edges[d][i] =
+            points[element.corners[neighbours[c][d]]][i] - points[element.corners[c]][i];
+      const double volume = determinant(edges);
+      sum += volume > 0. ? 1 : volume < 0. ? -1 : 0;
+    }
+  const int n = neighbours.size();
+  return sum == n ? 1 : sum == -n ? -1 : 0;
+}
+
+/// Number the corners of a left-handed element the other way round.
+void turn(Element &element)
+{
+  auto             &c = element.corners;
+  const std::size_t n = c.size();
+  if (n == 3 || element.shape == ElementShape::tetrahedron)
+    std::swap(c[1], c[2]);
+  else if (n == 4)
+    std::swap(c[1], c[3]);
+  else
+    std::swap_ranges(c.begin(), c.begin() + n / 2, c.begin() + n / 2);
+}
+
+/// Some programs number all elements of a shape the other way round.
+template <int dim>
+void turn_mirrored(std::vector<Element>                &cells,
+                   const std::vector<dealii::Point<3>> &points,
+                   std::vector<std::string>            &notes)
+{
+  std::map<ElementShape, bool> right;
+  for (const auto &cell : cells)
+    {
+      if (corner_neighbours(cell.shape).empty())
+        throw element_error(cell, "is a pyramid, which cannot be split into "
+                                  "hexahedra");
+      right[cell.shape] = right[cell.shape] || orientation<dim>(cell, points) == 1;
+    }
+  unsigned int n = 0;
+  for (auto &cell : cells)
+    {
+      const int sign = orientation<dim>(cell, points);
+      if (sign == 0)
+        throw element_error(cell, "is inverted at a corner or flat");
+      if (sign > 0)
+        continue;
+      if (right[cell.shape])
+        throw element_error(cell, "is inverted");
+      turn(cell);
+      ++n;
+    }
+  if (n > 0)
+    notes.push_back(std::to_string(n) + " elements numbered the other way round");
+}
+} // namespace
+
+template <int dim>
+std::vector<MeshFile::Element> body_cells(const MeshFile                 &file,
+                                          const std::vector<std::string> &regions,
+                                          std::vector<std::string>       &notes)
+{
+  std::vector<Element>  cells;
+  std::set<std::string> known;
+  for (const auto &element : file.elements)
+    if (dimension(element.shape) == dim)
+      {
+        known.insert(element.groups.begin(), element.groups.end());
+        if (is_wanted(element, regions))
+          cells.push_back(element);
+      }
+  check_regions(regions, known);
+  if (cells.empty())
+    throw_without_cells(file, dim);
+  if (dim == 2)
+    check_plane(file);
+  turn_mirrored<dim>(cells, file.points, notes);
+  if (file.corners_only)
+    notes.push_back("middle nodes of quadratic elements left out");
+  return cells;
+}
+
+InputError element_error(const MeshFile::Element &element, const std::string &message)
+{
+  return error_at_line(element.line, "element " + std::to_string(element.number) + " " + message);
+}
+
+template std::vector<MeshFile::Element>
+body_cells<2>(const MeshFile &, const std::vector<std::string> &, std::vector<std::string> &);
+template std::vector<MeshFile::Element>
+body_cells<3>(const MeshFile &, const std::vector<std::string> &, std::vector<std::string> &);
+} // namespace snug::mesh_file

@@ -1,0 +1,307 @@
+#include <snug/base/errors.h>
+#include <snug/geometry/entry_values.h>
+#include <snug/geometry/fitted_surface.h>
+#include <snug/mesh_file/element_split.h>
+#include <snug/mesh_file/file_cells.h>
+#include <snug/mesh_file/import_mesh.h>
+
+#include <deal.II/base/geometry_info.h>
+
+#include <set>
+
+namespace snug::mesh_file {
+namespace {
+using Element = MeshFile::Element;
+using Corners = std::vector<unsigned int>;
+
+Corners sorted(Corners corners)
+{
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Makes the blocks of one body of the elements of a file.
+template <int dim>
+class Importer
+{
+public:
+  Importer(const MeshFile &file, const geometry::BodyMeshParameters &parameters)
+    : parameters(parameters), file(file), points(file.points)
+  {}
+
+  geometry::BlockMesh<dim> blocks()
+  {
+    cells = body_cells<dim>(file, parameters.regions, notes);
+    for (const auto &cell : cells)
+      if (!is_cell_shape(cell.shape) && !split)
+        split = std::make_unique<ElementSplit>(points);
+    add_blocks();
+    // parts of split elements are ordered from corner to middle
+    if (!split && !geometry::order_consistently(mesh))
+      {
+        notes.push_back("edges of the cells have no common directions");
+        split = std::make_unique<ElementSplit>(points);
+        mesh  = geometry::BlockMesh<dim>();
+        add_blocks();
+      }
+    collect_faces();
+    name_boundaries();
+    curve_boundaries();
+    drop_unused_points();
+    mesh.cells.fill(1);
+    return mesh;
+  }
+
+  std::vector<std::string> notes;
+
+private:
+  const geometry::BodyMeshParameters &parameters;
+  const MeshFile                     &file;
+  std::vector<dealii::Point<3>>       points;
+  std::vector<Element>                cells;
+  std::unique_ptr<ElementSplit>       split; ///< null: all are cells already
+  geometry::BlockMesh<dim>            mesh;
+  /// faces of the cells and in how many of them they are
+  std::map<Corners, unsigned int> n_cells_of_face;
+
+  std::vector<Corners> parts(const Element &element)
+  {
+    if (split)
+      return split->parts(element);
+    return {cell_vertices(element)};
+  }
+
+  /// Index of @p name in @p names, to which it is added.
+  static unsigned int index_in(std::vector<std::string> &names, const std::string &name)
+  {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end())
+      return found - names.begin();
+    names.push_back(name);
+    return names.size() - 1;
+  }
+
+  /// The group that says what region a cell belongs to.
+  std::string region_of(const Element &cell) const
+  {
+    const auto &named = parameters.named_regions;
+    std::string found;
+    for (const auto &group : cell.groups)
+      if (std::find(named.begin(), named.end(), group) != named.end())
+        {
+          if (!found.empty() && found != group)
+            throw element_error(cell, "is in the regions '" + found + "' and '" + group +
+                                        "', which both have a material");
+          found = group;
+        }
+    if (!found.empty())
+      return found;
+    return cell.groups.empty() ? "body" : cell.groups.back();
+  }
+
+  void add_blocks()
+  {
+    for (const auto &cell : cells)
+      {
+        for (const auto &group : cell.groups)
+          index_in(mesh.region_names, group);
+        const auto region = index_in(mesh.region_names, region_of(cell));
+        for (const auto &part : parts(cell))
+          {
+            mesh.blocks.push_back(part);
+            mesh.regions.push_back(region);
+          }
+      }
+    if (split)
+      notes.push_back(std::to_string(cells.size()) +
+                      (dim == 3 ? " tetrahedra, prisms and hexahedra "
+                                  "split into "
+                                : " triangles and quadrilaterals split "
+                                  "into ") +
+                      std::to_string(mesh.blocks.size()) +
+                      (dim == 3 ? " hexahedra" : " quadrilaterals"));
+  }
+
+  Corners face(unsigned int block, unsigned int f) const
+  {
+    using Info = dealii::GeometryInfo<dim>;
+    Corners result;
+    for (unsigned int v = 0; v < Info::vertices_per_face; ++v)
+      result.push_back(mesh.blocks[block][Info::face_to_cell_vertices(f, v)]);
+    return sorted(result);
+  }
+
+  void collect_faces()
+  {
+    const unsigned int parts_each = mesh.blocks.size() / cells.size(); // for the message only
+    for (unsigned int b = 0; b < mesh.blocks.size(); ++b)
+      for (const unsigned int f : dealii::GeometryInfo<dim>::face_indices())
+        if (++n_cells_of_face[face(b, f)] > 2)
+          throw element_error(cells[std::min<std::size_t>(b / parts_each, cells.size() - 1)],
+                              "or one near it shares a face with two "
+                              "others");
+  }
+
+  /// Name of the boundary an element is part of.
+  std::string name_of(const Element &element) const
+  {
+    const std::string &group = element.groups.back();
+    const auto         given = parameters.boundary_numbers.find(group);
+    if (given != parameters.boundary_numbers.end())
+      return given->second;
+    if (file.unnamed.count(group) > 0)
+      throw element_error(element, "is in group " + group +
+                                     ", which has no name in the file; give one: "
+                                     "'Boundary names = " +
+                                     group + ": NAME'");
+    if (group.find_first_of(",:;=#\\") != std::string::npos)
+      throw element_error(element,
+                          "is in the group '" + group + "'; names must have none of , : ; = # \\");
+    return group;
+  }
+
+  void name_boundaries()
+  {
+    for (const auto &element : file.elements)
+      if (dimension(element.shape) == dim - 1 && !element.groups.empty())
+        for (const auto &part : parts(element))
+          {
+            const Corners key   = sorted(part);
+            const auto    found = n_cells_of_face.find(key);
+            if (found == n_cells_of_face.end())
+              {
+                if (parameters.regions.empty())
+                  throw element_error(element, "is no face of a cell");
+                continue; // of another region
+              }
+            if (found->second == 2)
+              continue; // between regions
+            const unsigned int boundary = index_in(mesh.boundary_names, name_of(element));
+            const auto         entry    = mesh.boundaries.emplace(key, boundary);
+            if (!entry.second && entry.first->second != boundary)
+              throw element_error(element, "is in the group '" +
+                                             mesh.boundary_names[entry.first->second] +
+                                             "' and in '" + mesh.boundary_names[boundary] + "'");
+          }
+    for (const auto &entry : n_cells_of_face)
+      if (entry.second == 1 && mesh.boundaries.count(entry.first) == 0)
+        mesh.boundaries[entry.first] = index_in(mesh.boundary_names, "free");
+  }
+
+  static dealii::Point<dim> in_space(const dealii::Point<3> &point)
+  {
+    dealii::Point<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = point[d];
+    return result;
+  }
+
+  unsigned int curved_boundary(const std::string &name, const std::string &value) const
+  {
+    const auto &names = mesh.boundary_names;
+    const auto  found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw bad_entry("Curved faces", name + ": " + value,
+                      "there is no boundary '" + name + "', they are " + geometry::joined(names));
+    return found - names.begin();
+  }
+
+  std::set<unsigned int> corners_of(unsigned int boundary) const
+  {
+    std::set<unsigned int> corners;
+    for (const auto &entry : mesh.boundaries)
+      if (entry.second == boundary)
+        corners.insert(entry.first.begin(), entry.first.end());
+    return corners;
+  }
+
+  /// Move the middles of split elements onto the surfaces that the nodes
+  /// of the file lie on; by turns where two surfaces meet.
+  void curve_boundaries()
+  {
+    std::vector<std::pair<unsigned int, geometry::FittedSurface<dim>>> surfaces;
+    for (const auto &entry : parameters.curved_faces)
+      {
+        const unsigned int              boundary = curved_boundary(entry.first, entry.second);
+        std::vector<dealii::Point<dim>> known;
+        for (const unsigned int corner : corners_of(boundary))
+          if (corner < file.points.size())
+            known.push_back(in_space(points[corner]));
+        surfaces.emplace_back(boundary,
+                              geometry::FittedSurface<dim>(entry.first, entry.second, known));
+        mesh.surfaces[boundary] = surfaces.back().second.manifold();
+      }
+    const unsigned int turns = surfaces.size() > 1 ? 20 : 1;
+    for (unsigned int turn = 0; turn < turns; ++turn)
+      for (const auto &surface : surfaces)
+        for (const unsigned int corner : corners_of(surface.first))
+          {
+            const auto on = surface.second.project(in_space(points[corner]));
+            for (unsigned int d = 0; d < dim; ++d)
+              points[corner][d] = on[d];
+          }
+  }
+
+  void drop_unused_points()
+  {
+    const unsigned int none = static_cast<unsigned int>(-1);
+    Corners            number(points.size(), none);
+    for (auto &block : mesh.blocks)
+      for (unsigned int &corner : block)
+        {
+          if (number[corner] == none)
+            {
+              number[corner] = mesh.vertices.size();
+              mesh.vertices.push_back(in_space(points[corner]));
+            }
+          corner = number[corner];
+        }
+    std::map<Corners, unsigned int> boundaries;
+    for (const auto &entry : mesh.boundaries)
+      {
+        Corners key;
+        for (const unsigned int corner : entry.first)
+          key.push_back(number[corner]);
+        boundaries[sorted(key)] = entry.second;
+      }
+    mesh.boundaries = boundaries;
+  }
+};
+
+template <int dim>
+std::shared_ptr<const geometry::BlockMesh<dim>>
+make_blocks(const MeshFile                     &file,
+            const geometry::BodyMeshParameters &parameters,
+            std::vector<std::string>           &notes)
+{
+  Importer<dim> importer(file, parameters);
+  const auto    mesh = std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks());
+  notes              = importer.notes;
+  return mesh;
+}
+} // namespace
+
+std::shared_ptr<const geometry::ImportedMesh>
+import_mesh(const std::string                  &text,
+            const geometry::BodyMeshParameters &parameters,
+            const unsigned int                  dim)
+{
+  try
+    {
+      const MeshFile file   = read_mesh_file(text);
+      auto           result = std::make_shared<geometry::ImportedMesh>();
+      if (dim == 2)
+        result->flat = make_blocks<2>(file, parameters, result->notes);
+      else
+        result->solid = make_blocks<3>(file, parameters, result->notes);
+      return result;
+    }
+  catch (const InputError &error)
+    {
+      const std::string message = error.what();
+      if (message.rfind("entry '", 0) == 0)
+        throw;
+      throw bad_entry("Mesh file", parameters.file, message);
+    }
+}
+} // namespace snug::mesh_file

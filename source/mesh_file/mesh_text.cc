@@ -1,0 +1,129 @@
+#include <snug/mesh_file/mesh_text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+
+namespace snug::mesh_file {
+namespace {
+/// What of a word can be shown in a message.
+std::string shown(const std::string &word)
+{
+  std::string text = word.substr(0, 40);
+  for (char &c : text)
+    if (std::isprint(static_cast<unsigned char>(c)) == 0)
+      c = '?';
+  return text;
+}
+} // namespace
+
+MeshText::MeshText(const std::string &text) : text(text) {}
+
+unsigned long MeshText::line() const
+{
+  return binary ? 0 : line_number;
+}
+
+void MeshText::be_binary()
+{
+  binary = true;
+}
+
+void MeshText::advance(const std::size_t to)
+{
+  line_number += std::count(text.begin() + place, text.begin() + to, '\n');
+  place = to;
+}
+
+bool MeshText::at_end()
+{
+  const auto next = text.find_first_not_of(" \t\r\n\f\v", place);
+  advance(std::min(next, text.size()));
+  return place == text.size();
+}
+
+bool MeshText::is_next(const std::string &word) const
+{
+  const auto next = text.find_first_not_of(" \t\r\n\f\v", place);
+  return next != std::string::npos && text.compare(next, word.size(), word) == 0;
+}
+
+std::string MeshText::rest_of_line()
+{
+  const auto        end  = std::min(text.find('\n', place), text.size());
+  const std::string line = text.substr(place, end - place);
+  advance(std::min(end + 1, text.size()));
+  return dealii::Utilities::trim(line);
+}
+
+std::string MeshText::word(const std::string &what)
+{
+  if (at_end())
+    fail_at_end(what);
+  const auto begin = place;
+  place            = std::min(text.find_first_of(" \t\r\n\f\v", begin), text.size());
+  return text.substr(begin, place - begin);
+}
+
+double MeshText::number(const std::string &what)
+{
+  return to_number(word(what), line());
+}
+
+unsigned long MeshText::whole(const std::string &what)
+{
+  return to_whole(word(what), line());
+}
+
+void MeshText::skip_behind(const std::string &mark)
+{
+  const auto found = text.find(mark, place);
+  if (found == std::string::npos)
+    fail_at_end("'" + mark + "'");
+  advance(found + mark.size());
+}
+
+void MeshText::fail(const std::string &message) const
+{
+  throw error_at_line(line(), message);
+}
+
+void MeshText::fail_at_end(const std::string &what) const
+{
+  const auto lines =
+    std::count(text.begin(), text.end(), '\n') + (text.empty() || text.back() == '\n' ? 0 : 1);
+  throw error_at_line(binary ? 0 : lines, "the file ends where " + what + " is expected");
+}
+
+InputError error_at_line(const unsigned long line, const std::string &message)
+{
+  return InputError((line == 0 ? "" : "line " + std::to_string(line) + ": ") + message);
+}
+
+std::vector<std::string> comma_list(const std::string &line)
+{
+  return dealii::Utilities::split_string_list(line);
+}
+
+double to_number(const std::string &word, const unsigned long line)
+{
+  char        *end   = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  if (word.empty() || *end != '\0' || !std::isfinite(value))
+    throw error_at_line(line, "'" + shown(word) + "' is no number");
+  return value;
+}
+
+unsigned long to_whole(const std::string &word, const unsigned long line)
+{
+  const bool good = !word.empty() && word.size() < 19 &&
+                    std::all_of(word.begin(), word.end(),
+                                [](const unsigned char c) { return std::isdigit(c) != 0; });
+  if (!good)
+    throw error_at_line(line, "'" + shown(word) + "' is no whole number");
+  return std::stoul(word);
+}
+} // namespace snug::mesh_file

@@ -1,0 +1,250 @@
+#include <snug/mortar/multiplier_nodes.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace snug::mortar {
+namespace {
+/// Nodes covered less than this on each of their faces are weak.
+const double least_cover = 0.25;
+
+/// Who has the multiplier function of a node, by surface node.
+using Owners = std::map<unsigned int, double>;
+
+template <int dim>
+class MultiplierChoice
+{
+public:
+  using Field = typename mesh::Surface<dim>::Field;
+
+  MultiplierChoice(const mesh::Surface<dim>     &surface,
+                   const std::vector<FaceCover> &covers,
+                   const Field                  &positions)
+    : surface(surface), positions(positions)
+  {
+    collect(covers);
+    set_order(covers);
+  }
+
+  void            choose(const std::vector<bool> &held);
+  MultiplierNodes result() const;
+
+private:
+  /// A node that does not hang.
+  struct Candidate
+  {
+    double                    covered       = 0.; ///< of all faces
+    double                    best_part     = 0.; ///< of one face
+    double                    largest_whole = 0.;
+    std::vector<unsigned int> neighbours; ///< on its faces
+    Owners                    owners;
+
+    bool is_weak() const
+    {
+      return best_part < least_cover || covered < least_cover * largest_whole;
+    }
+  };
+
+  const mesh::Surface<dim>         &surface;
+  const Field                      &positions;
+  std::vector<unsigned int>         order; ///< of the candidates
+  std::map<unsigned int, Candidate> candidates;
+
+  Owners masters(unsigned int node) const;
+  void   collect(const std::vector<FaceCover> &covers);
+  void   set_order(const std::vector<FaceCover> &covers);
+  Owners owners_of_nearest(unsigned int node, const std::vector<unsigned int> &eligible) const;
+  bool   give_away(std::vector<unsigned int> &left);
+};
+
+/// The node itself, or its masters and weights if it hangs.
+template <int dim>
+Owners MultiplierChoice<dim>::masters(unsigned int node) const
+{
+  const auto &of_node = surface.masters(node);
+  if (of_node.empty())
+    return {{node, 1.}};
+  return {of_node.begin(), of_node.end()};
+}
+
+template <int dim>
+void MultiplierChoice<dim>::collect(const std::vector<FaceCover> &covers)
+{
+  for (const FaceCover &cover : covers)
+    {
+      const auto &nodes = surface.faces()[cover.face].nodes;
+      Owners      covered, whole;
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        for (const auto &master : masters(nodes[k]))
+          {
+            covered[master.first] += master.second * cover.covered[k];
+            whole[master.first] += master.second * cover.whole[k];
+            candidates[master.first];
+          }
+      for (const auto &node : covered)
+        {
+          Candidate   &candidate = candidates[node.first];
+          const double most      = whole[node.first];
+          candidate.covered += node.second;
+          candidate.largest_whole = std::max(candidate.largest_whole, most);
+          if (most > 0.)
+            candidate.best_part = std::max(candidate.best_part, node.second / most);
+          for (const auto &other : covered)
+            if (other.first != node.first)
+              candidate.neighbours.push_back(other.first);
+        }
+    }
+}
+
+/// Candidates as the faces name them, then those only hanging nodes reach
+/// by position: an order that does not depend on the numbering of nodes.
+template <int dim>
+void MultiplierChoice<dim>::set_order(const std::vector<FaceCover> &covers)
+{
+  std::set<unsigned int> left;
+  for (const auto &candidate : candidates)
+    left.insert(candidate.first);
+  for (const FaceCover &cover : covers)
+    for (const unsigned int node : surface.faces()[cover.face].nodes)
+      if (left.erase(node) > 0)
+        order.push_back(node);
+  const auto named = order.size();
+  order.insert(order.end(), left.begin(), left.end());
+  std::sort(order.begin() + named, order.end(), [&](unsigned int a, unsigned int b) {
+    const auto &x = positions[a], &y = positions[b];
+    return std::lexicographical_compare(x.begin_raw(), x.end_raw(), y.begin_raw(), y.end_raw());
+  });
+}
+
+/// The mean of the owners of the nearest neighbours among @p eligible,
+/// which is sorted; empty if there are none.
+template <int dim>
+Owners MultiplierChoice<dim>::owners_of_nearest(unsigned int                     node,
+                                                const std::vector<unsigned int> &eligible) const
+{
+  const double              equal   = 1. + 1e-6;
+  double                    nearest = std::numeric_limits<double>::max();
+  std::vector<unsigned int> found;
+  const auto                distance = [&](unsigned int other) {
+    return (positions[other] - positions[node]).norm();
+  };
+  for (const unsigned int other : candidates.at(node).neighbours)
+    if (std::binary_search(eligible.begin(), eligible.end(), other))
+      {
+        found.push_back(other);
+        nearest = std::min(nearest, distance(other));
+      }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [&](unsigned int other) { return distance(other) > equal * nearest; }),
+              found.end());
+  Owners result;
+  for (const unsigned int other : found)
+    for (const auto &owner : candidates.at(other).owners)
+      result[owner.first] += owner.second / found.size();
+  return result;
+}
+
+/// Let all nodes of @p left with neighbours that have owners take the
+/// same; false if there are none.
+template <int dim>
+bool MultiplierChoice<dim>::give_away(std::vector<unsigned int> &left)
+{
+  std::vector<unsigned int> settled;
+  for (const auto &candidate : candidates)
+    if (!candidate.second.owners.empty())
+      settled.push_back(candidate.first);
+  std::map<unsigned int, Owners> given;
+  for (const unsigned int node : left)
+    {
+      const Owners owners = owners_of_nearest(node, settled);
+      if (!owners.empty())
+        given[node] = owners;
+    }
+  for (const auto &entry : given)
+    {
+      candidates[entry.first].owners = entry.second;
+      left.erase(std::find(left.begin(), left.end(), entry.first));
+    }
+  return !given.empty();
+}
+
+template <int dim>
+void MultiplierChoice<dim>::choose(const std::vector<bool> &held)
+{
+  std::vector<unsigned int> left;
+  for (const unsigned int node : order)
+    if (candidates[node].is_weak() || held[node])
+      left.push_back(node);
+    else
+      candidates[node].owners = {{node, 1.}};
+  auto                      weak = std::stable_partition(left.begin(), left.end(),
+                                                         [&](unsigned int node) { return !candidates[node].is_weak(); });
+  std::vector<unsigned int> held_nodes(left.begin(), weak);
+  left.erase(left.begin(), weak);
+  give_away(held_nodes);
+  for (const unsigned int node : held_nodes)
+    candidates[node].owners = {{node, 1.}};
+  while (!left.empty())
+    if (!give_away(left))
+      {
+        const auto best =
+          std::max_element(left.begin(), left.end(), [&](unsigned int a, unsigned int b) {
+            return candidates[a].covered < candidates[b].covered;
+          });
+        candidates[*best].owners = {{*best, 1.}};
+        left.erase(best);
+      }
+}
+
+template <int dim>
+MultiplierNodes MultiplierChoice<dim>::result() const
+{
+  MultiplierNodes                      result;
+  std::map<unsigned int, unsigned int> index;
+  for (const unsigned int node : order)
+    if (candidates.at(node).owners.count(node) > 0)
+      {
+        index[node] = result.nodes.size();
+        result.nodes.push_back(node);
+      }
+  result.shares.resize(surface.n_nodes());
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    {
+      std::map<unsigned int, double> shares;
+      for (const auto &master : masters(node))
+        {
+          const auto found = candidates.find(master.first);
+          if (found != candidates.end())
+            for (const auto &owner : found->second.owners)
+              shares[index.at(owner.first)] += master.second * owner.second;
+        }
+      result.shares[node].assign(shares.begin(), shares.end());
+    }
+  return result;
+}
+} // namespace
+
+template <int dim>
+MultiplierNodes choose_multiplier_nodes(const mesh::Surface<dim>                 &surface,
+                                        const std::vector<FaceCover>             &covers,
+                                        const std::vector<bool>                  &held,
+                                        const typename mesh::Surface<dim>::Field &positions)
+{
+  MultiplierChoice<dim> choice(surface, covers, positions);
+  choice.choose(held);
+  return choice.result();
+}
+
+#define SNUG_INSTANTIATE(dim)                                                      \
+  template MultiplierNodes choose_multiplier_nodes(const mesh::Surface<dim> &,     \
+                                                   const std::vector<FaceCover> &, \
+                                                   const std::vector<bool> &,      \
+                                                   const mesh::Surface<dim>::Field &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::mortar

@@ -1,0 +1,279 @@
+#include <snug/mortar/clip.h>
+#include <snug/mortar/segment_points.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace snug::mortar {
+namespace {
+template <int dim, typename Number>
+using Vectors = std::array<std::array<Number, dim>, dim - 1>;
+
+template <typename Number, std::size_t n>
+Number dot(const std::array<Number, n> &a, const std::array<Number, n> &b)
+{
+  Number sum = a[0] * b[0];
+  for (std::size_t i = 1; i < n; ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/// x,_1 (and x,_2) of a face.
+template <int dim, typename Number, typename ShapeNumber>
+Vectors<dim, Number> tangents(const faces::FaceValues<dim, ShapeNumber> &shape,
+                              const FaceNodes<dim, Number>              &nodes)
+{
+  Vectors<dim, Number> t{};
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    for (int a = 0; a < dim - 1; ++a)
+      for (int i = 0; i < dim; ++i)
+        t[a][i] += nodes[k][i] * shape.gradient[k][a];
+  return t;
+}
+
+template <typename Number>
+Number area(const Vectors<2, Number> &t)
+{
+  using std::sqrt;
+  return sqrt(dot(t[0], t[0]));
+}
+
+template <typename Number>
+Number area(const Vectors<3, Number> &t)
+{
+  using std::sqrt;
+  const Number mixed = dot(t[0], t[1]);
+  return sqrt(dot(t[0], t[0]) * dot(t[1], t[1]) - mixed * mixed);
+}
+
+/// sum_k values_k points_k
+template <typename Values, typename Points>
+auto combined(const Values &values, const Points &points)
+{
+  std::decay_t<decltype(points[0])> sum{};
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += points[k][i] * values[k];
+  return sum;
+}
+
+/// Idealization::weight(), which is linear, at @p x.
+template <typename Number, std::size_t dim>
+Number section_weight(const mesh::Idealization &idealization, const std::array<Number, dim> &x)
+{
+  dealii::Tensor<1, dim> at;
+  for (std::size_t i = 0; i < dim; ++i)
+    at[i] = faces::value_of(x[i]);
+  const auto slope  = idealization.weight_gradient<dim>();
+  Number     weight = idealization.weight(at);
+  for (std::size_t i = 0; i < dim; ++i)
+    weight += slope[i] * (x[i] - at[i]);
+  return weight;
+}
+
+/// Coordinates in the plane of a slave face, centre 0 and size 1.
+template <int dim, typename Number>
+class FacePlane
+{
+public:
+  FacePlane(unsigned int degree, const FaceNodes<dim, Number> &face)
+  {
+    faces::FaceCoordinates<dim, double> middle;
+    middle.fill(0.5);
+    const faces::FaceValues<dim, double> shape(degree, middle);
+    centre = combined(shape.value, face);
+    set_dual(tangents<dim>(shape, face));
+  }
+
+  faces::FaceCoordinates<dim, Number> project(const std::array<Number, dim> &x) const
+  {
+    std::array<Number, dim> offset = x;
+    for (int i = 0; i < dim; ++i)
+      offset[i] -= centre[i];
+    faces::FaceCoordinates<dim, Number> y;
+    for (int a = 0; a < dim - 1; ++a)
+      y[a] = dot(dual[a], offset);
+    return y;
+  }
+
+private:
+  std::array<Number, dim> centre;
+  Vectors<dim, Number>    dual; ///< (t.t)^-1 t
+
+  void set_dual(const Vectors<2, Number> &t)
+  {
+    const Number square = dot(t[0], t[0]);
+    for (int i = 0; i < 2; ++i)
+      dual[0][i] = t[0][i] / square;
+  }
+
+  void set_dual(const Vectors<3, Number> &t)
+  {
+    const Number g00 = dot(t[0], t[0]), g01 = dot(t[0], t[1]), g11 = dot(t[1], t[1]),
+                 det = g00 * g11 - g01 * g01;
+    for (int i = 0; i < 3; ++i)
+      {
+        dual[0][i] = (g11 * t[0][i] - g01 * t[1][i]) / det;
+        dual[1][i] = (g00 * t[1][i] - g01 * t[0][i]) / det;
+      }
+  }
+};
+
+template <int dim, typename Number>
+faces::PlaneFace<dim, Number> projected(unsigned int                  degree,
+                                        const FacePlane<dim, Number> &plane,
+                                        const FaceNodes<dim, Number> &face)
+{
+  std::vector<faces::FaceCoordinates<dim, Number>> nodes;
+  for (const auto &node : face)
+    nodes.push_back(plane.project(node));
+  return {degree, nodes};
+}
+
+/// The cells between neighbouring nodes, oriented positively; without
+/// those that are not.
+template <int dim, typename Number>
+std::vector<ConvexCell<dim - 1, Number>>
+cells(unsigned int degree, const faces::PlaneFace<dim, Number> &face, bool reversed)
+{
+  std::vector<ConvexCell<dim - 1, Number>> result;
+  const unsigned int                       n_rows = dim == 2 ? 1 : degree;
+  for (unsigned int row = 0; row < n_rows; ++row)
+    for (unsigned int i = 0; i < degree; ++i)
+      {
+        const unsigned int          first = row * (degree + 1) + i;
+        ConvexCell<dim - 1, Number> cell  = {face.nodes()[first], face.nodes()[first + 1]};
+        if (dim == 3)
+          {
+            cell.push_back(face.nodes()[first + degree + 2]);
+            cell.push_back(face.nodes()[first + degree + 1]);
+          }
+        if (reversed)
+          std::reverse(cell.begin(), cell.end());
+        if (signed_measure<dim - 1>(cell) > 0.)
+          result.push_back(cell);
+      }
+  return result;
+}
+
+template <typename Number>
+Number determinant(const std::array<std::array<Number, 1>, 2> &simplex)
+{
+  return simplex[1][0] - simplex[0][0];
+}
+
+template <typename Number>
+Number determinant(const std::array<std::array<Number, 2>, 3> &simplex)
+{
+  return (simplex[1][0] - simplex[0][0]) * (simplex[2][1] - simplex[0][1]) -
+         (simplex[1][1] - simplex[0][1]) * (simplex[2][0] - simplex[0][0]);
+}
+} // namespace
+
+template <int dim>
+SegmentQuadrature<dim>::SegmentQuadrature(unsigned int              degree,
+                                          const mesh::Idealization &idealization)
+  : degree(degree), idealization(idealization)
+{
+  // Gauss points of a square, one side of which shrinks to a corner: n
+  // per direction are exact for polynomials of degree 2 n - 2
+  const dealii::QGauss<dim - 1> gauss(degree + 2);
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      Point        point;
+      const double x       = gauss.point(q)[0];
+      const double y       = dim == 3 ? gauss.point(q)[dim - 2] : 0.;
+      point.barycentric[0] = (1. - x) * (dim == 3 ? 1. - y : 1.);
+      point.barycentric[1] = x * (dim == 3 ? 1. - y : 1.);
+      if (dim == 3)
+        point.barycentric[dim - 1] = y;
+      point.weight = gauss.weight(q) * (dim == 3 ? 1. - y : 1.);
+      rule.push_back(point);
+    }
+}
+
+template <int dim>
+template <typename Number>
+std::vector<SegmentPoint<dim, Number>>
+SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
+                               const FaceNodes<dim, Number> &master) const
+{
+  const FacePlane<dim, Number>           plane(degree, slave);
+  const auto                             on_slave     = projected<dim>(degree, plane, slave);
+  const auto                             on_master    = projected<dim>(degree, plane, master);
+  const auto                             master_cells = cells<dim>(degree, on_master, true);
+  std::vector<SegmentPoint<dim, Number>> result;
+  for (const auto &slave_cell : cells<dim>(degree, on_slave, false))
+    for (const auto &master_cell : master_cells)
+      {
+        auto piece = intersection<dim - 1>(slave_cell, master_cell);
+        for (auto &vertex : piece)
+          vertex = on_slave.coordinates(vertex);
+        for (const auto &corners : simplices<dim - 1>(piece.size()))
+          {
+            std::array<faces::FaceCoordinates<dim, Number>, dim> simplex;
+            for (int v = 0; v < dim; ++v)
+              simplex[v] = piece[corners[v]];
+            const Number size = determinant(simplex);
+            for (const Point &q : rule)
+              {
+                SegmentPoint<dim, Number> point;
+                point.slave = combined(q.barycentric, simplex);
+                const faces::FaceValues<dim, Number> shape(degree, point.slave);
+                point.weight = size * area(tangents<dim>(shape, slave)) *
+                               section_weight(idealization, combined(shape.value, slave)) *
+                               q.weight;
+                point.master = on_master.coordinates(combined(shape.value, on_slave.nodes()));
+                result.push_back(point);
+              }
+          }
+      }
+  return result;
+}
+
+template <int dim>
+template <typename Number>
+faces::FaceValues<dim, Number>
+SegmentQuadrature<dim>::shape(const faces::FaceCoordinates<dim, Number> &xi) const
+{
+  return {degree, xi};
+}
+
+template <int dim>
+bool SegmentQuadrature<dim>::overlap(const FaceNodes<dim, double> &slave,
+                                     const FaceNodes<dim, double> &master,
+                                     double                        margin) const
+{
+  const FacePlane<dim, double> plane(degree, slave);
+  auto                         nodes = projected<dim>(degree, plane, slave).nodes();
+  for (auto &node : nodes)
+    for (double &coordinate : node)
+      coordinate *= 1. + 2. * margin;
+  const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master), true);
+  for (const auto &slave_cell :
+       cells<dim>(degree, faces::PlaneFace<dim, double>(degree, nodes), false))
+    for (const auto &master_cell : master_cells)
+      if (!intersection<dim - 1>(slave_cell, master_cell).empty())
+        return true;
+  return false;
+}
+
+template class SegmentQuadrature<2>;
+template class SegmentQuadrature<3>;
+#define SNUG_INSTANTIATE(dim, Number)                                             \
+  template std::vector<SegmentPoint<dim, Number>> SegmentQuadrature<dim>::points( \
+    const FaceNodes<dim, Number> &, const FaceNodes<dim, Number> &) const;        \
+  template faces::FaceValues<dim, Number> SegmentQuadrature<dim>::shape(          \
+    const faces::FaceCoordinates<dim, Number> &) const;
+SNUG_INSTANTIATE(2, double)
+SNUG_INSTANTIATE(2, faces::Differential<1>)
+SNUG_INSTANTIATE(2, faces::Differential<8>)
+SNUG_INSTANTIATE(2, faces::Differential<12>)
+SNUG_INSTANTIATE(3, double)
+SNUG_INSTANTIATE(3, faces::Differential<1>)
+SNUG_INSTANTIATE(3, faces::Differential<24>)
+SNUG_INSTANTIATE(3, faces::Differential<54>)
+#undef SNUG_INSTANTIATE
+} // namespace snug::mortar

@@ -1,0 +1,92 @@
+#include <snug/supports/held_frame.h>
+
+#include <algorithm>
+
+namespace snug::supports {
+template <int dim>
+Orthonormalised<dim>::Orthonormalised(const HeldFrame<dim> &given)
+{
+  auto &q = orthonormal.directions;
+  auto &s = orthonormal.values;
+  for (unsigned int j = 0; j < given.directions.size(); ++j)
+    {
+      auto v     = given.directions[j];
+      auto value = given.values[j];
+      L.emplace_back();
+      for (unsigned int k = 0; k < j; ++k)
+        {
+          L[j].push_back(given.directions[j] * q[k]);
+          v -= L[j][k] * q[k];
+          for (unsigned int c = 0; c < value.size(); ++c)
+            value[c] -= L[j][k] * s[k][c];
+        }
+      L[j].push_back(v.norm());
+      q.push_back(v / L[j][j]);
+      for (double &entry : value)
+        entry /= L[j][j];
+      s.push_back(value);
+    }
+}
+
+template <int dim>
+const HeldFrame<dim> &Orthonormalised<dim>::frame() const
+{
+  return orthonormal;
+}
+
+template <int dim>
+double Orthonormalised<dim>::independence() const
+{
+  double smallest = 1.;
+  for (const auto &row : L)
+    smallest = std::min(smallest, row.back());
+  return smallest;
+}
+
+template <int dim>
+HeldFrame<dim> Orthonormalised<dim>::derivative(const HeldFrame<dim> &given) const
+{
+  const auto    &q = orthonormal.directions;
+  const auto    &s = orthonormal.values;
+  HeldFrame<dim> result;
+  auto          &dq = result.directions;
+  auto          &ds = result.values;
+  for (unsigned int j = 0; j < q.size(); ++j)
+    {
+      // d_j as given, from its parts
+      dealii::Tensor<1, dim> d = L[j][j] * q[j];
+      for (unsigned int k = 0; k < j; ++k)
+        d += L[j][k] * q[k];
+      auto dv     = given.directions[j];
+      auto dvalue = given.values[j];
+      for (unsigned int k = 0; k < j; ++k)
+        {
+          const double dL = given.directions[j] * q[k] + d * dq[k];
+          dv -= dL * q[k] + L[j][k] * dq[k];
+          for (unsigned int c = 0; c < dvalue.size(); ++c)
+            dvalue[c] -= dL * s[k][c] + L[j][k] * ds[k][c];
+        }
+      const double dlength = q[j] * dv;
+      dq.push_back((dv - dlength * q[j]) / L[j][j]);
+      for (unsigned int c = 0; c < dvalue.size(); ++c)
+        dvalue[c] = (dvalue[c] - dlength * s[j][c]) / L[j][j];
+      ds.push_back(dvalue);
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<double> Orthonormalised<dim>::given_multipliers(std::vector<double> multipliers) const
+{
+  for (unsigned int j = multipliers.size(); j-- > 0;)
+    {
+      for (unsigned int i = j + 1; i < multipliers.size(); ++i)
+        multipliers[j] -= L[i][j] * multipliers[i];
+      multipliers[j] /= L[j][j];
+    }
+  return multipliers;
+}
+
+template class Orthonormalised<2>;
+template class Orthonormalised<3>;
+} // namespace snug::supports

@@ -1,0 +1,337 @@
+#include <snug/base/errors.h>
+#include <snug/supports/held_nodes.h>
+#include <snug/supports/smooth_sides.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace snug::supports {
+namespace {
+/// Sine of the angle below which a direction is held already.
+const double dependent_sine = 1e-6;
+
+/// Prescribed values that differ by less, relative to the largest, agree.
+const double same_value = 1e-10;
+
+using Boundary = std::pair<unsigned int, unsigned int>;
+
+/// Boundaries with supports; all of them where the axis may be.
+template <int dim>
+std::vector<Boundary> held_boundaries(const mesh::BodyMesh<dim>       &mesh,
+                                      const std::vector<Support<dim>> &supports)
+{
+  std::vector<Boundary> boundaries;
+  for (const auto &support : supports)
+    boundaries.emplace_back(support.body, support.boundary);
+  if (mesh.idealization().is_axisymmetric())
+    for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+      for (unsigned int b = 0; b < mesh.geometry(body).boundary_names().size(); ++b)
+        boundaries.emplace_back(body, b);
+  return boundaries;
+}
+
+template <int dim>
+TangledMesh dependent_error(const dealii::Tensor<1, dim> &x)
+{
+  std::ostringstream text;
+  text << "supports hold the node at (" << x
+       << ") along directions that the design has made dependent";
+  return TangledMesh(text.str());
+}
+
+/// Names and values of two supports that exclude each other.
+template <int dim>
+InputError conflict(const dealii::Tensor<1, dim>         &x,
+                    const std::pair<std::string, double> &a,
+                    const std::pair<std::string, double> &b)
+{
+  std::ostringstream text;
+  text << a.first << " and " << b.first << " hold the node at (" << x
+       << ") in one direction at different displacements, " << a.second << " and " << b.second;
+  return InputError(text.str());
+}
+} // namespace
+
+template <int dim>
+HeldNodes<dim>::HeldNodes(const mesh::BodyMesh<dim>       &mesh,
+                          const std::vector<Support<dim>> &supports,
+                          unsigned int                     n_load_cases,
+                          const Field                     &positions)
+  : mesh(mesh)
+  , shape(mesh.degree())
+  , n_load_cases(n_load_cases)
+  , surface(mesh, held_boundaries(mesh, supports))
+{
+  const auto            x = surface.gather(positions);
+  std::vector<Boundary> normal_boundaries;
+  for (const auto &support : supports)
+    if (support.component == Support<dim>::normal)
+      normal_boundaries.emplace_back(support.body, support.boundary);
+  sides        = smooth_sides(surface, normal_boundaries, shape, x);
+  side_of_face = std::vector<unsigned int>(surface.faces().size(), 0);
+  for (unsigned int side = 0; side < sides.size(); ++side)
+    for (const unsigned int face : sides[side])
+      side_of_face[face] = side;
+  collect_holds(supports, surface.gather(mesh.reference_positions()));
+  leave_out_dependent(x);
+}
+
+template <int dim>
+void HeldNodes<dim>::collect_holds(const std::vector<Support<dim>> &supports,
+                                   const SurfaceField              &reference)
+{
+  std::map<unsigned int, Node> found;
+  const auto                   add = [&](unsigned int node, const Hold &hold) {
+    if (!surface.masters(node).empty())
+      return;
+    auto      &holds = found[node].holds;
+    const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
+      return other.name == hold.name && other.component == hold.component &&
+             other.side == hold.side;
+    });
+    if (!known)
+      holds.push_back(hold);
+  };
+  const bool axis = mesh.idealization().is_axisymmetric();
+  for (unsigned int f = 0; f < surface.faces().size(); ++f)
+    {
+      const auto &face = surface.faces()[f];
+      for (const unsigned int node : face.nodes)
+        if (axis && reference[node][0] == 0.)
+          add(node, {"the axis of rotation", 0, 0, std::vector<double>(n_load_cases)});
+    }
+  for (const auto &support : supports)
+    for (unsigned int f = 0; f < surface.faces().size(); ++f)
+      {
+        const auto &face = surface.faces()[f];
+        if (face.body != support.body || face.boundary != support.boundary)
+          continue;
+        const bool normal = support.component == Support<dim>::normal;
+        for (const unsigned int node : face.nodes)
+          {
+            Hold hold{support.name, support.component, normal ? side_of_face[f] : 0,
+                      std::vector<double>(n_load_cases)};
+            for (unsigned int c = 0; c < support.values.size(); ++c)
+              if (support.values[c])
+                hold.values[c] = support.values[c](dealii::Point<dim>(reference[node]));
+            add(node, hold);
+          }
+      }
+  for (auto &entry : found)
+    {
+      nodes.push_back(entry.second);
+      nodes.back().surface_node = entry.first;
+      std::stable_sort(nodes.back().holds.begin(), nodes.back().holds.end(),
+                       [](const Hold &a, const Hold &b) {
+                         const unsigned int normal = Support<dim>::normal;
+                         return a.component != normal && b.component == normal;
+                       });
+    }
+}
+
+template <int dim>
+double HeldNodes<dim>::largest_value() const
+{
+  double largest = 0.;
+  for (const Node &node : nodes)
+    for (const Hold &hold : node.holds)
+      for (const double value : hold.values)
+        largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+template <int dim>
+void HeldNodes<dim>::leave_out_dependent(const SurfaceField &positions)
+{
+  const auto   n         = normals(positions);
+  const double tolerance = same_value * largest_value();
+  for (Node &node : nodes)
+    {
+      std::vector<Hold> given;
+      given.swap(node.holds);
+      for (const Hold &hold : given)
+        {
+          const Orthonormalised<dim> before(given_frame(node, n));
+          node.holds.push_back(hold);
+          const auto                 all = given_frame(node, n);
+          const Orthonormalised<dim> with(all);
+          if (with.independence() > dependent_sine)
+            continue;
+          node.holds.pop_back();
+          // what the others make of the same direction
+          const auto &frame   = before.frame();
+          unsigned    nearest = 0;
+          auto        implied = std::vector<double>(n_load_cases, 0.);
+          for (unsigned int k = 0; k < frame.directions.size(); ++k)
+            {
+              const double share = all.directions.back() * frame.directions[k];
+              for (unsigned int c = 0; c < n_load_cases; ++c)
+                implied[c] += share * frame.values[k][c];
+              if (std::abs(share) > std::abs(all.directions.back() * frame.directions[nearest]))
+                nearest = k;
+            }
+          for (unsigned int c = 0; c < n_load_cases; ++c)
+            if (std::abs(implied[c] - hold.values[c]) > tolerance)
+              throw conflict(positions[node.surface_node], {node.holds[nearest].name, implied[c]},
+                             {hold.name, hold.values[c]});
+        }
+      for (const Hold &hold : node.holds)
+        node.follows = node.follows || hold.component == Support<dim>::normal;
+      constant_frames.push_back(Orthonormalised<dim>(given_frame(node, n)).frame());
+    }
+}
+
+template <int dim>
+typename HeldNodes<dim>::Normals HeldNodes<dim>::normals(const SurfaceField &positions) const
+{
+  Normals result;
+  for (const auto &side : sides)
+    result.emplace_back(surface, side, shape, positions);
+  return result;
+}
+
+template <int dim>
+HeldFrame<dim> HeldNodes<dim>::given_frame(const Node &node, const Normals &n) const
+{
+  HeldFrame<dim> frame;
+  for (const Hold &hold : node.holds)
+    {
+      dealii::Tensor<1, dim> direction;
+      if (hold.component == Support<dim>::normal)
+        direction = n[hold.side].normals()[node.surface_node];
+      else
+        direction[hold.component] = 1.;
+      frame.directions.push_back(direction);
+      frame.values.push_back(hold.values);
+    }
+  return frame;
+}
+
+template <int dim>
+unsigned int HeldNodes<dim>::n_nodes() const
+{
+  return nodes.size();
+}
+
+template <int dim>
+unsigned int HeldNodes<dim>::find(unsigned int global_node) const
+{
+  const auto found = std::lower_bound(nodes.begin(), nodes.end(), global_node,
+                                      [this](const Node &node, unsigned int global) {
+                                        return surface.global_node(node.surface_node) < global;
+                                      });
+  return found != nodes.end() && surface.global_node(found->surface_node) == global_node
+           ? found - nodes.begin()
+           : nodes.size();
+}
+
+template <int dim>
+bool HeldNodes<dim>::follows_positions(unsigned int held_node) const
+{
+  return nodes[held_node].follows;
+}
+
+template <int dim>
+bool HeldNodes<dim>::follow_positions() const
+{
+  return !sides.empty();
+}
+
+template <int dim>
+typename HeldNodes<dim>::Frames HeldNodes<dim>::frames(const Field &positions) const
+{
+  if (!follow_positions())
+    return constant_frames;
+  Frames     result = constant_frames;
+  const auto x      = surface.gather(positions);
+  const auto n      = normals(x);
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (nodes[i].follows)
+      {
+        const Orthonormalised<dim> constraints(given_frame(nodes[i], n));
+        if (!(constraints.independence() > dependent_sine))
+          throw dependent_error(x[nodes[i].surface_node]);
+        result[i] = constraints.frame();
+      }
+  return result;
+}
+
+template <int dim>
+faces::HeldDirections<dim> HeldNodes<dim>::directions(const mesh::Surface<dim> &surface,
+                                                      const Field              &positions) const
+{
+  const Frames               at_nodes = frames(positions);
+  faces::HeldDirections<dim> result(surface.n_nodes());
+  for (unsigned int node = 0; node < result.size(); ++node)
+    {
+      const unsigned int held_node = find(surface.global_node(node));
+      if (held_node < n_nodes())
+        result[node] = at_nodes[held_node].directions;
+    }
+  return result;
+}
+
+template <int dim>
+typename HeldNodes<dim>::Frames HeldNodes<dim>::frame_derivatives(const Field &positions,
+                                                                  const Field &velocity) const
+{
+  Frames result(nodes.size());
+  if (!follow_positions())
+    return result;
+  const auto                x = surface.gather(positions);
+  const auto                V = surface.gather(velocity);
+  const auto                n = normals(x);
+  std::vector<SurfaceField> dn;
+  for (const auto &side : n)
+    dn.push_back(side.derivative(V));
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (nodes[i].follows)
+      {
+        HeldFrame<dim> derivative;
+        for (const Hold &hold : nodes[i].holds)
+          {
+            derivative.directions.push_back(hold.component == Support<dim>::normal
+                                              ? dn[hold.side][nodes[i].surface_node]
+                                              : dealii::Tensor<1, dim>());
+            derivative.values.emplace_back(n_load_cases, 0.);
+          }
+        result[i] = Orthonormalised<dim>(given_frame(nodes[i], n)).derivative(derivative);
+      }
+  return result;
+}
+
+template <int dim>
+void HeldNodes<dim>::add_energy_gradient(const Field                            &positions,
+                                         const Field                            &displacement,
+                                         const std::vector<std::vector<double>> &reactions,
+                                         Field                                  &gradient) const
+{
+  if (!follow_positions())
+    return;
+  const auto                x = surface.gather(positions);
+  const auto                u = surface.gather(displacement);
+  const auto                n = normals(x);
+  std::vector<SurfaceField> normal_gradients(sides.size(), SurfaceField(surface.n_nodes()));
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (nodes[i].follows)
+      {
+        const Node &node = nodes[i];
+        // of d_j . u - v_j, with constant v_j and d_j = the normals
+        const auto multipliers =
+          Orthonormalised<dim>(given_frame(node, n)).given_multipliers(reactions[i]);
+        for (unsigned int j = 0; j < node.holds.size(); ++j)
+          if (node.holds[j].component == Support<dim>::normal)
+            normal_gradients[node.holds[j].side][node.surface_node] +=
+              multipliers[j] * u[node.surface_node];
+      }
+  SurfaceField at_surface(surface.n_nodes());
+  for (unsigned int side = 0; side < sides.size(); ++side)
+    n[side].add_transpose(normal_gradients[side], at_surface);
+  surface.add_owned(at_surface, gradient);
+}
+
+template class HeldNodes<2>;
+template class HeldNodes<3>;
+} // namespace snug::supports

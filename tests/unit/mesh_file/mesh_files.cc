@@ -1,0 +1,350 @@
+#include <snug/mesh/body_mesh.h>
+#include <snug/mesh_file/import_mesh.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+using namespace snug;
+using dealii::Point;
+
+namespace {
+std::string contents(const std::string &name)
+{
+  std::ifstream      in(SNUG_MESHES + name, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+geometry::BodyMeshParameters file_body()
+{
+  geometry::BodyMeshParameters parameters;
+  parameters.source = "file";
+  parameters.file   = "the.mesh";
+  return parameters;
+}
+
+/// Numbers of VTK and UCD files.
+geometry::BodyMeshParameters numbered_body()
+{
+  auto parameters             = file_body();
+  parameters.boundary_numbers = {{"2", "bottom"}, {"3", "top"}};
+  return parameters;
+}
+
+std::string
+complaint(const std::string &text, const geometry::BodyMeshParameters &parameters, unsigned int dim)
+{
+  try
+    {
+      mesh_file::import_mesh(text, parameters, dim);
+    }
+  catch (const InputError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+/// @p text with @p from, which must be there, replaced.
+std::string replaced(std::string text, const std::string &from, const std::string &to)
+{
+  const auto place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
+}
+
+template <int dim>
+double file_volume(const mesh::BodyMesh<dim> &mesh)
+{
+  const dealii::QGauss<dim> gauss(3);
+  const dealii::FE_Q<dim>   fe(mesh.degree());
+  const auto order = dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(mesh.degree());
+  double     sum   = 0.;
+  for (const auto &cell : mesh.cells())
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        dealii::Tensor<2, dim> F;
+        for (unsigned int k = 0; k < cell.nodes.size(); ++k)
+          F += dealii::outer_product(mesh.reference_positions()[cell.nodes[k]],
+                                     fe.shape_grad(order[k], gauss.point(q)));
+        EXPECT_GT(dealii::determinant(F), 0.);
+        sum += dealii::determinant(F) * gauss.weight(q);
+      }
+  return dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+}
+
+/// The body fills [0,2] x [0,1]^(dim-1); its faces bottom and top are where
+/// the last coordinate is 0 and 1, free ones elsewhere.
+template <int dim>
+void expect_block(const std::string           &text,
+                  geometry::BodyMeshParameters parameters,
+                  unsigned int                 n_cells)
+{
+  parameters.imported = mesh_file::import_mesh(text, parameters, dim);
+  for (const unsigned int degree : {1, 2})
+    {
+      const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, {parameters}, degree);
+      EXPECT_EQ(mesh.n_global_cells(), n_cells);
+      EXPECT_NEAR(file_volume(mesh), 2., 1e-12);
+      const auto &names = mesh.geometry(0).boundary_names();
+      EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
+                (std::set<std::string>{"bottom", "top", "free"}));
+      for (const auto &face : mesh.boundary_faces())
+        {
+          double least = 1., largest = 0.;
+          for (const unsigned int node : face.nodes)
+            {
+              const double z = mesh.reference_positions()[node][dim - 1];
+              least          = std::min(least, z);
+              largest        = std::max(largest, z);
+            }
+          const std::string expected = largest == 0. ? "bottom" : least == 1. ? "top" : "free";
+          EXPECT_EQ(names[face.boundary], expected);
+        }
+    }
+}
+
+struct Row
+{
+  std::string                  file;
+  geometry::BodyMeshParameters parameters;
+  unsigned int                 dim, n_cells;
+};
+
+const std::vector<Row> &files()
+{
+  // Tetrahedra give 4 cells each; a quadrilateral beside triangles 4,
+  // these 3.
+  static const std::vector<Row> rows = {{"block-2.msh", file_body(), 3, 2},
+                                        {"block-4.msh", file_body(), 3, 2},
+                                        {"tets-2-binary.msh", file_body(), 3, 48},
+                                        {"tets-4-binary.msh", file_body(), 3, 48},
+                                        {"block.inp", file_body(), 3, 2},
+                                        {"block.vtk", numbered_body(), 3, 2},
+                                        {"block-binary.vtk", numbered_body(), 3, 2},
+                                        {"block-5-binary.vtk", numbered_body(), 3, 2},
+                                        {"block.ucd", numbered_body(), 3, 2},
+                                        {"square.msh", file_body(), 2, 10}};
+  return rows;
+}
+} // namespace
+
+TEST(MeshFiles, AllFormatsGiveTheSameBlock)
+{
+  for (const auto &row : files())
+    {
+      SCOPED_TRACE(row.file);
+      if (row.dim == 2)
+        expect_block<2>(contents(row.file), row.parameters, row.n_cells);
+      else
+        expect_block<3>(contents(row.file), row.parameters, row.n_cells);
+    }
+}
+
+TEST(MeshFiles, SurfacesOfAbaqusAreFacesOfElements)
+{
+  auto       text = contents("block.inp");
+  const auto sets = text.find("*ELSET,ELSET=bottom");
+  text            = text.substr(0, sets);
+  for (const std::string name : {"Surface5", "Surface27"})
+    text = replaced(text, ", ELSET=" + name, "");
+  text += "*ELSET, ELSET=all, GENERATE\n5, 6, 1\n"
+          "*SURFACE, NAME=bottom\nall, S1\n"
+          "*SURFACE, NAME=top, TYPE=ELEMENT\n5, S2\n6, S2\n";
+  expect_block<3>(text, file_body(), 2);
+}
+
+TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
+{
+  struct Case
+  {
+    std::string text, says;
+  };
+  const auto              ucd   = contents("block.ucd");
+  const auto              msh   = contents("block-2.msh");
+  const auto              inp   = contents("block.inp");
+  const auto              vtk   = contents("block.vtk");
+  const std::string       first = "5 1 hex 1 9 10 3 5 11 12 8";
+  const std::vector<Case> cases = {
+    {ucd.substr(0, ucd.find(first) + 8), "line 19: the file ends where a node"},
+    {replaced(ucd, "7 2 1 1\n", "7 2 one 1\n"), "line 9: 'one' is no number"},
+    {replaced(ucd, "2 2 0 0", "1 2 0 0"), "line 4: node 1 occurs twice"},
+    {replaced(ucd, "1 hex 1 9", "1 brick 1 9"), "line 19: elements of the type"},
+    {replaced(ucd, first, "5 1 hex 1 9 10 3 5 11 12 99"), "line 19: element 5 has the node 99"},
+    // the whole mesh may be left-handed, but not one element
+    {replaced(ucd, first, "5 1 hex 5 11 12 8 1 9 10 3"), "line 19: element 5 is inverted"},
+    {replaced(ucd, "12 1 1 1", "12 1 1 -0.5"), "element 5 is inverted"},
+    {replaced(ucd, "1 2 quad 1 9 10 3", "1 2 quad 1 9 12 3"),
+     "line 15: element 1 is no face of a cell"},
+    {replaced(ucd, "3 3 quad", "3 4 quad"), "line 17: element 3 is in group 4"},
+    {replaced(msh, "\"bottom\"", "bottom"), "line 6: a physical name in quotes"},
+    {replaced(msh, "2.2 0 8", "3.0 0 8"), "version 3.0"},
+    {msh.substr(0, msh.find("$Elements")), "the file has no elements"},
+    {replaced(inp, "type=C3D8", "type=B31H"), "elements of the type 'B31H'"},
+    {replaced(inp, "5, 6, \n", "5, 66, \n"), "the element 66"},
+    {replaced(vtk, "ASCII", "XML"), "line 3: ASCII or BINARY is expected"},
+    {replaced(vtk, "8 8 1 3", "8 8 1 33"), "has the point 33"},
+    {"solid part\n", "no mesh file of Gmsh"},
+    {"", "the file ends"}};
+  for (const auto &item : cases)
+    {
+      const auto message = complaint(item.text, numbered_body(), 3);
+      EXPECT_EQ(message.rfind("entry 'Mesh file' = 'the.mesh': ", 0), 0u) << message;
+      EXPECT_NE(message.find(item.says), std::string::npos)
+        << message << "\n  and not: " << item.says;
+    }
+  EXPECT_NE(complaint(ucd, file_body(), 3).find("in group 2, which has no name"),
+            std::string::npos);
+  EXPECT_NE(complaint(contents("square.msh"), file_body(), 3)
+              .find("it has 4 lines, 2 triangles, 1 quadrilaterals"),
+            std::string::npos);
+  EXPECT_NE(complaint(msh, file_body(), 2).find("is a solid"), std::string::npos);
+  EXPECT_NE(complaint(replaced(msh, "2 2 \"bottom\"", "2 7 \"bottom\""), file_body(), 3)
+              .find("in group 2, which has no name"),
+            std::string::npos);
+  auto region    = file_body();
+  region.regions = {"blocks"};
+  EXPECT_NE(complaint(msh, region, 3).find("they are block"), std::string::npos);
+}
+
+TEST(MeshFiles, TruncatedFilesAreErrorsOrWhole)
+{
+  for (const auto &row : files())
+    {
+      const std::string text = contents(row.file);
+      unsigned int      n    = 0;
+      for (std::size_t length = 0; length < text.size(); length += 3)
+        n += complaint(text.substr(0, length), row.parameters, row.dim) != "";
+      // what is missing at the end may be unimportant
+      EXPECT_GT(3 * n, 0.8 * text.size()) << row.file;
+    }
+}
+
+TEST(MeshFiles, LeftHandedFilesAreTurned)
+{
+  auto text = contents("block.ucd");
+  text      = replaced(text, "1 9 10 3 5 11 12 8", "5 11 12 8 1 9 10 3");
+  text      = replaced(text, "9 2 4 10 11 6 7 12", "11 6 7 12 9 2 4 10");
+  expect_block<3>(text, numbered_body(), 2);
+}
+
+TEST(MeshFiles, CellsMayBeTurnedAgainstEachOther)
+{
+  const auto text = replaced(contents("block.ucd"), "9 2 4 10 11 6 7 12", "2 6 7 4 9 11 12 10");
+  expect_block<3>(text, numbered_body(), 2);
+}
+
+TEST(MeshFiles, HexahedraInATwistedRingAreSplit)
+{
+  // the section turns by 90 degrees on the way round
+  const unsigned int n = 8;
+  std::ostringstream text;
+  text.precision(17);
+  text << 4 * n << ' ' << n << " 0 0 0\n";
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int k = 0; k < 4; ++k)
+      {
+        const double phi  = 2. * dealii::numbers::PI * i / n;
+        const double turn = dealii::numbers::PI / 2. * (k + 1. * i / n);
+        const double r    = 4. + std::cos(turn);
+        text << 4 * i + k + 1 << ' ' << r * std::cos(phi) << ' ' << r * std::sin(phi) << ' '
+             << -std::sin(turn) << '\n';
+      }
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      text << i + 1 << " 1 hex";
+      for (const unsigned int end : {0, 1})
+        for (unsigned int k = 0; k < 4; ++k)
+          text << ' ' << (i + end < n ? 4 * (i + end) + k : (k + 1) % 4) + 1;
+      text << '\n';
+    }
+  auto body     = file_body();
+  body.imported = mesh_file::import_mesh(text.str(), body, 3);
+  EXPECT_NE(body.imported->notes[0].find("no common directions"), std::string::npos);
+  const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, {body}, 2);
+  EXPECT_EQ(mesh.n_global_cells(), 8 * n);
+  EXPECT_GT(file_volume(mesh), 0.);
+}
+
+TEST(MeshFiles, CurvedBoundariesStayOnTheirCircles)
+{
+  // half of a ring of radii 1 and 2 about (3, 0), in 4 quadrilaterals
+  std::ostringstream text;
+  text.precision(17);
+  text << "10 12 0 0 0\n";
+  for (unsigned int i = 0; i < 10; ++i)
+    {
+      const double angle = i / 2 * dealii::numbers::PI / 4, r = 1 + i % 2;
+      text << i + 1 << ' ' << 3 + r * std::cos(angle) << ' ' << r * std::sin(angle) << " 0\n";
+    }
+  for (unsigned int i = 0; i < 4; ++i)
+    text << i + 1 << " 1 quad " << 2 * i + 1 << ' ' << 2 * i + 2 << ' ' << 2 * i + 4 << ' '
+         << 2 * i + 3 << '\n'
+         << i + 5 << " 1 line " << 2 * i + 1 << ' ' << 2 * i + 3 << '\n'
+         << i + 9 << " 2 line " << 2 * i + 2 << ' ' << 2 * i + 4 << '\n';
+  auto body             = file_body();
+  body.boundary_numbers = {{"1", "inner"}, {"2", "outer"}};
+  body.curved_faces     = {{"inner", "sphere"}, {"outer", "cylinder z"}};
+  body.refinements      = 2;
+  body.imported         = mesh_file::import_mesh(text.str(), body, 2);
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, {body}, 2);
+  // quadratic edges of 11 degrees
+  EXPECT_NEAR(file_volume(mesh), 1.5 * dealii::numbers::PI, 1e-4);
+  const auto &names = mesh.geometry(0).boundary_names();
+  for (const auto &face : mesh.boundary_faces())
+    for (const unsigned int node : face.nodes)
+      if (names[face.boundary] != "free")
+        EXPECT_NEAR((mesh.reference_positions()[node] - Point<2>(3., 0.)).norm(),
+                    names[face.boundary] == "inner" ? 1. : 2., 1e-12);
+  for (const std::string value : {"sphere 2", "cylinder x", "x^2"})
+    {
+      body.curved_faces = {{"inner", value}};
+      EXPECT_NE(complaint(text.str(), body, 2).find("'Curved faces'"), std::string::npos);
+    }
+  body.boundary_numbers = {{"1", "round"}, {"2", "round"}};
+  body.curved_faces     = {{"round", "sphere"}};
+  EXPECT_NE(complaint(text.str(), body, 2).find("does not fit"), std::string::npos);
+}
+
+TEST(MeshFiles, NamedRegionsGoBeforeOthers)
+{
+  auto       body = file_body();
+  const auto text = contents("bar.inp");
+  // every element is in the set all, which is the last
+  EXPECT_EQ(mesh_file::import_mesh(text, body, 2)->flat->regions,
+            (std::vector<unsigned int>{1, 1, 1}));
+  body.named_regions = {"core", "coat"};
+  const auto mesh    = mesh_file::import_mesh(text, body, 2)->flat;
+  EXPECT_EQ(mesh->region_names, (std::vector<std::string>{"core", "all", "coat"}));
+  EXPECT_EQ(mesh->regions, (std::vector<unsigned int>{0, 2, 2}));
+  body.named_regions = {"core", "all"};
+  EXPECT_NE(complaint(text, body, 2)
+              .find("line 13: element 1 is in the "
+                    "regions 'core' and 'all'"),
+            std::string::npos);
+}
+
+TEST(MeshFiles, RegionsAreBodiesOrMaterials)
+{
+  auto text = contents("block.ucd");
+  text      = replaced(text, "6 1 hex", "6 9 hex");
+  auto body = numbered_body();
+  EXPECT_EQ(mesh_file::import_mesh(text, body, 3)->solid->region_names,
+            (std::vector<std::string>{"1", "9"}));
+  body.regions        = {"9"};
+  body.imported       = mesh_file::import_mesh(text, body, 3);
+  const auto geometry = geometry::make_geometry<3>(body);
+  EXPECT_EQ(geometry->n_coarse_cells(), 1.);
+  EXPECT_EQ(geometry->boundary_names().size(), 3u);
+}
