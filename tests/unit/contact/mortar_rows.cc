@@ -8,6 +8,7 @@
 
 using namespace snug;
 using namespace snug::contact;
+using namespace snug::faces;
 
 namespace {
 template <int dim>

@@ -4,6 +4,7 @@
 
 using namespace snug;
 using namespace snug::contact;
+using namespace snug::faces;
 
 namespace {
 /// The slave box above a ball, or another obstacle that curves, which is

@@ -1,5 +1,7 @@
 #include <snug/supports/held_frame.h>
 
+#include <deal.II/base/point.h>
+
 #include <gtest/gtest.h>
 
 #include <random>
