@@ -81,6 +81,8 @@ std::array<double, n> pair_gradient(const SegmentQuadrature<dim>   &quadrature,
   return gradient;
 }
 
+/// The gradient of one slave face with all its masters; n independent variables per pair of faces,
+/// half of them the slave's.
 template <int n, int dim>
 FaceGradient<dim> face_gradient(const SegmentQuadrature<dim>              &quadrature,
                                 const FaceNodes<dim, double>              &slave,
@@ -112,6 +114,8 @@ FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>              
                                       const std::vector<FaceNodes<dim, double>> &masters,
                                       const FaceIntegrals<double>               &gradient)
 {
+  // The number of derivatives is a template argument: faces of degree 1 and 2 have 2 or 3 nodes in
+  // 2D, 4 or 9 in 3D, dim coordinates each, on two faces.
   const int linear = dim == 2 ? 8 : 24, quadratic = dim == 2 ? 12 : 54;
   if (2 * dim * slave.size() == linear)
     return face_gradient<linear, dim>(quadrature, slave, masters, gradient);

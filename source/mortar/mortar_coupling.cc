@@ -16,6 +16,8 @@ Matrix<Number> inverse(Matrix<Number> m)
     result(i, i) = 1.;
   for (unsigned int p = 0; p < n; ++p)
     {
+      // Gauss-Jordan without pivoting is safe for the Gram matrix of shape functions. A pivot that
+      // is not positive means that they are dependent on what is left of the covered part.
       if (!(faces::value_of(m(p, p)) > 0.))
         throw TangledMesh("the master side has moved away from a slave "
                           "face that it was opposite to");
@@ -40,6 +42,8 @@ Matrix<Number> inverse(Matrix<Number> m)
 }
 
 /// A with psi_j = sum_l A_jl N_l, biorthogonal.
+/// Wohlmuth, SIAM J. Numer. Anal. 38, 2000: A = diag(d) m^-1 makes int psi_j N_l = delta_jl d_j, so
+/// that each multiplier's row has the displacement of one slave node only.
 template <typename Number>
 Matrix<Number> dual_coefficients(const FaceIntegrals<Number> &integrals)
 {
@@ -50,6 +54,7 @@ Matrix<Number> dual_coefficients(const FaceIntegrals<Number> &integrals)
   return A;
 }
 
+/// dealii::FullMatrix knows no Differential; these are small.
 template <typename Number>
 Matrix<Number> product(const Matrix<Number> &A, const Matrix<Number> &B)
 {
@@ -136,6 +141,7 @@ FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
 {
   if (!biorthogonal || uncovered(integrals))
     return {gradient.multiplier, gradient.multiplier_slave, gradient.multiplier_master};
+  // Reverse mode of couple(): a star marks the derivative of the scalar by a matrix.
   // with M = A P: P* = A' M*, A* = sum M* P'; with A = diag(d) m^-1:
   // d* = diag(A* m^-1), m* = -A' A* m^-1
   const unsigned int    n         = integrals.slave.size();

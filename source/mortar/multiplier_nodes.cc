@@ -63,6 +63,7 @@ private:
 template <int dim>
 Owners MultiplierChoice<dim>::masters(unsigned int node) const
 {
+  // A hanging node's function belongs to its masters in the displacement, and so in the rows.
   const auto &of_node = surface.masters(node);
   if (of_node.empty())
     return {{node, 1.}};
@@ -85,6 +86,8 @@ void MultiplierChoice<dim>::collect(const std::vector<FaceCover> &covers)
           }
       for (const auto &node : covered)
         {
+          // Functions of degree 2 may integrate to zero or less at corners in 3D: such a node is
+          // judged by the sum over its faces alone.
           Candidate   &candidate = candidates[node.first];
           const double most      = whole[node.first];
           candidate.covered += node.second;
@@ -124,6 +127,8 @@ template <int dim>
 Owners MultiplierChoice<dim>::owners_of_nearest(unsigned int                     node,
                                                 const std::vector<unsigned int> &eligible) const
 {
+  // Distances this close are one distance: on symmetric meshes a node gives to all its nearest
+  // neighbours alike, or the pressure would lose the symmetry of the mesh.
   const double              equal   = 1. + 1e-6;
   double                    nearest = std::numeric_limits<double>::max();
   std::vector<unsigned int> found;
@@ -150,6 +155,7 @@ Owners MultiplierChoice<dim>::owners_of_nearest(unsigned int                    
 
 /// Let all nodes of @p left with neighbours that have owners take the
 /// same; false if there are none.
+// All shares of a sweep are found before any is given: the result must not depend on the order.
 template <int dim>
 bool MultiplierChoice<dim>::give_away(std::vector<unsigned int> &left)
 {
@@ -172,6 +178,10 @@ bool MultiplierChoice<dim>::give_away(std::vector<unsigned int> &left)
   return !given.empty();
 }
 
+// A held node has no displacement along the normal, so its own row would demand what nobody can
+// give; a weak one would nearly repeat its neighbour's. Held ones go first, since a weak node may
+// then give to whoever a held one gave to. A held node without free neighbours keeps its row: the
+// master may still move.
 template <int dim>
 void MultiplierChoice<dim>::choose(const std::vector<bool> &held)
 {
@@ -188,6 +198,7 @@ void MultiplierChoice<dim>::choose(const std::vector<bool> &held)
   give_away(held_nodes);
   for (const unsigned int node : held_nodes)
     candidates[node].owners = {{node, 1.}};
+  // Weak nodes far from good ones are reached in sweeps. Where all are weak the best is kept.
   while (!left.empty())
     if (!give_away(left))
       {
@@ -215,6 +226,7 @@ MultiplierNodes MultiplierChoice<dim>::result() const
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     {
       std::map<unsigned int, double> shares;
+      // The shares of hanging nodes go through their masters to those masters' owners.
       for (const auto &master : masters(node))
         {
           const auto found = candidates.find(master.first);

@@ -78,6 +78,8 @@ template <int dim, typename Number>
 class FacePlane
 {
 public:
+  // t.(x - c) alone would depend on units and on the angle of the tangents; times (t.t)^-1 the
+  // face has size 1 whatever its shape, and tolerances are parts of it.
   FacePlane(unsigned int degree, const FaceNodes<dim, Number> &face)
   {
     faces::FaceCoordinates<dim, double> middle;
@@ -121,6 +123,7 @@ private:
   }
 };
 
+/// A face seen along the normal of @p plane.
 template <int dim, typename Number>
 faces::PlaneFace<dim, Number> projected(unsigned int                  degree,
                                         const FacePlane<dim, Number> &plane,
@@ -136,6 +139,8 @@ faces::PlaneFace<dim, Number> projected(unsigned int                  degree,
 /// those that are not.
 template <int dim, typename Number>
 std::vector<ConvexCell<dim - 1, Number>>
+/// A quadratic face has curved edges in the plane; the cells between its nodes are convex and take
+/// their place in the intersection only. A master faces the other way: its cells are @p reversed.
 cells(unsigned int degree, const faces::PlaneFace<dim, Number> &face, bool reversed)
 {
   std::vector<ConvexCell<dim - 1, Number>> result;
@@ -158,6 +163,7 @@ cells(unsigned int degree, const faces::PlaneFace<dim, Number> &face, bool rever
   return result;
 }
 
+/// Twice (2D) or once (1D) the signed size of a simplex.
 template <typename Number>
 Number determinant(const std::array<std::array<Number, 1>, 2> &simplex)
 {
@@ -208,6 +214,7 @@ SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
   for (const auto &slave_cell : cells<dim>(degree, on_slave, false))
     for (const auto &master_cell : master_cells)
       {
+        // Clip in the plane, integrate on the slave face: its pieces must cover it without a gap.
         auto piece = intersection<dim - 1>(slave_cell, master_cell);
         for (auto &vertex : piece)
           vertex = on_slave.coordinates(vertex);
@@ -225,6 +232,7 @@ SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
                 point.weight = size * area(tangents<dim>(shape, slave)) *
                                section_weight(idealization, combined(shape.value, slave)) *
                                q.weight;
+                // Along n_0, not to the closest point: the same for all points of a slave face.
                 point.master = on_master.coordinates(combined(shape.value, on_slave.nodes()));
                 result.push_back(point);
               }
@@ -250,6 +258,7 @@ bool SegmentQuadrature<dim>::overlap(const FaceNodes<dim, double> &slave,
   auto                         nodes = projected<dim>(degree, plane, slave).nodes();
   for (auto &node : nodes)
     for (double &coordinate : node)
+      // the plane's origin is the face's centre
       coordinate *= 1. + 2. * margin;
   const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master), true);
   for (const auto &slave_cell :

@@ -3,6 +3,9 @@
 #include <algorithm>
 
 namespace snug::supports {
+// Gram-Schmidt keeps the order: the first direction stays as given, so that axes stay axes. What is
+// prescribed is transformed with the directions, since q_k . u = s_k must say the same as d_j . u =
+// v_j. L holds the factors, d = L q, for derivatives and for going back.
 template <int dim>
 Orthonormalised<dim>::Orthonormalised(const HeldFrame<dim> &given)
 {
@@ -34,6 +37,7 @@ const HeldFrame<dim> &Orthonormalised<dim>::frame() const
   return orthonormal;
 }
 
+// The diagonal of L is the sine of the angle between a direction and those before it.
 template <int dim>
 double Orthonormalised<dim>::independence() const
 {
@@ -61,6 +65,7 @@ HeldFrame<dim> Orthonormalised<dim>::derivative(const HeldFrame<dim> &given) con
       auto dvalue = given.values[j];
       for (unsigned int k = 0; k < j; ++k)
         {
+          // L_jk = d_j . q_k, both of which move
           const double dL = given.directions[j] * q[k] + d * dq[k];
           dv -= dL * q[k] + L[j][k] * dq[k];
           for (unsigned int c = 0; c < dvalue.size(); ++c)
@@ -75,6 +80,7 @@ HeldFrame<dim> Orthonormalised<dim>::derivative(const HeldFrame<dim> &given) con
   return result;
 }
 
+// L' m = mu by back substitution: sum_k mu_k (q_k . u - s_k) = sum_j m_j (d_j . u - v_j).
 template <int dim>
 std::vector<double> Orthonormalised<dim>::given_multipliers(std::vector<double> multipliers) const
 {

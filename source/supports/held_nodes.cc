@@ -32,6 +32,7 @@ std::vector<Boundary> held_boundaries(const mesh::BodyMesh<dim>       &mesh,
   return boundaries;
 }
 
+/// A design's fault, unlike dependent supports of the reference mesh: the optimizer steps back.
 template <int dim>
 TangledMesh dependent_error(const dealii::Tensor<1, dim> &x)
 {
@@ -84,9 +85,11 @@ void HeldNodes<dim>::collect_holds(const std::vector<Support<dim>> &supports,
 {
   std::map<unsigned int, Node> found;
   const auto                   add = [&](unsigned int node, const Hold &hold) {
+    // A hanging node is held as far as its masters are; a row of its own would repeat theirs.
     if (!surface.masters(node).empty())
       return;
     auto      &holds = found[node].holds;
+    // A node is on several faces of a boundary, and of a side: one constraint for all.
     const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
       return other.name == hold.name && other.component == hold.component &&
              other.side == hold.side;
@@ -99,6 +102,7 @@ void HeldNodes<dim>::collect_holds(const std::vector<Support<dim>> &supports,
     {
       const auto &face = surface.faces()[f];
       for (const unsigned int node : face.nodes)
+        // Exactly zero: meshes of revolution are made so, and any other radius is off the axis.
         if (axis && reference[node][0] == 0.)
           add(node, {"the axis of rotation", 0, 0, std::vector<double>(n_load_cases)});
     }
@@ -123,6 +127,8 @@ void HeldNodes<dim>::collect_holds(const std::vector<Support<dim>> &supports,
     {
       nodes.push_back(entry.second);
       nodes.back().surface_node = entry.first;
+      // Axes first: orthonormalising leaves the first directions as they are, and those of axes
+      // are constant, which keeps rows without derivatives.
       std::stable_sort(nodes.back().holds.begin(), nodes.back().holds.end(),
                        [](const Hold &a, const Hold &b) {
                          const unsigned int normal = Support<dim>::normal;
@@ -142,6 +148,8 @@ double HeldNodes<dim>::largest_value() const
   return largest;
 }
 
+// Two supports may hold a node along one direction, such as faces that meet at an edge. The row
+// would be there twice and B rank deficient, so the later one goes, if it demands the same.
 template <int dim>
 void HeldNodes<dim>::leave_out_dependent(const SurfaceField &positions)
 {
@@ -251,6 +259,7 @@ typename HeldNodes<dim>::Frames HeldNodes<dim>::frames(const Field &positions) c
     if (nodes[i].follows)
       {
         const Orthonormalised<dim> constraints(given_frame(nodes[i], n));
+        // written so that it holds for NaN as well
         if (!(constraints.independence() > dependent_sine))
           throw dependent_error(x[nodes[i].surface_node]);
         result[i] = constraints.frame();
@@ -295,6 +304,7 @@ typename HeldNodes<dim>::Frames HeldNodes<dim>::frame_derivatives(const Field &p
             derivative.directions.push_back(hold.component == Support<dim>::normal
                                               ? dn[hold.side][nodes[i].surface_node]
                                               : dealii::Tensor<1, dim>());
+            // prescribed displacements are functions of the reference position
             derivative.values.emplace_back(n_load_cases, 0.);
           }
         result[i] = Orthonormalised<dim>(given_frame(nodes[i], n)).derivative(derivative);
@@ -318,6 +328,7 @@ void HeldNodes<dim>::add_energy_gradient(const Field                            
     if (nodes[i].follows)
       {
         const Node &node = nodes[i];
+        // Reactions belong to orthonormal directions; normals are among the given ones.
         // of d_j . u - v_j, with constant v_j and d_j = the normals
         const auto multipliers =
           Orthonormalised<dim>(given_frame(node, n)).given_multipliers(reactions[i]);

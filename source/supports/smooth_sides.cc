@@ -79,6 +79,8 @@ smooth_sides(const mesh::Surface<dim>                 &surface,
       for (const auto &b : node.second)
         {
           const Boundary &of_a = of_face[a.face], &of_b = of_face[b.face];
+          // A shallow edge between two flat faces is an edge all the same; between curved faces a
+          // small angle is what faceting makes of one smooth surface.
           const bool      edge = of_a != of_b && is_flat.at(of_a) && is_flat.at(of_b);
           if (!edge && a.normal * b.normal > smooth_cosine)
             patches.join(a.face, b.face);
@@ -86,6 +88,7 @@ smooth_sides(const mesh::Surface<dim>                 &surface,
   std::map<unsigned int, std::vector<unsigned int>> by_root;
   for (unsigned int f = 0; f < surface.faces().size(); ++f)
     if (is_flat.count(of_face[f]) == 1)
+      // roots are the least faces of their sets, so sides come in the order of faces
       by_root[patches.find(f)].push_back(f);
   std::vector<std::vector<unsigned int>> sides;
   for (const auto &patch : by_root)

@@ -12,12 +12,14 @@ import layout
 import links
 import modules
 import program
+import size
 import words
 
 CHECKS = {
     "modules": lambda root, snug: modules.check(root),
     "format": lambda root, snug: formatting.check(root),
     "layout": lambda root, snug: layout.check(root),
+    "size": lambda root, snug: size.check(root),
     "words": lambda root, snug: words.check(root),
     "links": lambda root, snug: links.check(root),
     "scenes": program.check_scenes,

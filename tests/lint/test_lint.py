@@ -11,6 +11,7 @@ import layout
 import links
 import modules
 import program
+import size
 import words
 
 TABLE = """
@@ -52,6 +53,28 @@ class Tree(unittest.TestCase):
         self.assertEqual(len(messages), len(starts), messages)
         for message, start in zip(messages, starts):
             self.assertTrue(message.startswith(start), message)
+
+
+class Size(Tree):
+    def test_long_functions_are_found(self):
+        body = "  f();\n" * 61
+        self.write("source/mesh/a.cc", "namespace snug::mesh {\n"
+                   "template <int dim>\nvoid g(int a,\n       int b)\n{\n" + body +
+                   "}\n\nstruct S\n{\n" + body + "};\n} // namespace snug::mesh\n")
+        self.expect(size.check(self.root), "source/mesh/a.cc:3: a function of 61")
+
+    def test_functions_of_the_limit_pass(self):
+        self.write("source/mesh/a.cc", "void g()\n{\n" + "  f();\n" * 60 + "}\n")
+        self.expect(size.check(self.root))
+
+    def test_a_large_module_is_found(self):
+        for name in ("base", "mesh", "feti", "io"):
+            self.write(f"source/{name}/a.cc", "// line\n" * 95)
+        for name in "abcdefgh":
+            self.write(f"source/{name}/a.cc", "// line\n" * 95)
+        self.expect(size.check(self.root))
+        self.write("source/mesh/b.cc", "// line\n" * 95)
+        self.expect(size.check(self.root), "source/mesh:1: 190 of 1235")
 
 
 class Modules(Tree):

@@ -54,6 +54,8 @@ private:
   void pair_contacts();
   void
   add_coefficient(const Tensor &c, unsigned int body, unsigned int node, Contact &contact) const;
+  dealii::DynamicSparsityPattern
+       pattern_of(const std::vector<dealii::SparseMatrix<double>> &K) const;
   void solve_active_set(const std::vector<dealii::SparseMatrix<double>> &K,
                         const std::vector<Vector>                       &f,
                         std::vector<bool>                               &active);
@@ -239,31 +241,41 @@ void Untorn<dim>::pair_contacts()
       }
 }
 
+/// Of K and, after it, the rows of all contacts, active or not.
+template <int dim>
+dealii::DynamicSparsityPattern
+Untorn<dim>::pattern_of(const std::vector<dealii::SparseMatrix<double>> &K) const
+{
+  const unsigned int             n_0 = bodies[0]->n_dofs();
+  const unsigned int             n   = n_0 + bodies[1]->n_dofs();
+  dealii::DynamicSparsityPattern pattern(n + contacts.size());
+  for (unsigned int b = 0; b < 2; ++b)
+    for (const auto &entry : K[b])
+      pattern.add(b * n_0 + entry.row(), b * n_0 + entry.column());
+  unsigned int i = n;
+  for (const auto &entry : contacts)
+    {
+      pattern.add(i, i);
+      for (const auto &c : entry.second.row)
+        {
+          pattern.add(i, c.first);
+          pattern.add(c.first, i);
+        }
+      ++i;
+    }
+  return pattern;
+}
+
 template <int dim>
 void Untorn<dim>::solve_active_set(const std::vector<dealii::SparseMatrix<double>> &K,
                                    const std::vector<Vector>                       &f,
                                    std::vector<bool>                               &active)
 {
-  const unsigned int             n_0 = bodies[0]->n_dofs();
-  const unsigned int             n   = n_0 + bodies[1]->n_dofs();
-  const unsigned int             m   = contacts.size();
-  dealii::DynamicSparsityPattern dynamic(n + m);
-  for (unsigned int b = 0; b < 2; ++b)
-    for (const auto &entry : K[b])
-      dynamic.add(b * n_0 + entry.row(), b * n_0 + entry.column());
-  unsigned int i = n;
-  for (const auto &entry : contacts)
-    {
-      dynamic.add(i, i);
-      for (const auto &c : entry.second.row)
-        {
-          dynamic.add(i, c.first);
-          dynamic.add(c.first, i);
-        }
-      ++i;
-    }
+  const unsigned int      n_0 = bodies[0]->n_dofs();
+  const unsigned int      n   = n_0 + bodies[1]->n_dofs();
+  const unsigned int      m   = contacts.size();
   dealii::SparsityPattern kkt_pattern;
-  kkt_pattern.copy_from(dynamic);
+  kkt_pattern.copy_from(pattern_of(K));
   dealii::SparseMatrix<double> kkt(kkt_pattern);
   Vector                       x(n + m);
   for (unsigned int b = 0; b < 2; ++b)
@@ -273,7 +285,7 @@ void Untorn<dim>::solve_active_set(const std::vector<dealii::SparseMatrix<double
       for (unsigned int j = 0; j < f[b].size(); ++j)
         x(b * n_0 + j) = f[b](j);
     }
-  i = n;
+  unsigned int i = n;
   for (const auto &entry : contacts)
     {
       if (active[i - n])
