@@ -18,6 +18,7 @@ const double finer_by = 0.1;
 /// differentiated by differences.
 const double gap_step = 1. / 25.;
 
+/// Ascending, so that the order of rows does not depend on the ranks.
 template <int dim>
 std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
 {
@@ -43,22 +44,28 @@ void choose_slave(const mesh::Surface<dim>                 &surface,
       std::swap(pair.slave, pair.master);
       std::swap(pair.slave_name, pair.master_name);
     }
+  // The choice is made once: a design that changes which side is finer must not exchange the sides
+  // when contact is paired anew.
   pair.parameters.slave = "first";
 }
 
 /// Value of a field at the slave of a row less that at its master, if
 /// it has nodes, by the factors of the normal in the coefficients.
+/// Coefficients are c n, so their product with n gives c back: 1 at the slave, -w_k at the master,
+/// or those of a mortar row. A row against an obstacle has no master nodes and gives the slave's.
 template <int dim>
 dealii::Tensor<1, dim> slave_minus_master(const Row<dim>                           &row,
                                           const typename mesh::Surface<dim>::Field &field)
 {
   dealii::Tensor<1, dim> sum;
   for (const auto &c : row.coefficients)
+    // (c n . n) u = c u
     sum += (c.second * row.normal) * field[c.first];
   return sum;
 }
 
 /// Length of @p v at right angles to @p normal.
+/// [length]; what the row does not resist, as contact is without friction.
 template <int dim>
 double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
 {
@@ -102,8 +109,10 @@ void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim>
   std::map<std::pair<std::string, Pair::Side>, std::vector<bool>> taken;
   for (unsigned int p = 0; p < chosen.size(); ++p)
     {
-      const Pair &pair       = chosen[p];
-      auto       &taken_here = taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
+      const Pair &pair = chosen[p];
+      // Pairs that overlap may bring the same node and master together twice; the two rows would be
+      // equal and W = B D^-1 B' singular.
+      auto &taken_here = taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
       taken_here.resize(surface.n_nodes(), false);
       PairFaces sides{faces_of(surface, pair.slave), {}};
       if (!pair.obstacle)
@@ -111,9 +120,11 @@ void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim>
       groups.push_back(make_group({surface, shape, pair, sides, positions, held, taken_here}));
       for (const unsigned int slave : groups.back().rows->slaves())
         {
+          // The number of a row is its place here, over all groups.
           row_places.push_back({p, slave});
           taken_here[slave] = true;
         }
+      // Replicated data: the same answer, and the same error, on all ranks.
       if (groups.back().rows->slaves().empty())
         throw InputError("contact pair '" + pair.name() +
                          "': no slave node lies opposite to the master within the search "
@@ -123,6 +134,7 @@ void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim>
   measure_pairing(positions);
 }
 
+/// Groups number their own rows; rows of Contact count through all groups.
 template <int dim>
 void Contact<dim>::collect_shared_nodes()
 {
@@ -151,7 +163,8 @@ void Contact<dim>::measure_pairing(const Field &positions)
     {
       paired_offsets.push_back(slave_minus_master(paired[i], positions));
       double &depth = deepest[row_places[i].pair];
-      depth         = std::max(depth, -paired[i].gap / sizes[row_places[i].slave]);
+      // A negative gap is an overlap.
+      depth = std::max(depth, -paired[i].gap / sizes[row_places[i].slave]);
     }
 }
 
@@ -203,6 +216,8 @@ std::vector<Row<dim>> Contact<dim>::rows(const Field &positions) const
       {
         const unsigned int slave = row_places[result.size()].slave;
         if (group.offset)
+          // At the slave's position in the design, so that the formula belongs to places, not to
+          // the material.
           row.gap += group.offset->value(dealii::Point<dim>(positions[slave]));
         result.push_back(std::move(row));
       }
@@ -221,6 +236,7 @@ std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
       {
         const unsigned int slave = row_places[result.size()].slave;
         if (group.offset)
+          // d/dt g(x_s(t)) = grad g . V_s
           row.gap += group.offset->gradient(dealii::Point<dim>(positions[slave]), group.step) *
                      velocity[slave];
         result.push_back(std::move(row));
@@ -246,6 +262,8 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
       group.rows->add_energy_gradient(positions, displacement, of_group, gradient);
       if (group.offset)
         for (unsigned int i = 0; i < slaves.size(); ++i)
+          // The energy gradient is that of sum_i force_i (sum_b c_b . u_b - gap_i): hence the
+          // minus.
           gradient[slaves[i]] -=
             of_group[i] *
             group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]), group.step);
@@ -306,6 +324,7 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
     {
       const auto offset         = slave_minus_master(rows[i], positions);
       const auto &[pair, slave] = row_places[i];
+      // The closest point on an obstacle follows the node, so it cannot drift off.
       result.push_back(chosen[pair].obstacle
                          ? 0.
                          : along(offset - paired_offsets[i], rows[i].normal) / sizes[slave]);

@@ -23,7 +23,9 @@ dealii::Tensor<2, dim> rotation_to(dealii::Tensor<1, dim> axis)
   dealii::Tensor<1, dim> last;
   last[dim - 1]            = 1.;
   dealii::Tensor<2, dim> q = dealii::unit_symmetric_tensor<dim>();
-  const auto             s = last + axis;
+  // The product of the reflections at the planes normal to e_last and to s. Not defined for
+  // opposite directions, for which any half turn about an axis normal to e_last does.
+  const auto s = last + axis;
   if (s.norm() > 1e-8)
     return q - outer_product(s, s) / (1. + axis[dim - 1]) + 2. * outer_product(axis, last);
   q[0][0] = q[dim - 1][dim - 1] = -1.;
@@ -39,6 +41,8 @@ bool is_positive_definite(const dealii::SymmetricTensor<2, dim> &a)
 } // namespace
 
 /// The point y = x - m grad phi(y) with what phi is there.
+/// The unknowns of the Newton method are y and the multiplier m; at the solution
+/// m |grad phi| = n . (x - y) is the signed distance.
 template <int dim>
 struct LevelSet<dim>::Foot
 {
@@ -72,9 +76,11 @@ bool LevelSet<dim>::Foot::invert()
     return false;
   const dealii::Tensor<1, dim> n        = gradient / length;
   const auto                   identity = dealii::unit_symmetric_tensor<dim>();
-  const dealii::Tensor<2, dim> across   = identity - outer_product(n, n);
-  const dealii::Tensor<2, dim> A        = identity + m * hessian;
-  const auto                   bend     = symmetrize(across * A * across + outer_product(n, n));
+  // y is a minimum of the distance on phi = 0 if I + m H is positive on its tangents; elsewhere,
+  // past a centre of curvature, other points of the obstacle are closer.
+  const dealii::Tensor<2, dim> across = identity - outer_product(n, n);
+  const dealii::Tensor<2, dim> A      = identity + m * hessian;
+  const auto                   bend   = symmetrize(across * A * across + outer_product(n, n));
   if (!is_positive_definite(bend - 1e-6 * identity))
     return false;
   // scaled so that all entries are of order one
@@ -101,6 +107,7 @@ LevelSet<dim>::LevelSet(const ObstacleParameters &parameters, double element_siz
 template <int dim>
 void LevelSet<dim>::evaluate(Foot &foot) const
 {
+  // The formula is one of coordinates turned to Axis: derivatives are turned back.
   const dealii::Point<dim> local(transpose(rotation) * (foot.y - origin));
   foot.value    = formula.value(local);
   foot.gradient = rotation * formula.gradient(local, step);
@@ -108,6 +115,7 @@ void LevelSet<dim>::evaluate(Foot &foot) const
 }
 
 /// Along the gradient until phi vanishes, as the first guess.
+/// To within a tenth of an element of phi = 0, from where Newton's method takes over.
 template <int dim>
 bool LevelSet<dim>::descend(const dealii::Point<dim> &x, Foot &foot) const
 {
@@ -118,8 +126,10 @@ bool LevelSet<dim>::descend(const dealii::Point<dim> &x, Foot &foot) const
       const double square = foot.gradient.norm_square();
       if (!(square > 0.) || !std::isfinite(square))
         return false;
+      // Newton's step for phi = 0 along the gradient.
       const dealii::Tensor<1, dim> move = -foot.value / square * foot.gradient;
       foot.y += move;
+      // From y - x + m grad phi = 0, in the direction of the gradient.
       foot.m = (x - foot.y) * foot.gradient / square;
       if (move.norm() < 0.1 * size)
         return true;
@@ -137,10 +147,14 @@ std::optional<typename LevelSet<dim>::Foot> LevelSet<dim>::foot(const dealii::Po
   for (unsigned int i = 0; i < 30; ++i)
     {
       evaluate(foot);
+      // At every iterate: Newton's matrix has to be regular and to lead to a minimum.
       if (!foot.invert())
         return std::nullopt;
+      // Only after another evaluation: distance() takes gradient and Hessian at the foot.
       if (close)
         return foot;
+      // The matrix was made with the unit normal in place of the gradient: residual and multiplier
+      // are scaled by its length.
       const double           length = foot.gradient.norm();
       const auto             rest   = foot.y - x + foot.m * foot.gradient;
       dealii::Tensor<1, dim> move;
@@ -169,7 +183,8 @@ std::optional<ObstacleDistance<dim>> LevelSet<dim>::distance(const dealii::Point
     return std::nullopt;
   const double                 length = found->gradient.norm();
   const dealii::Tensor<1, dim> n      = found->gradient / length;
-  const dealii::Tensor<2, dim> turn   = found->hessian * found->follow() / length;
+  // n' = (I - n n') H y' / |grad phi|, the derivative of a unit vector.
+  const dealii::Tensor<2, dim> turn = found->hessian * found->follow() / length;
   const dealii::Tensor<2, dim> across =
     dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - outer_product(n, n);
   return ObstacleDistance<dim>{(x - found->y) * n, n, across * turn};

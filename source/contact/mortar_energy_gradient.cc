@@ -10,6 +10,7 @@ typename MortarRows<dim>::Field MortarRows<dim>::deformed(const Field &positions
   Field result = positions;
   for (unsigned int node = 0; node < result.size(); ++node)
     {
+      // Hanging nodes have positions of their own, but no displacements.
       if (surface.masters(node).empty())
         result[node] += displacement[node];
       for (const auto &master : surface.masters(node))
@@ -35,11 +36,14 @@ void MortarRows<dim>::add_energy_gradient(const Field               &positions,
       const double           p    = forces[i] / sums[i].area;
       dealii::Tensor<1, dim> r;
       for (int d = 0; d < dim; ++d)
+        // r_i = int psi_i (y_slave - y_master) dA for y = x + u: the offset is that of x, master
+        // less slave.
         r[d] = -sums[i].offset[d];
       for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
         r += sums[i].coefficients[k] * displacement[row_nodes[i][k]];
       normal_gradient[node] += p * r;
       energy.directions.push_back(p * n);
+      // force / a_i n . r_i: by n it is p r_i, by r_i p n, by a_i minus the whole over a_i.
       energy.area_slopes.push_back(-p / sums[i].area * (n * r));
     }
   normals.add_transpose(normal_gradient, gradient);
@@ -67,7 +71,8 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   const auto        &nodes = surface.faces()[face.face].nodes;
   const unsigned int n     = nodes.size();
   // of the multiplier functions of the face's own nodes
-  Field               direction(n);
+  Field direction(n);
+  // A function that is shared acts in several rows: what the rows say of it adds up by the shares.
   std::vector<double> area_slope(n, 0.);
   for (unsigned int j = 0; j < n; ++j)
     for (const auto &share : multipliers.shares[nodes[j]])
@@ -78,6 +83,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   bool counts = false;
   for (unsigned int j = 0; j < n; ++j)
     counts = counts || direction[j].norm_square() > 0. || area_slope[j] != 0.;
+  // Most faces of the slave side are open; cutting segments is what costs time.
   if (!counts)
     return;
 
@@ -89,7 +95,8 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   const auto coupling    = mortar::couple(of_shapes, face.biorthogonal);
   auto       to_coupling = coupling;
   to_coupling.multiplier = area_slope;
-  const auto add         = [&](double sign, const dealii::Table<2, double> &integral,
+  // sum_j direction_j . int psi_j N_k y_k: by the positions of node k, and by the integral itself.
+  const auto add = [&](double sign, const dealii::Table<2, double> &integral,
                        const std::vector<unsigned int> &others, dealii::Table<2, double> &slope) {
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int k = 0; k < n; ++k)

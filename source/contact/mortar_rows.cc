@@ -17,6 +17,7 @@ const double least_biorthogonal_cover = 0.25;
 const double held_part = 0.1;
 
 /// Integrals of the shape functions over a whole face.
+/// With the same number of Gauss points as tributary areas have.
 template <int dim>
 std::vector<double> whole_integrals(const mesh::Surface<dim>                 &surface,
                                     unsigned int                              face,
@@ -79,13 +80,18 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
     {
       const mortar::FaceCover cover = {face.face, integrals(face, x).slave,
                                        whole_integrals(surface, face.face, shape, pair.positions)};
+      // The Gram matrix of shape functions over a sliver of a face is nearly singular: its inverse
+      // would give multiplier functions with large values of both signs.
       face.biorthogonal = sum(cover.covered) >= least_biorthogonal_cover * sum(cover.whole);
+      // Opposite within the margin of the pairing, but not covered yet: no multipliers.
       if (sum(cover.covered) > 0.)
         covers.push_back(cover);
     }
   multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, pair.positions);
 }
 
+/// All nodes that a row may reach while the pairing stays, those with zero coefficients included:
+/// B keeps its pattern while the design moves, and its symbolic factorizations stay valid.
 template <int dim>
 void MortarRows<dim>::collect_row_nodes()
 {
@@ -104,6 +110,7 @@ void MortarRows<dim>::collect_row_nodes()
           {
             auto &row = reached[share.first];
             row.insert(masters.begin(), masters.end());
+            // int psi_j N_l = 0 for l != j: of the slave side only the node itself.
             if (face.biorthogonal)
               row.insert(node);
             else
@@ -112,6 +119,7 @@ void MortarRows<dim>::collect_row_nodes()
     }
   for (const auto &nodes : reached)
     {
+      // Hanging nodes have no unknowns.
       std::set<unsigned int> resolved;
       for (const unsigned int node : nodes)
         {
@@ -124,6 +132,8 @@ void MortarRows<dim>::collect_row_nodes()
     }
 }
 
+/// Far rows take their multiplier functions along, so shares may sum to less than 1 afterwards: a
+/// part of the side that is out of reach carries no pressure.
 template <int dim>
 void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
 {
@@ -135,6 +145,7 @@ void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
   multipliers.nodes.clear();
   row_nodes.clear();
   for (unsigned int i = 0; i < all.size(); ++i)
+    // By the gap alone: the angles of faces were tested when they were paired.
     if (opposition.is_near(all[i].gap))
       {
         index[i] = row_nodes.size();
@@ -173,7 +184,8 @@ void MortarRows<dim>::add_to_row(RowSum<Number> &sum,
 {
   const auto add = [&](unsigned int at, double weight) {
     const auto &nodes = row_nodes[row];
-    const auto  place = std::lower_bound(nodes.begin(), nodes.end(), at);
+    // Found always: collect_row_nodes() has seen the same faces.
+    const auto place = std::lower_bound(nodes.begin(), nodes.end(), at);
     sum.coefficients[place - nodes.begin()] += weight * coefficient;
   };
   if (surface.masters(node).empty())
@@ -202,6 +214,8 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
             const Number    shared = share.second * integral;
             add_to_row(sum, share.first, node, shared);
             for (int d = 0; d < dim; ++d)
+              // Hanging nodes at their own position, though their coefficients went to their
+              // masters: the gap is one between the faces as they are.
               sum.offset[d] -= shared * x[node][d];
           }
       };
@@ -210,6 +224,7 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
           for (const auto &share : multipliers.shares[nodes[j]])
             sums[share.first].area += share.second * coupling.multiplier[j];
           for (unsigned int l = 0; l < nodes.size(); ++l)
+            // The other integrals are zero up to rounding, and their nodes may not be in the row.
             if (!face.biorthogonal || l == j)
               add(j, nodes[l], coupling.multiplier_slave(j, l));
           for (unsigned int f = 0; f < face.masters.size(); ++f)
@@ -221,6 +236,7 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
         }
     }
   for (unsigned int i = 0; i < sums.size(); ++i)
+    // The row is divided by its area.
     if (!(faces::value_of(sums[i].area) > 0.))
       throw TangledMesh("the master side has moved away from contact "
                         "nodes that it was opposite to");
@@ -233,6 +249,7 @@ const std::vector<unsigned int> &MortarRows<dim>::slaves() const
   return multipliers.nodes;
 }
 
+/// Hanging nodes are left out: they have no unknowns whose force could be asked for.
 template <int dim>
 std::vector<SharedNode> MortarRows<dim>::shared_nodes() const
 {
@@ -271,6 +288,7 @@ std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
 {
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
   const Field                 normal_slopes = normals.derivative(velocity);
+  // One pass over the segments gives values and derivatives, exact through cuts and projections.
   const auto sums = row_sums<faces::Differential<1>>(mortar::node_arrays<dim>(positions, velocity));
   std::vector<Row<dim>> result(sums.size());
   for (unsigned int i = 0; i < sums.size(); ++i)

@@ -30,6 +30,7 @@ dealii::Tensor<1, dim> at_master(const Projection &projection, const SurfaceFiel
 template <int dim>
 RowNormal<dim> row_normal(const Projection &projection, const SurfaceField<dim> &nodal_normals)
 {
+  // Nodal normals point out of the master; those of rows into it.
   const dealii::Tensor<1, dim> v      = -1. * at_master<dim>(projection, nodal_normals);
   const double                 length = v.norm();
   if (!(length > 0.))
@@ -52,6 +53,8 @@ Row<dim> make_row(const std::vector<std::pair<unsigned int, double>> &factors,
 }
 } // namespace
 
+/// Slave nodes that hang have no row (project() leaves them out): they move with their masters,
+/// whose rows hold them, and a row of their own would be nearly a combination of those.
 template <int dim>
 NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
   : surface(pair.surface), shape(pair.shape), sides(pair.sides), held(pair.held)
@@ -64,6 +67,7 @@ NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
       const double       distance =
         (at_master<dim>(projection, pair.positions) - pair.positions[slave]).norm();
       const auto n = row_normal<dim>(projection, normals.normals()).n;
+      // The distance counts on both sides: a deep overlap is as far away as a wide gap.
       if (pair.taken[slave] || !opposition.holds(slave, distance, n))
         continue;
       found.push_back(projection);
@@ -72,6 +76,8 @@ NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
   resolve_hanging();
 }
 
+/// factors: 1 at the slave, -w_k at the masters, those that hang replaced by their own masters. The
+/// map merges nodes that are reached twice and sorts them.
 template <int dim>
 void NodalRows<dim>::resolve_hanging()
 {
@@ -110,7 +116,8 @@ std::vector<Row<dim>> NodalRows<dim>::rows(const Field &positions) const
   std::vector<Row<dim>> result;
   for (unsigned int i = 0; i < found.size(); ++i)
     {
-      const auto   n   = row_normal<dim>(found[i], normals.normals()).n;
+      const auto n = row_normal<dim>(found[i], normals.normals()).n;
+      // With the positions of the hanging nodes themselves: the gap is that of the mesh as it is.
       const double gap = n * (at_master<dim>(found[i], positions) - positions[found[i].slave]);
       result.push_back(make_row(factors[i], n, gap));
     }
@@ -129,8 +136,9 @@ std::vector<Row<dim>> NodalRows<dim>::row_derivatives(const Field &positions,
       const auto                  &projection = found[i];
       const auto                   normal     = row_normal<dim>(projection, normals.normals());
       const dealii::Tensor<1, dim> dv         = -1. * at_master<dim>(projection, derivatives);
-      const auto                   dn = faces::unit_vector_derivative(normal.n, normal.length, dv);
-      const double                 dgap =
+      // Weights are frozen, so only the nodal normals change v.
+      const auto   dn = faces::unit_vector_derivative(normal.n, normal.length, dv);
+      const double dgap =
         dn * (at_master<dim>(projection, positions) - positions[projection.slave]) +
         normal.n * (at_master<dim>(projection, velocity) - velocity[projection.slave]);
       result.push_back(make_row(factors[i], dn, dgap));
@@ -156,8 +164,10 @@ void NodalRows<dim>::add_energy_gradient(const Field               &positions,
         positions[projection.slave] - at_master<dim>(projection, positions);
       for (const auto &factor : factors[i])
         n_gradient += factor.second * displacement[factor.first];
+      // The derivative of a unit vector is symmetric and serves as its own transpose.
       const auto v_gradient =
         forces[i] * faces::unit_vector_derivative(normal.n, normal.length, n_gradient);
+      // By the positions in the gap; displacements are fixed.
       gradient[projection.slave] += forces[i] * normal.n;
       for (const auto &master : projection.masters)
         {
@@ -168,6 +178,8 @@ void NodalRows<dim>::add_energy_gradient(const Field               &positions,
   normals.add_transpose(normal_gradients, gradient);
 }
 
+/// Over the whole slave side, also where the master side ends within it: the force of a row divided
+/// by this area is a mean pressure around its node.
 template <int dim>
 std::vector<double> NodalRows<dim>::areas(const Field &positions) const
 {

@@ -13,6 +13,7 @@ public:
 
   std::optional<ObstacleDistance<dim>> distance(const dealii::Point<dim> &x) const override
   {
+    // The Hessian is zero.
     return ObstacleDistance<dim>{(x - point) * normal, normal, {}};
   }
 
@@ -42,9 +43,11 @@ public:
   {
     const dealii::Tensor<1, dim> r      = across * (x - centre);
     const double                 length = r.norm();
+    // On the centre or axis no direction is the closest.
     if (!(length > 1e-10 * radius))
       return std::nullopt;
     const dealii::Tensor<1, dim> n = r / length;
+    // H = (I - n n')/|r| within the directions that count; the hollow shape has all signs reversed.
     return ObstacleDistance<dim>{side * (length - radius), side * n,
                                  side / length * (across - outer_product(n, n))};
   }
@@ -67,6 +70,7 @@ Choice<Make<dim>> round(const std::string &name, const std::string &meaning, boo
 }
 } // namespace
 
+/// Parameter files give lists, of which the number of entries has been checked.
 template <int dim>
 dealii::Point<dim> to_point(const std::vector<double> &coordinates)
 {

@@ -19,6 +19,8 @@ ObstacleRows<dim>::ObstacleRows(const PairGeometry<dim> &pair)
   for (const unsigned int face : slave_faces)
     for (const unsigned int node : surface.faces()[face].nodes)
       {
+        // Hanging nodes follow their masters, which have rows; `taken` are rows of an earlier pair
+        // with the same obstacle.
         if (visited[node] || !surface.masters(node).empty())
           continue;
         visited[node] = true;
@@ -53,6 +55,7 @@ std::vector<Row<dim>> ObstacleRows<dim>::rows(const Field &positions) const
     {
       const auto                   d = distance(positions[slave]);
       const dealii::Tensor<1, dim> n = -d.gradient;
+      // n . (u - w) <= d(x): the obstacle moved by w is met with the normal at its place before.
       result.push_back({{{slave, n}}, d.value + n * shift, n});
     }
   return result;
@@ -65,7 +68,8 @@ std::vector<Row<dim>> ObstacleRows<dim>::row_derivatives(const Field &positions,
   std::vector<Row<dim>> result;
   for (const unsigned int slave : slave_nodes)
     {
-      const auto                   d    = distance(positions[slave]);
+      const auto d = distance(positions[slave]);
+      // n = -grad d
       const dealii::Tensor<1, dim> dn   = -1. * (d.hessian * velocity[slave]);
       const double                 dgap = d.gradient * velocity[slave] + dn * shift;
       result.push_back({{{slave, dn}}, dgap, dn});
@@ -85,6 +89,7 @@ void ObstacleRows<dim>::add_energy_gradient(const Field               &positions
       const unsigned int slave = slave_nodes[i];
       const auto         d     = distance(positions[slave]);
       // of n . (u - w) - d
+      // n = -grad d at x: its derivative is -H, and gap' = grad d.
       gradient[slave] -= forces[i] * (d.hessian * (displacement[slave] - shift) + d.gradient);
     }
 }

@@ -43,6 +43,8 @@ double diameter(const dealii::BoundingBox<dim> &box)
 }
 
 /// A face as the search needs it.
+/// The box is that of the nodes: a curved face may bulge beyond it by a little, for which the slack
+/// of the search makes up.
 template <int dim>
 struct SearchFace
 {
@@ -68,6 +70,7 @@ struct SearchFace
     normal /= normal.norm();
   }
 
+  /// As the mortar kernels take positions, whose numbers may carry derivatives.
   mortar::FaceNodes<dim, double> arrays() const
   {
     mortar::FaceNodes<dim, double> result(nodes.size());
@@ -92,6 +95,7 @@ public:
   {
     namespace bgi  = boost::geometry::index;
     double closest = std::numeric_limits<double>::max();
+    // Boxes of four near faces: the closest of these gives an upper bound of the distance.
     for (const auto i :
          tree | bgi::adaptors::queried(bgi::nearest(dealii::Point<dim>(slave.centre), 4)))
       closest =
@@ -102,6 +106,7 @@ public:
     std::vector<std::size_t> result;
     for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(around)))
       result.push_back(i);
+    // The tree returns faces in an order of its own; rows must not depend on it.
     std::sort(result.begin(), result.end());
     return result;
   }
@@ -131,6 +136,7 @@ std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &p
   const auto  search_face = [&](unsigned int face) {
     return SearchFace<dim>(pair.surface, face, pair.shape, pair.positions);
   };
+  // Projecting along the slave's normal squeezes a face by the cosine of the angle.
   const double angle        = std::min(pair.pair.parameters.largest_angle, steepest_angle);
   const double least_cosine = std::cos(angle / 180. * dealii::numbers::PI) - equal_cosine;
   std::vector<std::vector<unsigned int>> result(slaves.size());
@@ -139,12 +145,14 @@ std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &p
     masters.push_back(search_face(face));
   if (masters.empty())
     return result;
+  // All pairs of faces would be a square of their number.
   const MasterTree<dim>                tree(masters, pair.shape);
   const mortar::SegmentQuadrature<dim> quadrature(pair.shape.degree(), pair.surface.idealization());
   for (unsigned int i = 0; i < slaves.size(); ++i)
     {
       const SearchFace<dim> slave = search_face(slaves[i]);
       for (const std::size_t m : tree.near(slave))
+        // Both normals point out of their bodies, so those of opposite faces are opposite.
         if (-(slave.normal * masters[m].normal) >= least_cosine &&
             quadrature.overlap(slave.arrays(), masters[m].arrays(), pairing_margin))
           result[i].push_back(pair.sides.master[m]);

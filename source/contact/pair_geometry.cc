@@ -9,9 +9,12 @@
 
 namespace snug::contact {
 namespace {
+/// Nodes exactly at the search distance or the largest angle are inside the limits, whatever
+/// rounding says: which rows there are must not depend on it.
 const double round_off = 1e-9;
 
 /// Diagonal over sqrt(dim-1), the edge length of a square.
+/// The first and the last node in tensor order are opposite corners.
 template <int dim>
 double face_size(const std::vector<unsigned int>          &nodes,
                  const typename mesh::Surface<dim>::Field &positions)
@@ -38,6 +41,7 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
   std::vector<double> sizes(surface.n_nodes(), 0.);
   for (const auto &face : surface.faces())
     for (const unsigned int node : face.nodes)
+      // The largest: slips and drifts are measured against what the mesh resolves at the node.
       sizes[node] = std::max(sizes[node], face_size<dim>(face.nodes, positions));
   return sizes;
 }
@@ -54,10 +58,11 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
               .normals())
 {
   const PairParameters &parameters = pair.pair.parameters;
-  largest_distance                 = parameters.search_distance == 0.
-                                       ? std::numeric_limits<double>::infinity()
-                                       : parameters.search_distance * (1. + round_off);
-  least_cosine = std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) - round_off;
+  // 0 stands for no limit.
+  largest_distance = parameters.search_distance == 0.
+                       ? std::numeric_limits<double>::infinity()
+                       : parameters.search_distance * (1. + round_off);
+  least_cosine     = std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) - round_off;
 }
 
 template <int dim>

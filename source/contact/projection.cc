@@ -111,6 +111,7 @@ typename MasterSide<dim>::Boxes MasterSide<dim>::face_boxes(const faces::FaceSha
   return result;
 }
 
+/// The diagonal of the box: the length that rounding of positions is compared with.
 template <int dim>
 double MasterSide<dim>::extent(std::size_t i) const
 {
@@ -139,11 +140,14 @@ typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1,
   // An upper bound of the distance from the faces of the nearest boxes,
   // then all faces whose boxes meet the cube of that size around p.
   double bound = std::numeric_limits<double>::infinity();
+  // Four, as the face of the nearest box need not be the nearest face; any number gives a bound.
   for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 4)))
     bound = std::min(bound, faces::closest_point(shape, nodes[i], p).squared_distance);
   double reach = 0.;
   for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 1)))
     reach = extent(i);
+  // A little more than the bound, so that faces which are equally close are candidates, too, and
+  // also where the distance is zero.
   reach                    = std::sqrt(bound) * (1. + 1e-6) + 1e-6 * reach;
   dealii::Point<dim> lower = centre, upper = centre;
   for (unsigned int d = 0; d < dim; ++d)
@@ -156,6 +160,8 @@ typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1,
   std::vector<std::size_t> candidates;
   for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(cube)))
     candidates.push_back(i);
+  // By index, as the first of those that tie is taken: on matching meshes the closest point is
+  // often a corner of four faces, and rounding must not choose between them.
   std::sort(candidates.begin(), candidates.end());
   std::vector<faces::ClosestPoint<dim>> points;
   std::size_t                           best = 0;
@@ -166,6 +172,7 @@ typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1,
         best = points.size() - 1;
     }
   std::size_t first = 0;
+  // Ends at `best` at the latest, which ties with itself.
   while (!ties(points[first], points[best], extent(candidates[best])))
     ++first;
   return {faces[candidates[first]], points[first]};
@@ -181,12 +188,15 @@ std::vector<std::pair<unsigned int, double>> weights(const faces::FaceShape<dim>
   std::vector<std::pair<unsigned int, double>> result;
   double                                       sum = 0.;
   for (unsigned int k = 0; k < nodes.size(); ++k)
+    // On an edge the nodes of the other edges have weights that are rounding: they would couple the
+    // row to nodes that it has nothing to do with.
     if (std::abs(values.value[k]) >= least_weight)
       {
         result.emplace_back(nodes[k], values.value[k]);
         sum += values.value[k];
       }
   for (auto &weight : result)
+    // What was left out is made up for: rigid translations must not open or close the gap.
     weight.second /= sum;
   std::sort(result.begin(), result.end());
   return result;
@@ -208,10 +218,13 @@ std::vector<Projection> project(const mesh::Surface<dim>                 &surfac
   for (const unsigned int slave_face : sides.slave)
     for (const unsigned int slave : surface.faces()[slave_face].nodes)
       {
+        // Faces share nodes, of which each is projected once; hanging ones never.
         if (visited[slave] || !surface.masters(slave).empty())
           continue;
         visited[slave]   = true;
         const auto found = master.closest(positions[slave]);
+        // Beyond the end of the master side the closest point stays on its edge, and the row would
+        // hold back a node that passes by the master side.
         if (edges.excess(found.face, found.point.xi, positions[slave] - found.point.position,
                          positions) > edge_tolerance)
           continue;

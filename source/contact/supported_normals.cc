@@ -21,6 +21,8 @@ SupportedNormals<dim>::SupportedNormals(const mesh::Surface<dim>         &surfac
     {
       const auto   v    = faces::free_part(unit[node], held[node]);
       const double size = v.norm();
+      // Normals that lean on a support by more than 25 degrees stay as they are: without the held
+      // part they would have little to do with the face.
       if (!held[node].empty() && size > least_free_part)
         {
           unit[node]   = v / size;
@@ -52,6 +54,7 @@ void SupportedNormals<dim>::add_transpose(const Field &normal_gradient, Field &g
   Field to_nodal = normal_gradient;
   for (unsigned int node = 0; node < to_nodal.size(); ++node)
     if (length[node] > 0.)
+      // Transposes in reverse order; both factors are symmetric.
       to_nodal[node] = faces::free_part(faces::unit_vector_derivative(unit[node], length[node],
                                                                       normal_gradient[node]),
                                         held[node]);

@@ -31,6 +31,7 @@ CellPoint<dim>::CellPoint(const LagrangePoint<dim> &shape,
                           const mesh::Idealization &idealization)
   : shape(shape), inverse_radius(0.)
 {
+  // J_cd = dX_c / d xi_d, so that g_a = J^-T dN_a/d xi is the row vector dN_a/d xi times J^-1.
   const dealii::Tensor<2, dim> J       = jacobian(shape, X);
   const dealii::Tensor<2, dim> inverse = invert(J);
 
@@ -38,11 +39,14 @@ CellPoint<dim>::CellPoint(const LagrangePoint<dim> &shape,
   if (dim == 2)
     {
       const auto x = value(shape, X);
+      // Thickness or 2 pi r: dV is the volume in space that the point stands for.
       dV *= idealization.weight(x);
       if (idealization.is_axisymmetric())
+        // Gauss points lie off the axis; a point on it would give infinity here.
         inverse_radius = 1. / x[0];
     }
   for (unsigned int a = 0; a < X.size(); ++a)
+    // In the plane of a section; what is across it is added by gradient().
     gradients[a] = shape.gradients[a] * inverse;
 }
 
@@ -58,10 +62,13 @@ dealii::Tensor<2, 3> CellPoint<dim>::gradient(const Nodes &u) const
     for (unsigned int d = 0; d < dim; ++d)
       result[c][d] = sum[c][d];
   if (inverse_radius != 0.)
+    // u_r / r, the strain of circles about the axis.
     result[2][2] = value(shape, u)[0] * inverse_radius;
   return result;
 }
 
+/// The transpose of gradient(), times dV: internal forces of a stress and gradients by positions
+/// are both made with it.
 template <int dim>
 void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
 {
@@ -70,6 +77,7 @@ void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
   for (unsigned int c = 0; c < dim; ++c)
     for (unsigned int d = 0; d < dim; ++d)
       in_plane[c][d] = dV * flux[c][d];
+  // Zero in plane sections: nothing works on the strain across them.
   const double hoop = dV * flux[2][2] * inverse_radius;
   for (unsigned int a = 0; a < f.size(); ++a)
     {
@@ -78,6 +86,7 @@ void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
     }
 }
 
+/// The transpose of value(), times dV.
 template <int dim>
 void CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const
 {

@@ -23,8 +23,10 @@ Element<dim>::Element(const unsigned int        degree,
   Assert(degree == 1 || degree == 2, dealii::ExcMessage("Elements have degree 1 or 2."));
   Assert((idealization.kind == Kind::solid) == (dim == 3),
          dealii::ExcMessage("Solids are 3D, sections 2D."));
+  // Its strain across the sheet follows from the others: there is no dilatation to be projected.
   Assert(formulation == Formulation::standard || idealization.kind != Kind::plane_stress,
          dealii::ExcMessage("B-bar is not for plane stress."));
+  // A multiple of the tile size of StiffnessKernel; the zeros add nothing.
   const unsigned int n_padded = (n_nodes() + 3) / 4 * 4;
   for (const auto &shape : gauss)
     for (unsigned int d = 0; d < dim; ++d)
@@ -42,12 +44,14 @@ template <int dim>
 std::vector<CellPoint<dim>> Element<dim>::gauss_points(const Nodes &X) const
 {
   std::vector<CellPoint<dim>> points;
+  // stress() adds one.
   points.reserve(gauss.size() + 1);
   for (const auto &shape : gauss)
     points.emplace_back(shape, X, idealization);
   return points;
 }
 
+/// The functions of the projection are orthonormal in dV of this cell, so they follow its shape.
 template <int dim>
 void Element<dim>::take_dilatation(const std::vector<CellPoint<dim>> &points,
                                    std::vector<double>               &values) const
@@ -81,6 +85,8 @@ Element<dim>::point_states(const std::vector<CellPoint<dim>> &points,
   for (unsigned int q = 0; q < points.size(); ++q)
     {
       auto &state = states[q];
+      // div u + theta is what the formulation takes for div u. A third of theta on each diagonal
+      // entry of the strain changes its trace only.
       state.theta = dilatation[q] - trace(state.gradient);
       state.stress =
         cauchy_stress(material, strain(idealization, material, state.gradient) +
@@ -89,6 +95,7 @@ Element<dim>::point_states(const std::vector<CellPoint<dim>> &points,
   return states;
 }
 
+/// By stresses at the points, without K: cheaper than K u where K is not needed.
 template <int dim>
 void Element<dim>::internal_force(const Nodes    &X,
                                   const Material &material,
@@ -102,15 +109,18 @@ void Element<dim>::internal_force(const Nodes    &X,
     points[q].add_flux(states[q].stress, r);
 }
 
+/// [length]; formulas of loads are evaluated there.
 template <int dim>
 typename Element<dim>::Nodes Element<dim>::quadrature_points(const Nodes &X) const
 {
+  // In the order of the Gauss points, in which loads per point are given back to body_force().
   Nodes points;
   for (const auto &shape : gauss)
     points.push_back(value(shape, X));
   return points;
 }
 
+/// In axisymmetric models dV holds 2 pi r: the force is that of the full revolution.
 template <int dim>
 void Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
 {
@@ -121,6 +131,7 @@ void Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
     points[q].add_source(b[q], f);
 }
 
+/// Without inverting J, so that cells with det J = 0 somewhere have a volume, too.
 template <int dim>
 double Element<dim>::volume(const Nodes &X) const
 {
@@ -137,8 +148,9 @@ dealii::SymmetricTensor<2, 3> Element<dim>::stress(const Nodes              &X,
                                                    const dealii::Point<dim> &point) const
 {
   // one more point, without a weight, receives what the cell makes
-  const auto shape  = lagrange_point<dim>(degree, point);
-  auto       points = gauss_points(X);
+  const auto shape = lagrange_point<dim>(degree, point);
+  // It takes part in no projection, as its dV is 0.
+  auto points = gauss_points(X);
   points.emplace_back(shape, X, idealization);
   return point_states(points, material, u).back().stress;
 }
@@ -146,17 +158,21 @@ dealii::SymmetricTensor<2, 3> Element<dim>::stress(const Nodes              &X,
 template <int dim>
 double Element<dim>::quality(const Nodes &X) const
 {
+  // Nodes as well as Gauss points: the determinant of a bilinear cell is smallest at a corner.
+  // Nodes have no quadrature weight, so that the mean is over the Gauss points.
   double smallest = std::numeric_limits<double>::max();
   double mean     = 0.;
   for (const auto *points : {&gauss, &nodes})
     for (const auto &shape : *points)
       {
+        // Of the section alone: the weight 2 pi r would make cells near the axis look bad.
         const double det = determinant(jacobian(shape, X));
         smallest         = std::min(smallest, det);
         mean += shape.weight * std::abs(det);
       }
   if (idealization.is_axisymmetric())
     {
+      // Negative radii make negative volumes; round-off of nodes on the axis is allowed.
       const auto radii =
         std::minmax_element(X.begin(), X.end(), [](auto &x, auto &y) { return x[0] < y[0]; });
       const double round_off = 1e-10;
@@ -178,6 +194,7 @@ double Element<dim>::scaled_jacobian(const Nodes &X) const
         for (int d = 0; d < dim; ++d)
           volume *= (transpose(J)[d]).norm();
         const double ratio = determinant(J) / volume;
+        // NaN compares false and counts as 0.
         if (!(ratio > smallest))
           smallest = std::isnan(ratio) ? 0. : ratio;
       }

@@ -5,9 +5,11 @@
 
 namespace snug::elasticity {
 namespace {
+/// In space for all idealizations, as gradients are.
 const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
-}
+} // namespace
 
+/// Exact for the quadrature as well as for the integral: Gauss points go with the cell.
 template <int dim>
 void Element<dim>::internal_force_derivative(const Nodes    &X,
                                              const Nodes    &V,
@@ -23,17 +25,21 @@ void Element<dim>::internal_force_derivative(const Nodes    &X,
   for (unsigned int q = 0; q < points.size(); ++q)
     {
       const auto grad_V = points[q].gradient(V);
-      dilatation[q]     = -trace(states[q].gradient * grad_V) - states[q].theta * trace(grad_V);
+      // (pi div u)' = pi ((div u)' - theta div V): differentiate int psi_i (pi div u - div u) dV =
+      // 0 along V, with functions psi_i that go with the cell.
+      dilatation[q] = -trace(states[q].gradient * grad_V) - states[q].theta * trace(grad_V);
     }
   take_dilatation(points, dilatation);
   for (unsigned int q = 0; q < points.size(); ++q)
     {
-      const auto                &state  = states[q];
-      const auto                 grad_V = points[q].gradient(V);
+      const auto &state  = states[q];
+      const auto  grad_V = points[q].gradient(V);
+      // (grad u)' at fixed nodal values
       const dealii::Tensor<2, 3> grad_u = -1. * state.gradient * grad_V;
       const dealii::Tensor<2, 3> stress = state.stress;
       const double               theta  = dilatation[q] - trace(grad_u);
       // derivative of (dV stress g_a) = dV (change g_a)
+      // (g_a)' = -(grad V)' g_a and (dV)' = dV div V, collected in a tensor that acts on g_a
       const dealii::Tensor<2, 3> change =
         cauchy_stress(material, strain(idealization, material, grad_u) + theta / 3. * identity) +
         trace(grad_V) * stress - stress * transpose(grad_V);
@@ -41,6 +47,8 @@ void Element<dim>::internal_force_derivative(const Nodes    &X,
     }
 }
 
+/// Eshelby's energy-momentum tensor of w'Ku: its flux through the shape functions is the gradient
+/// by the node positions. Symmetric in u and w.
 template <int dim>
 void Element<dim>::add_energy_gradient(const Nodes    &X,
                                        const Material &material,
@@ -59,6 +67,8 @@ void Element<dim>::add_energy_gradient(const Nodes    &X,
       const dealii::Tensor<2, 3> stress_u = of_u.stress;
       const dealii::Tensor<2, 3> stress_w = of_w.stress;
       const double               density =
+        // sigma_u : grad w contains p_u div w; theta_u p_w is the other part of the stationary
+        // integral of B-bar, p_w = tr(sigma_w)/3.
         scalar_product(stress_u, of_w.gradient) - of_u.theta * trace(stress_w) / 3.;
       const dealii::Tensor<2, 3> energy_momentum = density * identity -
                                                    transpose(of_w.gradient) * stress_u -
@@ -77,6 +87,7 @@ void Element<dim>::body_force_derivative(const Nodes &X,
   f.assign(n_nodes(), {});
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)
+    // (dV)' = dV div V; b goes with the material and does not change.
     points[q].add_source(trace(points[q].gradient(V)) * b[q], f);
 }
 
@@ -90,6 +101,7 @@ void Element<dim>::add_body_force_gradient(const Nodes &X,
   AssertDimension(b.size(), gauss.size());
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)
+    // identity : grad V = div V
     points[q].add_flux(factor * (value(points[q].shape, u) * b[q]) * identity, gradient);
 }
 

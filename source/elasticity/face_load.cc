@@ -87,6 +87,7 @@ struct FacePoint
   {}
 
   /// dA.
+  /// In sections the weight makes an area of a length: thickness or 2 pi r.
   double area() const { return weight * m.norm(); }
 
   /// (n dA)' along V.
@@ -105,6 +106,7 @@ struct FacePoint
     const auto gradient_t = area_vector_transpose(t, c);
     for (unsigned int a = 0; a < gradient.size(); ++a)
       {
+        // In axisymmetric models the weight 2 pi r follows the nodes, too.
         gradient[a] += (c * m) * shape.values[a] * weight_gradient;
         for (unsigned int i = 0; i < dim - 1; ++i)
           gradient[a] += weight * shape.gradients[a][i] * gradient_t[i];
@@ -126,6 +128,7 @@ double pressure(const FaceLoadValues<dim> &load, unsigned int q)
   return load.pressure.empty() ? 0. : load.pressure[q];
 }
 
+/// Zero where a load has none, as its list is empty then.
 template <int dim>
 dealii::Tensor<1, dim> traction(const FaceLoadValues<dim> &load, unsigned int q)
 {
@@ -133,6 +136,7 @@ dealii::Tensor<1, dim> traction(const FaceLoadValues<dim> &load, unsigned int q)
 }
 } // namespace
 
+/// degree + 1 Gauss points per direction.
 template <int dim>
 FaceLoad<dim>::FaceLoad(const unsigned int degree, const mesh::Idealization &idealization)
   : idealization(idealization), gauss(lagrange_gauss_points<dim - 1>(degree))
@@ -149,6 +153,7 @@ typename FaceLoad<dim>::Nodes FaceLoad<dim>::quadrature_points(const Nodes &X) c
   return points;
 }
 
+/// Pressure is positive where it pushes into the body: the force is -q n dA with n outwards.
 template <int dim>
 void FaceLoad<dim>::force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes &f) const
 {
@@ -174,7 +179,8 @@ void FaceLoad<dim>::force_derivative(const Nodes               &X,
   for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const FacePoint<dim> point(gauss[q], idealization, X);
-      const auto           linear_derivative =
+      // (a + w x (x - c))' with x' = V: the load goes with the resultant, whose a, w and c change.
+      const auto linear_derivative =
         linear.uniform + turned(linear.spin, point.x - load.linear.centre) +
         turned(load.linear.spin, interpolate<dim>(gauss[q], V) - linear.centre);
       const auto force_derivative =
@@ -185,6 +191,8 @@ void FaceLoad<dim>::force_derivative(const Nodes               &X,
     }
 }
 
+/// Without the linear traction of a resultant, which depends on the whole loaded face: see
+/// add_resultant_gradient().
 template <int dim>
 void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
                                        const FaceLoadValues<dim> &load,
@@ -198,6 +206,7 @@ void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
     {
       const FacePoint<dim> point(gauss[q], idealization, X);
       const auto           displacement = interpolate<dim>(gauss[q], u);
+      // Traction works on |m|, whose derivative is (m/|m|) . m'; pressure on -m itself.
       point.add_vector_gradient(factor *
                                   ((displacement * traction(load, q)) / point.m.norm() * point.m -
                                    pressure(load, q) * displacement),
@@ -205,6 +214,8 @@ void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
     }
 }
 
+/// The derivatives of A, c and I over the whole face are in kappa and k by way of U and y, so that
+/// each face adds its share alone.
 template <int dim>
 void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
                                            const ResultantWork<dim> &work,
@@ -212,8 +223,9 @@ void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
                                            const double              factor,
                                            Nodes                    &gradient) const
 {
-  const auto  &w  = work.traction.spin;
-  const auto  &y  = work.rotation;
+  const auto &w = work.traction.spin;
+  const auto &y = work.rotation;
+  // Symbols as in the header: a = F/A and w of the traction, U and y of the work.
   const double yw = y * w;
   // u x w = -(w x u)
   const auto shift = -1. / work.area * turned(w, work.displacement);
@@ -223,6 +235,7 @@ void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
       const auto             displacement = interpolate<dim>(shape, u);
       const auto             r            = point.x - work.traction.centre;
       dealii::Tensor<1, dim> in_plane_w, in_plane_y;
+      // In the plane w and y have only the component across it, and no part along r.
       for (unsigned int c = 0; c < dim; ++c)
         {
           in_plane_w[c] = w[c];
@@ -240,6 +253,7 @@ void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
     }
 }
 
+/// Of one face; those of a boundary are their sum, over all ranks.
 template <int dim>
 AreaMoments<dim> FaceLoad<dim>::moments(const Nodes &X, const dealii::Tensor<1, dim> &origin) const
 {
@@ -250,6 +264,7 @@ AreaMoments<dim> FaceLoad<dim>::moments(const Nodes &X, const dealii::Tensor<1, 
       const auto           x = point.x - origin;
       result.area += point.area();
       result.first += point.area() * x;
+      // About a given origin, as the centroid is not known before these sums are.
       result.second += point.area() * outer_product(x, x);
     }
   return result;
@@ -275,6 +290,7 @@ AreaMoments<dim> FaceLoad<dim>::moment_derivatives(const Nodes                  
   return result;
 }
 
+/// The work of a linear traction is that of these: int t . u dA = a . force + w . moment.
 template <int dim>
 Resultant<dim> FaceLoad<dim>::displacement_moments(const Nodes                  &X,
                                                    const Nodes                  &u,

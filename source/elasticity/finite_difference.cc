@@ -3,6 +3,7 @@
 #include <deal.II/base/exceptions.h>
 
 namespace snug::elasticity {
+/// Errors are of order h, h, h^2 and h^4.
 const ChoiceTable<Stencil()> &stencil_table()
 {
   static const ChoiceTable<Stencil()> table = {
@@ -38,8 +39,10 @@ std::vector<dealii::Tensor<1, dim>> difference(const Stencil                    
     {
       at = X;
       for (unsigned int a = 0; a < X.size(); ++a)
+        // From X each time, so that rounding of the moves does not add up.
         at[a] += stencil.places[k] * step * V[a];
       f(at, values);
+      // f may have another number of vectors than there are nodes in X.
       sum.resize(values.size());
       for (unsigned int a = 0; a < values.size(); ++a)
         sum[a] += stencil.weights[k] / step * values[a];

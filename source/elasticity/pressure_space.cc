@@ -12,11 +12,14 @@ PressureSpace<dim>::PressureSpace(const unsigned int                     degree,
   : dV(dV)
 {
   AssertDimension(points.size(), dV.size());
+  // Gram-Schmidt from 1, xi_1 - 1/2, ... The functions are nearly orthogonal from the start, in a
+  // cell that is not very distorted, so that one pass is enough.
   const unsigned int n_functions = degree == 1 ? 1 : 1 + dim;
   for (unsigned int i = 0; i < n_functions; ++i)
     {
       std::vector<double> f(points.size(), 1.);
       for (unsigned int q = 0; i > 0 && q < f.size(); ++q)
+        // In reference coordinates, so that the functions go with the cell.
         f[q] = points[q][i - 1] - 0.5;
       for (const auto &g : orthonormal)
         {
@@ -50,6 +53,7 @@ void PressureSpace<dim>::project(std::vector<double> &values) const
   values = projection;
 }
 
+/// (f, g) = sum_q f_q g_q dV_q
 template <int dim>
 double PressureSpace<dim>::product(const std::vector<double> &f, const std::vector<double> &g) const
 {

@@ -7,6 +7,7 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
+/// Of the nodes, not of the volume.
 template <int dim>
 dealii::Tensor<1, dim> mean(const Nodes<dim> &x)
 {
@@ -16,6 +17,7 @@ dealii::Tensor<1, dim> mean(const Nodes<dim> &x)
   return sum / double(x.size());
 }
 
+/// Of the vectors' lengths, which does not depend on the axes.
 template <int dim>
 double largest_norm(const Nodes<dim> &x)
 {
@@ -67,14 +69,18 @@ struct RigidMotion
   dealii::Tensor<1, dim>         translation;
   dealii::Tensor<1, n_rotations> rotation;
 
+  /// In the sense of least squares over the nodes, all with the same weight.
   RigidMotion(const Nodes<dim> &X, const Nodes<dim> &u, const mesh::Idealization &idealization)
     : translation(mean(u))
   {
     if (idealization.is_axisymmetric())
       {
+        // Only the motion along the axis is rigid there.
         translation[0] = 0.;
         return;
       }
+    // c = (R'R)^-1 R'u for rotations about the mean of the nodes, where they are orthogonal to the
+    // translations: each part is found alone.
     const auto                     centre = mean(X);
     dealii::Tensor<2, n_rotations> sum;
     dealii::Tensor<1, n_rotations> moments;
@@ -100,15 +106,20 @@ template <int dim>
 typename SemiAnalytic<dim>::Nodes
 SemiAnalytic<dim>::load_derivative(const NodeFunction<dim> &f, const Nodes &X, const Nodes &V) const
 {
+  // A translation changes no element quantity, but would make the step of the deformation smaller
+  // and the part of rounding larger.
   auto shift = mean(V);
   if (idealization.is_axisymmetric())
     shift[0] = 0.;
   Nodes deforming = V;
   for (auto &v : deforming)
     v -= shift;
+  // The fastest node moves by `step` times the size of the element.
   const double largest = largest_norm(deforming);
+  // A translated element: all derivatives vanish.
   if (largest == 0.)
     return Nodes(X.size());
+  // The diagonal, as the first and last node in tensor order are opposite corners.
   const double size = (X.back() - X.front()).norm();
   return difference<dim>(stencil, f, X, deforming, step * size / largest);
 }
@@ -121,6 +132,8 @@ void SemiAnalytic<dim>::internal_force_derivative(const Element<dim> &element,
                                                   const Nodes        &u,
                                                   Nodes              &r) const
 {
+  // u - R c if refined: small where the cell moves almost rigidly, and with
+  // it the error.
   Nodes deforming = u;
   if (refined)
     {
@@ -130,6 +143,8 @@ void SemiAnalytic<dim>::internal_force_derivative(const Element<dim> &element,
       for (unsigned int a = 0; a < X.size(); ++a)
         {
           deforming[a] -= rigid.translation + rotated(rigid.rotation, X[a] - centre);
+          // Of omega x (X_a - centre); the move of the centre adds a translation, which K does not
+          // see.
           R_change[a] = rotated(rigid.rotation, V[a]);
         }
       element.internal_force(X, material, R_change, r);

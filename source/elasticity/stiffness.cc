@@ -72,6 +72,8 @@ StiffnessKernel<dim, degree, axisymmetric>::jacobian(const double *reference) co
   for (int c = 0; c < dim; ++c)
     for (int d = 0; d < dim; ++d)
       {
+        // Independent sums, which the compiler keeps in one vector register: one running sum could
+        // not be vectorized, as it would change the order of the additions.
         double sums[tile] = {};
         for (int a = 0; a < n_padded; a += tile)
           for (int i = 0; i < tile; ++i)
@@ -103,25 +105,31 @@ void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
             double g = 0.;
             for (int d = 0; d < dim; ++d)
               g += inverse[d][c] * reference[d * n_padded + a];
+            // Padded entries are zero, as the reference gradients are.
             gradients[q][c * n_padded + a] = g;
           }
       if (dim == 2)
         {
           const auto x = value(gauss[q], X);
+          // As in CellPoint, which makes the same numbers, up to rounding, one point at a time.
           volumes[q] *= idealization.weight(x);
           if (axisymmetric)
             for (int a = 0; a < n_padded; ++a)
               gradients[q][n_rows - n_padded + a] = a < n ? gauss[q].values[a] / x[0] : 0.;
         }
+      // One factor of each product carries dV, so that H is a plain product of two arrays.
       for (int row = 0; row < n_rows; ++row)
         weighted[q][row] = volumes[q] * gradients[q][row];
     }
 }
 
+/// Nearly all of the work: n_rows^2/2 products of n_gauss terms.
 template <int dim, int degree, bool axisymmetric>
 void StiffnessKernel<dim, degree, axisymmetric>::compute_products()
 {
+  // One tile at a time over all Gauss points: 16 sums, which fit in registers.
   for (int I = 0; I < n_rows; I += tile)
+    // H is symmetric: tiles below the diagonal are never read.
     for (int J = I; J < n_rows; J += tile)
       {
         double H[tile][tile] = {};
@@ -141,6 +149,7 @@ void StiffnessKernel<dim, degree, axisymmetric>::combine(const double lambda,
                                                          double      *K) const
 {
   const auto set = [K](const int row, const int column, double value) {
+    // Both places get the same number: K is symmetric to the last bit.
     K[row * N + column] = value;
     K[column * N + row] = value;
   };
@@ -178,9 +187,11 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
   for (int a = 0; a < n; ++a)
     for (int b = a; b < n; ++b)
       {
+        // The hoop strain u_r/r adds to div u and to the strains: lambda (div w)(div u) + 2 mu e:e.
         const double radial = products[a][hoop + b] + products[b][hoop + a];
         add(a * dim, b * dim, lambda * radial + (lambda + 2. * mu) * products[hoop + a][hoop + b]);
         add(a * dim, b * dim + 1, lambda * products[n_padded + b][hoop + a]);
+        // For a = b this would add the same entry again.
         if (a != b)
           add(a * dim + 1, b * dim, lambda * products[n_padded + a][hoop + b]);
       }
@@ -192,6 +203,7 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_projected(
   const std::vector<LagrangePoint<dim>> &gauss,
   double                                *K) const
 {
+  // c_i' u = int psi_i div u dV; sqrt(kappa) in both factors keeps K symmetric to the last bit.
   std::vector<dealii::Point<dim>> xi;
   for (const auto &shape : gauss)
     xi.push_back(shape.point);
@@ -223,12 +235,14 @@ void Element<dim>::compute_stiffness(const Nodes         &X,
                                      const Material      &material,
                                      std::vector<double> &K) const
 {
+  // On the stack, with sizes known to the compiler: about 0.1 MB for 27 nodes in space.
   using Kernel = StiffnessKernel<dim, degree, axisymmetric>;
   AssertDimension(X.size(), Kernel::n);
   AssertDimension(reference_gradients.size(), Kernel::n_gauss * dim * Kernel::n_padded);
   K.resize(Kernel::N * Kernel::N);
   const double mu = material.lame_mu();
   const double lambda =
+    // lambda = -2/3 mu leaves 2 mu dev e : dev e; the dilatation is added by its projection.
     formulation == Formulation::B_bar ? -2. / 3. * mu : lame_lambda(idealization, material);
 
   Kernel kernel;

@@ -10,10 +10,12 @@ dealii::SymmetricTensor<2, 3> strain(const mesh::Idealization   &idealization,
   dealii::SymmetricTensor<2, 3> result = symmetrize(displacement_gradient);
   if (idealization.kind == mesh::Idealization::Kind::plane_stress)
     result[2][2] =
+      // The sheet is free to change its thickness, so this makes sigma_zz zero.
       -material.poissons_ratio / (1. - material.poissons_ratio) * (result[0][0] + result[1][1]);
   return result;
 }
 
+/// Of all components: in plane strain there is a stress across the section without a strain.
 dealii::SymmetricTensor<2, 3> cauchy_stress(const Material                      &material,
                                             const dealii::SymmetricTensor<2, 3> &strain)
 {
@@ -21,11 +23,14 @@ dealii::SymmetricTensor<2, 3> cauchy_stress(const Material                      
          2. * material.lame_mu() * strain;
 }
 
+/// norm() is sqrt(s:s) with both off-diagonal halves, as the formula wants.
 double von_mises(const dealii::SymmetricTensor<2, 3> &stress)
 {
   return std::sqrt(1.5) * deviator(stress).norm();
 }
 
+/// cauchy_stress() takes the lambda of space, as it gets the strain across the sheet, too; a matrix
+/// of in-plane strains needs the one in which that strain is eliminated.
 double lame_lambda(const mesh::Idealization &idealization, const Material &material)
 {
   const double nu = material.poissons_ratio;

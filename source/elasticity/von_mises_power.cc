@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace snug::elasticity {
+/// Stresses are divided by @p scale before the power is taken, or large p would overflow.
 template <int dim>
 VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
                                   const mesh::Idealization &idealization,
@@ -22,6 +23,7 @@ dealii::SymmetricTensor<2, 3> VonMisesPower<dim>::deviator_at(const CellPoint<di
   return 2. * material.lame_mu() * deviator(strain(idealization, material, point.gradient(u)));
 }
 
+/// Not smooth in u and X: for scales and reports, not for gradients.
 template <int dim>
 double VonMisesPower<dim>::largest(const Nodes &X, const Material &material, const Nodes &u) const
 {
@@ -60,13 +62,17 @@ void VonMisesPower<dim>::add_gradients(const Nodes    &X,
       const CellPoint<dim> point(shape, X, idealization);
       const auto           s      = deviator_at(point, material, u);
       const double         stress = von_mises(s) / scale;
+      // The gradient is zero, and stress^(p - 2) infinite for p < 2.
       if (stress == 0.)
         continue;
       // dS = dV of_strain : de
+      // d sigma_vM^p = p sigma_vM^(p-2) 3/2 s : ds with ds = 2 mu dev de, and s : dev de = s : de
+      // as s is deviatoric.
       dealii::SymmetricTensor<2, 3> of_strain =
         p * std::pow(stress, p - 2.) * 3. * material.lame_mu() / (scale * scale) * s;
       if (idealization.kind == mesh::Idealization::Kind::plane_stress)
         {
+          // e_zz depends on e_xx + e_yy there, so its part of the flux goes to these two.
           const double across =
             -material.poissons_ratio / (1. - material.poissons_ratio) * of_strain[2][2];
           of_strain[0][0] += across;
@@ -75,6 +81,7 @@ void VonMisesPower<dim>::add_gradients(const Nodes    &X,
         }
       const dealii::Tensor<2, 3> flux = factor * of_strain;
       point.add_flux(flux, by_u);
+      // (grad u)' = -grad u grad V at fixed u, and dV' = dV div V.
       point.add_flux(factor * std::pow(stress, p) * identity - transpose(point.gradient(u)) * flux,
                      by_X);
     }

@@ -16,6 +16,7 @@ struct DistanceExpansion
   dealii::Tensor<2, dim - 1> hessian, gauss_newton;
 };
 
+/// Half the squared distance of @p p to the points of a face as a function of their coordinates xi.
 template <int dim>
 class DistanceToFace
 {
@@ -35,6 +36,7 @@ public:
       {
         // sum of the shape functions is 1: subtracting p first keeps
         // the digits of small distances far from the origin
+        // (Values and tangents alike: the derivatives of the shape functions sum to 0.)
         const dealii::Tensor<1, dim> x = nodes[k] - p;
         result.offset += values.value[k] * x;
         for (int i = 0; i < dim - 1; ++i)
@@ -47,6 +49,8 @@ public:
         for (int j = 0; j < dim - 1; ++j)
           result.gauss_newton[i][j] = t[i] * t[j];
       }
+    // phi,_ij = x,_i . x,_j + (x - p) . x,_ij; the second term vanishes on straight segments and
+    // parallelograms only.
     result.hessian = result.gauss_newton;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       result.hessian += (result.offset * (nodes[k] - p)) * values.hessian[k];
@@ -60,6 +64,8 @@ private:
   typename FaceShape<dim>::Values            values;
 };
 
+/// Beyond the face's centre of curvature the Hessian is indefinite; 1e-10 also leaves out Hessians
+/// whose inverse would be rounding.
 bool positive_definite(const dealii::Tensor<2, 1> &m)
 {
   return m[0][0] > 0.;
@@ -71,6 +77,7 @@ bool positive_definite(const dealii::Tensor<2, 2> &m)
 }
 
 /// Is coordinate @p x at a bound with @p slope pushing out of it?
+/// Such coordinates are active constraints of the projected Newton method.
 bool held(double x, double slope)
 {
   return (x <= 0. && slope > 0.) || (x >= 1. && slope < 0.);
@@ -84,6 +91,7 @@ dealii::Tensor<1, dim - 1> newton_step(const dealii::Point<dim - 1> &xi,
 {
   dealii::Tensor<1, dim - 1> slope  = at.gradient;
   dealii::Tensor<2, dim - 1> newton = at.hessian;
+  // First pass with the Hessian; second one, where that is not positive definite, with J'J.
   for (int pass = 0; pass < 2; ++pass)
     {
       for (int i = 0; i < dim - 1; ++i)
@@ -91,6 +99,7 @@ dealii::Tensor<1, dim - 1> newton_step(const dealii::Point<dim - 1> &xi,
           {
             for (int j = 0; j < dim - 1; ++j)
               newton[i][j] = newton[j][i] = 0.;
+            // A held coordinate gets no step, but its entry must keep the matrix regular.
             newton[i][i] = at.gauss_newton[i][i];
             slope[i]     = 0.;
           }
@@ -99,7 +108,9 @@ dealii::Tensor<1, dim - 1> newton_step(const dealii::Point<dim - 1> &xi,
       newton = at.gauss_newton;
     }
   dealii::Tensor<1, dim - 1> step;
-  bool                       bad = !positive_definite(newton);
+  // The Newton step of a free coordinate may push into a bound that it is at: projected it would be
+  // no step at all. The scaled gradient points inwards there, as `held` has sorted out the others.
+  bool bad = !positive_definite(newton);
   if (!bad)
     step = -(dealii::invert(newton) * slope);
   for (int i = 0; i < dim - 1; ++i)
@@ -122,6 +133,7 @@ std::vector<dealii::Point<dim - 1>> starting_points(const FaceShape<dim> &shape,
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < n; ++i)
       {
+        // In 2D both are the same coordinate, which has to end as that of i.
         dealii::Point<dim - 1> xi;
         xi[dim - 2] = j / (n - 1.);
         xi[0]       = i / (n - 1.);
@@ -132,6 +144,7 @@ std::vector<dealii::Point<dim - 1>> starting_points(const FaceShape<dim> &shape,
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < n; ++i)
       {
+        // Equal neighbours both stay: descents from both find the same point.
         bool least = true;
         for (int b = std::max(0, j - 1); b <= std::min(rows - 1, j + 1); ++b)
           for (int a = std::max(0, i - 1); a <= std::min(n - 1, i + 1); ++a)
@@ -154,6 +167,7 @@ ClosestPoint<dim> descend(DistanceToFace<dim> &distance, dealii::Point<dim - 1> 
     {
       const dealii::Tensor<1, dim - 1> step = newton_step<dim>(xi, at);
       double                           move = 0.;
+      // Backtracking along the path that is projected onto the bounds.
       for (double length = 1.; length > 1e-10; length *= 0.5)
         {
           dealii::Point<dim - 1>     trial = xi + length * step;
@@ -164,6 +178,9 @@ ClosestPoint<dim> descend(DistanceToFace<dim> &distance, dealii::Point<dim - 1> 
               moved[i] = trial[i] - xi[i];
             }
           const DistanceExpansion<dim> next = distance.expand(trial);
+          // Armijo's condition for the step as projected onto the bounds. Close to the minimum the
+          // decrease drowns in the rounding of phi; without the noise term the last digits of xi
+          // would not be found.
           if (next.phi <= at.phi * (1. + phi_noise) + 1e-4 * (at.gradient * moved))
             {
               move = moved.norm();
@@ -190,6 +207,7 @@ ClosestPoint<dim> closest_point(const FaceShape<dim>                      &shape
   for (const auto &start : starting_points<dim>(shape, distance))
     {
       const ClosestPoint<dim> found = descend<dim>(distance, start);
+      // Different starts may end in different minima: the closest counts, of equal ones the first.
       if (found.squared_distance < best.squared_distance)
         best = found;
     }

@@ -24,6 +24,7 @@ struct Lagrange
   }
 };
 
+/// Nodes in tensor order, the first coordinate fastest, as in FaceShape.
 template <typename Number>
 void fill(FaceValues<2, Number> &values, unsigned int degree, const FaceCoordinates<2, Number> &xi)
 {
@@ -50,6 +51,8 @@ void fill(FaceValues<3, Number> &values, unsigned int degree, const FaceCoordina
 }
 
 /// x with A x = b
+/// A is of plain numbers also where b carries derivatives: one Newton step with the derivative at
+/// the solution gives the derivatives of the solution exactly, whatever those of A are.
 template <typename Number>
 std::array<Number, 1> solve(const std::array<std::array<double, 1>, 1> &A,
                             const std::array<Number, 1>                &b)
@@ -89,6 +92,7 @@ struct Residual
   }
 };
 
+/// The numbers without their derivatives.
 template <int dim, typename Number>
 FaceCoordinates<dim, double> values_of(const FaceCoordinates<dim, Number> &x)
 {
@@ -128,6 +132,7 @@ FaceCoordinates<dim, Number> PlaneFace<dim, Number>::coordinates(const Point &y)
   const auto         wanted         = values_of<dim>(y);
 
   FaceCoordinates<dim, double> xi;
+  // From the centre: the map of a convex face is nearly linear.
   xi.fill(0.5);
   double move = 1., last_move = 2.;
   for (unsigned int i = 0; i < max_iterations && move > round_off; ++i)
@@ -141,12 +146,14 @@ FaceCoordinates<dim, Number> PlaneFace<dim, Number>::coordinates(const Point &y)
           xi[a] += step[a];
           move += std::abs(step[a]);
         }
+      // Steps that no longer shrink are rounding, on faces where it is above round_off.
       if (move < converged && move >= last_move)
         break;
     }
   if (!(move < converged))
     throw TangledMesh("a contact face is folded: a point opposite to it "
                       "has no coordinates in it");
+  // xi' = J^-1 (y' - sum_k N_k y_k'): by the step whose values vanish up to rounding.
   const Residual<dim, Number> at(degree, points, y, xi);
   Point                       result = solve(at.jacobian, at.value);
   for (int a = 0; a < dim - 1; ++a)

@@ -25,6 +25,7 @@ unsigned int FaceShape<dim>::degree() const
   return p;
 }
 
+/// The digits of k in base p + 1 are the node's place along each coordinate, the first one last.
 template <int dim>
 typename FaceShape<dim>::Coordinates FaceShape<dim>::node(unsigned int k) const
 {
@@ -37,6 +38,7 @@ typename FaceShape<dim>::Coordinates FaceShape<dim>::node(unsigned int k) const
 template <int dim>
 void FaceShape<dim>::evaluate(const Coordinates &xi, Values &values) const
 {
+  // evaluate() of deal.II computes what it gets room for: none for third and fourth derivatives.
   std::vector<dealii::Tensor<3, dim - 1>> third;
   std::vector<dealii::Tensor<4, dim - 1>> fourth;
   values.value.resize(n_nodes());
@@ -51,6 +53,7 @@ const typename FaceShape<dim>::Values &FaceShape<dim>::at_node(unsigned int k) c
   return node_values[k];
 }
 
+/// Of positions the tangents, of velocities their derivatives.
 template <int dim>
 typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values    &values,
                                            const std::vector<unsigned int>          &nodes,
@@ -63,6 +66,8 @@ typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values
   return t;
 }
 
+/// deal.II's cross_product_2d(t) is (t_y, -t_x): t turned by -90 degrees. Faces are oriented such
+/// that this, or t_1 x t_2, points out of the body.
 dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
 {
   return dealii::cross_product_2d(t[0]);
@@ -73,6 +78,7 @@ dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t)
   return dealii::cross_product_3d(t[0], t[1]);
 }
 
+/// In 2D the area vector is linear in the tangent, in 3D bilinear.
 dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &,
                                             const std::array<dealii::Tensor<1, 2>, 1> &dt)
 {
@@ -88,12 +94,14 @@ dealii::Tensor<1, 3> area_vector_derivative(const std::array<dealii::Tensor<1, 3
 std::array<dealii::Tensor<1, 2>, 1>
 area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &, const dealii::Tensor<1, 2> &b)
 {
+  // The transpose of a turn by -90 degrees is the turn by 90.
   return {{-dealii::cross_product_2d(b)}};
 }
 
 std::array<dealii::Tensor<1, 3>, 2>
 area_vector_transpose(const std::array<dealii::Tensor<1, 3>, 2> &t, const dealii::Tensor<1, 3> &b)
 {
+  // b . (t_1' x t_2 + t_1 x t_2') = t_1' . (t_2 x b) + t_2' . (b x t_1)
   return {{dealii::cross_product_3d(t[1], b), dealii::cross_product_3d(b, t[0])}};
 }
 

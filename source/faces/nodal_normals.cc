@@ -23,6 +23,8 @@ NodalNormals<dim>::NodalNormals(const mesh::Surface<dim>        &surface,
       const auto &nodes = surface.faces()[f].nodes;
       for (unsigned int k = 0; k < nodes.size(); ++k)
         {
+          // Not normalized before they are summed: faces weigh by their areas, and the sum is a
+          // polynomial of the positions.
           unit[nodes[k]] += area_vector(tangents<dim>(shape.at_node(k), nodes, positions));
           touched[nodes[k]] = true;
         }
@@ -31,6 +33,7 @@ NodalNormals<dim>::NodalNormals(const mesh::Surface<dim>        &surface,
     if (touched[node])
       {
         length[node] = unit[node].norm();
+        // Written so that NaN is caught as well.
         if (!(length[node] > 0.) || !std::isfinite(length[node]))
           {
             std::ostringstream message;
@@ -61,11 +64,13 @@ typename NodalNormals<dim>::Field NodalNormals<dim>::derivative(const Field &vel
                                  tangents<dim>(shape.at_node(k), nodes, velocity));
     }
   for (unsigned int node = 0; node < result.size(); ++node)
+    // Nodes of other faces have length 0 and no derivative.
     if (length[node] > 0.)
       result[node] = unit_vector_derivative(unit[node], length[node], result[node]);
   return result;
 }
 
+/// The chain backwards: unit normal, sum of area vectors, tangents, nodes of each face.
 template <int dim>
 void NodalNormals<dim>::add_transpose(const Field &normal_gradient, Field &gradient) const
 {
@@ -76,6 +81,7 @@ void NodalNormals<dim>::add_transpose(const Field &normal_gradient, Field &gradi
         {
           const auto &values = shape.at_node(k);
           const auto  t_gradient =
+            // (I - n n')/|a| is symmetric: the same function serves derivative and transpose.
             area_vector_transpose(tangents<dim>(values, nodes, positions),
                                   unit_vector_derivative(unit[nodes[k]], length[nodes[k]],
                                                          normal_gradient[nodes[k]]));

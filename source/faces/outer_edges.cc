@@ -32,7 +32,10 @@ OuterEdges<dim>::OuterEdges(const mesh::Surface<dim>        &surface,
   for (const unsigned int face : faces)
     for (unsigned int edge = 0; edge < 2 * (dim - 1); ++edge)
       {
-        const auto nodes   = edge_nodes(face, edge);
+        const auto nodes = edge_nodes(face, edge);
+        // Where meshes of different fineness meet, the edge of the coarse face and its halves have
+        // different nodes, so that each is on one face only. Both reach the same masters, by which
+        // they are known not to be at the end of the side.
         const bool hanging = std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
           return !surface.masters(node).empty();
         });
@@ -51,9 +54,11 @@ OuterEdges<dim>::OuterEdges(const mesh::Surface<dim>        &surface,
         for (const unsigned int node : nodes)
           outer_at_vertex[node].emplace_back(face, edge);
       }
+  // For the binary search of excess().
   std::sort(outer.begin(), outer.end());
 }
 
+/// Sorted, so that two faces give the same name to an edge they share. In 2D an "edge" is a node.
 template <int dim>
 std::vector<unsigned int> OuterEdges<dim>::edge_nodes(unsigned int face, unsigned int edge) const
 {
@@ -95,6 +100,7 @@ double OuterEdges<dim>::excess(unsigned int                              face,
         ++n_bounds;
         edge = 2 * i + (xi[i] > 0.5 ? 1 : 0);
       }
+  // The closest point is inside of the face: the offset is along the normal, and nothing ends here.
   if (n_bounds == 0)
     return 0.;
   if (n_bounds < dim - 1)
@@ -104,6 +110,7 @@ double OuterEdges<dim>::excess(unsigned int                              face,
                ? excess_at_edge(only, xi, offset, positions)
                : 0.;
     }
+  // The corner node nearest to xi; nodes are 1/degree apart.
   unsigned int corner = 0;
   while (!(shape.node(corner).distance(xi) < 0.25 / shape.degree()))
     ++corner;
@@ -115,6 +122,7 @@ double OuterEdges<dim>::excess(unsigned int                              face,
       {
         const auto        &nodes = surface.faces()[incident.first].nodes;
         const unsigned int k     = std::find(nodes.begin(), nodes.end(), vertex) - nodes.begin();
+        // At a corner of the side the edges of other faces end, too: the largest excess counts.
         result = std::max(result, excess_at_edge(incident, shape.node(k), offset, positions));
       }
   return result;
@@ -128,11 +136,13 @@ double OuterEdges<dim>::excess_at_edge(const Edge                               
 {
   typename FaceShape<dim>::Values values;
   shape.evaluate(xi, values);
+  // d x/d xi is also the extent of the face along xi, as xi runs from 0 to 1.
   const auto             t = tangents<dim>(values, surface.faces()[edge.first].nodes, positions);
   const unsigned int     across  = edge.second / 2;
   dealii::Tensor<1, dim> outward = t[across];
   if (dim == 3)
     {
+      // At right angles to the edge within the face, whatever angle its sides make.
       const auto &along = t[dim - 2 - across];
       outward -= (outward * along / along.norm_square()) * along;
     }

@@ -16,11 +16,13 @@ struct AreaPoint
   const dealii::Tensor<1, dim>            weight_gradient;
 };
 
+/// work() gets every Gauss point of every face.
 template <int dim, typename Work>
 void for_each_point(const TributaryFaces<dim>                &of,
                     const typename mesh::Surface<dim>::Field &positions,
                     const Work                               &work)
 {
+  // |area| is not a polynomial on curved faces: one point more than elements take.
   const dealii::QGauss<dim - 1>   quadrature(of.shape.degree() + 2);
   typename FaceShape<dim>::Values values;
   const auto                     &section = of.surface.idealization();
@@ -52,6 +54,8 @@ std::vector<double> tributary_areas(const TributaryFaces<dim>                &of
       share[point.nodes[k]] += point.values.value[k] * point.weight * point.area.norm();
   });
   for (unsigned int node = 0; node < share.size(); ++node)
+    // u_hanging = sum w_m u_m, so a force that is lumped to a hanging node acts on its masters by
+    // w_m.
     for (const auto &master : of.surface.masters(node))
       share[master.first] += master.second * share[node];
   return share;
@@ -80,19 +84,23 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
   std::vector<double> of_nodes(of.surface.n_nodes(), 0.);
   for (unsigned int i = 0; i < nodes.size(); ++i)
     of_nodes[nodes[i]] = factors[i];
+  // The transpose of the sharing in tributary_areas().
   auto share = of_nodes; // what the integral of a node's function counts
   for (unsigned int node = 0; node < share.size(); ++node)
     for (const auto &master : of.surface.masters(node))
       share[node] += master.second * of_nodes[master.first];
   for_each_point(of, positions, [&](const AreaPoint<dim> &point) {
+    // sum_k share_k N_k: the integral over all nodes' functions is differentiated at once.
     double factor = 0.;
     for (unsigned int k = 0; k < point.nodes.size(); ++k)
       factor += share[point.nodes[k]] * point.values.value[k];
+    // d|a| = (a/|a|) . da
     const auto by_tangents =
       area_vector_transpose(point.t, factor * point.weight / point.area.norm() * point.area);
     for (unsigned int k = 0; k < point.nodes.size(); ++k)
       {
         auto &sum = gradient[point.nodes[k]];
+        // The weight of the section, 2 pi r in axisymmetric models, moves with the node.
         sum += factor * point.area.norm() * point.values.value[k] * point.weight_gradient;
         for (int i = 0; i < dim - 1; ++i)
           sum += point.values.gradient[k][i] * by_tangents[i];

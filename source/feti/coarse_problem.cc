@@ -9,6 +9,7 @@ namespace {
 /// modes of the bodies is a motion the rows do not see.
 const double kernel_cut = 1e-10;
 
+/// A X; CsrMatrix itself only adds to a result.
 qp::MultiVector multiply_columns(const CsrMatrix &A, const qp::MultiVector &X)
 {
   qp::MultiVector Y(A.n_rows, X.n_columns());
@@ -19,6 +20,9 @@ qp::MultiVector multiply_columns(const CsrMatrix &A, const qp::MultiVector &X)
 /// Orthonormal N = Z y over the kernel of Z' A Z.
 qp::MultiVector kernel_of(const CsrMatrix &A, const qp::MultiVector &Z)
 {
+  // G_M G_M' is assembled from the rows of M only. A motion without strain and without relative
+  // motion at the gluing moves each body rigidly, so its kernel lies in the span of Z and the dense
+  // problem has at most 6 unknowns per body, however many subdomains there are.
   qp::MultiVector vectors = dense::transpose_product(Z, multiply_columns(A, Z));
   const auto      values  = dense::eigen(vectors);
   unsigned int    n_null  = 0;
@@ -31,6 +35,7 @@ qp::MultiVector kernel_of(const CsrMatrix &A, const qp::MultiVector &Z)
 }
 } // namespace
 
+/// The matrix is replicated: every rank factorizes it, and solving needs no communication.
 CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
   : A(space.factors().take(space.pattern()))
 {
@@ -38,12 +43,15 @@ CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
   const auto values = space.gram_values(free);
   std::copy(values.begin(), values.end(), matrix.values.begin());
   N = kernel_of(matrix, space.body_modes());
+  // The same way out as fixing nodes for K: A N = rho N_f, so A^-1 is a generalized inverse, and
+  // only the unknowns of one subdomain per body become coupled.
   if (N.n_columns() > 0)
     {
       const auto        &f = space.representatives();
       const unsigned int r = N.n_columns();
       qp::MultiVector    N_f(f.size(), r), N_f_transposed(r, f.size());
-      double             rho = 0.;
+      // Of the size of G_M G_M', as rho of K_rho is of that of K.
+      double rho = 0.;
       for (unsigned int i = 0; i < matrix.n_rows; ++i)
         rho += matrix.diagonal(i) / matrix.n_rows;
       for (unsigned int i = 0; i < f.size(); ++i)
@@ -56,6 +64,7 @@ CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
         for (unsigned int j = 0; j < f.size(); ++j)
           matrix.values[matrix.position(f[i], f[j])] += rho * Q(i, j);
     }
+  // The item may be one that an earlier face left behind: its values are another set's until here.
   A->factor.factorize("the coarse problem G G'");
 }
 
@@ -63,6 +72,9 @@ qp::MultiVector CoarseProblem::solve(const qp::MultiVector &c) const
 {
   qp::MultiVector alpha(c.n_rows(), c.n_columns());
   A->factor.solve(c, alpha);
+  // Solutions differ by the kernel N; without it they are those of the pseudo-inverse if c is in
+  // the range of G_M G_M'. Other c, of loads that M cannot hold, lose a combination of N_f: the
+  // result is then only good to find out that they are not balanced.
   alpha.add(-1., kernel_part(alpha));
   return alpha;
 }

@@ -35,6 +35,7 @@ std::vector<Pair> unite(const std::set<Pair> &mine, MPI_Comm comm)
   return pairs;
 }
 
+/// The order of the sum depends on the number of ranks, and with it the last digits.
 void sum_over_ranks(std::vector<double> &values, MPI_Comm comm)
 {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM, comm);
@@ -44,6 +45,8 @@ void sum_over_ranks(std::vector<double> &values, MPI_Comm comm)
 CoarseSpace::CoarseSpace(const RowLayout &layout, const SubdomainTable &table)
   : layout(layout), table(table)
 {
+  // Entries are sorted by subdomain within a row: those of one subdomain make one block of G, the
+  // n_modes numbers G(s, row) = R_s' B_s(row, :)'.
   const auto &start    = layout.entry_start();
   const auto &unknowns = layout.entry_unknowns();
   block_start.assign(1, 0);
@@ -57,6 +60,8 @@ CoarseSpace::CoarseSpace(const RowLayout &layout, const SubdomainTable &table)
         }
       block_start.push_back(block_subdomain.size());
     }
+  // A body's first subdomain stands for it: Z_s is regular, so that its n_modes coarse unknowns
+  // tell all rigid motions of the body apart.
   const unsigned int n_bodies = table.body_names.size();
   for (unsigned int body = 0; body < n_bodies; ++body)
     {
@@ -68,10 +73,13 @@ CoarseSpace::CoarseSpace(const RowLayout &layout, const SubdomainTable &table)
   build_pattern();
 }
 
+/// The pattern is that of all rows. Faces have fewer entries that are not zero, but one pattern
+/// lets all of them share a symbolic factorization.
 void CoarseSpace::build_pattern()
 {
   const unsigned int m = table.n_modes, n_subdomains = table.body.size();
   std::set<Pair>     couplings, bounded_couplings;
+  // Also subdomains without rows have their place on the diagonal.
   for (unsigned int s = 0; s < n_subdomains; ++s)
     couplings.emplace(s, s);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
@@ -80,9 +88,11 @@ void CoarseSpace::build_pattern()
         {
           const Pair pair(block_subdomain[a], block_subdomain[b]);
           couplings.insert(pair);
+          // Contact rows come and go with the set: only the places they reach are summed per face.
           if (layout.bounded()[row])
             bounded_couplings.insert(pair);
         }
+  // N_f (N_f'N_f)^-1 N_f' couples the representatives of all bodies: a kernel may move several.
   for (const unsigned int i : representative)
     for (const unsigned int j : representative)
       couplings.emplace(i / m, j / m);
@@ -99,6 +109,7 @@ void CoarseSpace::build_pattern()
         bounded_places.push_back(gram.position(pair.first * m + i, pair.second * m + j));
 }
 
+/// values += g g' of the column g of G that belongs to @p row, in the places of the pattern.
 void CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
 {
   const unsigned int m = table.n_modes;
@@ -124,6 +135,7 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   for (std::size_t e = 0; e < block_of_entry.size(); ++e)
     for (unsigned int i = 0; i < m; ++i)
       blocks[block_of_entry[e] * m + i] += G_entries[e * stride + i];
+  // The part of the equality rows is the same for every face of a design.
   equality_gram.assign(gram.values.size(), 0.);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (!layout.bounded()[row])
@@ -131,7 +143,9 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   sum_over_ranks(equality_gram, layout.communicator());
 
   const unsigned int n_bodies = table.body_names.size();
-  modes                       = qp::MultiVector(n_kernel(), n_bodies * m);
+  // Subdomains hold orthonormal R of their own; Z_s says what combination of them moves the body as
+  // a whole. Each rank fills in its subdomains; adding zeros is exact.
+  modes = qp::MultiVector(n_kernel(), n_bodies * m);
   for (unsigned int s = 0; s < Z.size(); ++s)
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
@@ -157,6 +171,7 @@ unsigned int CoarseSpace::n_kernel() const
   return table.body.size() * table.n_modes;
 }
 
+/// Each rank adds its owned rows; the sum over ranks makes coarse vectors equal on all of them.
 qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet *free) const
 {
   const unsigned int m = table.n_modes;
@@ -179,6 +194,7 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet
   return c;
 }
 
+/// No communication: alpha is on all ranks, and a rank has the columns of G of its own rows.
 qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
                                                 const qp::RowSet      *free) const
 {
@@ -207,6 +223,7 @@ std::vector<double> CoarseSpace::gram_values(const qp::RowSet &free) const
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (layout.bounded()[row] && free[row])
       add_row(row, contact);
+  // Only the places that contact rows reach are sent: few of the pattern in large models.
   std::vector<double> packed;
   for (const std::size_t place : bounded_places)
     packed.push_back(contact[place]);
@@ -242,6 +259,7 @@ const SubdomainTable &CoarseSpace::subdomains() const
   return table;
 }
 
+/// Of all rows: a scale, which need not be that of a face.
 double CoarseSpace::norm() const
 {
   double square = 0.;

@@ -19,6 +19,7 @@ CsrMatrix CsrMatrix::from_rows(const std::vector<std::vector<PetscInt>> &columns
   return matrix;
 }
 
+/// Binary search, as columns ascend. A place off the pattern gives that of another entry.
 std::size_t CsrMatrix::position(PetscInt i, PetscInt j) const
 {
   const auto begin = columns.begin() + row_start[i];
@@ -26,6 +27,7 @@ std::size_t CsrMatrix::position(PetscInt i, PetscInt j) const
   return std::lower_bound(begin, end, j) - columns.begin();
 }
 
+/// By search: for scales and set-up, not for inner loops.
 double CsrMatrix::diagonal(PetscInt i) const
 {
   return values[position(i, i)];
@@ -41,6 +43,7 @@ void CsrMatrix::multiply_add(double factor, const qp::MultiVector &x, qp::MultiV
         {
           double sum = 0.;
           for (PetscInt p = row_start[i]; p < row_start[i + 1]; ++p)
+            // Column by column: the matrix is read k times, but x and y stay contiguous.
             sum += values[p] * xk[columns[p]];
           yk[i] += factor * sum;
         }
@@ -57,6 +60,7 @@ void CsrMatrix::transpose_multiply_add(double                 factor,
       double       *yk = y.column(k);
       for (unsigned int i = 0; i < n_rows; ++i)
         {
+          // Row i of A is column i of A', so that A' is never made.
           const double xi = factor * xk[i];
           for (PetscInt p = row_start[i]; p < row_start[i + 1]; ++p)
             yk[columns[p]] += values[p] * xi;

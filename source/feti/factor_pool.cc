@@ -3,6 +3,8 @@
 #include <algorithm>
 
 namespace snug::feti {
+/// The deleter of the pointer puts the item back. It holds the list of spare items by a shared
+/// pointer of its own, so that a face may outlive the pool.
 std::shared_ptr<FactorPool::Item> FactorPool::take(const CsrMatrix &matrix) const
 {
   std::unique_ptr<Item> item;

@@ -10,6 +10,8 @@ const qp::RowSet &TotalFeti::FetiFace::rows() const
   return free;
 }
 
+/// Made when first asked for: faces of SMALSE-M, say, precondition only and project on another
+/// face. As it is collective, all ranks have to ask at the same time.
 const CoarseProblem &TotalFeti::FetiFace::coarse_problem() const
 {
   if (!problem)
@@ -33,6 +35,7 @@ qp::MultiVector TotalFeti::FetiFace::amplitudes(const qp::MultiVector &x) const
 
 void TotalFeti::FetiFace::project(qp::MultiVector &x) const
 {
+  // P_M x = x_M - G_M' (G_M G_M')^+ G_M x_M; amplitudes() looks at the rows of M only.
   const qp::MultiVector alpha = amplitudes(x);
   restrict(x);
   x.add(-1., feti.coarse.transpose_multiply(alpha, &free));
@@ -41,6 +44,7 @@ void TotalFeti::FetiFace::project(qp::MultiVector &x) const
 qp::MultiVector TotalFeti::FetiFace::precondition(const qp::MultiVector &r) const
 {
   qp::MultiVector z = r;
+  // Decided by the parameter: a rank without subdomains has no Schur complements in any case.
   if (feti.schur.empty() && feti.parameters.preconditioner == "none")
     {
       restrict(z);
@@ -51,6 +55,7 @@ qp::MultiVector TotalFeti::FetiFace::precondition(const qp::MultiVector &r) cons
   if (!gram)
     everywhere(feti.run.communicator(),
                [&]() { gram = std::make_unique<RowGram::Factor>(feti.gram, free); });
+  // M^-1 = W_M^-1 (B D^-1 S D^-1 B') W_M^-1: for orthonormal rows and D = I, W_M is the identity.
   gram->solve(z);
   feti.precondition(z);
   gram->solve(z);
@@ -64,15 +69,19 @@ std::vector<double> TotalFeti::FetiFace::make_feasible(qp::MultiVector       &x,
   qp::MultiVector missing = e;
   missing.add(-1., feti.coarse.multiply(x, &free));
   feti.run.work.coarse_solves += x.n_columns();
+  // The least change of x, in the Euclidean norm, that balances e as far as M can.
   x.add(1., feti.coarse.transpose_multiply(coarse_problem().solve(missing), &free));
   missing = e;
   missing.add(-1., feti.coarse.multiply(x, &free));
+  // Not over the ranks: coarse vectors are equal on all of them.
   return qp::norms(missing, MPI_COMM_SELF);
 }
 
 std::vector<double> TotalFeti::FetiFace::closing_rates(const qp::MultiVector &e) const
 {
   const qp::MultiVector rates =
+    // N N'e is the part of the load that M does not hold, taken as a motion: G' of it is the rate
+    // at which each row closes. N'G_M = 0, so that the forces that rows of M have do not enter.
     feti.coarse.transpose_multiply(coarse_problem().kernel_part(e), nullptr);
   return std::vector<double>(rates.column(0), rates.column(0) + rates.n_rows());
 }

@@ -28,6 +28,7 @@ GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &system,
   : system(system), context(context), K_rho(coupled_pattern(system))
 {
   const CsrMatrix &K = system.K;
+  // Where each value of K goes in K_rho is the same for all designs: looked up once.
   for (unsigned int i = 0; i < system.n_dofs(); ++i)
     for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
       place_of_K.push_back(K_rho.position(i, K.columns[p]));
@@ -46,13 +47,17 @@ void GeneralizedInverse::factorize(const std::string &what)
   for (unsigned int i = 0; i < n_fix; ++i)
     for (unsigned int mode = 0; mode < n_modes; ++mode)
       R_f_transposed(mode, i) = system.R(fixing[i], mode);
+  // R_f'R_f is regular only if no rigid motion leaves the fixing nodes in place: in space, three or
+  // more of them not on one line. Nodes close to each other make it, and K_rho, ill conditioned.
   qp::MultiVector gram(n_modes, n_modes);
   for (unsigned int a = 0; a < n_modes; ++a)
     for (unsigned int b = 0; b < n_modes; ++b)
       for (unsigned int i = 0; i < n_fix; ++i)
         gram(a, b) += R_f_transposed(a, i) * R_f_transposed(b, i);
-  const auto Q   = dense::transpose_product(R_f_transposed, dense::solve_spd(gram, R_f_transposed));
-  double     rho = 0.;
+  const auto Q = dense::transpose_product(R_f_transposed, dense::solve_spd(gram, R_f_transposed));
+  // The mean of diag K is of the size of K: a much smaller rho loses digits of K^+, a much larger
+  // one worsens the condition number. Neither changes K K^+ K = K.
+  double rho = 0.;
   for (unsigned int i = 0; i < system.n_dofs(); ++i)
     rho += system.K.diagonal(i) / system.n_dofs();
 

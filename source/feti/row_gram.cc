@@ -45,6 +45,8 @@ RowGram::RowGram(const RowLayout &layout) : layout(layout)
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     for (unsigned int e = start[row]; e < start[row + 1]; ++e)
       {
+        // Unknowns are numbered as rows meet them. Rows that share one have one owner (RowLayout),
+        // so W is block diagonal over ranks, and each rank factorizes its own part.
         const auto found = index.emplace(unknowns[e], unsigned(index.size())).first;
         if (found->second == entries_of_unknown.size())
           {
@@ -56,6 +58,8 @@ RowGram::RowGram(const RowLayout &layout) : layout(layout)
         unknowns_of_row[row].push_back(found->second);
         row_of_entry.push_back(row);
       }
+  // A dropped contact row changes W_M^-1 on all rows that its block couples. Only those blocks have
+  // to be factorized again when the set changes; gluing rows elsewhere keep theirs.
   const auto coupled = coupled_to_contact(layout.bounded(), rows_of_unknown, unknowns_of_row);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     {
@@ -78,6 +82,7 @@ RowGram::RowGram(const RowLayout &layout) : layout(layout)
         }
       group->matrix = CsrMatrix::from_rows(pattern, group->rows.size());
     }
+  // CHOLMOD whatever the package of the stiffness: these matrices are small.
   if (!fixed.rows.empty())
     fixed_factor = std::make_unique<SparseFactor>(fixed.matrix, "CHOLMOD");
 }
@@ -93,6 +98,7 @@ void RowGram::update(const std::vector<double> &entries, unsigned int stride)
           const auto i = place[row_of_entry[a]];
           const auto j = place[row_of_entry[b]];
           auto      &A = (i.first ? contact : fixed).matrix;
+          // B_ia B_jb / D of the unknown that both entries share, the numbers being B and 1/D.
           A.values[A.position(i.second, j.second)] += entries[std::size_t(a) * stride] *
                                                       entries[std::size_t(b) * stride] *
                                                       entries[std::size_t(a) * stride + 1];
@@ -109,6 +115,7 @@ std::vector<double> RowGram::diagonal() const
   return result;
 }
 
+/// x <- A^-1 x on the rows of the group; the others are not touched.
 void RowGram::Group::solve(const SparseFactor &factor, qp::MultiVector &x) const
 {
   qp::MultiVector b(rows.size(), x.n_columns()), y = b;
@@ -133,6 +140,8 @@ RowGram::Factor::Factor(const RowGram &gram, const qp::RowSet &free) : gram(gram
       {
         const unsigned int j = matrix.columns[p];
         if (!free[rows[i]] || !free[rows[j]])
+          // Rows off M become those of the identity: the pattern, and with it the symbolic
+          // factorization, serves all sets.
           matrix.values[p] = i == j ? 1. : 0.;
       }
   W->factor.factorize("B D^-1 B' of the contact rows (are two contact rows "
@@ -143,8 +152,10 @@ void RowGram::Factor::solve(qp::MultiVector &x) const
 {
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     for (unsigned int row = 0; row < x.n_rows(); ++row)
+      // A right-hand side off M would come back through the identity rows unchanged.
       if (!free[row])
         x(row, k) = 0.;
+  // Equality rows are in M always, so that the factor of the fixed group serves every face.
   if (gram.fixed_factor)
     gram.fixed.solve(*gram.fixed_factor, x);
   if (W)

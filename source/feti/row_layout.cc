@@ -16,6 +16,8 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
   std::vector<PetscSFNode> remote(rows.size());
   for (unsigned int leaf = 0; leaf < rows.size(); ++leaf)
     {
+      // The last rank that begins at or before the row; ranks without rows begin where the next one
+      // does.
       const unsigned int rank =
         std::upper_bound(first_row_of_rank.begin(), first_row_of_rank.end(), rows[leaf]) -
         first_row_of_rank.begin() - 1;
@@ -24,6 +26,7 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
     }
   petsc::StarForest forest;
   check(PetscSFCreate(comm, forest.put()));
+  // Gathered entries come in the order of the ranks, not in that of the arrival of messages.
   check(PetscSFSetRankOrder(forest, PETSC_TRUE));
   check(PetscSFSetGraph(forest, n_owned, rows.size(), nullptr, PETSC_OWN_POINTER, remote.data(),
                         PETSC_COPY_VALUES));
@@ -49,6 +52,7 @@ private:
   MPI_Datatype type;
 };
 
+/// Row by row, as the star forest sends the k numbers of a row as one item.
 std::vector<double> interleave(const qp::MultiVector &x)
 {
   const unsigned int  k = x.n_columns();
@@ -83,7 +87,8 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   std::partial_sum(first.begin(), first.end(), first.begin());
 
   std::vector<unsigned int> entry_rows;
-  std::vector<double>       entry_places; // subdomain, dof
+  // As doubles, which hold such integers exactly, so that one gather serves places and values.
+  std::vector<double> entry_places; // subdomain, dof
   for (unsigned int s = 0; s < entries.size(); ++s)
     for (const Entry &entry : entries[s])
       {
@@ -97,6 +102,7 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   row_forest   = star_forest(comm, n, first, local_rows);
   entry_forest = star_forest(comm, n, first, entry_rows);
 
+  // The number of entries that a row has on all ranks.
   const PetscInt *degree;
   check(PetscSFComputeDegreeBegin(entry_forest, &degree));
   check(PetscSFComputeDegreeEnd(entry_forest, &degree));
@@ -107,6 +113,8 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   order.resize(start.back());
   std::iota(order.begin(), order.end(), 0);
   for (unsigned int row = 0; row < n; ++row)
+    // By subdomain and unknown: sums over the entries of a row then do not depend on which rank has
+    // which subdomain.
     std::sort(order.begin() + start[row], order.begin() + start[row + 1],
               [&](unsigned int a, unsigned int b) {
                 return std::make_pair(places[2 * a], places[2 * a + 1]) <
@@ -136,6 +144,7 @@ const qp::RowSet &RowLayout::bounded() const
   return is_bounded;
 }
 
+/// A row that this rank does not touch gives the number of another one.
 unsigned int RowLayout::local_row(unsigned int global_row) const
 {
   return std::lower_bound(local_rows.begin(), local_rows.end(), global_row) - local_rows.begin();

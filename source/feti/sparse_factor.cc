@@ -37,11 +37,14 @@ SparseFactor::SparseFactor(const CsrMatrix &matrix, const std::string &package) 
   prefer_nested_dissection();
   keep_to_one_thread();
   const bool mumps = package == "MUMPS";
-  auto      &csr   = const_cast<CsrMatrix &>(matrix);
+  // PETSc wraps the arrays without a copy and does not write to them, but for the scaling in
+  // factorize(), which is taken back.
+  auto &csr = const_cast<CsrMatrix &>(matrix);
   petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, matrix.n_rows, matrix.n_rows,
                                          csr.row_start.data(), csr.columns.data(),
                                          csr.values.data(), wrapped.put()));
   petsc::check(MatSetOption(wrapped, MAT_SYMMETRIC, PETSC_TRUE));
+  // MUMPS takes its mode for positive definite matrices from this flag.
   petsc::check(MatSetOption(wrapped, MAT_SPD, PETSC_TRUE));
   petsc::check(MatGetFactor(wrapped, mumps ? MATSOLVERMUMPS : MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY,
                             factor.put()));
@@ -57,13 +60,18 @@ SparseFactor::SparseFactor(const CsrMatrix &matrix, const std::string &package) 
 
 void SparseFactor::factorize(const std::string &what)
 {
+  // The values were changed behind PETSc's back: an assembly tells it that they are others.
   petsc::check(MatAssemblyBegin(wrapped, MAT_FINAL_ASSEMBLY));
   petsc::check(MatAssemblyEnd(wrapped, MAT_FINAL_ASSEMBLY));
   MatFactorInfo info;
   petsc::check(MatFactorInfoInitialize(&info));
   if (matrix.n_rows > 0 && std::isnormal(matrix.diagonal(0)))
+    // The exponent of one entry is enough: any power of two of about the right size will do, and to
+    // divide and multiply by it is exact.
     unit = std::ldexp(1., std::ilogb(matrix.diagonal(0)));
   petsc::check(MatScale(wrapped, 1. / unit));
+  // Not by petsc::check(): the error is the user's, whose message comes below, once the values are
+  // what they were before.
   const bool failed = MatCholeskyFactorNumeric(factor, wrapped, &info) != 0;
   petsc::check(MatScale(wrapped, unit));
   if (failed)
@@ -78,6 +86,7 @@ void SparseFactor::check(const std::string &what) const
   double          largest = 0.;
   for (unsigned int i = 0; i < matrix.n_rows; ++i)
     {
+      // Right-hand sides of the size of the diagonal make x of order one, whatever the units.
       b(i)    = matrix.diagonal(i) * (1. + i % 3);
       largest = std::max(largest, std::abs(b(i)));
     }
@@ -116,10 +125,12 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
     return;
   if (k == 1)
     {
+      // One column is solved in place of the vectors' arrays, without making dense matrices.
       petsc::check(VecPlaceArray(right_hand_side, b.column(0)));
       petsc::check(VecPlaceArray(solution, x.column(0)));
       petsc::check(MatSolve(factor, right_hand_side, solution));
       petsc::check(VecResetArray(right_hand_side));
+      // The factor is that of A / unit.
       petsc::check(VecScale(solution, 1. / unit));
       petsc::check(VecResetArray(solution));
       return;

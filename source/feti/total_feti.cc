@@ -5,12 +5,14 @@
 
 namespace snug::feti {
 namespace {
+/// What messages of failed factorizations call the matrix.
 std::string name_of_subdomain(unsigned int id)
 {
   return "the stiffness of subdomain " + std::to_string(id);
 }
 
 /// y += B x
+/// Of one subdomain: y has the local rows of the rank, x the subdomain's unknowns.
 void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
 {
   for (unsigned int j = 0; j < x.n_columns(); ++j)
@@ -57,6 +59,8 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &systems,
     }
 }
 
+/// Factorizations may fail on one rank only: everywhere() turns that into an error of all, or the
+/// others would wait in the next collective call.
 void TotalFeti::update(const std::vector<bool> &changed)
 {
   everywhere(run.communicator(), [&]() {
@@ -75,6 +79,8 @@ void TotalFeti::update(const std::vector<bool> &changed)
   weight_rows();
 }
 
+/// d = B K^+ f - g and e = R'f. Costs a solve with each subdomain, but no F-mult; the matrices
+/// stay, so that load cases share them.
 void TotalFeti::set_loads(const qp::MultiVector &g)
 {
   const RunContext::Timer timer(run, "solve");
@@ -84,6 +90,7 @@ void TotalFeti::set_loads(const qp::MultiVector &g)
   dual_load.add(-1., gap);
 }
 
+/// Brings B, 1/D and B R of each entry to the owner of its row, for G, W and the estimate of F_ii.
 void TotalFeti::gather_rows()
 {
   const unsigned int           n_modes = coarse.subdomains().n_modes;
@@ -109,11 +116,13 @@ void TotalFeti::gather_rows()
     for (unsigned int e = start[row]; e < start[row + 1]; ++e)
       {
         const double *entry = &gathered[std::size_t(e) * width];
+        // With diag K also where the scaling is by multiplicity: it is to be a compliance.
         F_diagonal[row] += entry[0] * entry[0] * entry[1];
       }
   if (!scaled)
     for (std::size_t e = 0; e < start.back(); ++e)
       gathered[e * width + 1] = 1.;
+  // The numbers of G begin after B and 1/D; a rank that owns no rows has none at all.
   coarse.update(std::vector<double>(gathered.begin() + std::min<std::size_t>(2, gathered.size()),
                                     gathered.end()),
                 width, Z);
@@ -130,6 +139,7 @@ void TotalFeti::weight_rows()
       weighted_B[s]        = systems[s].B;
       for (BEntry &entry : weighted_B[s])
         {
+          // B D^-1 on the unknowns of the Schur complement, numbered as those are.
           if (scaled)
             entry.value *= 1. / systems[s].K.diagonal(entry.dof);
           entry.dof = position[entry.dof];
@@ -162,6 +172,8 @@ const qp::MultiVector &TotalFeti::e() const
   return rigid_load;
 }
 
+/// Often far below F_ii, as the neighbours of the unknowns are held: a thousandth of it where
+/// Poisson's ratio is 0.4999.
 const std::vector<double> &TotalFeti::diagonal() const
 {
   return F_diagonal;
@@ -187,8 +199,11 @@ unsigned int TotalFeti::n_kernel() const
   return coarse.n_kernel();
 }
 
+/// F x = B K^+ B' x. K^+ is one of many generalized inverses: F differs from that of another one by
+/// some G'X + X'G, which P F P does not see.
 qp::MultiVector TotalFeti::apply(const qp::MultiVector &x) const
 {
+  // A block of k columns counts k, though it is one pass over the factors.
   run.work.f_mults += x.n_columns();
   return multiply_B(apply_inverse(multiply_Bt(x)));
 }
@@ -205,6 +220,7 @@ qp::MultiVector TotalFeti::apply_Gt(const qp::MultiVector &alpha) const
 
 qp::MultiVector TotalFeti::multiply_B(const PrimalVectors &v) const
 {
+  // A rank without subdomains does not know the number of columns.
   unsigned int k = v.empty() ? 0 : v.front().n_columns();
   MPI_Allreduce(MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
   qp::MultiVector local(layout.n_local(), k);
@@ -225,6 +241,7 @@ PrimalVectors TotalFeti::multiply_Bt(const qp::MultiVector &lambda) const
   return v;
 }
 
+/// Without communication: each subdomain is solved on its rank.
 PrimalVectors TotalFeti::apply_inverse(const PrimalVectors &right_hand_side) const
 {
   PrimalVectors x;
@@ -257,6 +274,8 @@ PrimalVectors TotalFeti::recover(PrimalVectors          b,
                                  const qp::MultiVector &lambda,
                                  const qp::MultiVector &alpha) const
 {
+  // K^+ (b - B' lambda) solves the subdomain's equations only if e = G lambda; what is not balanced
+  // goes, by K_rho, into the fixing nodes.
   const PrimalVectors forces = multiply_Bt(lambda);
   for (unsigned int s = 0; s < systems.size(); ++s)
     b[s].add(-1., forces[s]);
@@ -291,6 +310,8 @@ double TotalFeti::feasibility_scale(const qp::MultiVector &lambda) const
 
 double TotalFeti::feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const
 {
+  // The largest over subdomains, as the forces that glue them are of the size of their own loads
+  // even where those of the body cancel.
   double             largest = 0., norm_e = 0.;
   const unsigned int m = coarse.subdomains().n_modes;
   for (unsigned int s = 0; s < coarse.n_kernel() / m; ++s)
@@ -304,6 +325,7 @@ double TotalFeti::feasibility_scale(const qp::MultiVector &e, const qp::MultiVec
   return std::sqrt(largest) + coarse.norm() * qp::norms(lambda, run.communicator())[0];
 }
 
+/// x <- B D^-1 S D^-1 B' x, without the W^-1 on both sides, which belong to a face.
 void TotalFeti::precondition(qp::MultiVector &x) const
 {
   const qp::MultiVector local = layout.to_local(x);

@@ -83,6 +83,8 @@ private:
   unsigned int          stalls      = 0;
 };
 
+/// Start of the iteration. Whether the start is warm and has a set is asked on all ranks, as a rank
+/// without rows has empty vectors in any case.
 void ActiveSetRun::begin(const WarmStart &from)
 {
   const MPI_Comm comm    = context.communicator();
@@ -98,6 +100,8 @@ void ActiveSetRun::begin(const WarmStart &from)
       mask[i] = has_set ? from.active[i] != 0 : lambda(i) > 0.;
   if (warm || has_set)
     balance_load();
+  // equality_part() replaces the columns of its argument by d - F of them, in the application of F
+  // that it makes for lambda_Im anyway.
   residual              = warm || has_set ? lambda : MultiVector(problem.n_owned(), 0);
   EqualityPart equality = equality_part(problem, residual);
   scale                 = equality.scale;
@@ -126,6 +130,9 @@ void ActiveSetRun::balance_load()
           lambda = next;
           return;
         }
+      // The part of e that the set cannot hold is a rigid motion of some bodies. Contacts that
+      // close in it are those that can push back; entries that are rounding of the fastest would
+      // let the set grow to all rows.
       const auto rates   = face->closing_rates(problem.e());
       double     fastest = rates.empty() ? 0. : *std::max_element(rates.begin(), rates.end());
       MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
@@ -151,14 +158,18 @@ void ActiveSetRun::refresh_residual()
 
 void ActiveSetRun::solve_on_set()
 {
+  // The limit counts F-mults, the unit of work that all solvers share, not steps.
   if (f_mults() >= parameters.max_iterations)
     throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults());
+  // Below half of the wanted KKT residual an inner solve would only polish a set that may still
+  // change. After a cycle was met the signs of small entries decide, so it may go further down.
   const double least = (care == SetHistory::none ? 0.5 : 0.005) * parameters.relative_tolerance;
   const auto   inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
                                      parameters.max_iterations - f_mults());
   recurrences += inner.iterations;
   solved = inner.converged;
-  kkt    = kkt_residual(problem, *face, lambda, residual, scale);
+  // w of the rows off the set, which decides who enters, needs the rigid amplitudes of this set.
+  kkt = kkt_residual(problem, *face, lambda, residual, scale);
   ++outer;
   std::ostringstream line;
   line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", " << f_mults()
@@ -179,7 +190,10 @@ bool ActiveSetRun::finished()
   MultiVector parts = problem.d();
   parts.add(-1., residual);
   parts.append(problem.d());
-  const auto   sizes = norms(parts, comm); // of F lambda and of d
+  const auto sizes = norms(parts, comm); // of F lambda and of d
+  // PCPG updates d - F lambda by recurrence. Each step adds about eps (|F lambda| + |d|) of
+  // rounding, so that the true residual is only known up to the sum of them: where this could hide
+  // a tenth of the tolerance, one F-mult makes certain.
   const double drift = std::numeric_limits<double>::epsilon() * recurrences * (sizes[0] + sizes[1]);
   if (drift < 0.1 * parameters.relative_tolerance * scale)
     return true;
@@ -190,10 +204,13 @@ bool ActiveSetRun::finished()
 
 RowSet ActiveSetRun::next_set() const
 {
-  RowSet     next(mask.size(), 1);
+  RowSet next(mask.size(), 1);
+  // With the tolerance met only rows that pull are wrong. Letting others in by the sign of a w that
+  // is within the tolerance would start the search again from noise.
   const bool only_drop = kkt.relative <= parameters.relative_tolerance;
   for (unsigned int i = 0; i < next.size(); ++i)
     if (problem.bounded()[i])
+      // The sign of lambda on the set, of w off it; why not lambda + c w is said at ActiveSet.
       next[i] = only_drop         ? mask[i] && lambda(i) >= 0.
                 : lambda(i) != 0. ? lambda(i) > 0.
                                   : kkt.w(i) > 0.;
@@ -211,7 +228,10 @@ void ActiveSetRun::count_stall()
 /// The set stays: go on with the same directions, more exactly.
 void ActiveSetRun::keep_set()
 {
+  // The set may be the right one: by at least a digit more, or each solve on it would do little.
   inner_tolerance = std::min(0.1 * inner_tolerance, options.forcing * kkt.relative);
+  // A solve on the same set ought to do better than halve the residual. Rounding in recurrence and
+  // directions is what can stop it: begin a new Krylov space, from a residual computed anew.
   if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt)
     {
       count_stall();
@@ -229,6 +249,8 @@ bool ActiveSetRun::change_set(const RowSet &next)
   const MPI_Comm comm    = context.communicator();
   bool           changed = false;
   for (unsigned int i = 0; i < next.size(); ++i)
+    // Rows that leave lose their force. That unbalances G lambda = e, so that lambda has to be made
+    // feasible on the new set, and its residual has to be computed anew.
     if (!next[i] && lambda(i) != 0.)
       {
         lambda(i) = 0.;
@@ -238,8 +260,11 @@ bool ActiveSetRun::change_set(const RowSet &next)
   RowSet leaving  = mask;
   for (unsigned int i = 0; i < next.size(); ++i)
     leaving[i] = mask[i] && !next[i];
+  // Directions that vanish on the rows that leave lie in the new face as well, with F P known.
+  // Rows that enter do not matter: balance_load() only adds rows, so they stay in the face.
   DirectionBasis known = krylov->directions().off(leaving, comm);
-  mask                 = next;
+  // krylov refers to the face, which is replaced below, and has to go first.
+  mask = next;
   krylov.reset();
   if (any(changed, comm))
     {
@@ -276,6 +301,7 @@ bool ActiveSetRun::run(const WarmStart &from)
     }
 }
 
+/// The directions go along: sensitivities solve with the same F on (part of) the same face.
 DualSolution ActiveSetRun::solution() const
 {
   DualSolution result;
@@ -308,6 +334,7 @@ DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start
   const unsigned long spent  = run.f_mults();
   DualSolution        result = Smalse(remaining).solve(problem, run.start());
   result.f_mults += spent;
+  // The work of the run that gave up was done for this solution as well.
   result.outer_iterations += run.solution().outer_iterations;
   return result;
 }

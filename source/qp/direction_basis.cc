@@ -24,6 +24,7 @@ void reflect(const std::vector<double> &v, MultiVector &A)
     }
 }
 
+/// Exact zeros are meant: rows that no direction has ever touched put no condition on combinations.
 bool is_nonzero(const MultiVector &x, unsigned int row)
 {
   for (unsigned int j = 0; j < x.n_columns(); ++j)
@@ -56,6 +57,7 @@ MultiVector null_space(MultiVector A)
         }
       if (std::sqrt(square) <= rounding * largest)
         continue;
+      // The sign that adds avoids the cancellation in v.
       v[rank] += std::copysign(std::sqrt(square), v[rank]);
       reflect(v, A);
       reflect(v, Q);
@@ -74,8 +76,11 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
   unsigned int count = mine.size(), first = 0, total = 0;
   MPI_Exscan(&count, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
   MPI_Allreduce(&count, &total, 1, MPI_UNSIGNED, MPI_SUM, comm);
+  // As many conditions as directions leave nothing in general: spare the work.
   if (total >= n)
     return DirectionBasis();
+  // Every rank gets all these rows (the sum only puts them side by side, exactly) and computes the
+  // same null space, so that the combinations need no further communication.
   MultiVector on_rows(total, n);
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int i = 0; i < count; ++i)
@@ -83,6 +88,7 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
   MPI_Allreduce(MPI_IN_PLACE, on_rows.column(0), total * n, MPI_DOUBLE, MPI_SUM, comm);
   const MultiVector N      = null_space(on_rows);
   DirectionBasis    result = {times(P, N), times(FP, N), unit};
+  // Rounding left on these rows would put forces on rows off the face, which are taken to be zero.
   for (unsigned int j = 0; j < result.P.n_columns(); ++j)
     for (const unsigned int i : mine)
       result.P(i, j) = 0.;

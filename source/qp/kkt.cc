@@ -7,6 +7,9 @@
 
 namespace snug::qp {
 namespace {
+/// Row i of the natural residual: w_i of equalities, -min(lambda_i F_ii, -w_i) of contacts, which
+/// is zero where lambda_i, -w_i >= 0 and one of them vanishes. lambda_i F_ii is a length like w_i,
+/// and all rows count alike.
 double natural_residual(const DualProblem &problem,
                         const MultiVector &lambda,
                         const MultiVector &w,
@@ -27,6 +30,8 @@ KktResidual kkt_residual(const DualProblem &problem,
   const MPI_Comm comm = problem.context().communicator();
   KktResidual    kkt;
   kkt.amplitudes = MultiVector(problem.e().n_rows());
+  // alpha = -(G_M G_M')^+ G_M (d - F lambda) makes w vanish on the rows of the face as far as rigid
+  // motions can do it.
   kkt.amplitudes.add(-1., face.amplitudes(residual));
   kkt.w = residual;
   kkt.w.add(1., problem.apply_Gt(kkt.amplitudes));
@@ -36,11 +41,14 @@ KktResidual kkt_residual(const DualProblem &problem,
   both.append(residual);
   for (unsigned int i = 0; i < problem.n_owned(); ++i)
     both(i, 0) = natural_residual(problem, lambda, kkt.w, i);
-  const auto   sizes    = norms(both, comm);
+  const auto sizes = norms(both, comm);
+  // w = (d - F lambda) + G'alpha: where nearly all of d - F lambda is rigid motion the two cancel,
+  // and what is left is rounding of their size.
   const double rounding = 16. * std::numeric_limits<double>::epsilon() * sizes[1];
 
   MultiVector missing = problem.e();
   missing.add(-1., problem.apply_G(lambda));
+  // Coarse vectors are equal on all ranks: a sum over the ranks would count them repeatedly.
   const double imbalance = norms(missing, MPI_COMM_SELF)[0];
   const double load      = norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(lambda);
   kkt.feasibility        = imbalance > 0. ? imbalance / load : 0.;
@@ -61,6 +69,7 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
   const RowSet all(problem.n_owned(), 1);
   part.face   = problem.face(all);
   part.lambda = MultiVector(problem.n_owned());
+  // From zero this gives lambda_Im = G'(GG')^+ e, in the range of Q.
   part.face->make_feasible(part.lambda, problem.e());
 
   MultiVector block = part.lambda;
@@ -80,6 +89,7 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
   // a projected residual that is rounding is no measure
   if (sizes[0] <= 16. * std::numeric_limits<double>::epsilon() * sizes[1])
     sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
+  // Without loads and gaps the solution is zero, and any scale will do.
   part.scale = sizes[0] == 0. ? 1. : sizes[0];
   if (!std::isfinite(part.scale))
     throw SolveError("the loads or gaps are not finite numbers");

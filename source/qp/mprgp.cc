@@ -10,6 +10,7 @@ namespace {
 /// Longest step of the projected gradient, in 1 / ||A||; below 2.
 const double gradient_step = 1.9;
 
+/// The norm of A = P F P + rho Q is the larger of those of its parts, whose ranges are orthogonal.
 double step_length(const Mprgp::Sizes &sizes)
 {
   return gradient_step / std::max(sizes.norm, sizes.rho);
@@ -50,6 +51,8 @@ double Mprgp::dot(const MultiVector &x, const MultiVector &y) const
 }
 
 /// Residual and gradient from scratch: one F-mult.
+/// As lambda = lambda_Im + x and P lambda_Im = 0, P lambda = P x and Q x = lambda - P lambda -
+/// lambda_Im. With r = d - F (lambda_Im + P x) the gradient is g = A x - b + q = q + rho Q x - P r.
 void Mprgp::recompute()
 {
   MultiVector Px = lambda;
@@ -66,6 +69,8 @@ void Mprgp::recompute()
   g.add(-1., Pr);
 }
 
+/// The face of the rows that are free at lambda. Its preconditioner is costly, so it is only made
+/// again when the set has changed; conjugate directions do not outlive any change of the problem.
 void Mprgp::renew_face()
 {
   const RowSet rows = loaded_rows(problem.bounded(), lambda);
@@ -77,6 +82,7 @@ void Mprgp::renew_face()
   direction = MultiVector(problem.n_owned(), 0);
 }
 
+/// A stays and b changes by -rho Q x, so the gradient follows without an F-mult.
 void Mprgp::update_multipliers()
 {
   q.add(sizes.rho, Qx);
@@ -116,6 +122,9 @@ MultiVector Mprgp::feasible_lambda() const
   return result;
 }
 
+/// Free gradient phi, chopped gradient beta, and phi_reduced = phi . min(lambda/a, phi) with the
+/// reduced free gradient of Dostál and Schöberl: a small lambda_i counts little, as a step of
+/// length a along phi would end at its bound at once.
 Mprgp::Gradient Mprgp::projected_gradient() const
 {
   const unsigned int n = problem.n_owned();
@@ -155,6 +164,7 @@ Mprgp::Image Mprgp::apply(const MultiVector &p) const
   image.Ap.add(sizes.rho, image.Qp);
   MultiVector both = image.Ap;
   both.append(g);
+  // p'Ap and p'g in one reduction.
   const MultiVector products = inner_products(p, both, comm);
   image.p_Ap                 = products(0, 0);
   image.p_g                  = products(0, 1);
@@ -168,6 +178,8 @@ MultiVector Mprgp::precondition(const MultiVector &phi) const
   equality.face->project(Pphi);
   MultiVector z = free_face->precondition(Pphi);
   equality.face->project(z);
+  // On the range of Q, A is rho Q and its inverse Q / rho. P M_F^-1 P phi has no part there, so
+  // that without this term directions could not reduce G_b x.
   z.add(1. / sizes.rho, phi);
   z.add(-1. / sizes.rho, Pphi);
   for (unsigned int i = 0; i < z.n_rows(); ++i)
@@ -190,6 +202,8 @@ double Mprgp::largest_feasible_step(const MultiVector &p) const
 /// x <- x - a p with all that follows it.
 void Mprgp::step(double a, const MultiVector &p, const Image &image)
 {
+  // No step passed here leads out of the bounds: what is clipped below is the rounding of one that
+  // ends at a bound, and g, r and Qx need not follow.
   lambda.add(-a, p);
   for (unsigned int i = 0; i < lambda.n_rows(); ++i)
     if (problem.bounded()[i])
@@ -214,10 +228,14 @@ void Mprgp::expand(double a, double a_feasible)
   project_step(a, direction);
   recompute();
   MultiVector move = lambda, sum = g;
+  // Of a quadratic function f(new) - f(old) = (new - old)'(g_new + g_old) / 2, without its values.
   move.add(-1., old);
   sum.add(1., old_g);
   if (dot(move, sum) > 0.)
     {
+      // The expansion of the original MPRGP: a feasible half step and one of fixed length below
+      // 2/||A|| along the projected gradient. It cannot fail to decrease, which the proof of
+      // convergence needs.
       project_step(0.5 * a_feasible, direction);
       recompute();
       const Gradient gradient = projected_gradient();
@@ -236,6 +254,7 @@ bool Mprgp::conjugate_step(const Gradient &gradient)
   if (direction.n_columns() == 0)
     direction = precondition(gradient.phi);
   const Image image = apply(direction);
+  // A is positive definite: only at the rounding floor, or with NaN, can this be.
   if (!(image.p_Ap > 0.))
     return false;
   const double a          = image.p_g / image.p_Ap;
@@ -251,6 +270,7 @@ bool Mprgp::conjugate_step(const Gradient &gradient)
     if (!free[i])
       phi(i) = 0.;
   MultiVector z = precondition(phi);
+  // A-orthogonal to the last direction by construction, whatever rounding did to z.
   z.add(-dot(z, image.Ap) / image.p_Ap, direction);
   const bool reached_bound = any(loaded_rows(problem.bounded(), lambda) != free, comm);
   if (reached_bound)
@@ -272,11 +292,13 @@ void Mprgp::minimize(const Stop &stop)
   while (problem.context().work.f_mults < stop.f_mults)
     {
       const Gradient gradient = projected_gradient();
-      const double   wanted =
+      // Inexactness of SMALSE-M: the inner problem is solved only as well as G_b x = 0 is met.
+      const double wanted =
         std::max(std::min(stop.gradient_factor * infeasibility(), stop.gradient_cap),
                  stop.gradient_floor);
       if (!(gradient.norm > wanted))
         return;
+      // Not proportional (with Gamma = 1): freeing active rows gains more than the face does.
       if (gradient.beta_beta > gradient.phi_reduced)
         proportion(gradient);
       else if (!conjugate_step(gradient))

@@ -28,6 +28,8 @@ least_squares(const MultiVector &A, const MultiVector &b, const std::vector<unsi
   double cut = 1e-13;
   for (unsigned int pass = 0; pass < 2; ++pass)
     {
+      // The first pass asks for the size of the workspace. Contact columns are often
+      // dependent, as the nodes of a flat face push alike: hence singular values, with a cut.
       LAPACKgelss_(&m, &n, &one, part.column(0), &m, y.data(), &ldb, singular.data(), &cut, &rank,
                    work.data(), &size, &info);
       size = static_cast<PetscBLASInt>(work[0]);
@@ -110,6 +112,7 @@ void NonNegativeLeastSquares::minimize_over_columns()
       for (std::size_t k = 0; k < y.size(); ++k)
         if (y[k] <= 0.)
           {
+            // The part of the way to y at which x_k becomes zero.
             const double now  = x(positive[k]);
             const double here = now > 0. ? now / (now - y[k]) : 0.;
             if (blocking == y.size() || here < step)
@@ -121,7 +124,8 @@ void NonNegativeLeastSquares::minimize_over_columns()
       for (std::size_t k = 0; k < y.size(); ++k)
         {
           double &value = x(positive[k]);
-          value         = std::max(0., value + step * (y[k] - value));
+          // Rounding may carry the blocking entry slightly below zero.
+          value = std::max(0., value + step * (y[k] - value));
         }
       if (blocking == y.size())
         return;
@@ -141,6 +145,8 @@ NnlsResult NonNegativeLeastSquares::solve()
       residual = b;
       residual.add_product(-1., A, x);
       const double length = norm_of(residual.column(0), b.n_rows());
+      // In exact arithmetic each step lowers the residual. A column that does not, for rounding, is
+      // not tried again before another has: without that the loop could go round for ever.
       if (length < smallest)
         {
           smallest = length;

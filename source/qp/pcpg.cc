@@ -80,6 +80,7 @@ Pcpg::Pcpg(const DualProblem &problem, const Face &face, DirectionBasis known)
 {
   if (basis.P.n_columns() == 0)
     basis = {MultiVector(problem.n_owned(), 0), MultiVector(problem.n_owned(), 0)};
+  // p'Fp = unit for all known directions: their Rayleigh quotients are unit / |p|^2.
   for (const double length : norms(basis.P, comm))
     largest_rayleigh_quotient = std::max(largest_rayleigh_quotient, basis.unit / (length * length));
 }
@@ -88,6 +89,7 @@ void Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
 {
   if (basis.P.n_columns() == 0)
     return;
+  // As P'FP = unit I the minimum over the span has the coefficients P'r / unit.
   const MultiVector a = inner_products(basis.P, residual, comm);
   lambda.add_product(1. / basis.unit, basis.P, a);
   residual.add_product(-1. / basis.unit, basis.FP, a);
@@ -110,6 +112,9 @@ MultiVector Pcpg::new_directions(const MultiVector &r, std::vector<double> &remo
 {
   MultiVector Z = face.precondition(r);
   face.project(Z);
+  // Full reorthogonalisation against all earlier directions, not only the last: contact problems
+  // have few iterations and F costs far more than the products, while with the short recurrence of
+  // CG rounding would cost further F-mults.
   removed = orthogonalise(Z);
   if (Z.n_columns() == 1)
     return Z;
@@ -133,8 +138,9 @@ bool Pcpg::step(const MultiVector         &Z,
                 MultiVector               &residual)
 {
   const unsigned int n = Z.n_columns(), k = residual.n_columns();
-  const MultiVector  FZ    = problem.apply(Z);
-  MultiVector        right = FZ;
+  const MultiVector  FZ = problem.apply(Z);
+  // Z'FZ, Z'Z and Z'r by one product and one reduction over the ranks.
+  MultiVector right = FZ;
   right.append(Z);
   right.append(residual);
   const MultiVector   products = inner_products(Z, right, comm);
@@ -148,6 +154,7 @@ bool Pcpg::step(const MultiVector         &Z,
         std::max(std::numeric_limits<double>::epsilon() * largest_rayleigh_quotient * ZZ,
                  noise * removed[j]);
     }
+  // A power of two near ||F||, once for the life of the basis: divisions by it are exact.
   if (basis.P.n_columns() == 0 && largest_rayleigh_quotient > 0.)
     basis.unit = std::ldexp(1., std::ilogb(largest_rayleigh_quotient));
   MultiVector ZFZ(n, n);
@@ -155,8 +162,10 @@ bool Pcpg::step(const MultiVector         &Z,
   for (double &least : smallest)
     least /= basis.unit;
   const MultiVector C = orthonormal_combinations(ZFZ, smallest, dependence_cut);
+  // F vanishes on all of Z up to rounding: these directions lower nothing.
   if (C.n_columns() == 0)
     return false;
+  // These products are global sums already.
   const MultiVector a     = inner_products(C, products.columns_from(2 * n, k), MPI_COMM_SELF);
   const MultiVector new_P = times(Z, C), new_FP = times(FZ, C);
   lambda.add_product(1. / basis.unit, new_P, a);
@@ -180,6 +189,7 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
   correct(lambda, residual);
   for (MultiVector *directions : {&basis.P, &basis.FP})
     if (directions->n_columns() == 0 || k > 1)
+      // Appending a column may copy all of them; a basis in use has its room already.
       directions->reserve(directions->n_columns() + usual_iterations * k);
   while (true)
     {
@@ -195,6 +205,8 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
         first = sizes;
       for (unsigned int j = 0; j < k; ++j)
         {
+          // The projection takes the difference of numbers of the size of the residual, most of
+          // which may be rigid motion: it cannot be brought below the rounding of these.
           goals[j] = std::max(tolerances[j], residual_rounding * sizes[k + j]);
           if (sizes[j] <= goals[j])
             continue;

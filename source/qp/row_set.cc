@@ -13,6 +13,7 @@ long long first_row(unsigned int n_owned, MPI_Comm comm)
   MPI_Exscan(&n, &first, 1, MPI_LONG_LONG, MPI_SUM, comm);
   int rank;
   MPI_Comm_rank(comm, &rank);
+  // MPI_Exscan leaves the result undefined on rank 0.
   return rank == 0 ? 0 : first;
 }
 
@@ -39,6 +40,8 @@ std::uint64_t fingerprint(const RowSet &rows, MPI_Comm comm)
   std::uint64_t   sum   = 0;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i])
+      // Scrambled numbers are summed modulo 2^64: the order of rows and ranks does not matter, and
+      // two sets are taken for one another with a probability of 2^-64.
       sum += scramble(first + i);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, comm);
   return sum;
@@ -54,6 +57,7 @@ RowSet with_one_change(const RowSet &from, const RowSet &to, MPI_Comm comm)
   const long long mine = last;
   MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_LONG_LONG, MPI_MAX, comm);
   RowSet result = from;
+  // Only the rank that owns the row has it as its own last one.
   if (last >= 0 && last == mine)
     result[last - first] = to[last - first];
   return result;
@@ -90,6 +94,7 @@ void clip_rounding(const RowSet &bounded, MultiVector &lambda, MPI_Comm comm)
     largest = std::max(largest, std::abs(lambda(i)));
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm);
   for (unsigned int i = 0; i < lambda.n_rows(); ++i)
+    // Relative to the largest force over all ranks: the forces of different contacts compare.
     if (bounded[i] && lambda(i) < 0. && lambda(i) >= -1e-15 * largest)
       lambda(i) = 0.;
 }

@@ -12,6 +12,8 @@ SetHistory::Care SetHistory::enter(const std::uint64_t set, const double kkt_res
   return care;
 }
 
+/// Care only grows: none, exact on the visit that counts as a cycle, single on the next one. Then
+/// the visits are counted anew, as changes of single rows lead through other sets.
 void SetHistory::count_visits(const std::uint64_t set)
 {
   const unsigned int n = ++visits[set];
@@ -28,6 +30,7 @@ void SetHistory::count_visits(const std::uint64_t set)
     }
 }
 
+/// A slow crawl gives up as well, but for changes of single rows, which have their own limit.
 void SetHistory::watch_residual(const double kkt_residual)
 {
   if (kkt_residual < 0.9 * least_residual)
