@@ -11,12 +11,14 @@ namespace snug::geometry {
 namespace {
 using Vertices = std::vector<unsigned int>;
 
+/// The key of a face or an edge, whose vertices blocks list in different orders.
 Vertices sorted(Vertices vertices)
 {
   std::sort(vertices.begin(), vertices.end());
   return vertices;
 }
 
+/// Face 2d + s is the side s of axis d, its vertices in deal.II's order (first tangent fastest).
 template <int dim>
 Vertices face_of(const Vertices &block, unsigned int face)
 {
@@ -27,6 +29,7 @@ Vertices face_of(const Vertices &block, unsigned int face)
   return result;
 }
 
+/// From the lower to the upper end in the coordinates of the block.
 template <int dim>
 Vertices edge_of(const Vertices &block, unsigned int edge)
 {
@@ -35,6 +38,7 @@ Vertices edge_of(const Vertices &block, unsigned int edge)
 }
 
 /// Multilinear weights of the vertices of a cell at @p u.
+/// They do for manifolds as well: get_new_point() takes the same weights as a mean of points.
 template <int dim>
 std::vector<double> weights(const dealii::Point<dim> &u)
 {
@@ -60,6 +64,8 @@ std::array<unsigned int, dim> multi_index(unsigned int cell, const std::array<un
 /// A point of the grids of blocks: vertices of its block and their
 /// weights, times the numbers of cells of the axes it lies within. Equal
 /// in all blocks that have it.
+/// As integers, they are compared without a tolerance; that needs equally many cells along the
+/// axes that neighbours share.
 using GridPoint = std::vector<std::pair<unsigned int, unsigned int>>;
 
 template <int dim>
@@ -70,6 +76,7 @@ GridPoint grid_point(const Vertices                      &block,
   GridPoint result;
   for (unsigned int v = 0; v < block.size(); ++v)
     {
+      // On a side of the block only the vertices of that side count.
       unsigned int weight = 1;
       for (unsigned int d = 0; d < dim; ++d)
         if (place[d] == 0 || place[d] == n[d])
@@ -89,6 +96,8 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
   : mesh(std::move(block_mesh)), is_curved(mesh->blocks.size(), false)
 {
   using Info = dealii::GeometryInfo<dim>;
+  // Edges of curved faces are kept by themselves: blocks that have only such an edge must follow
+  // it too, or gaps would open. An edge of two curved faces lies on the one that comes first.
   for (const Vertices &block : mesh->blocks)
     for (const unsigned int f : Info::face_indices())
       {
@@ -139,6 +148,7 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
         Vertices   cell(Info::vertices_per_cell);
         for (unsigned int v = 0; v < cell.size(); ++v)
           {
+            // bit d of v: the upper end of axis d
             auto  place = index;
             Point u;
             for (unsigned int d = 0; d < dim; ++d)
@@ -149,11 +159,13 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
             const auto entry =
               numbers.emplace(grid_point<dim>(mesh->blocks[b], place, n), result.vertices.size());
             if (entry.second)
+              // the first block decides; the others have the same point up to round-off
               result.vertices.push_back(block_position(b, u));
             cell[v] = entry.first->second;
           }
         result.cells.push_back(cell);
         for (const unsigned int f : Info::face_indices())
+          // only cells at this side of the block
           if (index[f / 2] == (f % 2 == 1 ? n[f / 2] - 1 : 0))
             {
               const auto found = mesh->boundaries.find(sorted(face_of<dim>(mesh->blocks[b], f)));
@@ -167,6 +179,7 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
 template <int dim>
 double BlockGeometry<dim>::n_coarse_cells() const
 {
+  // double: products of large entries must not overflow before their check
   double n = mesh->blocks.size();
   for (const unsigned int along : mesh->cells)
     n *= along;
@@ -188,6 +201,7 @@ std::vector<std::string> BlockGeometry<dim>::region_names() const
 template <int dim>
 unsigned int BlockGeometry<dim>::region(unsigned int coarse_cell) const
 {
+  // coarse cells are numbered block after block, see coarse_mesh()
   return mesh->regions[coarse_cell / cells_per_block()];
 }
 
@@ -204,6 +218,7 @@ dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) con
 template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::logical(const MeshPoint<dim> &point) const
 {
+  // Blocks have no common axes, so these are positions in units of the body's diagonal.
   return Point((position(point) - lower) / lower.distance(upper));
 }
 
@@ -230,6 +245,7 @@ dealii::Point<dim> BlockGeometry<dim>::interpolated(const Vertices            &v
   return result;
 }
 
+/// t goes from the first to the second vertex.
 template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::edge_position(const Vertices &vertices, double t) const
 {
@@ -244,9 +260,11 @@ dealii::Point<dim> BlockGeometry<dim>::face_position(const Vertices         &ver
   const auto found = curved.find(sorted(vertices));
   if (found != curved.end())
     return interpolated(vertices, weights<2>(u), found->second);
+  // Each vertex is counted by two edges, so it is taken away once (Coons patch).
   Point result = -1. * interpolated(vertices, weights<2>(u), nullptr);
   for (unsigned int e = 0; e < 4; ++e)
     {
+      // edges 0 and 1 of a face run along its second tangent, 2 and 3 along the first
       const unsigned int normal = e / 2;
       const double       w      = e % 2 == 1 ? u[normal] : 1. - u[normal];
       result += w * edge_position(edge_of<2>(vertices, e), u[1 - normal]);
@@ -254,11 +272,13 @@ dealii::Point<dim> BlockGeometry<dim>::face_position(const Vertices         &ver
   return result;
 }
 
+// see BlockGeometry for the formula
 template <>
 dealii::Point<2> BlockGeometry<2>::block_position(unsigned int            block,
                                                   const dealii::Point<2> &u) const
 {
   const Vertices &vertices = mesh->blocks[block];
+  // inside: of a spherical shell, whose layers are spheres and whose radii are straight
   if (mesh->inside || !is_curved[block])
     return interpolated(vertices, weights<2>(u), mesh->inside.get());
   return face_position(vertices, u);
@@ -271,6 +291,7 @@ dealii::Point<3> BlockGeometry<3>::block_position(unsigned int            block,
   const Vertices &vertices = mesh->blocks[block];
   if (mesh->inside || !is_curved[block])
     return interpolated(vertices, weights<3>(u), mesh->inside.get());
+  // faces count edges twice, and with them gone vertices not at all: x = faces - edges + vertices
   const auto side   = [&](unsigned int d, unsigned int s) { return s == 1 ? u[d] : 1. - u[d]; };
   Point      result = interpolated(vertices, weights<3>(u), nullptr);
   for (unsigned int f = 0; f < 6; ++f)
@@ -283,6 +304,7 @@ dealii::Point<3> BlockGeometry<3>::block_position(unsigned int            block,
     for (unsigned int k = 0; k < 4; ++k)
       {
         const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
+        // the lower end of the edge along axis d; the upper one has bit d
         const unsigned int first = (k & 1) << a | (k >> 1) << b;
         result -= side(a, k & 1) * side(b, k >> 1) *
                   edge_position({vertices[first], vertices[first | 1 << d]}, u[d]);

@@ -12,7 +12,8 @@ namespace snug::geometry {
 template <int dim>
 void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name)
 {
-  using Face             = typename BlockMesh<dim>::Face;
+  using Face = typename BlockMesh<dim>::Face;
+  // Exact: round_blocks.cc sets such coordinates to 0 and only scales them.
   const auto is_on_plane = [&](unsigned int vertex) { return mesh.vertices[vertex][axis] == 0.; };
   std::vector<unsigned int> image;
   const unsigned int        n_vertices = mesh.vertices.size();
@@ -34,9 +35,11 @@ void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name)
       mesh.blocks.push_back(block);
       mesh.regions.push_back(mesh.regions[b]);
     }
+  // a copy, as the loop adds and erases entries
   const auto old = mesh.boundaries;
   for (const auto &face : old)
     {
+      // The faces of the plane lie inside the whole.
       if (mesh.boundary_names[face.second] == name)
         {
           mesh.boundaries.erase(face.first);
@@ -60,6 +63,7 @@ void remove_unused_boundaries(BlockMesh<dim> &mesh)
   std::map<unsigned int, typename BlockMesh<dim>::Surface> surfaces;
   for (auto &entry : number)
     {
+      // std::map goes through the old indices in ascending order, so names keep theirs
       entry.second = names.size();
       names.push_back(mesh.boundary_names[entry.first]);
       if (mesh.surfaces.count(entry.first) > 0)
@@ -72,6 +76,7 @@ void remove_unused_boundaries(BlockMesh<dim> &mesh)
 }
 
 namespace {
+/// Whether no edge occurs in both directions.
 template <int dim>
 bool is_consistent(const std::vector<dealii::CellData<dim>> &cells)
 {
@@ -86,6 +91,7 @@ bool is_consistent(const std::vector<dealii::CellData<dim>> &cells)
   });
 }
 
+/// Of the blocks; for dim = 2 and blocks in 3D, the quadrilaterals at their bottoms.
 template <int dim>
 std::vector<dealii::CellData<dim>>
 first_vertices(const std::vector<std::vector<unsigned int>> &blocks)
@@ -103,6 +109,8 @@ first_vertices(const std::vector<std::vector<unsigned int>> &blocks)
 template <int dim>
 bool order_consistently(BlockMesh<dim> &mesh)
 {
+  // Algorithm: Agelek, Anderson, Bangerth, Barth, ACM Trans. Math. Software 44, 2017. Some 3D
+  // meshes have no such order, for one a ring of hexahedra whose section turns by 90 degrees.
   auto cells = first_vertices<dim>(mesh.blocks);
   if (is_consistent(cells))
     return true;
@@ -114,6 +122,7 @@ bool order_consistently(BlockMesh<dim> &mesh)
     {
       return false;
     }
+  // In 3D, deal.II leaves the cells as they are if there is no order, and does not say so.
   if (!is_consistent(cells))
     return false;
   for (unsigned int b = 0; b < cells.size(); ++b)
@@ -127,6 +136,7 @@ void order_layer_consistently(BlockMesh<3> &mesh)
   dealii::GridTools::consistently_order_cells(cells);
   for (unsigned int b = 0; b < cells.size(); ++b)
     {
+      // the vertex above one of the bottom, 4 places behind it, goes with it
       const auto old = mesh.blocks[b];
       for (unsigned int v = 0; v < 4; ++v)
         {

@@ -6,6 +6,7 @@
 #include <deal.II/base/exceptions.h>
 
 namespace snug::geometry {
+/// One region, unless a mesh file or formulas say more.
 template <int dim>
 std::vector<std::string> BodyGeometry<dim>::region_names() const
 {
@@ -18,6 +19,7 @@ unsigned int BodyGeometry<dim>::region(unsigned int) const
   return 0;
 }
 
+/// Bodies of blocks have none, so the partition "auto" leaves them to METIS.
 template <int dim>
 bool BodyGeometry<dim>::has_grid() const
 {
@@ -49,6 +51,8 @@ template <int dim>
 using Make = std::unique_ptr<BodyGeometry<dim>>(const BodyMeshParameters &);
 
 /// @p make for bodies of dimension @p own, an error for others.
+/// The table has the same rows in 2D and 3D, so that the message tells what is wrong with the
+/// dimension rather than that the choice is unknown.
 template <int dim, int own>
 std::function<Make<dim>> only(Make<own> *make)
 {
@@ -61,6 +65,7 @@ std::function<Make<dim>> only(Make<own> *make)
 }
 } // namespace
 
+/// The parameter reference shows these texts.
 template <int dim>
 const ChoiceTable<Make<dim>> &body_geometry_table()
 {
@@ -98,6 +103,7 @@ const ChoiceTable<Make<dim>> &body_geometry_table()
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_geometry(const BodyMeshParameters &parameters)
 {
+  // Regions after the placement: their formulas are of placed positions.
   auto geometry = choose(body_geometry_table<dim>(), parameters.source).make(parameters);
   return with_regions(placed(std::move(geometry), parameters), parameters);
 }
@@ -108,6 +114,7 @@ unsigned int boundary_index(const BodyGeometry<dim> &geometry, const std::string
   const auto &names = geometry.boundary_names();
   const auto  found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
+    // without the entry, which callers know
     throw InputError("'" + name + "' is no face; the faces are " + joined(names));
   return found - names.begin();
 }

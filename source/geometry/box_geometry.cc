@@ -44,6 +44,7 @@ private:
   void add_curved_face(const std::string &face, const std::string &value);
 };
 
+/// In the order of boundaries 2d + s.
 template <int dim>
 std::vector<std::string> box_faces()
 {
@@ -76,6 +77,7 @@ void BoxGeometry<dim>::set_spacing(const BodyMeshParameters &parameters)
   const auto fine    = per_axis<dim, double>("Box fine length", parameters.fine_length, 0., false);
   for (unsigned int d = 0; d < dim; ++d)
     {
+      // the ratio of neighbours is the (n - 1)-th root of the grading
       if (cells[d] == 1 && grading[d] != 1.)
         throw bad_entry("Box grading", joined(parameters.grading),
                         "must be 1 along an axis with a single cell");
@@ -100,6 +102,7 @@ void BoxGeometry<dim>::add_curved_face(const std::string &face, const std::strin
   flat.name     = face;
   for (unsigned int d = 0; d < dim; ++d)
     {
+      // along the normal it is not used
       flat.half_size[d] = 0.5 * size[d];
       flat.centre[d]    = corner[d] + 0.5 * size[d];
     }
@@ -136,7 +139,9 @@ dealii::Point<dim> BoxGeometry<dim>::grid_position(const dealii::Point<dim> &log
     {
       const unsigned int axis  = face.boundary() / 2;
       const bool         upper = face.boundary() % 2 == 1;
-      const double       blend = upper ? fraction[axis] : 1. - fraction[axis];
+      // Displacements are those at the flat point, so that the order of faces does not matter, and
+      // opposite faces do not move each other.
+      const double blend = upper ? fraction[axis] : 1. - fraction[axis];
       result[axis] += (upper ? 1. : -1.) * blend * face.displacement(flat);
     }
   return result;

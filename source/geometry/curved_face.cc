@@ -24,6 +24,7 @@ CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value)
 {
   const std::vector<std::string> word  = words(value);
   const std::string              shape = word.empty() ? "" : word[0];
+  // no formula begins with these words, as muParser knows neither
   if (shape != "sphere" && shape != "cylinder")
     {
       formula = std::make_unique<Formula<dim>>(curved_entry, value);
@@ -40,7 +41,8 @@ CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value)
 template <int dim>
 void CurvedFace<dim>::set_axis(const std::string &axis, const std::string &value)
 {
-  const auto index   = axis.size() == 1 ? std::string("xyz").find(axis) : std::string::npos;
+  const auto index = axis.size() == 1 ? std::string("xyz").find(axis) : std::string::npos;
+  // In 2D the axis z is no coordinate, so that squared_distance() drops none.
   const bool tangent = dim == 2 ? index == 2 : index < 3 && index != flat.boundary / 2;
   if (!tangent)
     throw bad_entry(curved_entry, flat.name + ": " + value,
@@ -53,7 +55,8 @@ template <int dim>
 void CurvedFace<dim>::set_radius(const std::string &number, const std::string &value)
 {
   std::istringstream stream(number);
-  const double       least = std::sqrt(squared_distance(flat.half_size));
+  // the farthest corner of the face must still lie below the surface, or R^2 - r^2 < 0
+  const double least = std::sqrt(squared_distance(flat.half_size));
   if (!(stream >> radius) || !stream.eof() || !std::isfinite(radius) || std::abs(radius) <= least)
     {
       std::ostringstream allowed;
@@ -63,6 +66,7 @@ void CurvedFace<dim>::set_radius(const std::string &number, const std::string &v
     }
 }
 
+/// r^2: without the normal of the face and the axis of a cylinder.
 template <int dim>
 double CurvedFace<dim>::squared_distance(const dealii::Point<dim> &offset) const
 {
@@ -84,6 +88,7 @@ double CurvedFace<dim>::displacement(const dealii::Point<dim> &point) const
 {
   if (formula)
     {
+      // one displacement for all points below, so that lines across the body stay straight
       dealii::Point<dim> on_face = point;
       on_face[flat.boundary / 2] = flat.centre[flat.boundary / 2];
       return formula->value(on_face);
@@ -92,6 +97,7 @@ double CurvedFace<dim>::displacement(const dealii::Point<dim> &point) const
   // |R| - sqrt(R^2 - r^2) without cancellation for r << |R|
   const double R      = std::abs(radius);
   const double recede = r2 / (R + std::sqrt(R * R - r2));
+  // the face touches at its centre: a convex one recedes from there
   return radius > 0. ? -recede : recede;
 }
 

@@ -14,6 +14,7 @@
 namespace snug::geometry {
 namespace {
 /// Axis of "cylinder AXIS", dim of a sphere.
+/// dim is no axis, so that offset() drops no component.
 template <int dim>
 unsigned int read_axis(const std::string &boundary, const std::string &value)
 {
@@ -43,6 +44,8 @@ FittedSurface<dim>::FittedSurface(const std::string                     &boundar
   double largest = 0.;
   for (const auto &point : points)
     largest = std::max(largest, std::abs(offset(point).norm() - radius));
+  // 1e-4: files with 5 or 6 digits pass, nodes on chords or of another face do not. A radius of
+  // 1000 distances is a plane up to that: there is no sphere to be found.
   const double allowed = 1e-4, flat = 1e3;
   const double length = points.front().distance(points.back());
   if (!(largest <= allowed * radius && radius < flat * length))
@@ -66,6 +69,8 @@ dealii::Tensor<1, dim> FittedSurface<dim>::offset(const dealii::Point<dim> &poin
 template <int dim>
 void FittedSurface<dim>::fit(const std::vector<dealii::Point<dim>> &points)
 {
+  // Coordinates from the mean in units of the size: the normal equations, of squares of them,
+  // stay well conditioned for small surfaces far from the origin.
   dealii::Point<dim> mean;
   for (const auto &point : points)
     mean += point / double(points.size());
@@ -73,7 +78,7 @@ void FittedSurface<dim>::fit(const std::vector<dealii::Point<dim>> &points)
   double size = 0.;
   for (const auto &point : points)
     size = std::max(size, offset(point).norm());
-  // unknowns: centre, dropping the straight axis, and the last term
+  // unknowns: the centre and R^2 - |c|^2; along the straight axis the matrix is empty
   dealii::FullMatrix<double> A(dim + 1, dim + 1);
   dealii::Vector<double>     b(dim + 1), x(dim + 1);
   for (const auto &point : points)
@@ -89,11 +94,14 @@ void FittedSurface<dim>::fit(const std::vector<dealii::Point<dim>> &points)
     }
   if (straight_axis < dim)
     A(straight_axis, straight_axis) = 1.;
-  // flat boundaries give a singular matrix, and a huge radius
+  // Flat boundaries give a singular matrix; the shift makes that a huge radius, which is
+  // rejected above.
   for (unsigned int i = 0; i <= dim; ++i)
     A(i, i) *= 1. + 1e-14;
+  // A x = b: the normal equations of 2 c.y + (R^2 - |c|^2) = |y|^2 over all points
   A.gauss_jordan();
   A.vmult(x, b);
+  // R^2 = (R^2 - |c|^2) + |c|^2
   double square = x(dim);
   for (unsigned int d = 0; d < dim; ++d)
     {
@@ -107,9 +115,11 @@ template <int dim>
 dealii::Point<dim> FittedSurface<dim>::project(const dealii::Point<dim> &point) const
 {
   const auto from = offset(point);
+  // the component along the axis of a cylinder stays
   return point + (radius / from.norm() - 1.) * from;
 }
 
+/// Circles about the centre, also for "cylinder z".
 template <>
 BlockMesh<2>::Surface FittedSurface<2>::manifold() const
 {
@@ -121,6 +131,7 @@ BlockMesh<3>::Surface FittedSurface<3>::manifold() const
 {
   if (straight_axis == 3)
     return std::make_shared<dealii::SphericalManifold<3>>(centre);
+  // the manifold takes a point of the axis and its direction
   dealii::Tensor<1, 3> direction;
   direction[straight_axis] = 1.;
   return std::make_shared<dealii::CylindricalManifold<3>>(direction, centre);

@@ -43,6 +43,7 @@ std::string parser_message(const dealii::ExceptionBase &error)
   return message.substr(0, message.find_last_not_of(" .\n") + 1);
 }
 /// f'(0) of sixth order.
+/// Central, with the weights (45, -9, 1) / 60 h (B. Fornberg, Math. Comp. 51, 1988).
 template <typename Function>
 double difference(const Function &f, const double h)
 {
@@ -54,6 +55,7 @@ double difference(const Function &f, const double h)
 }
 
 /// f''(0) of sixth order.
+/// Central, with the weights (-490; 270, -27, 2) / 180 h^2 (ibid.).
 template <typename Function>
 double second_difference(const Function &f, const double h)
 {
@@ -74,6 +76,7 @@ Formula<dim>::Formula(const std::string &entry, const std::string &text)
     {
       const SilentErrors guard;
       parser->initialize(variables, text, {});
+      // muParser finds unknown names only when it evaluates
       parser->value(dealii::Point<dim>());
     }
   catch (const dealii::ExceptionBase &error)
@@ -83,6 +86,7 @@ Formula<dim>::Formula(const std::string &entry, const std::string &text)
     }
 }
 
+// here, where dealii::FunctionParser is complete
 template <int dim>
 Formula<dim>::~Formula() = default;
 
@@ -93,6 +97,7 @@ template <int dim>
 double Formula<dim>::value(const dealii::Point<dim> &point) const
 {
   const double value = parser->value(point);
+  // 1/0 or sqrt(-1): muParser returns inf or nan without an error
   if (!std::isfinite(value))
     {
       std::ostringstream where;
@@ -132,6 +137,7 @@ dealii::Tensor<2, dim> Formula<dim>::hessian(const dealii::Point<dim> &point,
       };
       result[i][i] = second_difference(along, step);
       for (unsigned int j = 0; j < i; ++j)
+        // a difference of differences: 36 values
         result[i][j] = result[j][i] = difference(
           [&](const double s) {
             return difference(

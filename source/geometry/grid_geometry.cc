@@ -29,10 +29,12 @@ GridGeometry<dim>::GridGeometry(const Counts                   &cells,
   : cells(cells), names(names), closed(closed)
 {}
 
+/// The last axis is the slowest: if it is closed, numbers just end one layer earlier.
 template <int dim>
 unsigned int GridGeometry<dim>::vertex(Counts place) const
 {
   if (closed)
+    // behind the last layer comes the first
     place[dim - 1] %= cells[dim - 1];
   unsigned int index = 0;
   for (int d = dim - 1; d >= 0; --d)
@@ -53,6 +55,8 @@ typename BodyGeometry<dim>::CoarseMesh GridGeometry<dim>::coarse_mesh() const
       dealii::Point<dim> logical;
       for (unsigned int d = 0; d < dim; ++d)
         logical[d] = static_cast<double>(place[d]) / cells[d];
+      // Logical points tell cells apart, but the last layer of a closed axis would reach back over
+      // all others, inverted.
       mesh.vertices.push_back(closed ? grid_position(logical) : logical);
     }
   for (const Counts &index : multi_indices<dim>(cells))
@@ -66,6 +70,7 @@ typename BodyGeometry<dim>::CoarseMesh GridGeometry<dim>::coarse_mesh() const
           cell[v] = vertex(place);
         }
       mesh.cells.push_back(cell);
+      // a closed axis, being the last, has no sides and no names
       for (unsigned int f = 0; f < names.size(); ++f)
         if (index[f / 2] == (f % 2 == 1 ? cells[f / 2] - 1 : 0))
           {
@@ -78,6 +83,7 @@ typename BodyGeometry<dim>::CoarseMesh GridGeometry<dim>::coarse_mesh() const
   return mesh;
 }
 
+/// As a double, which large entries do not let overflow.
 template <int dim>
 double GridGeometry<dim>::n_coarse_cells() const
 {
@@ -97,7 +103,8 @@ template <int dim>
 dealii::Point<dim> GridGeometry<dim>::logical(const MeshPoint<dim> &point) const
 {
   dealii::Point<dim> result;
-  unsigned int       rest = point.cell;
+  // cells are numbered as multi_indices() lists them, the first axis fastest
+  unsigned int rest = point.cell;
   for (unsigned int d = 0; d < dim; ++d)
     {
       result[d] = (rest % cells[d] + point.unit[d]) / cells[d];
@@ -109,6 +116,7 @@ dealii::Point<dim> GridGeometry<dim>::logical(const MeshPoint<dim> &point) const
 template <int dim>
 dealii::Point<dim> GridGeometry<dim>::position(const MeshPoint<dim> &point) const
 {
+  // at every node anew, so that refined cells keep spacing and curvature
   return grid_position(logical(point));
 }
 

@@ -11,6 +11,8 @@ namespace {
 const std::string rotate_entry = "Rotate";
 
 /// Rotation by @p degrees about an axis; exact for multiples of 90.
+/// Counterclockwise when the axis points to the viewer. With the round-off of cos 90, faces
+/// would not quite lie in the planes of axes, nor an axis of revolution at x = 0.
 dealii::Tensor<2, 3> rotation(unsigned int axis, double degrees)
 {
   const double         turn  = std::remainder(degrees, 360.);
@@ -45,8 +47,10 @@ dealii::Tensor<2, dim> rotation(const BodyMeshParameters &parameters)
                         dim == 2 ? "must be 'z: degrees'"
                                  : "must be 'axis: degrees, ...', axes "
                                    "x, y, z");
+      // rotations act in the order in which they are written
       whole = rotation(axis, degrees) * whole;
     }
+  // in 2D only turns about z occur, which leave x and y to themselves
   dealii::Tensor<2, dim> result;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
@@ -54,6 +58,7 @@ dealii::Tensor<2, dim> rotation(const BodyMeshParameters &parameters)
   return result;
 }
 
+/// x' = Q s (x + w(x)) + t of a body's positions; logical coordinates stay.
 template <int dim>
 class PlacedGeometry : public WrappedGeometry<dim>
 {
@@ -63,6 +68,7 @@ public:
   PlacedGeometry(std::unique_ptr<BodyGeometry<dim>> body, const BodyMeshParameters &parameters)
     : WrappedGeometry<dim>(std::move(body)), scale(parameters.scale)
   {
+    // a negative scale would mirror the body and invert its cells
     if (!(std::isfinite(scale) && scale > 0.))
       throw bad_entry("Scale", joined(std::vector<double>{scale}), "must be positive");
     const auto shifts = per_axis<dim, double>("Shift", parameters.shift, 0., false);
@@ -81,6 +87,7 @@ public:
     return place(this->body->position(point));
   }
 
+  // Interiors follow faces by lengths in the frame, so it is placed like the body.
   Point box_position(const Point &fraction) const override
   {
     return place(this->body->box_position(fraction));
@@ -94,6 +101,7 @@ private:
 
   Point place(const Point &position) const
   {
+    // all formulas see the position before the warp
     Point warped = position;
     for (unsigned int d = 0; d < warp.size(); ++d)
       warped[d] += warp[d].value(position);

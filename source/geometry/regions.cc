@@ -9,6 +9,7 @@ namespace snug::geometry {
 namespace {
 const std::string formulas_entry = "Region formulas";
 
+/// Formulas may add cells to a region of the mesh file or make new regions.
 template <int dim>
 class GeometryWithRegions : public WrappedGeometry<dim>
 {
@@ -36,6 +37,7 @@ public:
     MeshPoint<dim> centre{coarse_cell, {}};
     for (unsigned int d = 0; d < dim; ++d)
       centre.unit[d] = 0.5;
+    // Of coarse cells, so that refinement does not change the materials.
     const auto position = this->position(centre);
     for (const auto &[index, formula] : formulas)
       if (formula.value(position) > 0.)
@@ -68,6 +70,7 @@ std::unique_ptr<BodyGeometry<dim>> with_regions(std::unique_ptr<BodyGeometry<dim
   return std::make_unique<GeometryWithRegions<dim>>(std::move(geometry), parameters);
 }
 
+/// On the coarse mesh, so that a region without cells is found before anything is refined.
 template <int dim>
 std::vector<unsigned long> cells_of_regions(const BodyGeometry<dim> &geometry)
 {

@@ -20,12 +20,15 @@ public:
   dealii::Tensor<1, dim> extent() const override
   {
     dealii::Tensor<1, dim> result;
+    // 3D; in 2D axis 0 is the radius, set next
     result[0]       = length;
     result[dim - 2] = outer - inner;
+    // the arc halfway between the circles
     result[dim - 1] = angle * (inner + outer) / 2.;
     return result;
   }
 
+  // a half has the angle pi, a full ring 2 pi
   bool has_frame() const override { return angle < 1.5 * dealii::numbers::PI; }
 
   dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
@@ -44,6 +47,8 @@ private:
   double inner, outer, length, angle;
 };
 
+/// From the order of the entry (around, across, along) to that of the axes. Two cells around a
+/// full ring would be flat: all their vertices lie on one line.
 template <int dim>
 std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
 {
@@ -58,6 +63,7 @@ std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
   return cells;
 }
 
+/// In the order of boundaries 2d + s.
 template <int dim>
 std::vector<std::string> ring_faces(const std::string &part)
 {
@@ -80,6 +86,7 @@ RingGeometry<dim>::RingGeometry(const BodyMeshParameters &parameters)
   , length(parameters.length)
   , angle(2. * dealii::numbers::PI / n_of_part(parameters, 4))
 {
+  // the checks come after the initialization, which takes any numbers
   require_radii(parameters);
   if (dim == 3)
     require_positive("Length", length);
@@ -88,6 +95,7 @@ RingGeometry<dim>::RingGeometry(const BodyMeshParameters &parameters)
 template <int dim>
 dealii::Point<dim> RingGeometry<dim>::box_position(const dealii::Point<dim> &fraction) const
 {
+  // axes in this order make right-handed cells: (r, phi) in 2D, (z, r, phi) in 3D
   const double       r   = inner + (outer - inner) * fraction[dim - 2];
   const double       phi = angle * fraction[dim - 1];
   dealii::Point<dim> position;

@@ -45,6 +45,9 @@ void set_cut_planes(BlockMesh<dim> &mesh, unsigned int first)
 /// Blocks between the origin and the unit sphere where all coordinates
 /// are positive. The inner block ends at the distances @p reach from the
 /// origin along an axis, a diagonal of two and one of three axes.
+///
+/// A square or cube would reach 1 : 1.41 : 1.73, a ball 1 : 1 : 1. In between, the
+/// corner of the inner block is obtuse, as those of the outer blocks beside it need room as well.
 template <int dim>
 void add_solid_blocks(BlockMesh<dim> &mesh, const std::array<double, 3> &reach)
 {
@@ -62,6 +65,7 @@ void add_solid_blocks(BlockMesh<dim> &mesh, const std::array<double, 3> &reach)
             direction[d] = 1.;
             ++n_axes;
           }
+      // coordinates that are 0 stay exactly 0, as mirror() and set_cut_planes() need
       direction /= direction.norm();
       mesh.vertices[v]         = reach[n_axes - 1] * direction;
       mesh.vertices[n - 1 + v] = direction;
@@ -85,6 +89,7 @@ void add_solid_blocks(BlockMesh<dim> &mesh, const std::array<double, 3> &reach)
     set_boundary(mesh, d + 1, 2 * d + 1, 0);
 }
 
+/// Scale from the unit sphere; there is one region.
 template <int dim>
 void finish(BlockMesh<dim> &mesh, double radius)
 {
@@ -99,12 +104,14 @@ BlockMesh<2> disc_mesh(const BodyMeshParameters &parameters, unsigned int n_cell
   require_positive("Radius", parameters.radius);
   const unsigned int parts = n_of_part(parameters, 4);
   BlockMesh<2>       mesh;
+  // the cut at x = 0, then that at y = 0, as set_cut_planes() numbers them
   mesh.boundary_names = {"outer", "left", "bottom"};
   mesh.surfaces[0]    = std::make_shared<dealii::SphericalManifold<2>>();
   mesh.cells.fill(n_cells);
   add_solid_blocks(mesh, {{0.5, 0.6, 0.}});
   set_cut_planes(mesh, 1);
   finish(mesh, parameters.radius);
+  // a quarter is mirrored to x < 0, the half to y < 0
   if (parts <= 2)
     mirror(mesh, 0, "left");
   if (parts == 1)
@@ -124,6 +131,7 @@ BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_ce
       mesh.vertices.emplace_back(vertex[0], vertex[1], z);
   mesh.boundary_names = flat.boundary_names;
   for (auto &name : mesh.boundary_names)
+    // in 3D, bottom is the side z = 0
     if (name == "bottom")
       name = "front";
   const unsigned int bottom = mesh.boundary_names.size();
@@ -137,14 +145,17 @@ BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_ce
       set_boundary(mesh, mesh.blocks.size() - 1, 5, bottom + 1);
     }
   for (const auto &edge : flat.boundaries)
+    // ascending, as keys are: upper vertices have larger numbers
     mesh.boundaries[{edge.first[0], edge.first[1], edge.first[0] + n, edge.first[1] + n}] =
       edge.second;
+  // outer is boundary 0, as every part of a disc has it; the axis is z
   mesh.surfaces[0] = std::make_shared<dealii::CylindricalManifold<3>>(2);
   mesh.cells       = {{flat.cells[0], flat.cells[1], n_cells}};
   finish(mesh, 1.);
   return mesh;
 }
 
+/// Full bodies are mirrored three times, halves at x and y = 0, quarters at x = 0.
 void mirror_octant(BlockMesh<3> &mesh, unsigned int parts)
 {
   const std::array<std::string, 3> cut = {{"left", "front", "bottom"}};
@@ -183,6 +194,7 @@ BlockMesh<3> shell_mesh(const BodyMeshParameters &parameters)
   // the outer blocks of a solid with an inner sphere
   const double ratio = parameters.inner_radius / parameters.radius;
   add_solid_blocks(mesh, {{ratio, ratio, ratio}});
+  // without the inner block; numbers of the others change, and so do their boundaries
   mesh.boundaries.clear();
   mesh.blocks.erase(mesh.blocks.begin());
   for (unsigned int d = 0; d < 3; ++d)
@@ -198,6 +210,7 @@ BlockMesh<3> shell_mesh(const BodyMeshParameters &parameters)
   set_cut_planes(mesh, 2);
   finish(mesh, parameters.radius);
   mirror_octant(mesh, parts);
+  // the axis across must stay the last, since it has its own number of cells
   order_layer_consistently(mesh);
   return mesh;
 }

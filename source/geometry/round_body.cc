@@ -5,6 +5,7 @@ namespace snug::geometry {
 std::vector<unsigned int> round_cells(const BodyMeshParameters &parameters, unsigned int n)
 {
   const auto &given = parameters.round_cells;
+  // 4 cells each are the default of the entry Cells
   if (given.empty())
     return std::vector<unsigned int>(n, 4);
   if (given.size() != n || std::count(given.begin(), given.end(), 0u) > 0)
@@ -17,6 +18,7 @@ std::vector<unsigned int> round_cells(const BodyMeshParameters &parameters, unsi
 unsigned int n_of_part(const BodyMeshParameters &parameters, unsigned int largest)
 {
   unsigned int n = 1;
+  // each is half of the one before
   for (const std::string part : {"full", "half", "quarter", "eighth"})
     {
       if (parameters.part == part && n <= largest)

@@ -12,11 +12,13 @@ template <int dim>
 ContactOutput<dim>::ContactOutput(const Sources &sources, const std::string &directory)
   : sources(sources)
   , directory(directory)
+  // the same for all designs, so gathered once
   , reference(sources.surface.gather(sources.mesh.reference_positions()))
 {}
 
 namespace {
 /// Pressure and gap by the shares of others, flags where all have them.
+/// Force and area stay 0, so that sums over nodes do not count any of them twice.
 template <typename Shares, typename Point>
 state::ContactPoint shared_point(const Shares &shares, const Point &point)
 {
@@ -44,10 +46,12 @@ ContactOutput<dim>::nodal_points(const std::vector<state::ContactPoint> &rows) c
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
       const unsigned int node = sources.places[i].slave;
+      // a node of several pairs has several rows
       if (!seen[node] || rows[i].force > points[node].force)
         points[node] = rows[i];
       seen[node] = true;
     }
+  // Order matters: masters of hanging nodes may themselves show shares of rows.
   for (const auto &shared : sources.shared_nodes)
     if (!seen[shared.node])
       points[shared.node] = shared_point(shared.rows, [&](unsigned int row) { return rows[row]; });
@@ -58,6 +62,7 @@ ContactOutput<dim>::nodal_points(const std::vector<state::ContactPoint> &rows) c
   return points;
 }
 
+/// Patches do not share nodes, so a node on the edge of two pairs shows each on its own faces.
 template <int dim>
 std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state,
                                            const Field                    &positions,
@@ -68,6 +73,7 @@ std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state
   std::vector<bool> candidate(sources.surface.n_nodes(), false);
   for (const auto &row : sources.places)
     candidate[row.slave] = true;
+  // values below have the order of these quantities
   PatchList<dim - 1, dim> patches({{"pressure", 1},
                                    {"gap", 1},
                                    {"force", 1},
@@ -82,12 +88,13 @@ std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state
                                    {"design_displacement", dim}});
   for (const auto &face : sources.surface.faces())
     {
-      const auto   pair  = std::find_if(pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
+      const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
         return pair.slave == std::make_pair(face.body, face.boundary);
       });
-      const bool   slave = pair != pairs.end();
-      const double number = slave ? double(pair - pairs.begin()) : -1.;
-      Field        corners;
+      // the first pair counts: a face shows one
+      const bool                       slave  = pair != pairs.end();
+      const double                     number = slave ? double(pair - pairs.begin()) : -1.;
+      Field                            corners;
       std::vector<std::vector<double>> values;
       for (const unsigned int node : face.nodes)
         {
@@ -108,6 +115,7 @@ std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state
   return patches.vtu();
 }
 
+/// One line per row, nodes of several pairs with several; places are those of the slaves.
 template <int dim>
 std::string ContactOutput<dim>::rows_text(const state::ContactState<dim> &state,
                                           const Field                    &positions) const
@@ -131,11 +139,14 @@ std::string ContactOutput<dim>::rows_text(const state::ContactState<dim> &state,
 template <int dim>
 void ContactOutput<dim>::write(double time, const state::ContactState<dim> &state)
 {
+  // collective, so not within everywhere()
   const Field       positions    = sources.surface.gather(state.positions);
   const Field       displacement = sources.surface.gather(state.displacement);
   const std::string stem         = "contact-" + padded(series.size(), 4);
+  // on all ranks, since the next stem counts the series
   series.emplace_back(time, stem + ".vtu");
   const MPI_Comm comm = sources.mesh.communicator();
+  // rank 0 writes, and all fail if it cannot, or others would wait for it in the next reduction
   everywhere(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;

@@ -12,14 +12,17 @@ namespace snug::io {
 namespace {
 /// Shares of a node gradient summed over ranks, those of hanging nodes
 /// given to their masters: zero where it is null. Collective.
+/// Shares live where their cells are; a picture needs the sum at every node.
 template <int dim>
 std::vector<double> summed(const mesh::BodyMesh<dim>                 &mesh,
                            const typename mesh::BodyMesh<dim>::Field *gradient)
 {
   std::vector<double> values(dim * mesh.n_local_nodes());
+  // null on all ranks or on none, since the sum below is collective
   if (gradient == nullptr)
     return values;
   auto field = *gradient;
+  // positions of hanging nodes follow from those of their masters
   mesh.distribute_hanging(field);
   for (unsigned int node = 0; node < field.size(); ++node)
     for (unsigned int c = 0; c < dim; ++c)
@@ -29,6 +32,7 @@ std::vector<double> summed(const mesh::BodyMesh<dim>                 &mesh,
 }
 
 /// The components of all quantities of FieldOutput at one node.
+/// In the order of the quantities in write(). Stresses of sections too have 3 x 3 components.
 template <int dim>
 std::vector<double> field_values(const state::ContactState<dim>      &state,
                                  const dealii::SymmetricTensor<2, 3> &stress,
@@ -42,6 +46,7 @@ std::vector<double> field_values(const state::ContactState<dim>      &state,
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
       values.push_back(stress[i][j]);
+  // of the smoothed stress, not the mean of the cells' own
   values.push_back(elasticity::von_mises(stress));
   values.insert(values.end(), cell_values.begin(), cell_values.end());
   for (unsigned int c = 0; c < dim; ++c)
@@ -59,6 +64,7 @@ FieldOutput<dim>::FieldOutput(const mesh::BodyMesh<dim>                &mesh,
 {
   for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
     for (const unsigned int cell : tearing.subdomains[s].cells)
+      // global ids, so that subdomains of different ranks get different colours
       subdomain_of_cell[cell] = tearing.first_id + s;
 }
 
@@ -87,6 +93,7 @@ void FieldOutput<dim>::write(double                                     time,
       std::vector<std::vector<double>>    values;
       for (const unsigned int node : cell.nodes)
         {
+          // on the design, before deformation
           points.push_back(state.positions[node]);
           values.push_back(
             field_values(state, stress[node * n_regions + cell.region],
@@ -104,6 +111,7 @@ void FieldOutput<dim>::write(double                                     time,
   const std::string        stem = "solution-" + padded(series.size(), 4);
   std::vector<std::string> pieces;
   for (unsigned int r = 0; r < dealii::Utilities::MPI::n_mpi_processes(comm); ++r)
+    // the .pvtu names the files of all ranks
     pieces.push_back(stem + "." + padded(r, 4) + ".vtu");
   series.emplace_back(time, stem + ".pvtu");
   everywhere(comm, [&] {

@@ -10,12 +10,14 @@
 namespace snug::io {
 namespace {
 /// Coordinate in [0,1] of Gauss point @p i of @p n = 1 or 2.
+/// The points of degree 1 and 2: 1/2, and 1/2 -+ 1 / (2 sqrt 3).
 double gauss_coordinate(unsigned int n, unsigned int i)
 {
   return n == 1 ? 0.5 : 0.5 + (i == 0 ? -0.5 : 0.5) / std::sqrt(3.);
 }
 
 /// Weight of Gauss point @p i of @p n in the value at @p x.
+/// Lagrange polynomial of the points; outside them weights may be negative or above 1.
 double gauss_weight(unsigned int n, unsigned int i, double x)
 {
   if (n == 1)
@@ -25,6 +27,7 @@ double gauss_weight(unsigned int n, unsigned int i, double x)
 }
 
 /// Digit @p axis of @p index in base @p base.
+/// Coordinate of a point or node of a tensor product, first axis fastest.
 unsigned int tensor_index(unsigned int index, unsigned int base, unsigned int axis)
 {
   for (unsigned int k = 0; k < axis; ++k)
@@ -32,6 +35,8 @@ unsigned int tensor_index(unsigned int index, unsigned int base, unsigned int ax
   return index % base;
 }
 
+/// Where a cell's stress is taken and how the nodes extrapolate it; the weights of a node add
+/// up to 1.
 template <int dim>
 struct StressSampling
 {
@@ -72,6 +77,7 @@ std::vector<double> stress_sums(const mesh::BodyMesh<dim>                 &mesh,
   std::vector<elasticity::Element<dim>> elements;
   for (const auto &body : bodies)
     elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
+  // A plain section: weights by the radius or thickness would spoil the mean of a linear field.
   const elasticity::Element<dim> flat(mesh.degree());
   const auto                     sampling  = stress_sampling<dim>(mesh.degree());
   const unsigned int             n_regions = n_stress_regions(mesh);
@@ -97,6 +103,7 @@ std::vector<double> stress_sums(const mesh::BodyMesh<dim>                 &mesh,
                 &sums[std::size_t(n_stress + 1) * (cell.nodes[a] * n_regions + cell.region)];
               for (unsigned int c = 0; c < n_stress; ++c)
                 sum[c] += factor * stress.access_raw_entry(c);
+              // factors may be negative, but those of a cell at a node add up to 1 / volume > 0
               sum[n_stress] += factor;
             }
         }
@@ -105,6 +112,7 @@ std::vector<double> stress_sums(const mesh::BodyMesh<dim>                 &mesh,
 }
 } // namespace
 
+/// The same for all bodies, so that one index serves for all nodes.
 template <int dim>
 unsigned int n_stress_regions(const mesh::BodyMesh<dim> &mesh)
 {
@@ -124,6 +132,7 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
   AssertDimension(bodies.size(), mesh.n_bodies());
   auto               sums      = stress_sums(mesh, bodies, positions, displacement);
   const unsigned int n_regions = n_stress_regions(mesh);
+  // sums and weights together, so that the mean is one over the cells of all ranks
   mesh::sum_at_shared_nodes(mesh, (n_stress + 1) * n_regions, sums);
 
   std::vector<dealii::SymmetricTensor<2, 3>> stress(n_regions * mesh.n_local_nodes());
@@ -131,9 +140,11 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
     return sums[std::size_t(n_stress + 1) * i + n_stress];
   };
   for (unsigned int i = 0; i < stress.size(); ++i)
+    // no weight: no cell of this region has the node
     if (weight(i) > 0.)
       for (unsigned int c = 0; c < n_stress; ++c)
         stress[i].access_raw_entry(c) = sums[std::size_t(n_stress + 1) * i + c] / weight(i);
+  // Only the cells on the fine side have a hanging node, so their mean would jump across the face.
   for (const auto &hanging : mesh.hanging())
     for (unsigned int r = 0; r < n_regions; ++r)
       {
@@ -144,6 +155,7 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
             sum += factor * stress[master * n_regions + r];
             inside = inside && weight(master * n_regions + r) > 0.;
           }
+        // Where a master lies outside the region, the mean of the cells stays.
         if (inside)
           stress[hanging.node * n_regions + r] = sum;
       }

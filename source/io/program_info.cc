@@ -11,6 +11,8 @@
 namespace snug::io {
 namespace {
 /// The file dgemm was loaded from, links resolved; empty if unknown.
+/// Asked while running: libblas.so.3 is a link that the administrator may turn to another BLAS
+/// (Debian's alternatives), so that the name at link time says nothing.
 std::string blas_file()
 {
   Dl_info     where;
@@ -23,6 +25,7 @@ std::string blas_file()
   return file;
 }
 
+/// Version, options and kernel of OpenBLAS; empty if the BLAS is another one.
 std::string openblas_config()
 {
   using Function      = char *();
@@ -30,6 +33,7 @@ std::string openblas_config()
   return function ? function() : "";
 }
 
+/// __VERSION__ of clang has its name, that of g++ only the number.
 std::string compiler_name()
 {
 #if defined(__clang__)
@@ -42,6 +46,7 @@ std::string compiler_name()
 
 std::string blas_name(const std::string &file, const std::string &openblas_config)
 {
+  // the path, as Debian names the directory: .../openblas-serial/libblas.so.3
   if (file.find("openblas") != std::string::npos)
     return openblas_config.empty() ? "OpenBLAS" : openblas_config;
   for (const char *name : {"mkl", "blis", "atlas"})
@@ -55,6 +60,7 @@ std::string blas_name(const std::string &file, const std::string &openblas_confi
 
 std::string blas_warning(const Summary::Program &program)
 {
+  // only the reference BLAS is known to be slow; unknown ones get no advice
   if (program.blas != "reference")
     return "";
   return "the reference BLAS is in use; factorizations are 3 to "

@@ -7,6 +7,7 @@
 
 namespace snug::io {
 namespace {
+/// Corners counterclockwise seen from outside. A triangle without area has the normal 0.
 std::string stl_triangle(const dealii::Tensor<1, 3> &a,
                          const dealii::Tensor<1, 3> &b,
                          const dealii::Tensor<1, 3> &c)
@@ -23,6 +24,7 @@ std::string stl_triangle(const dealii::Tensor<1, 3> &a,
   return text + "endloop\nendfacet\n";
 }
 
+/// A bilinear face is not flat; the diagonal from (i, j) to (i + 1, j + 1) cuts it.
 std::string stl_text(const mesh::Surface<3>        &surface,
                      const mesh::Surface<3>::Field &positions,
                      const std::string             &name)
@@ -30,6 +32,7 @@ std::string stl_text(const mesh::Surface<3>        &surface,
   std::string text = "solid " + name + "\n";
   for (const auto &face : surface.faces())
     {
+      // nodes per edge; quadratic faces are cut at their middle nodes
       const unsigned int n      = std::lround(std::sqrt(face.nodes.size()));
       const auto         corner = [&](unsigned int i, unsigned int j) {
         return positions[face.nodes[j * n + i]];
@@ -46,6 +49,9 @@ std::string stl_text(const mesh::Surface<3>        &surface,
 
 /// Faces by their first node, taken from @p faces piece by piece: open
 /// pieces from their beginning, then closed ones.
+///
+/// Faces have a direction, and each begins where the one before ends. An open piece begins at
+/// the node at which no face ends; in a closed one the first node comes again at the end.
 std::vector<std::vector<unsigned int>>
 polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
 {
@@ -55,6 +61,7 @@ polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
   std::vector<std::vector<unsigned int>> pieces;
   while (!faces.empty())
     {
+      // none without a predecessor: all that is left is closed, and any face may be the first
       auto next = faces.begin();
       for (auto face = faces.begin(); face != faces.end(); ++face)
         if (ends.count(face->first) == 0)
@@ -74,15 +81,18 @@ polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
   return pieces;
 }
 
+/// Nodes are oriented such that (t_y, -t_x) points out: the body is on the left.
 std::string polyline_text(const mesh::Surface<2> &surface, const mesh::Surface<2>::Field &positions)
 {
   std::map<unsigned int, std::vector<unsigned int>> faces;
   for (const auto &face : surface.faces())
+    // no two faces begin at one node, where each boundary goes round its body once
     faces[face.nodes.front()] = face.nodes;
   std::string text  = "x,y\n";
   bool        first = true;
   for (const auto &piece : polyline_pieces(faces))
     {
+      // gnuplot and others lift the pen at an empty line
       text += first ? "" : "\n";
       first = false;
       for (const unsigned int node : piece)
@@ -122,6 +132,7 @@ template <int dim>
 void write_control_points(const std::string                         &path,
                           const std::vector<shape::MovedPoint<dim>> &points)
 {
+  // positions of the present design, and the moves from the reference
   std::string text = dim == 3 ? "shape,index,x,y,z,dx,dy,dz\n" : "shape,index,x,y,dx,dy\n";
   for (const auto &point : points)
     {

@@ -1,20 +1,24 @@
 #include <snug/io/summary.h>
 
 namespace snug::io {
+/// The rows of B are not known here; the caller adds them.
 template <int dim>
 Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing)
 {
   Summary::Mesh result;
-  int           n_ranks;
+  // the mesh has no RunContext, but its communicator
+  int n_ranks;
   MPI_Comm_size(mesh.communicator(), &n_ranks);
-  result.bodies     = mesh.n_bodies();
-  result.cells      = mesh.n_global_cells();
+  result.bodies = mesh.n_bodies();
+  result.cells  = mesh.n_global_cells();
+  // of the problem before tearing, as other programs count them
   result.dofs       = dim * mesh.n_global_free_nodes();
   result.subdomains = tearing.n_global;
   result.ranks      = n_ranks;
   return result;
 }
 
+/// Copies: io has its own struct, so that keys of the file stay when the solver's members change.
 template <int dim>
 Summary::State summarize(const state::ContactState<dim> &state)
 {
@@ -69,10 +73,12 @@ Summary::Optimization summarize(const optimization::OptimizationResult &result,
 
 Summary::Times collect_times(const RunContext &context)
 {
+  // in the order of the members of Times
   double seconds[] = {
     context.seconds("setup"), context.seconds("assembly"), context.seconds("factorization"),
     context.seconds("solve"), context.seconds("gradient"), context.seconds("output"),
     context.seconds()};
+  // stage by stage the slowest rank, for which the others wait
   MPI_Allreduce(MPI_IN_PLACE, seconds, 7, MPI_DOUBLE, MPI_MAX, context.communicator());
   return {seconds[0], seconds[1], seconds[2], seconds[3], seconds[4], seconds[5], seconds[6]};
 }

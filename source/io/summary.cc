@@ -5,8 +5,10 @@
 
 namespace snug::io {
 namespace {
+/// Keeps the order in which members are written; numbers that are not finite become null.
 using Json = nlohmann::ordered_json;
 
+/// Keys are read by other tools: they may be added, never renamed.
 Json summary_part(const Summary::Program &program)
 {
   return {{"version", program.version}, {"dealii", program.dealii},     {"petsc", program.petsc},
@@ -35,16 +37,19 @@ Json summary_part(const Summary::Pair &pair)
           {"max_pressure", pair.max_pressure}};
 }
 
+/// Keys have the names of the members, see state::ContactState for formulas and units.
 Json summary_part(const Summary::State &state)
 {
   Json pairs = Json::array();
   for (const auto &pair : state.pairs)
     pairs.push_back(summary_part(pair));
+  // objects even if empty, not null, as readers go through the keys
   Json responses = Json::object();
   for (const auto &[name, value] : state.responses)
     responses[name] = value;
   const auto &certificate = state.certificate;
-  const Json  linear      = state.linear_f_mults == 0 ? Json(nullptr) : Json(state.linear_f_mults);
+  // 0: no linear problem was solved for comparison, see Report linear reference
+  const Json linear = state.linear_f_mults == 0 ? Json(nullptr) : Json(state.linear_f_mults);
   return {{"least_scaled_jacobian", state.least_scaled_jacobian},
           {"energy", state.energy},
           {"compliance", state.compliance},
@@ -88,6 +93,7 @@ Json summary_part(const Summary::GradientRow &row)
 
 Json summary_part(const Summary::Gradient &gradient)
 {
+  // the copy picks the overload of the base class, or this would call itself
   Json part       = summary_part(Summary::GradientRow(gradient));
   part["reason"]  = gradient.reason;
   part["methods"] = Json::array();
@@ -123,6 +129,7 @@ Json summary_part(const Summary::LoadCase &load_case)
 template <typename Part>
 Json summary_part(const std::optional<Part> &part)
 {
+  // from a default part, so that the keys are written in one place only
   Json result = summary_part(part.value_or(Part()));
   if (!part)
     for (auto &entry : result.items())
@@ -160,6 +167,7 @@ std::string Summary::json() const
                {"times", summary_part(times)},
                {"task", task},
                {"warnings", warnings}};
+  // Only with a second state or load case; the keys above are always there.
   if (initial_state)
     text["initial_state"] = summary_part(*initial_state);
   for (const auto &load_case : load_cases)

@@ -30,16 +30,19 @@ struct BodyMesh<dim>::Data
     , nodes(triangulation)
   {}
 
-  MPI_Comm                                                  comm;
-  unsigned int                                              degree;
-  Idealization                                              idealization;
+  MPI_Comm     comm;
+  unsigned int degree;
+  Idealization idealization;
+  // Destroyed from the bottom up: the nodes must go before the triangulation and the element.
   dealii::FE_Q<dim>                                         fe;
   std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>> geometries;
   dealii::parallel::fullydistributed::Triangulation<dim>    triangulation;
   dealii::DoFHandler<dim>                                   nodes;
 
-  dealii::IndexSet                                   relevant;
-  std::vector<unsigned int>                          first_node_of_rank; ///< n_ranks + 1
+  // Owned and ghost nodes: a local index is the place of a node in this set.
+  dealii::IndexSet          relevant;
+  std::vector<unsigned int> first_node_of_rank; ///< n_ranks + 1
+  // per local node
   std::vector<unsigned int>                          node_body;
   std::vector<dealii::Point<dim>>                    logical;
   Field                                              reference;
@@ -63,6 +66,7 @@ struct BodyMesh<dim>::Data
   void snap_to_axis();
 };
 
+/// p4est only refines; its cells then go to the ranks part by part. Collective.
 template <int dim>
 void BodyMesh<dim>::Data::triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
                                       const TearingParameters                         &tearing)
@@ -77,6 +81,7 @@ void BodyMesh<dim>::Data::triangulate(const std::vector<geometry::BodyMeshParame
                      triangulation);
 }
 
+/// Every rank owns a range of global nodes, the ranges ascending with the rank. Collective.
 template <int dim>
 void BodyMesh<dim>::Data::number_nodes()
 {
@@ -91,6 +96,8 @@ void BodyMesh<dim>::Data::number_nodes()
     first_node_of_rank.push_back(first_node_of_rank.back() + n);
 }
 
+/// Positions come from the geometry, so that no rank has to send any. Also nodes of ghost cells
+/// have them. Where cells differ by round-off, the first one that has the node decides.
 template <int dim>
 void BodyMesh<dim>::Data::collect_nodes()
 {
@@ -107,6 +114,7 @@ void BodyMesh<dim>::Data::collect_nodes()
         for (unsigned int i = 0; i < indices.size(); ++i)
           {
             const unsigned int node = local(indices[i]);
+            // nodes are scalar unknowns of FE_Q; bodies share none, so each has one body
             if (done[node])
               continue;
             const auto point = coarse.point(cell->id(), fe.unit_support_point(i));
@@ -118,12 +126,14 @@ void BodyMesh<dim>::Data::collect_nodes()
       }
 }
 
+/// Masters of masters are resolved by close(). Collective.
 template <int dim>
 void BodyMesh<dim>::Data::collect_hanging()
 {
   dealii::AffineConstraints<double> constraints(relevant);
   dealii::DoFTools::make_hanging_node_constraints(nodes, constraints);
   constraints.close();
+  // above all indices, as is_hanging() expects
   const unsigned int none = static_cast<unsigned int>(-1);
   hanging_of_node.assign(relevant.n_elements(), none);
   unsigned long owned_hanging = 0;
@@ -132,7 +142,9 @@ void BodyMesh<dim>::Data::collect_hanging()
       const unsigned int global = relevant.nth_index_in_set(node);
       if (!constraints.is_constrained(global))
         continue;
+      // each by its owner only, for the sum over ranks
       owned_hanging += nodes.locally_owned_dofs().is_element(global);
+      // weights are values of the shape functions of the coarse face at the node
       Hanging entry{node, {}};
       bool    reachable = true;
       for (const auto &master : *constraints.get_constraint_entries(global))
@@ -150,9 +162,11 @@ void BodyMesh<dim>::Data::collect_hanging()
   n_free_nodes = nodes.n_dofs() - dealii::Utilities::MPI::sum(owned_hanging, comm);
 }
 
+/// The list of parts has the order of the owned active cells, in which cells are numbered here.
 template <int dim>
 void BodyMesh<dim>::Data::collect_cells()
 {
+  // deal.II numbers nodes at vertices, on lines, faces and inside; ours are in tensor-product order
   const auto order = dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
   std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
   for (const auto &cell : nodes.active_cell_iterators())
@@ -169,6 +183,7 @@ void BodyMesh<dim>::Data::collect_cells()
         cells.push_back(entry);
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
+            // boundary ids are indices of the body's names, see create_coarse_mesh()
             faces.push_back({entry.body, cell->face(f)->boundary_id(),
                              static_cast<unsigned int>(cells.size() - 1),
                              oriented_face_nodes<dim>(entry.nodes, degree, f)});
@@ -176,6 +191,7 @@ void BodyMesh<dim>::Data::collect_cells()
   neighbours = owned_neighbours(triangulation);
 }
 
+/// Supports and checks ask for x == 0 exactly, but a ring has r cos(pi / 2) = 6e-17 r there.
 template <int dim>
 void BodyMesh<dim>::Data::snap_to_axis()
 {
@@ -199,11 +215,14 @@ BodyMesh<dim>::BodyMesh(MPI_Comm                                         communi
 {
   data->triangulate(bodies, tearing);
   data->number_nodes();
+  // A formula may fail at a position that only one rank has.
   everywhere(communicator, [&]() { data->collect_nodes(); });
   data->collect_hanging();
   data->collect_cells();
   if (idealization.is_axisymmetric())
     data->snap_to_axis();
+  // Curved faces put hanging nodes off the polynomials of their masters, but the displacement
+  // there is interpolated, and so must the position be, or rigid motions would strain.
   interpolate_hanging(data->reference);
 }
 
@@ -258,6 +277,7 @@ unsigned int BodyMesh<dim>::owner(unsigned int node) const
   return owner_of_global(global_node(node));
 }
 
+/// upper_bound passes over ranks without nodes, whose ranges are empty.
 template <int dim>
 unsigned int BodyMesh<dim>::owner_of_global(unsigned int global) const
 {
@@ -295,6 +315,7 @@ const typename BodyMesh<dim>::Field &BodyMesh<dim>::reference_positions() const
   return data->reference;
 }
 
+/// In any order, since masters are never hanging.
 template <int dim>
 void BodyMesh<dim>::interpolate_hanging(Field &field) const
 {
@@ -307,6 +328,7 @@ void BodyMesh<dim>::interpolate_hanging(Field &field) const
     }
 }
 
+/// For derivatives: a node's share in a function goes to the masters that determine it.
 template <int dim>
 void BodyMesh<dim>::distribute_hanging(Field &field) const
 {

@@ -14,7 +14,9 @@ owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
   unsigned int              n_owned = 0;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
+      // of owned cells only: ghost and artificial ones are active, too
       number[cell->active_cell_index()] = n_owned++;
+  // Across a hanging face only the finer cell has an active neighbour there.
   std::vector<std::pair<unsigned int, unsigned int>> pairs;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -31,6 +33,7 @@ owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
   return pairs;
 }
 
+/// Seeds ascend, so pieces are numbered by their first cells, however the parts were numbered.
 unsigned int split_into_pieces(const CellGraph &graph, std::vector<unsigned int> &part)
 {
   const unsigned int        none = static_cast<unsigned int>(-1);
@@ -65,6 +68,7 @@ unsigned int merge_slivers(const CellGraph           &graph,
 {
   for (unsigned int sliver = 0; sliver < n_parts; ++sliver)
     {
+      // faces shared with each other part; a part that fills a body has none
       std::map<unsigned int, unsigned int> shared;
       unsigned int                         size = 0;
       for (unsigned int i = 0; i < graph.size(); ++i)
@@ -75,15 +79,18 @@ unsigned int merge_slivers(const CellGraph           &graph,
               if (part[j] != sliver)
                 ++shared[part[j]];
           }
+      // Sizes count what was merged before, so two slivers may make a part together.
       if (size >= 0.25 * cells_each || shared.empty())
         continue;
       const auto best =
+        // of equals the first, that with the smallest number, so that all runs decide alike
         std::max_element(shared.begin(), shared.end(),
                          [](const auto &a, const auto &b) { return a.second < b.second; });
       for (unsigned int &p : part)
         if (p == sliver)
           p = best->first;
     }
+  // numbers of the parts given away are free; number anew without gaps
   return split_into_pieces(graph, part);
 }
 

@@ -21,6 +21,8 @@ template <int dim>
 using Refined = dealii::parallel::distributed::Triangulation<dim>;
 
 /// {level and coarse cell, path of children}
+///
+/// Each level adds dim bits to the path, so 64 bits are enough for 21 levels in 3D.
 template <int dim>
 typename CellSet<dim>::Key key(const typename Refined<dim>::active_cell_iterator &cell)
 {
@@ -34,10 +36,11 @@ typename CellSet<dim>::Key key(const typename Refined<dim>::active_cell_iterator
   return {{level << 32 | static_cast<unsigned int>(parent->index()), path}};
 }
 
-/// Collective.
+/// Whether the body is refined evenly, so that its cells lie in layers. Collective.
 template <int dim>
 bool has_one_level(unsigned int body, const Refined<dim> &refined)
 {
+  // -(smallest) is the largest of -level: one reduction does for both
   int levels[2] = {-1, -100}; // largest, and smallest with a minus
   for (const auto &cell : refined.active_cell_iterators())
     if (cell->is_locally_owned() && cell->material_id() == body)
@@ -49,6 +52,7 @@ bool has_one_level(unsigned int body, const Refined<dim> &refined)
   return levels[0] == -levels[1];
 }
 
+/// The owned cells of a body in the order of active cells. Collective.
 template <int dim>
 CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
                       unsigned int                       body,
@@ -72,6 +76,8 @@ CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
           if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
             {
               const unsigned int other = cell->neighbor(f)->global_active_cell_index();
+              // One side enters the pair: of equal cells the one with the smaller number, else the
+              // finer one. The other may belong to another rank.
               if (number < other || cell->neighbor_is_coarser(f))
                 set.neighbours.push_back({{number, other}});
             }
@@ -91,6 +97,7 @@ std::vector<unsigned long> cells_of_parts(const Partition &partition, MPI_Comm c
   return cells;
 }
 
+/// Parts of each body, and their numbers of cells on all ranks together.
 struct Parts
 {
   std::vector<Partition>                  of_body;
@@ -105,6 +112,8 @@ struct Parts
   }
 };
 
+/// Parts are halved until every rank can have one; slabs may be empty, so the numbers are counted
+/// rather than computed. Collective.
 template <int dim>
 Parts decide_parts(const std::vector<CellSet<dim>> &sets,
                    const TearingParameters         &parameters,
@@ -187,10 +196,13 @@ ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned in
       all += own;
       std::vector<double> share;
       for (const double has : load)
+        // what the rank lacks for an equal share of all bodies so far
         share.push_back(std::max(0., all / n_ranks - has));
       const double shares = std::accumulate(share.begin(), share.end(), 0.);
       unsigned int rank   = 0;
-      double       end = share[0] * own / shares, before = 0.;
+      // The body's cells on a line: a part takes [before, before + part], and goes to the rank
+      // whose section, up to end, has the middle of that.
+      double end = share[0] * own / shares, before = 0.;
       ranks.emplace_back();
       for (const unsigned long part : body)
         {
@@ -227,6 +239,7 @@ std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
   const auto  ranks =
     ranks_of_parts(parts.cells,
                    dealii::Utilities::MPI::n_mpi_processes(refined.get_communicator()));
+  // cell sets have the owned cells of a body in the order of this loop
   std::vector<unsigned int>                          next(geometries.size(), 0);
   dealii::LinearAlgebra::distributed::Vector<double> rank_of_cell(
     refined.global_active_cell_index_partitioner().lock());
@@ -238,8 +251,10 @@ std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
         const unsigned int part                        = parts.of_body[body].part[next[body]++];
         const unsigned int rank                        = ranks[body][part];
         rank_of_cell[cell->global_active_cell_index()] = rank;
+        // Parts travel apart from the description, which has no room for them.
         sent[rank].push_back({cell->id().template to_binary<dim>(), part});
       }
+  // Takes the ranks as a vector of doubles, which are exact for them.
   auto description =
     dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
       refined, rank_of_cell);

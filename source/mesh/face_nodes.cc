@@ -8,9 +8,10 @@ std::vector<unsigned int> oriented_face_nodes(const std::vector<unsigned int> &c
                                               unsigned int                     degree,
                                               unsigned int                     face)
 {
-  const unsigned int        n         = degree + 1;
-  const unsigned int        normal    = face / 2;
-  const bool                upper     = face % 2 == 1;
+  const unsigned int n      = degree + 1;
+  const unsigned int normal = face / 2;
+  const bool         upper  = face % 2 == 1;
+  // from a node to the next one along each axis of the cell
   const unsigned int        stride[3] = {1, n, n * n};
   const unsigned int        first     = upper ? degree * stride[normal] : 0;
   std::vector<unsigned int> nodes;
@@ -23,6 +24,8 @@ std::vector<unsigned int> oriented_face_nodes(const std::vector<unsigned int> &c
         nodes.push_back(cell_nodes[first + (reverse ? degree - i : i) * stride[axis]]);
       return nodes;
     }
+  // t_a x t_b is the positive axis, which points out of the upper side only. deal.II's own
+  // tangents are the same on both sides.
   unsigned int a = (normal + 1) % 3, b = (normal + 2) % 3;
   if (!upper)
     std::swap(a, b);

@@ -26,6 +26,7 @@ std::vector<T> on_rank_0(MPI_Comm communicator, const std::vector<T> &values)
   return all;
 }
 
+/// METIS is deterministic: equal graphs, numbered alike, give equal parts.
 std::vector<unsigned int> metis_parts(const CellGraph &graph, unsigned int n_parts)
 {
   std::vector<unsigned int> part(graph.size(), 0);
@@ -59,6 +60,7 @@ std::vector<unsigned int> sorted_order(const std::vector<Key> &keys)
 }
 
 /// Graph of the cells in the order @p order.
+/// On rank 0, where all numbers are known.
 CellGraph cell_graph(const std::vector<unsigned int> &order,
                      const std::vector<unsigned int> &numbers,
                      const Pairs                     &neighbours)
@@ -81,6 +83,8 @@ std::vector<unsigned int> parts_of_graph(const CellGraph &graph, double cells_ea
 {
   const unsigned int n_parts = std::max(1l, std::lround(graph.size() / cells_each));
   auto               part    = metis_parts(graph, n_parts);
+  // METIS balances numbers of cells, but leaves parts in pieces; a piece of a few cells would be a
+  // subdomain with a factorization and kernel of its own.
   merge_slivers(graph, part, split_into_pieces(graph, part), cells_each);
   return part;
 }
@@ -97,14 +101,17 @@ Partition graph_partition(const CellSet<dim> &set, double cells_each)
   std::vector<unsigned int> parts(keys.size());
   if (rank == 0)
     {
+      // The gathered order depends on the number of ranks, that by keys does not.
       const auto order        = sorted_order(keys);
       const auto sorted_parts = parts_of_graph(cell_graph(order, numbers, neighbours), cells_each);
       for (unsigned int i = 0; i < order.size(); ++i)
         parts[order[i]] = sorted_parts[i];
     }
+  // all parts to all ranks: an integer per cell, where a scatter would need counts
   parts = dealii::Utilities::MPI::broadcast(comm, parts);
   const auto counts =
     dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(set.numbers.size()));
+  // this rank's range, as on_rank_0() has joined them
   const auto first = parts.begin() + std::accumulate(counts.begin(), counts.begin() + rank, 0u);
   Partition  result;
   result.part.assign(first, first + counts[rank]);

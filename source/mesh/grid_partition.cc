@@ -8,6 +8,9 @@
 namespace snug::mesh {
 namespace {
 /// Numbers of slabs per axis: pieces near cubes, their product near n.
+///
+/// All counts whose product is within 0.7 n and 1.4 n are rated by the ratio of the longest to
+/// the shortest edge and, half as much, by the product. {n, 1, 1} is among them.
 template <int dim>
 std::array<unsigned int, dim> slab_counts(const dealii::Tensor<1, dim> &size, double n)
 {
@@ -27,6 +30,7 @@ std::array<unsigned int, dim> slab_counts(const dealii::Tensor<1, dim> &size, do
     if (product > 1.4 * n || product < 0.7 * n)
       return;
     const double score = std::log(longest / shortest) + 0.5 * std::abs(std::log(product / n));
+    // of equals the first; round-off must not choose
     if (score < least - 1e-12)
       {
         least = score;
@@ -57,6 +61,8 @@ struct Histogram
   }
 };
 
+/// A histogram needs two reductions, where sorting the centres would need all on one rank. Layers
+/// stand apart in it if there are far fewer than bins.
 template <int dim>
 Histogram histogram(const CellSet<dim> &set, unsigned int axis)
 {
@@ -69,7 +75,8 @@ Histogram histogram(const CellSet<dim> &set, unsigned int axis)
       ends[1] = std::max(ends[1], centre[axis]);
     }
   MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, set.communicator);
-  Histogram    bins{std::vector<unsigned long>(n_bins, 0), -ends[0], ends[1]};
+  Histogram bins{std::vector<unsigned long>(n_bins, 0), -ends[0], ends[1]};
+  // a single layer has no width, and goes to bin 0
   const double width = std::max(bins.upper - bins.lower, 1e-300);
   for (const auto &centre : set.centres)
     ++bins.counts[std::min<unsigned int>(n_bins - 1, (centre[axis] - bins.lower) / width * n_bins)];
@@ -96,8 +103,10 @@ std::vector<double> cuts(const Histogram &bins, unsigned int n)
       for (unsigned int bin = 0; bin < bins.counts.size(); ++bin)
         {
           below += bins.counts[bin];
-          const bool   gap    = bin + 1 < bins.counts.size() && bins.counts[bin + 1] == 0;
-          const double off    = std::abs(below - wanted) / slab;
+          // An empty bin behind lies between two layers of cells: the centres of one share a bin.
+          const bool   gap = bin + 1 < bins.counts.size() && bins.counts[bin + 1] == 0;
+          const double off = std::abs(below - wanted) / slab;
+          // any gap within a quarter of a slab is better than no gap at all
           const double rating = off + (gap && off <= 0.25 ? 0. : 1.);
           if (rating < best_rating - 1e-9)
             {
@@ -111,6 +120,8 @@ std::vector<double> cuts(const Histogram &bins, unsigned int n)
 }
 } // namespace
 
+/// Axis by axis: cuts of one axis are planes through the whole body, so that parts have flat
+/// sides and meet face to face. Collective.
 template <int dim>
 Partition grid_partition(const CellSet<dim> &set, double cells_each)
 {
@@ -123,6 +134,7 @@ Partition grid_partition(const CellSet<dim> &set, double cells_each)
       const auto at = cuts(histogram(set, axis), counts[axis]);
       result.n_parts *= counts[axis];
       for (unsigned int cell = 0; cell < set.centres.size(); ++cell)
+        // the number of the slab along this axis is the next digit of the part's number
         result.part[cell] =
           result.part[cell] * counts[axis] +
           (std::upper_bound(at.begin(), at.end(), set.centres[cell][axis]) - at.begin());

@@ -6,6 +6,7 @@ Idealization Idealization::natural(const unsigned int dim)
   return {dim == 2 ? Kind::plane_strain : Kind::solid};
 }
 
+/// The dimension of the kernel of a floating subdomain's stiffness matrix.
 unsigned int Idealization::n_rigid_motions() const
 {
   switch (kind)
@@ -18,6 +19,7 @@ unsigned int Idealization::n_rigid_motions() const
       case Kind::axisymmetric:
         return 1;
     }
+  // for compilers that do not see that all kinds are handled
   return 0;
 }
 

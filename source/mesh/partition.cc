@@ -4,11 +4,13 @@ namespace snug::mesh {
 template <int dim>
 const ChoiceTable<Partition(const CellSet<dim> &, double)> &partition_table()
 {
+  // the texts are those of the parameter reference
   static const ChoiceTable<Partition(const CellSet<dim> &, double)> table = {
     {"auto",
      "grid for boxes and rings that are not refined locally, METIS for "
      "others",
      [](const CellSet<dim> &set, double cells_each) {
+       // see partition_table() in the header for what ragged parts cost
        return set.layered ? grid_partition(set, cells_each) : graph_partition(set, cells_each);
      }},
     {"grid",

@@ -32,6 +32,7 @@ FaceRecord face_record(const BodyMesh<dim> &mesh, const typename BodyMesh<dim>::
   return record;
 }
 
+/// Masters may lie on faces of other ranks, so they are told by global numbers.
 template <int dim>
 HangingRecord hanging_record(const BodyMesh<dim> &mesh, unsigned int node)
 {
@@ -54,6 +55,7 @@ std::vector<T> gathered(MPI_Comm communicator, const std::vector<T> &mine)
 }
 
 /// The global nodes of all records, ascending.
+/// @p n_leading entries of a face record come before its nodes.
 std::vector<unsigned int> nodes_of(const std::vector<FaceRecord>    &faces,
                                    const std::vector<HangingRecord> &hanging,
                                    unsigned int                      n_leading)
@@ -75,6 +77,7 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
                       const std::vector<std::pair<unsigned int, unsigned int>> &boundaries)
   : mesh(mesh)
 {
+  // A face belongs to the rank of its cell, but its nodes may be owned by others.
   std::vector<FaceRecord>    faces;
   std::vector<HangingRecord> hanging;
   for (const auto &face : mesh.boundary_faces())
@@ -86,11 +89,13 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
           if (mesh.is_hanging(node))
             hanging.push_back(hanging_record(mesh, node));
       }
+  // the same lists in the same order on all ranks: contact search is not distributed
   faces   = gathered(mesh.communicator(), faces);
   hanging = gathered(mesh.communicator(), hanging);
 
   const unsigned int n_leading = 2 + dim;
-  global_nodes                 = nodes_of(faces, hanging, n_leading);
+  // masters too, which need not be nodes of the given faces
+  global_nodes = nodes_of(faces, hanging, n_leading);
   std::map<unsigned int, unsigned int> index;
   for (unsigned int node = 0; node < global_nodes.size(); ++node)
     index[global_nodes[node]] = node;
@@ -105,12 +110,14 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
   for (const auto &record : hanging)
     {
       auto &masters = node_masters[index.at(record.first)];
+      // a node may occur twice, if the weights of two ranks differ by round-off
       masters.clear();
       for (const auto &master : record.second)
         masters.emplace_back(index.at(master.first), master.second);
     }
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    // every surface node has one owner, so gather() gets each value once
     if (mesh.owner(node) == rank)
       {
         const auto found = index.find(mesh.global_node(node));
@@ -155,6 +162,7 @@ template <int dim>
 typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
 {
   AssertDimension(field.size(), mesh.n_local_nodes());
+  // in ascending surface nodes, as owned is sorted
   std::vector<double> mine;
   for (const auto &node : owned)
     for (unsigned int d = 0; d < dim; ++d)
@@ -180,6 +188,7 @@ void Surface<dim>::add_owned(const Field &surface_field, typename BodyMesh<dim>:
   AssertDimension(surface_field.size(), n_nodes());
   AssertDimension(field.size(), mesh.n_local_nodes());
   for (const auto &node : owned)
+    // surface fields are equal on all ranks, so only owners add
     field[node.second] += surface_field[node.first];
 }
 

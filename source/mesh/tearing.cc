@@ -8,6 +8,7 @@
 
 namespace snug::mesh {
 namespace {
+/// Graph of @p cells, by their places in the list.
 template <int dim>
 CellGraph cell_graph(const BodyMesh<dim> &mesh, const std::vector<unsigned int> &cells)
 {
@@ -19,6 +20,7 @@ CellGraph cell_graph(const BodyMesh<dim> &mesh, const std::vector<unsigned int> 
     {
       const auto a = position.find(pair.first);
       const auto b = position.find(pair.second);
+      // the mesh lists pairs of all bodies
       if (a == position.end() || b == position.end())
         continue;
       graph[a->second].push_back(b->second);
@@ -27,6 +29,7 @@ CellGraph cell_graph(const BodyMesh<dim> &mesh, const std::vector<unsigned int> 
   return graph;
 }
 
+/// Nodes whose unknowns the cells act on: masters instead of hanging nodes.
 template <int dim>
 std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
                                         const std::vector<unsigned int> &cells)
@@ -34,6 +37,7 @@ std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
   std::vector<unsigned int> nodes;
   for (const unsigned int cell : cells)
     for (const unsigned int node : mesh.cells()[cell].nodes)
+      // a hanging node has no unknown of its own
       if (mesh.is_hanging(node))
         for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
           nodes.push_back(master.first);
@@ -45,6 +49,8 @@ std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
 }
 } // namespace
 
+/// Pieces joined only at a node or an edge could turn against each other; the stiffness matrix
+/// would have a larger kernel than the rigid motions, which FETI is given.
 template <int dim>
 Tearing tear(const BodyMesh<dim> &mesh)
 {
@@ -69,6 +75,7 @@ Tearing tear(const BodyMesh<dim> &mesh)
           tearing.subdomains.push_back(piece);
         }
     }
+  // ids in the order of the ranks, and on a rank in the order of bodies and first cells
   const auto counts =
     dealii::Utilities::MPI::all_gather(mesh.communicator(),
                                        static_cast<unsigned int>(tearing.subdomains.size()));

@@ -7,6 +7,8 @@
 #include <algorithm>
 
 namespace snug::mesh {
+/// Every rank has the whole coarse mesh, as p4est needs it. Bodies share no vertices, even where
+/// they touch.
 template <int dim>
 void create_coarse_mesh(const Geometries<dim>                             &geometries,
                         dealii::parallel::distributed::Triangulation<dim> &triangulation)
@@ -25,6 +27,7 @@ void create_coarse_mesh(const Geometries<dim>                             &geome
           dealii::CellData<dim> data(cell.size());
           for (unsigned int v = 0; v < cell.size(); ++v)
             data.vertices[v] = cell[v] + offset;
+          // Refined cells inherit it. Regions are not kept here but come from coarse cells.
           data.material_id = body;
           coarse_cells.push_back(data);
         }
@@ -46,16 +49,19 @@ void create_coarse_mesh(const Geometries<dim>                             &geome
           for (const unsigned int v : cell->face(f)->vertex_indices())
             key.push_back(cell->face(f)->vertex_index(v));
           std::sort(key.begin(), key.end());
+          // at() throws if a geometry has left a side without a boundary
           cell->face(f)->set_boundary_id(boundary.at(key));
         }
 }
 
 namespace {
+/// One level for the cells that @p wanted names by body, cell and level. Collective.
 template <int dim>
 void refine_step(
   dealii::parallel::distributed::Triangulation<dim>                             &triangulation,
   const std::function<bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
 {
+  // a formula may fail on the rank of one cell only
   everywhere(triangulation.get_communicator(), [&]() {
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned() && wanted(cell->material_id(), cell->id(), cell->level()))
@@ -86,6 +92,8 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
   dealii::Point<dim> centre;
   for (unsigned int d = 0; d < dim; ++d)
     centre[d] = 0.5;
+  // Bodies share one triangulation, so all steps are common; a body that has enough levels sits
+  // the others out.
   for (unsigned int step = 0; step < global_steps; ++step)
     refine_step<dim>(triangulation,
                      [&](unsigned int body, const dealii::CellId &, unsigned int level) {
@@ -94,6 +102,7 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
   for (unsigned int step = 0; step < local_steps; ++step)
     refine_step<dim>(triangulation, [&](unsigned int body, const dealii::CellId &cell,
                                         unsigned int level) {
+      // p4est keeps neighbours within one level and so may refine more than what is wanted
       return formulas[body] && level < bodies[body].refinements + bodies[body].local_refinements &&
              formulas[body]->value(geometries[body]->position(coarse.point(cell, centre))) > 0.;
     });

@@ -22,6 +22,9 @@ struct AbaqusType
   unsigned int n_nodes;
 };
 
+/// The type @p name, in upper case, is a family, a number of nodes and letters for variants of
+/// the formulation (R, H, I, M, T), which do not matter here. What 6 or 8 nodes mean depends on
+/// the family: C3D6 is a prism, CPS6 a triangle.
 AbaqusType abaqus_type(const std::string &name, unsigned long line)
 {
   using S                                      = ElementShape;
@@ -36,13 +39,15 @@ AbaqusType abaqus_type(const std::string &name, unsigned long line)
                                                   {9, S::quadrilateral}};
   static const std::map<unsigned int, S> thin  = {{2, S::line}, {3, S::line}};
   using Families = std::vector<std::pair<std::string, const std::map<unsigned int, S> *>>;
-  // longer names before those they begin with
+  // a prefix of other families must come behind them: CPE would take CPEG4, S STRI3
   static const Families families = {{"DC3D", &solid}, {"C3D", &solid}, {"CPS", &flat},
                                     {"CPEG", &flat},  {"CPE", &flat},  {"CAX", &flat},
                                     {"SFM3D", &flat}, {"STRI", &flat}, {"SAX", &thin},
                                     {"S", &flat},     {"M3D", &flat},  {"R3D", &flat},
                                     {"DC2D", &flat},  {"T2D", &thin},  {"T3D", &thin},
                                     {"R2D", &thin},   {"DC1D", &thin}};
+  // A family with another number of nodes is passed over, since S also begins types that are
+  // no shells (SPRINGA, without a number: atoi gives 0).
   for (const auto &family : families)
     if (name.rfind(family.first, 0) == 0)
       {
@@ -54,7 +59,8 @@ AbaqusType abaqus_type(const std::string &name, unsigned long line)
   throw error_at_line(line, "elements of the type '" + name + "' cannot be read");
 }
 
-/// Corners, from 0, of face @p number, from 1.
+/// Corners, counted from 0, of face @p number, counted from 1
+/// (S1, S2, ... of Abaqus); null if there is none. Faces of flat elements are edges.
 const std::vector<unsigned int> *abaqus_face(ElementShape shape, unsigned long number)
 {
   using S                               = ElementShape;
@@ -73,6 +79,10 @@ const std::vector<unsigned int> *abaqus_face(ElementShape shape, unsigned long n
 }
 
 /// Reads an .inp file keyword by keyword.
+///
+/// A keyword line begins with one * and has options "KEY=VALUE" behind commas; data lines follow
+/// up to the next keyword; ** is a comment. Keywords and names of sets mean the same in upper and
+/// lower case. Nodes and elements have arbitrary positive numbers.
 class AbaqusReader
 {
 public:
@@ -122,12 +132,15 @@ private:
           equals == std::string::npos ? "" : dealii::Utilities::trim(part.substr(equals + 1));
       }
     keyword = upper_case(comma_list(line)[0]);
+    // Every part numbers its nodes and elements from 1, and the assembly places instances of the
+    // parts; without reading that, numbers of two parts would clash.
     if (keyword == "*PART" && ++n_parts > 1)
       throw error_at_line(at, "the file has more than one part");
     if (keyword == "*ELEMENT")
       type = abaqus_type(upper_case(options["TYPE"]), at);
   }
 
+  /// Data of keywords that are not listed here (materials, steps, node sets) are skipped.
   void read_data(const std::vector<std::string> &words, const std::string &line)
   {
     if (keyword == "*NODE")
@@ -142,6 +155,7 @@ private:
       throw error_at_line(at, "a keyword is expected, not '" + line + "'");
   }
 
+  /// Number and 2 or 3 coordinates; direction cosines of a shell's normal may follow.
   void read_node(const std::vector<std::string> &words)
   {
     if (words.size() < 3)
@@ -153,6 +167,7 @@ private:
     mesh.points.push_back(point);
   }
 
+  /// Number and nodes. Elements of many nodes, such as C3D20, go on in further lines.
   void read_element(const std::vector<std::string> &words)
   {
     pending.insert(pending.end(), words.begin(), words.end());
@@ -163,6 +178,7 @@ private:
     if (!element_index.emplace(number, mesh.elements.size()).second)
       throw error_at_line(at, name + " occurs twice");
     MeshFile::Element element{type.shape, {}, {}, number, at};
+    // Abaqus lists the corners first, then the nodes on edges.
     for (unsigned int i = 0; i < n_corners(type.shape); ++i)
       element.corners.push_back(numbers.index(to_whole(pending[i + 1], at), name, at));
     mesh.corners_only = mesh.corners_only || type.n_nodes > n_corners(type.shape);
@@ -172,6 +188,7 @@ private:
       add_to_set(options["ELSET"], number);
   }
 
+  /// Sets are found in any case of letters; the group has the name as it is written.
   void add_to_set(const std::string &name, unsigned long number)
   {
     const auto found = element_index.find(number);
@@ -182,6 +199,7 @@ private:
     mesh.elements[found->second].groups.push_back(name);
   }
 
+  /// Either first, last and increment (GENERATE), or any list of elements and other sets.
   void read_set(const std::vector<std::string> &words)
   {
     const std::string name = options["ELSET"];
@@ -209,8 +227,11 @@ private:
     return {to_whole(word, at)};
   }
 
+  /// Lines "element or set, face", such as "_Surf-1_S2, S2": Abaqus/CAE makes an internal set for
+  /// each face number of a surface.
   void read_surface(const std::vector<std::string> &words)
   {
+    // Surfaces of nodes have no faces; ELEMENT is the default of TYPE.
     if (options.count("TYPE") > 0 && upper_case(options["TYPE"]) != "ELEMENT")
       return;
     const std::string name = options["NAME"];
@@ -220,6 +241,7 @@ private:
         if (found == element_index.end())
           throw error_at_line(at, "surface '" + name + "' has the element " +
                                     std::to_string(number) + ", which is not there");
+        // a copy, since add_face() lets the list of elements grow
         const MeshFile::Element cell = mesh.elements[found->second];
         const std::string       face = words.size() > 1 ? upper_case(words[1]) : "";
         const auto             *corners =
@@ -231,6 +253,8 @@ private:
       }
   }
 
+  /// Faces of surfaces are elements one dimension lower, as other formats have them; messages show
+  /// the number of the cell.
   void add_face(const MeshFile::Element         &cell,
                 const std::vector<unsigned int> &corners,
                 const std::string               &name)

@@ -7,6 +7,7 @@ namespace {
 using Corners = std::vector<unsigned int>;
 
 /// Corners of the faces of solids; of flat elements there is one.
+/// Not in the order around the face, as only middles are taken of them.
 const std::vector<Corners> &faces_of(const ElementShape shape)
 {
   using S                                              = ElementShape;
@@ -26,6 +27,7 @@ bool has(const Corners &face, const unsigned int corner)
 }
 
 /// The face of @p shape that has three corners.
+/// Two edges that meet at a corner lie in exactly one face.
 const Corners &face_with(const ElementShape shape,
                          const unsigned int a,
                          const unsigned int b,
@@ -40,6 +42,9 @@ const Corners &face_with(const ElementShape shape,
 
 const std::vector<std::vector<unsigned int>> &corner_neighbours(const ElementShape shape)
 {
+  // Right-handed: seen along (n0, n1, n2), the edges of an element that is numbered as in
+  // ElementShape have a positive determinant, and so have the parts at its corners. Four edges
+  // meet at the tip of a pyramid, where no hexahedron fits.
   using S                                                   = ElementShape;
   static const std::map<S, std::vector<Corners>> neighbours = {
     {S::vertex, {{}}},
@@ -62,6 +67,8 @@ bool is_cell_shape(const ElementShape shape)
 
 std::vector<unsigned int> cell_vertices(const MeshFile::Element &element)
 {
+  // VTK goes around bottom and top, deal.II has the first coordinate fastest: corners 2 and 3
+  // change places, and so do 6 and 7.
   auto vertices = element.corners;
   for (unsigned int v = 2; v + 1 < vertices.size(); v += 4)
     std::swap(vertices[v], vertices[v + 1]);
@@ -72,6 +79,7 @@ ElementSplit::ElementSplit(std::vector<dealii::Point<3>> &points) : points(point
 
 unsigned int ElementSplit::middle(std::vector<unsigned int> corners)
 {
+  // Neighbours number a common edge or face in different orders, but must get the same point.
   std::sort(corners.begin(), corners.end());
   const auto entry = middles.emplace(corners, points.size());
   if (entry.second)
@@ -98,6 +106,8 @@ std::vector<std::vector<unsigned int>> ElementSplit::parts(const MeshFile::Eleme
     {
       const auto &ends = neighbours[corner];
       Corners     part;
+      // The bits of v say along which edges of the corner the vertex lies: no edge gives the
+      // corner itself, one the middle of the edge, two that of their face, all that of the element.
       for (unsigned int v = 0; v < 1u << ends.size(); ++v)
         {
           Corners towards = {corner};

@@ -11,6 +11,7 @@ namespace snug::mesh_file {
 namespace {
 using Element = MeshFile::Element;
 
+/// One group in the regions is enough; without regions all elements are wanted.
 bool is_wanted(const Element &element, const std::vector<std::string> &regions)
 {
   for (const auto &group : element.groups)
@@ -57,6 +58,7 @@ void check_plane(const MeshFile &file)
       throw element_error(element, "is a solid, but Dimension = 2");
   for (const auto &element : file.elements)
     for (const unsigned int corner : element.corners)
+      // Exact: programs write the z of a plane mesh as the same text for all nodes.
       if (points[corner][2] != points[file.elements[0].corners[0]][2])
         throw element_error(element, "leaves the plane of the others, its z is " +
                                        std::to_string(points[corner][2]));
@@ -67,6 +69,9 @@ void check_plane(const MeshFile &file)
 template <int dim>
 int orientation(const Element &element, const std::vector<dealii::Point<3>> &points)
 {
+  // The triple product of the edges at a corner is the Jacobian determinant there, up to a
+  // factor. In quadrilaterals, where it is linear, that decides for all points; hexahedra may
+  // still be inverted inside.
   int         sum        = 0;
   const auto &neighbours = corner_neighbours(element.shape);
   for (unsigned int c = 0; c < neighbours.size(); ++c)
@@ -88,6 +93,8 @@ void turn(Element &element)
 {
   auto             &c = element.corners;
   const std::size_t n = c.size();
+  // flat elements and tetrahedra: the first corner stays; prisms and hexahedra: bottom and top
+  // change places
   if (n == 3 || element.shape == ElementShape::tetrahedron)
     std::swap(c[1], c[2]);
   else if (n == 4)
@@ -97,6 +104,9 @@ void turn(Element &element)
 }
 
 /// Some programs number all elements of a shape the other way round.
+/// VTK's documentation does so for prisms (the normal of the first triangle points away from the
+/// second one), and UCD files in deal.II's order do so for hexahedra. A shape of which some
+/// elements are right-handed is not mirrored as a whole; left-handed ones are errors then.
 template <int dim>
 void turn_mirrored(std::vector<Element>                &cells,
                    const std::vector<dealii::Point<3>> &points,

@@ -13,6 +13,8 @@ struct GmshType
   unsigned int n_nodes;
 };
 
+/// By Gmsh's number. Elements of both orders begin with their corners, in the order of
+/// ElementShape.
 const std::map<unsigned long, GmshType> &gmsh_types()
 {
   using S                                              = ElementShape;
@@ -28,6 +30,10 @@ const std::map<unsigned long, GmshType> &gmsh_types()
 }
 
 /// Reads a .msh file section by section.
+///
+/// Sections go from $Name to $EndName; unknown ones ($Periodic, $NodeData, ...) are skipped.
+/// "Physical" groups are those the user made; an entity is a point, curve, surface or volume of
+/// the geometry, and its tag is unique among those of its dimension only.
 class GmshReader
 {
 public:
@@ -75,6 +81,7 @@ private:
   }
 
   /// Integers and reals as the file has them.
+  /// In text, whole numbers must not be negative: see tag() for those that may be.
   template <typename T>
   T value(const std::string &what)
   {
@@ -89,7 +96,8 @@ private:
   {
     in.word("$MeshFormat");
     const std::string given = in.word("the version");
-    version                 = given[0] - '0';
+    // All of 2.x are read alike; 4.0 has other sections than 4.1.
+    version = given[0] - '0';
     if (given[0] != '2' && given != "4.1")
       in.fail("version " + given +
               " of Gmsh's format; it must be 2.2 "
@@ -100,11 +108,13 @@ private:
     in.rest_of_line();
     if (binary)
       in.be_binary();
+    // Behind the line of the header, binary files have an int 1 that tells the byte order.
     if (binary && in.raw<int>("the number 1") != 1)
       in.fail("the byte order is that of another machine");
     in.skip_behind("$EndMeshFormat");
   }
 
+  /// Lines 'dimension number "name"', text in binary files as well; names may hold blanks.
   void read_names()
   {
     const auto n = in.whole("the number of physical names");
@@ -120,7 +130,8 @@ private:
       }
   }
 
-  /// Number of things the file has room for; a broken one has none.
+  /// A count, or the number of a node or element in 4.1 (size_t if binary). Larger ones do not fit
+  /// in our indices and would let a broken file run a loop for hours.
   unsigned long count(const std::string &what)
   {
     const auto n = binary && version == 4 ? in.raw<unsigned long>(what) : in.whole(what);
@@ -129,12 +140,14 @@ private:
     return n;
   }
 
+  /// For the boxes of entities, which need not be known.
   void skip_values(unsigned long n, const std::string &what)
   {
     for (unsigned long i = 0; i < n; ++i)
       value<double>(what);
   }
 
+  /// Tags may be negative: the sign of a group or a boundary is its orientation.
   int tag(const std::string &what)
   {
     if (binary)
@@ -142,6 +155,9 @@ private:
     return static_cast<int>(in.number(what));
   }
 
+  /// Since version 4 elements know their entity, and the entity its groups. Points have 3
+  /// coordinates, the others a box of 6; then come groups and, but for points, the tags of the
+  /// entities that bound it.
   void read_entities()
   {
     std::array<unsigned long, 4> n;
@@ -172,6 +188,7 @@ private:
     mesh.points.push_back(point);
   }
 
+  /// Lines "number x y z"; in binary files only the count is text.
   void read_nodes_2()
   {
     const auto n = in.whole("the number of nodes");
@@ -180,6 +197,8 @@ private:
       read_point(value<int>("a node"));
   }
 
+  /// Blocks, one per entity: all numbers of its nodes, then all their coordinates. The header has
+  /// the numbers of blocks and nodes, the least and the largest node.
   void read_nodes_4()
   {
     const auto blocks = count("the number of node blocks");
@@ -212,6 +231,7 @@ private:
   }
 
   /// Name of a physical group, or its number.
+  /// Names belong to a number and a dimension: a curve and a surface may both be group 1.
   std::string group(ElementShape shape, unsigned long number)
   {
     const auto found = names.find({dimension(shape), number});
@@ -243,6 +263,9 @@ private:
     mesh.elements.push_back(element);
   }
 
+  /// Text: lines "number type n_tags tags nodes". Binary: blocks with the header (type, number of
+  /// elements, n_tags) and (number, tags, nodes) for each. The first tag is the physical group, 0
+  /// for none, the second the entity; partitions may follow.
   void read_elements_2()
   {
     const auto n = in.whole("the number of elements");
@@ -272,6 +295,8 @@ private:
       }
   }
 
+  /// Blocks of one type and entity, whose groups all of the elements get; the header has the
+  /// numbers of blocks and elements, the least and the largest element.
   void read_elements_4()
   {
     const auto blocks = count("the number of element blocks");

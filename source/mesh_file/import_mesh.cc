@@ -14,6 +14,7 @@ namespace {
 using Element = MeshFile::Element;
 using Corners = std::vector<unsigned int>;
 
+/// Faces are told apart by their corners, in whatever order an element has them.
 Corners sorted(Corners corners)
 {
   std::sort(corners.begin(), corners.end());
@@ -33,10 +34,13 @@ public:
   {
     cells = body_cells<dim>(file, parameters.regions, notes);
     for (const auto &cell : cells)
+      // One triangle splits all cells: a cell left whole beside the parts of another would have
+      // the middle of its edge as a hanging point.
       if (!is_cell_shape(cell.shape) && !split)
         split = std::make_unique<ElementSplit>(points);
     add_blocks();
-    // parts of split elements are ordered from corner to middle
+    // Parts of split elements agree on the directions of edges: they go from corners to middles of
+    // edges, faces and elements.
     if (!split && !geometry::order_consistently(mesh))
       {
         notes.push_back("edges of the cells have no common directions");
@@ -48,6 +52,7 @@ public:
     name_boundaries();
     curve_boundaries();
     drop_unused_points();
+    // each block is one coarse cell; Refinements refine it
     mesh.cells.fill(1);
     return mesh;
   }
@@ -82,6 +87,7 @@ private:
   }
 
   /// The group that says what region a cell belongs to.
+  /// One that has a material decides; else the last group of the cell.
   std::string region_of(const Element &cell) const
   {
     const auto &named = parameters.named_regions;
@@ -103,6 +109,7 @@ private:
   {
     for (const auto &cell : cells)
       {
+        // All groups are regions, so that Materials may name one without cells of its own.
         for (const auto &group : cell.groups)
           index_in(mesh.region_names, group);
         const auto region = index_in(mesh.region_names, region_of(cell));
@@ -136,6 +143,7 @@ private:
     const unsigned int parts_each = mesh.blocks.size() / cells.size(); // for the message only
     for (unsigned int b = 0; b < mesh.blocks.size(); ++b)
       for (const unsigned int f : dealii::GeometryInfo<dim>::face_indices())
+        // Cells that occur twice in the file are found here, too.
         if (++n_cells_of_face[face(b, f)] > 2)
           throw element_error(cells[std::min<std::size_t>(b / parts_each, cells.size() - 1)],
                               "or one near it shares a face with two "
@@ -145,6 +153,7 @@ private:
   /// Name of the boundary an element is part of.
   std::string name_of(const Element &element) const
   {
+    // A file need not name its groups; an entry may name those, or rename others.
     const std::string &group = element.groups.back();
     const auto         given = parameters.boundary_numbers.find(group);
     if (given != parameters.boundary_numbers.end())
@@ -154,6 +163,7 @@ private:
                                      ", which has no name in the file; give one: "
                                      "'Boundary names = " +
                                      group + ": NAME'");
+    // these separate the lists of a parameter file
     if (group.find_first_of(",:;=#\\") != std::string::npos)
       throw element_error(element,
                           "is in the group '" + group + "'; names must have none of , : ; = # \\");
@@ -225,12 +235,14 @@ private:
         const unsigned int              boundary = curved_boundary(entry.first, entry.second);
         std::vector<dealii::Point<dim>> known;
         for (const unsigned int corner : corners_of(boundary))
+          // Points behind those of the file are middles of chords, which lie off the surface.
           if (corner < file.points.size())
             known.push_back(in_space(points[corner]));
         surfaces.emplace_back(boundary,
                               geometry::FittedSurface<dim>(entry.first, entry.second, known));
         mesh.surfaces[boundary] = surfaces.back().second.manifold();
       }
+    // A point on two surfaces must reach their intersection: projections by turns approach it.
     const unsigned int turns = surfaces.size() > 1 ? 20 : 1;
     for (unsigned int turn = 0; turn < turns; ++turn)
       for (const auto &surface : surfaces)
@@ -242,6 +254,8 @@ private:
           }
   }
 
+  /// Points of other regions, and the middle nodes of quadratic elements, must not count for the
+  /// extent of the body, which BlockGeometry takes from all vertices.
   void drop_unused_points()
   {
     const unsigned int none = static_cast<unsigned int>(-1);
@@ -298,6 +312,7 @@ import_mesh(const std::string                  &text,
     }
   catch (const InputError &error)
     {
+      // What already names an entry (Mesh regions, Curved faces) stays; the rest is of the file.
       const std::string message = error.what();
       if (message.rfind("entry '", 0) == 0)
         throw;

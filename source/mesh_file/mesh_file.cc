@@ -3,6 +3,7 @@
 
 namespace snug::mesh_file {
 namespace {
+/// Facts of a shape; the rows below have the order of ElementShape.
 struct ShapeRow
 {
   unsigned int dimension, n_corners;
@@ -36,6 +37,7 @@ std::string plural(const ElementShape shape)
 
 void PointNumbers::add(const unsigned long number, const unsigned long line)
 {
+  // indices follow the order of the file, as MeshFile::points does
   if (!indices.emplace(number, indices.size()).second)
     throw error_at_line(line, "node " + std::to_string(number) + " occurs twice");
 }
@@ -52,6 +54,8 @@ unsigned int PointNumbers::index(const unsigned long number,
 }
 
 namespace {
+/// Tells formats by their first words, since endings of names are not reliable: "$MeshFormat" of
+/// Gmsh, "*..." of Abaqus, "# vtk DataFile" of VTK. UCD has comments # or the number of nodes.
 MeshFile read_any(const std::string &text)
 {
   MeshText          begin(text);

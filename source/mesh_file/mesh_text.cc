@@ -9,7 +9,7 @@
 
 namespace snug::mesh_file {
 namespace {
-/// What of a word can be shown in a message.
+/// What of a word can be shown in a message: the file may be binary, and a word of it huge.
 std::string shown(const std::string &word)
 {
   std::string text = word.substr(0, 40);
@@ -34,6 +34,7 @@ void MeshText::be_binary()
 
 void MeshText::advance(const std::size_t to)
 {
+  // Lines are only counted forward, so that reading the whole text costs one pass.
   line_number += std::count(text.begin() + place, text.begin() + to, '\n');
   place = to;
 }
@@ -93,6 +94,7 @@ void MeshText::fail(const std::string &message) const
 
 void MeshText::fail_at_end(const std::string &what) const
 {
+  // the last line, not the one where the missing thing should have begun
   const auto lines =
     std::count(text.begin(), text.end(), '\n') + (text.empty() || text.back() == '\n' ? 0 : 1);
   throw error_at_line(binary ? 0 : lines, "the file ends where " + what + " is expected");
@@ -112,6 +114,7 @@ double to_number(const std::string &word, const unsigned long line)
 {
   char        *end   = nullptr;
   const double value = std::strtod(word.c_str(), &end);
+  // strtod would take "nan" and "inf", and stop at a letter without an error
   if (word.empty() || *end != '\0' || !std::isfinite(value))
     throw error_at_line(line, "'" + shown(word) + "' is no number");
   return value;
@@ -119,6 +122,7 @@ double to_number(const std::string &word, const unsigned long line)
 
 unsigned long to_whole(const std::string &word, const unsigned long line)
 {
+  // stoul would take a sign and throw its own error on overflow; 18 digits always fit
   const bool good = !word.empty() && word.size() < 19 &&
                     std::all_of(word.begin(), word.end(),
                                 [](const unsigned char c) { return std::isdigit(c) != 0; });

@@ -3,6 +3,7 @@
 
 namespace snug::mesh_file {
 namespace {
+/// UCD's names; corners are numbered as in ElementShape, or mirrored (see turn_mirrored()).
 ElementShape ucd_shape(const std::string &name, unsigned long line)
 {
   using S                                      = ElementShape;
@@ -15,6 +16,7 @@ ElementShape ucd_shape(const std::string &name, unsigned long line)
   return found->second;
 }
 
+/// A line "number material type nodes".
 void read_element(MeshText &in, const PointNumbers &numbers, MeshFile &mesh)
 {
   const auto        number = in.whole("an element");
@@ -31,6 +33,8 @@ void read_element(MeshText &in, const PointNumbers &numbers, MeshFile &mesh)
 }
 } // namespace
 
+/// Comments, the line "nodes elements n n n" with the numbers of node, cell and model data, the
+/// nodes "number x y z" and the elements. Data behind them are not read.
 MeshFile read_ucd(const std::string &text)
 {
   MeshText    in(text);

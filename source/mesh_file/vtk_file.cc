@@ -7,12 +7,15 @@
 
 namespace snug::mesh_file {
 namespace {
+/// Shape and number of nodes of a cell type of VTK.
 struct VtkType
 {
   ElementShape shape;
   unsigned int n_nodes;
 };
 
+/// By number, as in vtkCellType.h: linear types up to 14, quadratic ones from 21 on, which begin
+/// with their corners. Pixels and voxels (8, 11) are cells of images and are not read.
 const std::map<unsigned long, VtkType> &vtk_types()
 {
   using S                                             = ElementShape;
@@ -27,6 +30,8 @@ const std::map<unsigned long, VtkType> &vtk_types()
 }
 
 /// Reads a legacy file keyword by keyword.
+///
+/// Points and cells are numbered from 0, in their order. Binary data are big-endian.
 class VtkReader
 {
 public:
@@ -34,6 +39,7 @@ public:
 
   MeshFile read()
   {
+    // "# vtk DataFile Version 5.1"; the title may be any line
     in.rest_of_line(); // version
     in.rest_of_line(); // title
     const std::string form = in.word("ASCII or BINARY");
@@ -87,6 +93,7 @@ private:
     in.fail("points of type '" + type + "', not float or double");
   }
 
+  /// Negative numbers become huge ones, which no cell has as a point or as a count.
   unsigned long whole(const std::string &type, const std::string &what)
   {
     if (!binary)
@@ -100,6 +107,8 @@ private:
 
   void read_section()
   {
+    // Sections that are not read (METADATA, FIELD, POINT_DATA) are passed line by line, as if
+    // each began with an unknown keyword.
     const std::string keyword = in.word("a keyword");
     if (keyword == "DATASET" && in.word("the kind of data") != "UNSTRUCTURED_GRID")
       in.fail("the data are no UNSTRUCTURED_GRID");
@@ -119,6 +128,8 @@ private:
       read_groups(type);
   }
 
+  /// MaterialID is deal.II's name, CellEntityIds that of Gmsh, which writes the first physical
+  /// group of a cell and -1 where there is none.
   static bool is_group(const std::string &name)
   {
     return name == "MaterialID" || name == "CellEntityIds";
@@ -135,6 +146,7 @@ private:
       }
   }
 
+  /// Up to version 4: the number of points and the points of each cell, in binary files int.
   void read_cells(unsigned long n)
   {
     if (in.is_next("OFFSETS"))
@@ -149,7 +161,8 @@ private:
       }
   }
 
-  /// Points of a cell; more than any has are a broken file.
+  /// Number of points of a cell. No type has more than 27: what is far above is a broken file,
+  /// which must not make us allocate.
   unsigned long count(const std::string &type, const std::string &name)
   {
     const unsigned long n = whole(type, name);
@@ -158,7 +171,8 @@ private:
     return n;
   }
 
-  /// Files of version 5 have offsets, one more than cells.
+  /// Version 5: the places in one list of points where the cells begin, and its end; the number
+  /// behind CELLS is that of these offsets, one more than cells.
   void read_connectivity(unsigned long n_offsets)
   {
     in.word("OFFSETS");
@@ -191,6 +205,7 @@ private:
     if (in.word("LOOKUP_TABLE") != "LOOKUP_TABLE")
       in.fail("LOOKUP_TABLE is expected");
     in.rest_of_line();
+    // a later data set replaces an earlier one, or cells would get groups of both
     groups.clear();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
@@ -200,6 +215,7 @@ private:
       }
   }
 
+  /// Types come behind the cells, so elements are made when all has been read.
   void make_elements()
   {
     for (unsigned int i = 0; i < nodes.size(); ++i)

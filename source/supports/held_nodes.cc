@@ -88,7 +88,7 @@ void HeldNodes<dim>::collect_holds(const std::vector<Support<dim>> &supports,
     // A hanging node is held as far as its masters are; a row of its own would repeat theirs.
     if (!surface.masters(node).empty())
       return;
-    auto      &holds = found[node].holds;
+    auto &holds = found[node].holds;
     // A node is on several faces of a boundary, and of a side: one constraint for all.
     const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
       return other.name == hold.name && other.component == hold.component &&

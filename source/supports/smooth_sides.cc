@@ -81,7 +81,7 @@ smooth_sides(const mesh::Surface<dim>                 &surface,
           const Boundary &of_a = of_face[a.face], &of_b = of_face[b.face];
           // A shallow edge between two flat faces is an edge all the same; between curved faces a
           // small angle is what faceting makes of one smooth surface.
-          const bool      edge = of_a != of_b && is_flat.at(of_a) && is_flat.at(of_b);
+          const bool edge = of_a != of_b && is_flat.at(of_a) && is_flat.at(of_b);
           if (!edge && a.normal * b.normal > smooth_cosine)
             patches.join(a.face, b.face);
         }
