@@ -15,12 +15,14 @@ std::vector<std::string> BodyIntegral<dim>::entries() const
   return {"Body"};
 }
 
+/// A volume constraint can be evaluated, and differentiated, where no state was solved.
 template <int dim>
 bool BodyIntegral<dim>::needs_solution() const
 {
   return false;
 }
 
+/// Density is a constant of the region: it goes with the cell and has no derivative.
 template <int dim>
 double BodyIntegral<dim>::weight_of(const elasticity::Material &material) const
 {
@@ -38,9 +40,11 @@ double BodyIntegral<dim>::value(const state::StateSolver<dim>  &solver,
                 assembler.element().volume(assembler.cell_field(i, state.positions));
   };
   state::for_each_cell<dim>(solver, body, add);
+  // Each cell is on one rank, so that the sum counts it once.
   return dealii::Utilities::MPI::sum(integral, solver.context().communicator());
 }
 
+/// u and forces stay empty, which stands for zero.
 template <int dim>
 Partials<dim> BodyIntegral<dim>::partials(const state::StateSolver<dim>  &solver,
                                           const state::ContactState<dim> &state) const
@@ -51,6 +55,7 @@ Partials<dim> BodyIntegral<dim>::partials(const state::StateSolver<dim>  &solver
     const auto                         &assembler = *solver.assemblers()[s];
     const auto                          X         = assembler.cell_field(i, state.positions);
     std::vector<dealii::Tensor<1, dim>> values(X.size());
+    // d/dX int dV, det J and, in axisymmetric models, the radius included
     assembler.element().add_volume_gradient(X, weight_of(assembler.material(i)), values);
     state::add_to_cell_nodes(solver, s, i, values, result.positions);
   };

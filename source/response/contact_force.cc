@@ -15,7 +15,8 @@ normal_gradient(const state::StateSolver<dim>            &solver,
                 const std::vector<double>                &forces,
                 const dealii::Tensor<1, dim>             &e)
 {
-  const auto                        &surface = solver.surface();
+  const auto &surface = solver.surface();
+  // energy_gradient() is that of sum_i force_i (sum_b c_b . u_b - gap_i), linear in u.
   typename mesh::Surface<dim>::Field moved(surface.n_nodes());
   const auto                         at_rest = moved;
   for (const auto &face : surface.faces())
@@ -43,6 +44,7 @@ std::vector<std::string> ContactForce<dim>::entries() const
 template <int dim>
 void ContactForce<dim>::check(const state::StateSolver<dim> &solver) const
 {
+  // Both throw for names that do not exist.
   rows_of_pair(solver, parameters.pair);
   if (parameters.component != "normal")
     unit_vector<dim>(parameters);
@@ -59,6 +61,7 @@ double ContactForce<dim>::value(const state::StateSolver<dim>  &solver,
     if (chosen[i])
       force -=
         state.contact[i].force *
+        // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i itself.
         (parameters.component == "normal" ? -1. : rows[i].normal * unit_vector<dim>(parameters));
   return force;
 }
@@ -69,6 +72,7 @@ Partials<dim> ContactForce<dim>::partials(const state::StateSolver<dim>  &solver
 {
   const auto    chosen = rows_of_pair(solver, parameters.pair);
   Partials<dim> result;
+  // J is linear in the forces: its derivatives are the factors of value().
   for (const bool row : chosen)
     result.forces.push_back(row ? 1. : 0.);
   result.positions.resize(solver.mesh().n_local_nodes());
@@ -79,6 +83,8 @@ Partials<dim> ContactForce<dim>::partials(const state::StateSolver<dim>  &solver
   const auto rows = solver.contact().rows(x);
   for (unsigned int i = 0; i < rows.size(); ++i)
     result.forces[i] *= -(rows[i].normal * e);
+  // Pair by pair, as a boundary may be the slave of one pair and the master of another: moved in
+  // both at once, the coefficients of both sides would add up.
   const auto &pairs = solver.contact().pairs();
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {

@@ -8,6 +8,7 @@ namespace {
 /// bodies of revolution with degree 2.
 const double smallest_area = 1e-10;
 
+/// The given rows of a state, in the order of @p rows.
 template <int dim>
 PressureRows pressure_rows(const std::vector<unsigned int> &rows,
                            const state::ContactState<dim>  &state)
@@ -28,6 +29,7 @@ std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std:
   const auto       &pairs = solver.contact().pairs();
   std::vector<bool> chosen;
   for (const auto &pair : pairs)
+    // Which side is the slave may have been chosen by the program: users need not know.
     chosen.push_back(name.empty() || name == pair.name() ||
                      name == pair.master_name + ": " + pair.slave_name);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
@@ -49,10 +51,12 @@ template <int dim>
 std::vector<std::string> ContactMeasure<dim>::entries() const
 {
   auto result = read;
+  // All measures read it, besides their own entries.
   result.push_back("Pair");
   return result;
 }
 
+/// Throws where there is no such pair.
 template <int dim>
 void ContactMeasure<dim>::check(const state::StateSolver<dim> &solver) const
 {
@@ -64,6 +68,7 @@ std::vector<unsigned int>
 ContactMeasure<dim>::counted_rows(const state::StateSolver<dim>  &solver,
                                   const state::ContactState<dim> &state) const
 {
+  // Contact points are replicated: no communication, and the same rows on all ranks.
   const auto chosen  = rows_of_pair(solver, pair);
   double     largest = 0.;
   for (unsigned int i = 0; i < chosen.size(); ++i)
@@ -71,6 +76,7 @@ ContactMeasure<dim>::counted_rows(const state::StateSolver<dim>  &solver,
       largest = std::max(largest, state.contact[i].area);
   std::vector<unsigned int> result;
   for (unsigned int i = 0; i < chosen.size(); ++i)
+    // Scale 0: supports hold the row entirely, it has no multiplier.
     if (chosen[i] && solver.gluing().contact_scales()[i] != 0. &&
         state.contact[i].area > smallest_area * largest)
       result.push_back(i);
@@ -88,10 +94,12 @@ template <int dim>
 Partials<dim> ContactMeasure<dim>::partials(const state::StateSolver<dim>  &solver,
                                             const state::ContactState<dim> &state) const
 {
-  const auto          rows     = counted_rows(solver, state);
-  const auto          measured = measure(pressure_rows(rows, state));
+  const auto rows     = counted_rows(solver, state);
+  const auto measured = measure(pressure_rows(rows, state));
+  // J(p, A(X)): the areas are functions of the positions at fixed forces.
   std::vector<double> by_area(state.contact.size(), 0.);
   Partials<dim>       result;
+  // Rows that do not count have no influence.
   result.forces.assign(state.contact.size(), 0.);
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
@@ -99,6 +107,7 @@ Partials<dim> ContactMeasure<dim>::partials(const state::StateSolver<dim>  &solv
       by_area[rows[i]]       = measured.by_area[i];
     }
   result.positions.resize(solver.mesh().n_local_nodes());
+  // The gradient at the surface nodes is replicated: each rank adds those of its own nodes.
   solver.surface().add_owned(
     solver.contact().area_gradient(solver.surface().gather(state.positions), by_area),
     result.positions);

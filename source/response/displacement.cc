@@ -19,12 +19,15 @@ struct MeasuredFace
   std::vector<unsigned int> places;
 };
 
+/// Assemblers list loaded faces only. Others are read through their cell, by way of which hanging
+/// nodes find the unknowns of their masters.
 template <int dim>
 std::vector<MeasuredFace> faces_of(const state::StateSolver<dim> &solver,
                                    const ResponseParameters      &parameters)
 {
-  const auto                                        &mesh     = solver.mesh();
-  const auto                                         boundary = find_boundary(solver, parameters);
+  const auto &mesh     = solver.mesh();
+  const auto  boundary = find_boundary(solver, parameters);
+  // (subdomain, cell) of each cell of the mesh; each is in one subdomain of this rank.
   std::vector<std::pair<unsigned int, unsigned int>> of_cell(mesh.cells().size());
   for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
     for (unsigned int i = 0; i < solver.assemblers()[s]->cells().size(); ++i)
@@ -44,6 +47,7 @@ std::vector<MeasuredFace> faces_of(const state::StateSolver<dim> &solver,
   return faces;
 }
 
+/// Values at the nodes of a face out of those at the nodes of its cell.
 template <int dim>
 Nodes<dim> at_face(const std::vector<unsigned int> &places, const Nodes<dim> &cell)
 {
@@ -60,13 +64,14 @@ elasticity::FaceLoadValues<dim> unit_load(const ResponseParameters &parameters, 
 {
   elasticity::FaceLoadValues<dim> load;
   if (parameters.component == "normal")
+    // Pressure pushes along the inner normal: -1 makes f . u the integral of u . n.
     load.pressure.assign(n, -1.);
   else
     load.traction.assign(n, unit_vector<dim>(parameters));
   return load;
 }
 
-/// int u . e dA and int dA over the whole face.
+/// int u . e dA and int dA over the whole face: its part on any one rank says nothing by itself.
 struct Average
 {
   double integral = 0., area = 0.;
@@ -89,6 +94,7 @@ Average average(const state::StateSolver<dim>  &solver,
       solver.face_load().force(X, unit_load<dim>(parameters, X.size()), f);
       for (unsigned int a = 0; a < u.size(); ++a)
         sums[0] += f[a] * u[a];
+      // int N_a dA: their sum is the area of the face.
       for (const double area : solver.face_load().areas(X))
         sums[1] += area;
     }
@@ -108,6 +114,7 @@ std::vector<std::string> Displacement<dim>::entries() const
   return {"Body", "Face", "Point", "Component"};
 }
 
+/// A point has no normal: only faces take the component normal.
 template <int dim>
 void Displacement<dim>::check(const state::StateSolver<dim> &solver) const
 {
@@ -138,6 +145,7 @@ double Displacement<dim>::value(const state::StateSolver<dim>  &solver,
       for (unsigned int a = 0; a < u.size(); ++a)
         value += place.weights[a] * (u[a] * e);
     }
+  // One rank has the point, the others add 0: the sum is exact.
   return dealii::Utilities::MPI::sum(value, solver.context().communicator());
 }
 
@@ -148,6 +156,7 @@ Partials<dim> Displacement<dim>::partials(const state::StateSolver<dim>  &solver
   return parameters.point.empty() ? partials_on_face(solver, state) : partials_at_point(solver);
 }
 
+/// Weights are of the place in the cell, which the design does not change: dJ/dX = 0.
 template <int dim>
 Partials<dim> Displacement<dim>::partials_at_point(const state::StateSolver<dim> &solver) const
 {
@@ -166,6 +175,8 @@ Partials<dim> Displacement<dim>::partials_at_point(const state::StateSolver<dim>
   return result;
 }
 
+/// With J = I / A, I = int u . e dA and A = int dA: J' = I' / A - J A' / A. I is the work f(X) . u
+/// of a unit load, so dI/du = f and dI/dX is the gradient of that work.
 template <int dim>
 Partials<dim> Displacement<dim>::partials_on_face(const state::StateSolver<dim>  &solver,
                                                   const state::ContactState<dim> &state) const
@@ -189,6 +200,8 @@ Partials<dim> Displacement<dim>::partials_on_face(const state::StateSolver<dim> 
       Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
       load.force(X, unit, f);
       for (unsigned int a = 0; a < f.size(); ++a)
+        // On the copies of the face's own subdomain. Directions u' are equal on all copies, so that
+        // it does not matter which of them has the share.
         in_cell[face.places[a]] += f[a] / whole.area;
       assembler.add_cell_vector(face.cell, 1., in_cell, result.u[face.subdomain].column(0));
       load.add_force_gradient(X, unit, u, 1. / whole.area, gradient);
@@ -199,6 +212,7 @@ Partials<dim> Displacement<dim>::partials_on_face(const state::StateSolver<dim> 
                               -J / whole.area, gradient);
       const auto &nodes = solver.mesh().boundary_faces()[face.index].nodes;
       for (unsigned int a = 0; a < nodes.size(); ++a)
+        // At the nodes of the face: shape functions of other nodes of the cell vanish on it.
         result.positions[nodes[a]] += gradient[a];
     }
   return result;

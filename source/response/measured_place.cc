@@ -22,12 +22,14 @@ const double tolerance = 1e-6;
 template <int dim>
 bool is_near(const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
 {
+  // A part of the box of the nodes, in each direction.
   const double margin = 0.25;
   for (unsigned int d = 0; d < dim; ++d)
     {
       const auto [low, high] =
         std::minmax_element(X.begin(), X.end(),
                             [d](const auto &a, const auto &b) { return a[d] < b[d]; });
+      // Newton's method in all cells would cost far more than these comparisons.
       const double size = (*high)[d] - (*low)[d];
       if (point[d] < (*low)[d] - margin * size || point[d] > (*high)[d] + margin * size)
         return false;
@@ -44,21 +46,25 @@ shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tenso
   dealii::Point<dim> xi;
   for (unsigned int d = 0; d < dim; ++d)
     xi[d] = 0.5;
+  // Converges at once in parallelepipeds and within a few steps in cells that are curved a little.
   for (unsigned int step = 0; step < 20; ++step)
     {
       const auto shape = elasticity::lagrange_point<dim>(degree, xi);
       const auto J     = elasticity::jacobian(shape, X);
+      // NaN included: such an iterate has left the cell.
       if (!(std::abs(determinant(J)) > 0.))
         return {};
       const dealii::Tensor<1, dim> move = invert(J) * (point - elasticity::value(shape, X));
       if (move.norm() < 1e-12)
         {
           for (unsigned int d = 0; d < dim; ++d)
+            // A point on a face between cells must not fall between them by round-off.
             if (xi[d] < -tolerance || xi[d] > 1. + tolerance)
               return {};
           return shape.values;
         }
       xi += move;
+      // Points far outside send Newton's method away; NaN ends it as well.
       if (!(xi.norm() < 10.))
         return {};
     }
@@ -73,7 +79,7 @@ std::string listed(const std::vector<double> &point)
   return text.str();
 }
 
-/// Throw unless exactly one body holds the point.
+/// Throw unless exactly one body holds the point: where bodies touch, their displacements differ.
 void require_one_body(const ResponseParameters        &parameters,
                       const std::vector<std::string>  &names,
                       const std::vector<unsigned int> &holds)
@@ -95,7 +101,8 @@ template <int dim>
 dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters)
 {
   const auto &component = parameters.component;
-  const auto  axis      = std::string("xyz").substr(0, dim).find(component);
+  // No z in 2D; an empty component is found at 0 and ruled out by its size.
+  const auto axis = std::string("xyz").substr(0, dim).find(component);
   if (component.size() != 1 || axis == std::string::npos)
     throw bad_entry(parameters.path("Component"), component,
                     dim == 2 ? "must be x or y" : "must be x, y or z");
@@ -113,6 +120,7 @@ std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim
     {
       const auto names = solver.mesh().geometry(body).boundary_names();
       for (unsigned int boundary = 0; boundary < names.size(); ++boundary)
+        // Names are compared as written: face names belong to the geometry of the body.
         if (parameters.face == bodies[body] + "." + names[boundary])
           return {body, boundary};
     }
@@ -131,12 +139,14 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
   std::vector<unsigned int> holds(mesh.n_bodies(), 0);
   const auto                look = [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
-    const auto  X         = assembler.cell_field(i, mesh.reference_positions());
+    // In the reference: the same material point in every design.
+    const auto X = assembler.cell_field(i, mesh.reference_positions());
     if (!is_near<dim>(X, x))
       return;
     const auto weights = shape_values<dim>(mesh.degree(), X, x);
     if (!weights)
       return;
+    // Each body once, though several of its cells may hold the point.
     holds[mesh.cells()[assembler.cells()[i]].body] = 1;
     if (found.empty())
       found.push_back({s, i, *weights});
@@ -146,6 +156,7 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
   require_one_body(parameters, solver.model().body_names, holds);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
   const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
+  // Cells of several ranks meet at the point: only the lowest rank counts it.
   if (dealii::Utilities::MPI::min(found.empty() ? n_ranks : rank, comm) != rank)
     found.clear();
   return found;

@@ -5,6 +5,7 @@
 
 namespace snug::response {
 namespace {
+/// J = 0 with zero derivatives: without any pressure the formulas below are 0 / 0.
 Measured nothing(const PressureRows &rows)
 {
   const std::vector<double> zero(rows.force.size(), 0.);
@@ -13,6 +14,9 @@ Measured nothing(const PressureRows &rows)
 
 /// S = sum_i A_i (q_i / m)^p with the largest pressure m taken as a
 /// constant, and its derivatives.
+/// A_i q_i^p = p_i^p A_i^(1-p), hence the factors p and 1 - p of the derivatives. Over the largest
+/// pressure large powers do not overflow. m cancels in all the measures below, so that their
+/// derivatives may take it as a constant.
 struct PowerSum : Measured
 {
   PowerSum(const PressureRows &rows, const double p) : Measured(nothing(rows))
@@ -41,10 +45,12 @@ Measured contact_area(const PressureRows &rows, const double e)
   auto           result = nothing(rows);
   if (force.largest == 0.)
     return result;
-  // all pressures over the largest one
+  // All pressures are over the largest one. The threshold e m, m = int q^2 dA / int q dA, depends
+  // on all rows: slope sums up what it makes, which is added to all derivatives in the end.
   const double threshold = e * square.value / force.value;
-  const double even      = 1. + e * e;
-  double       slope     = 0.; // dJ/d(threshold)
+  // Of an even pressure q = m, and even q^2 / (q^2 + e^2 m^2) = 1.
+  const double even  = 1. + e * e;
+  double       slope = 0.; // dJ/d(threshold)
   for (unsigned int i = 0; i < rows.force.size(); ++i)
     {
       const double q     = rows.force[i] / rows.area[i] / force.largest;
@@ -52,6 +58,7 @@ Measured contact_area(const PressureRows &rows, const double e)
       const double share = even * q * q / sum;
       const double by_q  = even * 2. * q * threshold * threshold / (sum * sum);
       result.value += rows.area[i] * share;
+      // share(q_i) A_i with q_i = p_i / A_i at a fixed threshold
       result.by_force[i] = by_q / force.largest;
       result.by_area[i]  = share - q * by_q;
       slope -= even * rows.area[i] * 2. * q * q * threshold / (sum * sum);
@@ -67,6 +74,7 @@ Measured contact_area(const PressureRows &rows, const double e)
   return result;
 }
 
+/// J = m S^(1/p), J' = J / (p S) S'.
 Measured pressure_norm(const PressureRows &rows, const double p)
 {
   const PowerSum sum(rows, p);
@@ -80,6 +88,7 @@ Measured pressure_norm(const PressureRows &rows, const double p)
   return result;
 }
 
+/// J = m (S_(p+1) / S_1)^(1/p), J' = J / p (S_(p+1)' / S_(p+1) - S_1' / S_1).
 Measured peak_pressure(const PressureRows &rows, const double p)
 {
   const PowerSum sum(rows, p + 1.), force(rows, 1.);
@@ -98,6 +107,7 @@ Measured peak_pressure(const PressureRows &rows, const double p)
   return result;
 }
 
+/// Of all rows, also those that are open: a bare part of the side is uneven, too.
 Measured pressure_variance(const PressureRows &rows)
 {
   auto   result = nothing(rows);
@@ -115,7 +125,7 @@ Measured pressure_variance(const PressureRows &rows)
       const double q = rows.force[i] / rows.area[i];
       result.value += rows.area[i] * (q - mean) * (q - mean) / area;
     }
-  // the mean makes the integral stationary
+  // m may count as a constant, as it makes the integral stationary: int (q - m) dA = 0.
   for (unsigned int i = 0; i < rows.force.size(); ++i)
     {
       const double q     = rows.force[i] / rows.area[i];

@@ -32,6 +32,7 @@ void Response<dim>::check(const state::StateSolver<dim> &) const
 namespace {
 using Parameters = ResponseParameters;
 
+/// Work takes its partial derivatives from the factors of 1/2 u'Ku and f'u that it is given.
 template <int dim>
 ChoiceTable<MakeResponse<dim>> body_responses()
 {

@@ -27,7 +27,8 @@ VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
   const auto    &mesh = solver.mesh();
   const MPI_Comm comm = solver.context().communicator();
   Integrals      result;
-  const Power    stress(mesh.degree(), mesh.idealization(), p, 1.);
+  // First the scale: without it, large exponents overflow or underflow.
+  const Power stress(mesh.degree(), mesh.idealization(), p, 1.);
   state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
     const auto  X         = assembler.cell_field(i, state.positions);
@@ -38,6 +39,7 @@ VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
   });
   result.scale  = dealii::Utilities::MPI::max(result.scale, comm);
   result.volume = dealii::Utilities::MPI::sum(result.volume, comm);
+  // On all ranks, since the scale is the largest of all.
   if (result.scale == 0.)
     return result;
   const Power power(mesh.degree(), mesh.idealization(), p, result.scale);
@@ -55,6 +57,7 @@ double VonMisesNorm<dim>::value(const state::StateSolver<dim>  &solver,
                                 const state::ContactState<dim> &state) const
 {
   const auto of = integrals(solver, state);
+  // Divided by the volume, J is the stress itself where it is even.
   return of.scale * std::pow(of.power / of.volume, 1. / p);
 }
 
@@ -69,7 +72,7 @@ Partials<dim> VonMisesNorm<dim>::partials(const state::StateSolver<dim>  &solver
     result.u.emplace_back(assembler->n_dofs());
   if (of.scale == 0.)
     return result;
-  // dJ = J/p (dS/S - dV/V)
+  // dJ = J/p (dS/S - dV/V). The scale in S is a constant: it cancels in J.
   const double                         J = of.scale * std::pow(of.power / of.volume, 1. / p);
   const elasticity::VonMisesPower<dim> power(solver.mesh().degree(), solver.mesh().idealization(),
                                              p, of.scale);
@@ -80,6 +83,8 @@ Partials<dim> VonMisesNorm<dim>::partials(const state::StateSolver<dim>  &solver
     power.add_gradients(X, assembler.material(i), assembler.cell_values(i, state.u[s].column(0)),
                         J / (p * of.power), by_u, by_X);
     assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
+    // dJ/du belongs to the unknowns of the subdomain, where masters act for hanging nodes; dJ/dX to
+    // the nodes of the mesh, hanging ones included.
     assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
     state::add_to_cell_nodes(solver, s, i, by_X, result.positions);
   });

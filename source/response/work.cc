@@ -7,6 +7,7 @@ Work<dim>::Work(double State::*value, double stiffness, double load)
   : member(value), stiffness(stiffness), load(load)
 {}
 
+/// 1/2 u'Ku - f'u: dJ/du = Ku - f = -B'lambda.
 template <int dim>
 bool Work<dim>::stationary() const
 {
@@ -16,14 +17,17 @@ bool Work<dim>::stationary() const
 template <int dim>
 double Work<dim>::value(const state::StateSolver<dim> &, const State &state) const
 {
+  // As described by the state: the energy is the dual value, more exact than one made from u.
   return state.*member;
 }
 
+/// K is that of the geometry set last, which has to be the state's.
 template <int dim>
 Partials<dim> Work<dim>::partials(const state::StateSolver<dim> &solver, const State &state) const
 {
   Partials<dim> result;
   result.positions.resize(solver.mesh().n_local_nodes());
+  // Assembled again, as the solver holds the loads of the case solved last.
   const auto f = solver.loads(state.positions, state.load_case);
   for (unsigned int s = 0; s < state.u.size(); ++s)
     {
@@ -33,8 +37,10 @@ Partials<dim> Work<dim>::partials(const state::StateSolver<dim> &solver, const S
         solver.feti().subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
     }
   if (stiffness != 0.)
+    // d/dX (u'Ku) at fixed u; w = u here
     state::add_stiffness_gradient(solver, state, state.u, stiffness / 2., result.positions);
   if (load != 0.)
+    // dead loads: f depends on X, not on u
     state::add_load_gradient(solver, state, state.u, load, result.positions);
   return result;
 }

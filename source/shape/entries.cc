@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace snug::shape {
+/// Of unit length, so that variables and bounds are lengths.
 template <int dim>
 dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
 {
@@ -13,6 +14,7 @@ dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
     for (unsigned int d = 0; d < dim; ++d)
       direction[d] = components[d];
   const double length = direction.norm();
+  // Written so that NaN is refused as well.
   if (!(length > 0.) || !std::isfinite(length))
     throw bad_entry(parameters.path("Direction"), listed(components),
                     "must be empty or " + std::to_string(dim) + " numbers, not all zero");

@@ -14,6 +14,8 @@ unsigned int FaceBasis<dim>::n_variables() const
   return modes->n_variables();
 }
 
+/// Modes are free to move hanging nodes anywhere; C puts them back on the lines or faces of their
+/// masters, or the mesh would tear open there.
 template <int dim>
 typename FaceBasis<dim>::Field FaceBasis<dim>::apply(const std::vector<double> &alpha) const
 {
@@ -22,6 +24,7 @@ typename FaceBasis<dim>::Field FaceBasis<dim>::apply(const std::vector<double> &
   return interior->extend(moves);
 }
 
+/// V' = M'C'E': the transposes in reverse order.
 template <int dim>
 std::vector<double> FaceBasis<dim>::transpose(const Field &gradient) const
 {
@@ -30,6 +33,7 @@ std::vector<double> FaceBasis<dim>::transpose(const Field &gradient) const
   return modes->transpose(at_face);
 }
 
+/// C and E do not change which control points there are.
 template <int dim>
 std::vector<Control<dim>> FaceBasis<dim>::controls() const
 {

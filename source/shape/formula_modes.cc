@@ -13,6 +13,7 @@ template <typename Field>
 Field combined(const std::vector<Field> &modes, const std::vector<double> &alpha)
 {
   AssertDimension(alpha.size(), modes.size());
+  // There is at least one mode: FormulaFields throws else.
   Field result(modes[0].size());
   for (unsigned int i = 0; i < modes.size(); ++i)
     for (unsigned int node = 0; node < result.size(); ++node)
@@ -65,6 +66,7 @@ dealii::Tensor<1, dim> FormulaFields<dim>::value(const unsigned int            i
   return result;
 }
 
+/// Formulas are evaluated once, at the reference: positions are linear in the design.
 template <int dim>
 FormulaFace<dim>::FormulaFace(const ShapedFace<dim> &face, const ShapeParameters &parameters)
 {
@@ -73,6 +75,7 @@ FormulaFace<dim>::FormulaFace(const ShapedFace<dim> &face, const ShapeParameters
     {
       modes.emplace_back();
       for (const auto &position : face.positions())
+        // All ranks have all nodes of the face: the same values and the same errors everywhere.
         modes.back().push_back(fields.value(i, position));
     }
 }
@@ -95,6 +98,7 @@ std::vector<double> FormulaFace<dim>::transpose(const FaceField &gradient) const
   return products(modes, gradient);
 }
 
+/// Amplitudes of fields have no place.
 template <int dim>
 std::vector<Control<dim>> FormulaFace<dim>::controls() const
 {
@@ -110,9 +114,11 @@ FormulaBodies<dim>::FormulaBodies(const mesh::BodyMesh<dim> &mesh,
   const auto               is_wanted = wanted_bodies(bodies, parameters);
   const FormulaFields<dim> fields(parameters);
   modes.assign(fields.n(), Field(mesh.n_local_nodes()));
+  // A formula may be without a value at a node that only one rank has: all have to throw then.
   everywhere(mesh.communicator(), [&]() {
     for (unsigned int i = 0; i < modes.size(); ++i)
       for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+        // Hanging nodes follow their masters instead, in apply().
         if (is_wanted[mesh.body_of_node(node)] && !mesh.is_hanging(node))
           modes[i][node] = fields.value(i, mesh.reference_positions()[node]);
   });
@@ -136,8 +142,11 @@ template <int dim>
 std::vector<double> FormulaBodies<dim>::transpose(const Field &gradient) const
 {
   Field free = gradient;
+  // The transpose of interpolate_hanging() in apply().
   mesh.distribute_hanging(free);
   std::vector<double> result = products(modes, free);
+  // The gradient at a node comes in shares of several ranks, and each rank has the modes at all its
+  // local nodes: the products add up.
   dealii::Utilities::MPI::sum(result, mesh.communicator(), result);
   return result;
 }
@@ -148,6 +157,7 @@ std::vector<Control<dim>> FormulaBodies<dim>::controls() const
   return {};
 }
 
+/// Boundaries on which some mode is not zero.
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>> FormulaBodies<dim>::faces() const
 {

@@ -6,6 +6,8 @@ namespace snug::shape {
 template <int dim>
 const ChoiceTable<MakeInterior<dim>> &interior_table()
 {
+  // Linear blending needs the frame of a box, which is checked with the scene: it is local and
+  // explicit. The others take a linear solve for each move and work in any body.
   static const ChoiceTable<MakeInterior<dim>> table = {
     {"linear blending",
      "in boxes, a share of the face's move that falls linearly to zero at "

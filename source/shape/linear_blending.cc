@@ -24,6 +24,7 @@ public:
     , normal(face.boundary() / 2)
     , shape(face.mesh().degree())
     , positions(face.surface().gather(logical(face.mesh())))
+    // About as many bins as faces: a bin holds a few faces, however fine the mesh is.
     , n_bins(std::ceil(std::pow(face.surface().faces().size(), 1. / (dim - 1))))
     , bins(dealii::Utilities::pow(n_bins, dim - 1))
   {
@@ -52,6 +53,8 @@ public:
     unsigned int bin = 0;
     for (unsigned int t = dim - 1; t-- > 0;)
       bin = bin * n_bins + bin_along(place[t]);
+    // No bin is empty, as the faces cover the square. Of faces that meet at the place any will do:
+    // the field of the face is continuous. Rounding may put a place outside of all by a little.
     unsigned int nearest = bins[bin].front();
     for (const unsigned int f : bins[bin])
       if (distance(f, place) < distance(nearest, place))
@@ -70,6 +73,7 @@ private:
     return {mesh.logical_positions().begin(), mesh.logical_positions().end()};
   }
 
+  /// Cells are refined along their logical coordinates, so faces are axis-parallel there.
   Rectangle rectangle(const std::vector<unsigned int> &nodes) const
   {
     Rectangle result;
@@ -96,6 +100,7 @@ private:
     unsigned int first[2] = {0, 0}, last[2] = {0, 0};
     for (unsigned int t = 0; t < dim - 1; ++t)
       {
+        // A face at the edge of a bin goes to both: a place there may be rounded into either.
         first[t] = bin_along(rectangles[f].lower[t] - 1e-9);
         last[t]  = bin_along(rectangles[f].upper[t] + 1e-9);
       }
@@ -126,6 +131,8 @@ private:
       return result;
     };
     typename faces::FaceShape<dim>::Values values;
+    // By the shape functions of the elements, so that nodes on the face follow it exactly and the
+    // interior bends as the face does between its nodes.
     shape.evaluate(xi(place), values);
     std::vector<std::pair<unsigned int, double>> result;
     // The faces' own coordinates may be turned against the box's.
@@ -134,6 +141,7 @@ private:
         const Place  own = xi(tangential(positions[node]));
         unsigned int k   = 0;
         for (unsigned int t = dim - 1; t-- > 0;)
+          // number of the shape function that is 1 at this node
           k = k * (shape.degree() + 1) + std::lround(own[t] * shape.degree());
         if (values.value[k] != 0.)
           result.emplace_back(node, values.value[k]);
@@ -158,11 +166,13 @@ blend_factor(const ShapedFace<dim> &face, const dealii::Point<dim> &logical, con
   const auto        &geometry = face.mesh().geometry(face.body());
   const unsigned int axis     = face.boundary() / 2;
   const double       fraction = geometry.box_fraction(logical)[axis];
-  const double       depth    = face.boundary() % 2 == 1 ? 1. - fraction : fraction;
+  // Face 2d is at the lower end of axis d, face 2d + 1 at the upper one.
+  const double       depth = face.boundary() % 2 == 1 ? 1. - fraction : fraction;
   dealii::Point<dim> far;
   far[axis] = 1.;
   const double height =
     geometry.box_position(far).distance(geometry.box_position(dealii::Point<dim>()));
+  // Down to the opposite face, whatever the lengths.
   if (reach == 0.)
     return 1. - depth;
   return std::max(0., 1. - depth * height / reach);
@@ -173,14 +183,18 @@ template <int dim>
 LinearBlending<dim>::LinearBlending(const ShapedFace<dim> &face, const ShapeParameters &parameters)
   : face(face)
 {
-  const auto             &mesh = face.mesh();
+  const auto &mesh = face.mesh();
+  // Boxes are axis-parallel in logical coordinates, also where they are curved, turned or graded:
+  // the point below or above a node has the same tangential coordinates.
   const LogicalFaces<dim> faces(face);
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     {
+      // Hanging nodes are interpolated in the end.
       if (mesh.body_of_node(node) != face.body() || mesh.is_hanging(node))
         continue;
       const auto  &logical = mesh.logical_positions()[node];
       const double b       = blend_factor(face, logical, parameters.reach);
+      // beyond the reach: the node stays
       if (b == 0.)
         continue;
       rows.push_back({node, faces.weights(faces.tangential(logical))});
@@ -196,6 +210,7 @@ typename LinearBlending<dim>::Field LinearBlending<dim>::extend(const FaceField 
   for (const NodeWeights &row : rows)
     for (const auto &weight : row.weights)
       result[row.node] += weight.second * moves[weight.first];
+  // The formula need not be linear between the masters of a hanging node, which has to follow them.
   face.mesh().interpolate_hanging(result);
   return result;
 }
@@ -205,6 +220,7 @@ typename LinearBlending<dim>::FaceField LinearBlending<dim>::transpose(const Fie
 {
   Field free = gradient;
   face.mesh().distribute_hanging(free);
+  // All ranks know the face, each has a part of the interior: what its nodes pass on is summed.
   std::vector<double> sums(dim * face.surface().n_nodes(), 0.);
   for (const NodeWeights &row : rows)
     for (const auto &weight : row.weights)

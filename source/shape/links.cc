@@ -22,7 +22,8 @@ std::string planes_text(const std::map<std::string, double> &planes)
   return text.str();
 }
 
-/// Groups of numbers that are equal but for their signs.
+/// Groups of numbers that are equal but for their signs: a forest, in which each number points to
+/// one of its group with a lower index and has the sign relative to it.
 class SignedGroups
 {
 public:
@@ -48,19 +49,23 @@ public:
   {
     const auto a = root(i), b = root(j);
     // a.second * A = factor * b.second * B
+    // Signs are their own inverses: A = between * B and B = between * A.
     const double between = a.second * factor * b.second;
     if (a.first == b.first)
+      // x = -x: only 0 satisfies it.
       fixed[a.first] = fixed[a.first] || between < 0.;
     else
       {
         const unsigned int first = std::min(a.first, b.first);
         const unsigned int last  = std::max(a.first, b.first);
-        parent[last]             = first;
-        sign[last]               = between;
-        fixed[first]             = fixed[first] || fixed[last];
+        // Roots are the first of their groups: variables get numbers in the order of the controls.
+        parent[last] = first;
+        sign[last]   = between;
+        fixed[first] = fixed[first] || fixed[last];
       }
   }
 
+  /// Fixes the whole group, as its numbers are equal up to signs.
   void fix(unsigned int i) { fixed[root(i).first] = true; }
 
   bool is_fixed(unsigned int i) const { return fixed[root(i).first]; }
@@ -80,11 +85,13 @@ public:
     : controls(controls), parameters(parameters), positions(places(controls)), near(positions)
   {
     for (const auto &position : positions)
+      // Length that the tolerance of places refers to.
       extent = std::max(extent, (position - positions[0]).norm());
   }
 
   void tie(SignedGroups &groups) const
   {
+    // Planes one after the other: groups join the images of images.
     for (const auto &plane : parameters.symmetry)
       for (unsigned int i = 0; i < controls.size(); ++i)
         tie_image(groups, plane.first, plane.second, i);
@@ -104,6 +111,8 @@ private:
                  const double       coordinate,
                  const unsigned int i) const
   {
+    // Mirror image: the coordinate across the plane is reflected, and so is that component of the
+    // direction.
     const unsigned int d         = axis[0] - 'x';
     auto               position  = positions[i];
     auto               direction = controls[i].direction;
@@ -112,6 +121,8 @@ private:
     bool found                   = false;
     near.for_each(position, image_tolerance * extent, [&](unsigned int j, double) {
       const auto other = controls[j].direction;
+      // A control that moves the image point the other way is tied with the opposite sign; one
+      // across the direction, as the other axes of a box, is not tied.
       for (const double sign : {1., -1.})
         if ((direction - sign * other).norm() <= image_tolerance * other.norm())
           {
@@ -119,6 +130,7 @@ private:
             found = true;
           }
     });
+    // A control without an image would break the symmetry of the others.
     if (found)
       return;
     std::ostringstream what;
@@ -135,6 +147,7 @@ private:
 };
 
 /// The index in an item of the entry Fixed, or false.
+/// Up to 9 digits, which fit an unsigned int.
 bool read_index(const std::string &text, unsigned int &index)
 {
   if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
@@ -148,6 +161,7 @@ template <int dim>
 std::vector<bool> fixed_points(const std::vector<Control<dim>> &controls,
                                const ShapeParameters           &parameters)
 {
+  // Controls come in the order of their points; several may move one of them.
   const unsigned int n_points = controls.empty() ? 0 : controls.back().point + 1;
   std::vector<bool>  listed_points(n_points, false);
   bool               border = false;
@@ -169,9 +183,11 @@ std::vector<bool> fixed_points(const std::vector<Control<dim>> &controls,
   return result;
 }
 
+/// For modes without control points: nothing to fix or to mirror.
 Links::Links(const unsigned int n) : size(n)
 {
   for (unsigned int i = 0; i < n; ++i)
+    // each is a variable of its own
     ties.push_back({i, 1.});
 }
 
@@ -204,6 +220,7 @@ unsigned int Links::n_variables() const
   return size;
 }
 
+/// Fixed controls have the sign 0, and an index that means nothing.
 std::vector<double> Links::expand(const std::vector<double> &alpha) const
 {
   AssertDimension(alpha.size(), size);
@@ -213,6 +230,7 @@ std::vector<double> Links::expand(const std::vector<double> &alpha) const
   return result;
 }
 
+/// Controls of one variable add up their parts of the gradient.
 std::vector<double> Links::collect(const std::vector<double> &gradient) const
 {
   AssertDimension(gradient.size(), ties.size());

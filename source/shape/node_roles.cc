@@ -17,6 +17,8 @@ const double least_edge_sine = 0.5;
 template <int dim>
 void remove_direction(const dealii::Tensor<1, dim> &n, dealii::Tensor<2, dim> &P)
 {
+  // P is a projector: left is what the directions removed before have not taken of n. If n turns
+  // less than 30 degrees out of their span, it belongs to the same curved surface.
   const auto   left   = P * n;
   const double length = left.norm();
   if (length >= least_edge_sine)
@@ -38,6 +40,7 @@ plane_normals(const mesh::Surface<dim>                 &surface,
       {
         const auto area =
           faces::area_vector(faces::tangents<dim>(shape.at_node(k), face.nodes, positions));
+        // At this node of this face: on a curved face the normal differs from node to node.
         auto      &planes = sums[face.nodes[k]];
         const auto same   = std::find_if(planes.begin(), planes.end(), [&area](const auto &plane) {
           const double cosine = plane * area / (plane.norm() * area.norm());
@@ -67,6 +70,7 @@ NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
       projectors[node] = 0.;
 }
 
+/// By global numbers: the face is gathered from all ranks.
 template <int dim>
 void NodeRoles<dim>::find_drivers()
 {
@@ -88,11 +92,13 @@ std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const 
   const auto               &mesh = face.mesh();
   const unsigned int        n    = mesh.geometry(face.body()).boundary_names().size();
   std::vector<unsigned int> touches(n, 0);
+  // A boundary touches the face if they share a node.
   for (const auto &other : mesh.boundary_faces())
     if (other.body == face.body())
       for (const unsigned int node : other.nodes)
         if (drivers[node] != none)
           touches[other.boundary] = 1;
+  // Faces that touch may be on other ranks only.
   dealii::Utilities::MPI::max(touches, mesh.communicator(), touches);
   std::vector<std::pair<unsigned int, unsigned int>> result;
   for (unsigned int boundary = 0; boundary < n; ++boundary)
@@ -101,6 +107,7 @@ std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const 
   return result;
 }
 
+/// Nodes of other bodies stay: bodies have no nodes in common.
 template <int dim>
 void NodeRoles<dim>::free_nodes(const double reach)
 {
@@ -112,6 +119,7 @@ void NodeRoles<dim>::free_nodes(const double reach)
       projectors[node] = dealii::unit_symmetric_tensor<dim>();
 }
 
+/// A node of a held boundary is held, also where a sliding one meets it.
 template <int dim>
 void NodeRoles<dim>::hold_or_slide()
 {
@@ -128,11 +136,13 @@ void NodeRoles<dim>::hold_or_slide()
   for (unsigned int node = 0; node < projectors.size(); ++node)
     {
       const unsigned int global = mesh.global_node(node);
+      // Its projector is zero already when sliding planes are removed below.
       if (holds.count(global) != 0)
         projectors[node] = 0.;
       const auto found = slides.find(global);
       if (found != slides.end())
         for (const auto &normal : normals[found->second])
+          // One plane leaves its tangents, two leave the edge between them, three nothing.
           remove_direction(normal, projectors[node]);
     }
 }

@@ -12,10 +12,12 @@ NodeWise<dim>::NodeWise(const ShapedFace<dim> &face, const ShapeParameters &para
   : face(face), directions(face_directions(face, parameters))
 {
   const double radius = parameters.filter_radius;
+  // A radius below the distance of the nodes leaves each node its own weight: no filter.
   if (!(radius > 0.) || !std::isfinite(radius))
     throw bad_entry(parameters.path("Filter radius"), std::to_string(radius),
                     "must be positive for a node-wise shape");
   for (unsigned int node = 0; node < face.surface().n_nodes(); ++node)
+    // Hanging nodes follow their masters and have no variable.
     if (!face.is_hanging(node))
       nodes.push_back(node);
   set_weights(radius);
@@ -34,15 +36,19 @@ void NodeWise<dim>::set_weights(const double radius)
     {
       double sum = 0.;
       near.for_each(places[i], radius, [&](unsigned int j, double r) {
+        // By area: a finer mesh has more nodes in the radius, not a stronger pull.
         const double weight = face.areas()[nodes[j]] * (1. - r / radius);
         rows[i].emplace_back(j, weight);
         sum += weight;
       });
       for (auto &weight : rows[i])
+        // Equal alpha give equal heights: the filter keeps constants.
         weight.second /= sum;
     }
 }
 
+/// Without c_i the filter would move a fixed node by its neighbours, or, if only its own row was
+/// zero, leave a step of one cell beside it.
 template <int dim>
 void NodeWise<dim>::lead_to_fixed(const ShapeParameters &parameters)
 {
@@ -52,7 +58,8 @@ void NodeWise<dim>::lead_to_fixed(const ShapeParameters &parameters)
     if (fixed[i])
       places.push_back(face.positions()[nodes[i]]);
   const NearPoints<dim> near(places);
-  const double          radius = parameters.filter_radius;
+  // Without fixed nodes near.distance() gives the radius, and the factor is 1.
+  const double radius = parameters.filter_radius;
   for (unsigned int i = 0; i < nodes.size(); ++i)
     {
       const double factor = near.distance(face.positions()[nodes[i]], radius) / radius;
@@ -82,6 +89,7 @@ typename NodeWise<dim>::FaceField NodeWise<dim>::apply(const std::vector<double>
   return moves;
 }
 
+/// The weights are not symmetric, w_ij / sum_j w_ij: the transpose is no filter of the gradient.
 template <int dim>
 std::vector<double> NodeWise<dim>::transpose(const FaceField &gradient) const
 {
@@ -95,6 +103,7 @@ std::vector<double> NodeWise<dim>::transpose(const FaceField &gradient) const
   return result;
 }
 
+/// A control point is a node; its variable moves the neighbours as well.
 template <int dim>
 std::vector<Control<dim>> NodeWise<dim>::controls() const
 {

@@ -37,12 +37,14 @@ std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
                                     const ShapeParameters     &parameters,
                                     const Arguments &...arguments)
 {
-  auto face     = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
+  auto face = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
+  // Modes and interior refer to the face, which keeps its place when the pointer moves.
   auto modes    = std::make_unique<Modes<dim>>(*face, parameters, arguments...);
   auto interior = choose(interior_table<dim>(), parameters.interior).make(*face, parameters);
   return std::make_unique<FaceBasis<dim>>(std::move(face), std::move(modes), std::move(interior));
 }
 
+/// Fields of whole bodies move the interior by themselves; on a face it has to follow.
 template <int dim>
 std::unique_ptr<Shape<dim>> formula_modes(const mesh::BodyMesh<dim> &mesh,
                                           const BodyNames           &bodies,
@@ -54,6 +56,7 @@ std::unique_ptr<Shape<dim>> formula_modes(const mesh::BodyMesh<dim> &mesh,
 }
 } // namespace
 
+/// The velocity dX/dalpha_i, the same at every design since V is constant.
 template <int dim>
 typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(unsigned int i) const
 {
@@ -65,6 +68,7 @@ typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(unsigned int i) const
 template <int dim>
 const ChoiceTable<MakeShape<dim>> &shape_basis_table()
 {
+  // Degree 0 of spline_net() stands for Bernstein polynomials.
   static const ChoiceTable<MakeShape<dim>> table = {
     {"none", "the shape is fixed",
      [](const auto &mesh, const auto &, const auto &) {

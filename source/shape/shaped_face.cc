@@ -40,12 +40,14 @@ ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
   , nodes(mesh, {place})
   , reference(nodes.gather(mesh.reference_positions()))
 {
+  // On all ranks: surfaces are replicated.
   if (nodes.n_nodes() == 0)
     throw bad_entry(parameters.path("Face"), parameters.face, "the mesh has no such faces");
   measure();
   find_border();
 }
 
+/// At the reference, once: bases are linear in the design and do not follow what they move.
 template <int dim>
 void ShapedFace<dim>::measure()
 {
@@ -56,9 +58,11 @@ void ShapedFace<dim>::measure()
   Field weights(nodes.n_nodes());
   for (const auto &face : nodes.faces())
     for (unsigned int k = 0; k < face.nodes.size(); ++k)
+      // The area element at node k over the number of nodes: a rule with equal weights.
       weights[face.nodes[k]][0] +=
         faces::area_vector(faces::tangents<dim>(shape.at_node(k), face.nodes, reference)).norm() /
         face.nodes.size();
+  // A field of vectors only to use the same routine; the area is in component 0.
   distribute_hanging(weights);
   for (const auto &weight : weights)
     node_areas.push_back(weight[0]);
@@ -72,6 +76,7 @@ void ShapedFace<dim>::measure()
   diagonal = (upper - lower).norm();
 }
 
+/// Bodies have no nodes in common: only other boundaries of the same body count.
 template <int dim>
 void ShapedFace<dim>::find_border()
 {
@@ -84,6 +89,7 @@ void ShapedFace<dim>::find_border()
   std::vector<unsigned int> marks(nodes.n_nodes(), 0);
   for (unsigned int node = 0; node < marks.size(); ++node)
     marks[node] = std::binary_search(elsewhere.begin(), elsewhere.end(), nodes.global_node(node));
+  // A face of the other boundary may be on another rank than this node.
   dealii::Utilities::MPI::max(marks, body_mesh.communicator(), marks);
   on_border.assign(marks.begin(), marks.end());
 }
@@ -148,6 +154,7 @@ bool ShapedFace<dim>::is_hanging(const unsigned int surface_node) const
   return !nodes.masters(surface_node).empty();
 }
 
+/// On surface nodes, as BodyMesh does on local nodes. Masters of hanging nodes are surface nodes.
 template <int dim>
 void ShapedFace<dim>::interpolate_hanging(Field &field) const
 {
@@ -160,6 +167,7 @@ void ShapedFace<dim>::interpolate_hanging(Field &field) const
       }
 }
 
+/// Masters do not hang themselves, so that one pass suffices.
 template <int dim>
 void ShapedFace<dim>::distribute_hanging(Field &field) const
 {

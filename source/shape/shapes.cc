@@ -7,6 +7,7 @@
 
 namespace snug::shape {
 namespace {
+/// Fixed and Symmetry are about control points; shapes without them have one variable per mode.
 template <int dim>
 Links make_links(const Shape<dim> &basis, const ShapeParameters &parameters)
 {
@@ -32,6 +33,7 @@ Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
   for (const auto &one : parameters)
     {
       auto basis = choose(shape_basis_table<dim>(), one.basis).make(mesh, bodies, one);
+      // Variables of the shapes before
       const unsigned int first = lower.size();
       Links              links = make_links(*basis, one);
       add_variables(one, links.n_variables());
@@ -42,6 +44,7 @@ Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
 template <int dim>
 void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigned int n)
 {
+  // A fixed shape needs no bounds.
   if (n == 0)
     return;
   const auto &bounds = parameters.bounds;
@@ -53,6 +56,7 @@ void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigne
   if (start.empty())
     start = {0.};
   if (start.size() == 1)
+    // One number stands for all variables.
     start.resize(n, start.front());
   if (start.size() != n)
     throw bad_entry(parameters.path("Initial"), listed(start),
@@ -87,6 +91,7 @@ typename Shapes<dim>::Field Shapes<dim>::apply(const std::vector<double> &alpha)
   Field result(mesh.n_local_nodes());
   for (const Part &part : parts)
     {
+      // Shapes add up: V = [V_1 L_1, V_2 L_2, ..].
       const Field moves = part.basis->apply(expanded(part, alpha));
       for (unsigned int node = 0; node < result.size(); ++node)
         result[node] += moves[node];
@@ -100,6 +105,7 @@ std::vector<double> Shapes<dim>::transpose(const Field &gradient) const
   std::vector<double> result;
   for (const Part &part : parts)
     {
+      // L'V' gradient of each shape, in the order of its variables.
       const auto values = part.links.collect(part.basis->transpose(gradient));
       result.insert(result.end(), values.begin(), values.end());
     }
@@ -136,6 +142,7 @@ const std::vector<double> &Shapes<dim>::start() const
   return initial;
 }
 
+/// Places in the reference plus the moves by all variables of the point.
 template <int dim>
 std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<double> &alpha) const
 {
@@ -149,7 +156,8 @@ std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<doubl
       for (unsigned int i = 0; i < controls.size(); ++i)
         {
           const auto &control = controls[i];
-          // several variables may move one point
+          // Several variables may move one point. Controls come in the order of their points, so
+          // that a new point has the next index.
           if (first + control.point == points.size())
             points.push_back({part.name, control.point, control.position, {}});
           auto      &point = points[first + control.point];

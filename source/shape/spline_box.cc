@@ -15,6 +15,7 @@ namespace {
 /// Nodes this close to a side, relative to the box, are on it.
 const double side_tolerance = 1e-10;
 
+/// The sides belong to the box, also where rounding puts their nodes a little outside.
 bool is_inside(const std::vector<double> &s)
 {
   return std::all_of(s.begin(), s.end(), [](double coordinate) {
@@ -22,6 +23,7 @@ bool is_inside(const std::vector<double> &s)
   });
 }
 
+/// s of the point at @p offset from the corner.
 template <int dim>
 std::vector<double> fractions(const dealii::Tensor<1, dim> &offset,
                               const dealii::Tensor<1, dim> &size)
@@ -32,6 +34,7 @@ std::vector<double> fractions(const dealii::Tensor<1, dim> &offset,
   return s;
 }
 
+/// One variable per point along the given direction, or one along each axis.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> directions_of_points(const ShapeParameters &parameters)
 {
@@ -44,6 +47,7 @@ std::vector<dealii::Tensor<1, dim>> directions_of_points(const ShapeParameters &
 }
 } // namespace
 
+/// The error lists the bodies there are.
 std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &parameters)
 {
   std::vector<bool> result(bodies.names.size(), parameters.bodies.empty());
@@ -69,6 +73,7 @@ std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const mesh::Bod
       if (is_marked[node])
         found.insert({face.body, face.boundary});
   const std::vector<Boundary> mine(found.begin(), found.end());
+  // A set: ascending, each boundary once, the same on all ranks.
   for (const auto &of_rank : dealii::Utilities::MPI::all_gather(mesh.communicator(), mine))
     found.insert(of_rank.begin(), of_rank.end());
   return {found.begin(), found.end()};
@@ -87,6 +92,7 @@ SplineBox<dim>::SplineBox(const mesh::BodyMesh<dim> &mesh,
   read_box(parameters);
   const auto is_wanted = wanted_bodies(bodies, parameters);
   find_nodes(is_wanted);
+  // A sum over ranks: all of them throw, or none.
   if (dealii::Utilities::MPI::sum<unsigned long>(nodes.size(), mesh.communicator()) == 0)
     throw bad_entry(parameters.path("Box size"), listed(parameters.box_size),
                     "the box at (" + listed(parameters.box_corner) +
@@ -124,12 +130,15 @@ void SplineBox<dim>::find_nodes(const std::vector<bool> &is_wanted)
         if (!is_inside(s))
           continue;
         for (double &coordinate : s)
+          // Splines are made for [0, 1] only.
           coordinate = std::clamp(coordinate, 0., 1.);
         nodes.push_back(node);
         places.push_back(s);
       }
 }
 
+/// On a side only the control points of that side have nonzero splines, as knots are clamped. With
+/// these at rest the field vanishes there, as it does outside.
 template <int dim>
 void SplineBox<dim>::freeze_cut_sides(const std::vector<bool> &is_wanted)
 {
@@ -161,6 +170,7 @@ void SplineBox<dim>::freeze_cut_sides(const std::vector<bool> &is_wanted)
         frozen[i] = true;
 }
 
+/// Such variables would have zero gradients, and the optimizer nothing to decide about them.
 template <int dim>
 void SplineBox<dim>::freeze_idle_points()
 {
@@ -187,11 +197,13 @@ typename SplineBox<dim>::Field SplineBox<dim>::apply(const std::vector<double> &
   const unsigned int                  m = directions.size();
   std::vector<dealii::Tensor<1, dim>> points(net.n_points());
   for (unsigned int i = 0; i < alpha.size(); ++i)
+    // m variables per point, next to each other.
     points[i / m] += alpha[i] * directions[i % m];
   Field result(mesh.n_local_nodes());
   for (unsigned int k = 0; k < nodes.size(); ++k)
     for (const auto &value : net.values(places[k]))
       result[nodes[k]] += value.second * points[value.first];
+  // Splines are not linear within cells: a hanging node has to follow its masters.
   mesh.interpolate_hanging(result);
   return result;
 }
@@ -199,6 +211,7 @@ typename SplineBox<dim>::Field SplineBox<dim>::apply(const std::vector<double> &
 template <int dim>
 std::vector<double> SplineBox<dim>::transpose(const Field &gradient) const
 {
+  // Point by point its directions, as in controls().
   const unsigned int m    = directions.size();
   Field              free = gradient;
   mesh.distribute_hanging(free);
@@ -211,6 +224,7 @@ std::vector<double> SplineBox<dim>::transpose(const Field &gradient) const
   return result;
 }
 
+/// Frozen points are listed as well: their numbers are those that users see.
 template <int dim>
 std::vector<Control<dim>> SplineBox<dim>::controls() const
 {
@@ -227,6 +241,7 @@ std::vector<Control<dim>> SplineBox<dim>::controls() const
   return result;
 }
 
+/// Boundaries with a node in the box.
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>> SplineBox<dim>::faces() const
 {

@@ -12,6 +12,7 @@ namespace {
 const double least_cosine = 0.1;
 } // namespace
 
+/// Of unit length: variables are heights.
 template <int dim>
 typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
                                                 const ShapeParameters &parameters)
@@ -52,14 +53,17 @@ template <int dim>
 void SplinePatch<dim>::find_axes(const ShapeParameters &parameters)
 {
   for (unsigned int node = 0; node < face.normals().size(); ++node)
+    // By area, so that it does not depend on where the mesh is fine.
     mean_normal += face.areas()[node] * face.normals()[node];
   mean_normal /= mean_normal.norm();
   for (const auto &normal : face.normals())
+    // Replicated: all ranks throw, or none.
     if (!(normal * mean_normal > least_cosine))
       throw bad_entry(parameters.path("Face"), parameters.face,
                       "must not turn by more than a quarter for a patch; "
                       "use a box, node-wise or formula modes");
   unsigned int across = 0;
+  // The axis next to the mean normal is left out: the face is a graph over the other two.
   for (unsigned int d = 1; d < dim; ++d)
     // of equal ones the last, whatever round-off says
     if (std::abs(mean_normal[d]) > std::abs(mean_normal[across]) - 1e-9)
@@ -82,6 +86,7 @@ typename SplinePatch<dim>::FaceField SplinePatch<dim>::apply(const std::vector<d
   FaceField moves(places.size());
   for (unsigned int node = 0; node < places.size(); ++node)
     {
+      // u(x) = (sum_i B_i(s, t) alpha_i) d(x)
       double height = 0.;
       for (const auto &value : net.values(places[node]))
         height += value.second * alpha[value.first];
@@ -97,6 +102,7 @@ std::vector<double> SplinePatch<dim>::transpose(const FaceField &gradient) const
   std::vector<double> result(n_variables(), 0.);
   for (unsigned int node = 0; node < places.size(); ++node)
     {
+      // The part of the gradient in which the node can move.
       const double along = gradient[node] * directions[node];
       for (const auto &value : net.values(places[node]))
         result[value.first] += value.second * along;
@@ -107,6 +113,7 @@ std::vector<double> SplinePatch<dim>::transpose(const FaceField &gradient) const
 template <int dim>
 std::vector<Control<dim>> SplinePatch<dim>::controls() const
 {
+  // Nodes move along their own normals; a control point, which is none of them, along their mean.
   dealii::Tensor<1, dim> mean;
   for (unsigned int node = 0; node < directions.size(); ++node)
     mean += face.areas()[node] * directions[node];
@@ -114,6 +121,7 @@ std::vector<Control<dim>> SplinePatch<dim>::controls() const
   std::vector<Control<dim>> result;
   for (unsigned int i = 0; i < net.n_points(); ++i)
     {
+      // Across the face at the mean of the nodes; moves are relative to the face itself.
       dealii::Point<dim> position(middle);
       const auto         fractions = net.greville(i);
       for (unsigned int t = 0; t < axes.size(); ++t)

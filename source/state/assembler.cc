@@ -27,6 +27,7 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
       if (std::binary_search(cells.begin(), cells.end(), face.cell) &&
           std::any_of(model.load_cases.begin(), model.load_cases.end(), is_loaded))
         {
+          // Faces with a load in any load case are kept, so that one index serves for all of them.
           faces.push_back(f);
           face_reach.emplace_back(mesh, subdomain, face.nodes);
         }
@@ -34,6 +35,8 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
   build_pattern();
 }
 
+/// Nodes are neighbours if a cell reaches both. Through a hanging node a cell also reaches masters
+/// that are not among its own nodes.
 template <int dim>
 void Assembler<dim>::build_pattern()
 {
@@ -48,6 +51,7 @@ void Assembler<dim>::build_pattern()
     }
   for (const NodeReach<dim> &cell : cell_reach)
     {
+      // Looked up once: K is assembled for each design with the same pattern.
       places.emplace_back();
       for (const unsigned int a : cell.slots())
         for (const unsigned int b : cell.slots())
@@ -57,6 +61,7 @@ void Assembler<dim>::build_pattern()
     }
 }
 
+/// Hanging nodes have none: Subdomain::nodes holds their masters instead.
 template <int dim>
 unsigned int Assembler<dim>::n_dofs() const
 {
@@ -70,6 +75,7 @@ feti::CsrMatrix Assembler<dim>::sparsity() const
   for (const auto &neighbours : node_neighbours)
     for (unsigned int c = 0; c < dim; ++c)
       {
+        // All dim rows of a node have the same columns, dim per neighbour, as stiffness() expects.
         rows.emplace_back();
         for (const unsigned int b : neighbours)
           for (unsigned int d = 0; d < dim; ++d)
@@ -81,6 +87,7 @@ feti::CsrMatrix Assembler<dim>::sparsity() const
 template <int dim>
 void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
 {
+  // Values only: K has the pattern of sparsity().
   std::fill(K.values.begin(), K.values.end(), 0.);
   std::vector<double> cell_matrix;
   for (unsigned int i = 0; i < cell_reach.size(); ++i)
@@ -88,6 +95,7 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
       const NodeReach<dim> &cell = cell_reach[i];
       the_element.stiffness(cell_field(i, positions), material(i), cell_matrix);
       const unsigned int m = cell.slots().size();
+      // Also adapts the size: m slots may be more than the nodes of the cell.
       cell.condense(cell_matrix);
       for (unsigned int a = 0; a < m; ++a)
         for (unsigned int c = 0; c < dim; ++c)
@@ -102,6 +110,8 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
     }
 }
 
+/// Of this subdomain alone: a node with several copies has its load in parts on all of them, and
+/// B'lambda balances the copies.
 template <int dim>
 std::vector<double> Assembler<dim>::load(const Field     &positions,
                                          unsigned int     load_case,
@@ -123,6 +133,8 @@ std::vector<double> Assembler<dim>::load(const Field     &positions,
   return f;
 }
 
+/// About a far centre a rotation is nearly a translation, and making it orthogonal to them would
+/// cost digits. Over the radius all modes are of size one.
 template <int dim>
 void Assembler<dim>::rigid_modes(const Field                  &positions,
                                  const dealii::Tensor<1, dim> &centre,
@@ -143,15 +155,19 @@ void Assembler<dim>::rigid_modes(const Field                  &positions,
   R = rigid_motions<dim>(mesh.idealization(), x, mean, radius);
   orthonormalise(R);
   const auto whole = rigid_motions<dim>(mesh.idealization(), x, centre, length);
-  Z                = qp::inner_products(R, whole, MPI_COMM_SELF);
+  // R is orthonormal and spans the body's modes as well: R Z = whole gives Z = R'whole.
+  Z = qp::inner_products(R, whole, MPI_COMM_SELF);
 }
 
+/// Farthest point sampling: each next node is the one farthest from all nodes chosen. Close or, in
+/// space, collinear nodes would leave R_f'R_f nearly or exactly singular.
 template <int dim>
 std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) const
 {
-  const unsigned int     n_fixing = dim == 2 ? 4 : 6;
-  const unsigned int     first    = mesh.idealization().is_axisymmetric() ? 1 : 0;
-  const unsigned int     n        = subdomain.nodes.size();
+  const unsigned int n_fixing = dim == 2 ? 4 : 6;
+  // The only rigid motion of a body of revolution is along the axis, component 1.
+  const unsigned int     first = mesh.idealization().is_axisymmetric() ? 1 : 0;
+  const unsigned int     n     = subdomain.nodes.size();
   dealii::Tensor<1, dim> mean;
   for (const unsigned int node : subdomain.nodes)
     mean += positions[node] / double(n);
@@ -169,6 +185,7 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
         {
           const double d =
             (positions[subdomain.nodes[a]] - positions[subdomain.nodes[farthest]]).norm();
+          // The mean only served to choose the first node.
           distance[a] = k == 0 ? d : std::min(distance[a], d);
         }
     }
@@ -241,6 +258,7 @@ const BoundaryLoad<dim> *Assembler<dim>::boundary_load(unsigned int i, unsigned 
 {
   const auto &boundaries = loads(load_case).boundaries;
   const auto  found      = boundaries.find(mesh.boundary_faces()[faces[i]].boundary);
+  // nullptr: the face is loaded in other load cases only
   return found == boundaries.end() ? nullptr : &found->second;
 }
 
@@ -253,6 +271,7 @@ elasticity::FaceLoadValues<dim> Assembler<dim>::face_load_values(unsigned int   
   const auto                     *load = boundary_load(i, load_case);
   if (load == nullptr)
     return values;
+  // Formulas are of the reference position: the value goes with the material point.
   const auto reference = face_load.quadrature_points(face_field(i, mesh.reference_positions()));
   for (const auto &x : reference)
     {
@@ -261,6 +280,8 @@ elasticity::FaceLoadValues<dim> Assembler<dim>::face_load_values(unsigned int   
       if (load->traction)
         values.traction.push_back(load->traction(dealii::Point<dim>(x)));
     }
+  // That of a resultant depends on where the whole loaded face is, also on other ranks, and comes
+  // from ResultantLoads.
   values.linear = linear_traction(i, load_case, tractions);
   return values;
 }
@@ -275,6 +296,7 @@ elasticity::LinearTraction<dim> Assembler<dim>::linear_traction(unsigned int    
   return found == tractions[load_case].end() ? elasticity::LinearTraction<dim>() : found->second;
 }
 
+/// The load then has to be assembled anew even where no node of this subdomain has moved.
 template <int dim>
 bool Assembler<dim>::has_resultants() const
 {
@@ -288,6 +310,7 @@ bool Assembler<dim>::has_resultants() const
   return false;
 }
 
+/// Of the load case, whatever its values: formulas are not looked into.
 template <int dim>
 bool Assembler<dim>::has_body_force(unsigned int load_case) const
 {
@@ -299,9 +322,11 @@ typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
                                                           unsigned int load_case) const
 {
   const auto &of_body = loads(load_case);
-  Nodes       b(the_element.n_nodes(), material(i).density * of_body.gravity);
+  // There are as many Gauss points as nodes.
+  Nodes b(the_element.n_nodes(), material(i).density * of_body.gravity);
   if (!of_body.body_force)
     return b;
+  // As for faces: the value goes with the material point.
   const auto reference = the_element.quadrature_points(cell_field(i, mesh.reference_positions()));
   for (unsigned int q = 0; q < b.size(); ++q)
     b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));

@@ -10,6 +10,8 @@
 namespace snug::state {
 namespace {
 /// The matrix G that fits u = u_mean + G (x - x_mean) best at the nodes.
+/// Least squares: G = (sum_a du_a dx_a') (sum_a dx_a dx_a')^-1 with the differences du, dx from the
+/// means over the nodes: the exact gradient of displacements that are linear in x.
 template <int dim>
 dealii::Tensor<2, dim> fitted_gradient(const std::vector<unsigned int>           &nodes,
                                        const std::vector<dealii::Tensor<1, dim>> &x,
@@ -47,8 +49,10 @@ Assumptions assess(const StateSolver<dim>               &solver,
   for (const auto &subdomain : solver.tearing().subdomains)
     for (const unsigned int cell : subdomain.cells)
       {
-        const auto G    = fitted_gradient<dim>(solver.mesh().cells()[cell].nodes, state.positions,
+        const auto G = fitted_gradient<dim>(solver.mesh().cells()[cell].nodes, state.positions,
                                             state.displacement);
+        // Symmetric and antisymmetric part. That of a rotation by the small angle w has the norm
+        // sqrt(2) w.
         const auto part = [&](double sign) { return (0.5 * (G + sign * transpose(G))).norm(); };
         result.strain   = std::max(result.strain, part(1.));
         result.rotation = std::max(result.rotation, part(-1.) / std::sqrt(2.));
@@ -63,7 +67,9 @@ Assumptions assess(const StateSolver<dim>               &solver,
   const auto  drifts  = solver.contact().drifts(x, contact_rows);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
     {
+      // Of open contacts as well: they would close at the wrong point.
       result.drift = std::max(result.drift, drifts[i]);
+      // Rows without force may slide: there is no force whose place would matter.
       if (state.contact[i].strong)
         result.slip = std::max(result.slip, slips[i]);
     }
@@ -91,6 +97,7 @@ std::vector<std::string> warnings(const Assumptions &assumptions)
 void check_overlaps(const std::vector<contact::Pair> &pairs, const std::vector<double> &overlaps)
 {
   for (unsigned int p = 0; p < pairs.size(); ++p)
+    // Overlaps are replicated like all contact data: all ranks throw, or none.
     if (overlaps[p] > absurd_overlap && !pairs[p].parameters.interference)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
                       line("the sides overlap at first by", overlaps[p], " faces",

@@ -6,6 +6,8 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
+/// Hanging nodes count as independent positions, here and below: ShapeBasis::transpose() hands
+/// their share on to the masters.
 template <int dim>
 void add_to_nodes(const std::vector<unsigned int>     &nodes,
                   const Nodes<dim>                    &values,
@@ -36,6 +38,7 @@ void add_loaded_faces(const state::StateSolver<dim>       &solver,
 }
 } // namespace
 
+/// In the order of subdomains and cells, without communication.
 template <int dim>
 void for_each_cell(const state::StateSolver<dim>                             &solver,
                    const std::string                                         &body,
@@ -71,8 +74,9 @@ void add_stiffness_gradient(const state::StateSolver<dim>       &solver,
 {
   const auto add = [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
-    const auto  u         = assembler.cell_values(i, state.u[s].column(0));
-    Nodes<dim>  values(u.size());
+    // From the subdomain's own vector, in which the masters of hanging nodes act for them.
+    const auto u = assembler.cell_values(i, state.u[s].column(0));
+    Nodes<dim> values(u.size());
     assembler.element().add_energy_gradient(assembler.cell_field(i, state.positions),
                                             assembler.material(i), u,
                                             assembler.cell_values(i, w[s].column(0)), factor,
@@ -102,6 +106,8 @@ void add_load_gradient(const state::StateSolver<dim>       &solver,
   };
   for_each_cell<dim>(solver, "", add);
 
+  // The share of pressures, tractions and body forces is each cell's own; a resultant is spread
+  // over the whole face, so that each node changes the load on all of it: add_work_gradient().
   const auto tractions = solver.resultants().tractions(state.positions);
   const auto add_face  = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
     const auto &assembler = *solver.assemblers()[s];
@@ -123,10 +129,14 @@ void add_constraint_gradient(const state::StateSolver<dim>       &solver,
   std::vector<double> forces;
   for (const auto &point : state.contact)
     forces.push_back(point.force);
+  // Contact data are replicated, and the gradient at surface nodes is whole on all ranks: each rank
+  // adds its own nodes only, or the sum over ranks would count it repeatedly.
   const auto at_surface =
     solver.contact().energy_gradient(surface.gather(state.positions),
                                      surface.gather(state.displacement), forces);
   surface.add_owned(at_surface, gradient);
+  // reactions() counts contact rows as if they were not projected off the held directions, as
+  // energy_gradient() above does.
   if (solver.held().follow_positions())
     solver.held().add_energy_gradient(state.positions, state.displacement,
                                       solver.gluing().reactions(state.dual.lambda.column(0),

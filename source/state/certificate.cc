@@ -32,8 +32,9 @@ double equilibrium_error(const feti::TotalFeti     &feti,
                          const qp::MultiVector     &lambda,
                          const feti::PrimalVectors &u)
 {
-  const auto          forces   = feti.multiply_Bt(lambda);
-  const unsigned int  n_bodies = feti.n_bodies();
+  const auto         forces   = feti.multiply_Bt(lambda);
+  const unsigned int n_bodies = feti.n_bodies();
+  // per body: |residual|^2, |f|^2, |B'lambda|^2 and |terms of K u|^2
   std::vector<double> squares(4 * n_bodies, 0.);
   for (unsigned int s = 0; s < u.size(); ++s)
     {
@@ -47,6 +48,7 @@ double equilibrium_error(const feti::TotalFeti     &feti,
           of[0] += error * error;
           of[1] += system.f[i] * system.f[i];
           of[2] += forces[s](i) * forces[s](i);
+          // what rounding of (K u)_i is measured by
           const double terms = absolute_product(system.K, u[s], i);
           of[3] += terms * terms;
         }
@@ -57,6 +59,7 @@ double equilibrium_error(const feti::TotalFeti     &feti,
   for (unsigned int body = 0; body < n_bodies; ++body)
     {
       const double *of = &squares[4 * body];
+      // A body that is only moved has residuals of rounding and no forces to compare them with.
       if (std::sqrt(of[0]) <= round_off * std::sqrt(of[3]))
         continue;
       const double error = relative(std::sqrt(of[0]), std::sqrt(of[1]) + std::sqrt(of[2]));
@@ -72,6 +75,8 @@ double largest_product(const feti::TotalFeti &feti, const qp::MultiVector &lambd
   int            rank = feti.context().rank(), owner = feti.context().n_ranks();
   unsigned int   row = feti.n_owned();
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    // Exact comparison: the maximum over ranks is one of these products, bit for bit. Of equal ones
+    // the first row of the lowest rank counts.
     if (feti.diagonal()[i] * std::abs(lambda(i)) == largest)
       row = std::min(row, i);
   const int candidate = row < feti.n_owned() ? rank : owner;
@@ -79,6 +84,7 @@ double largest_product(const feti::TotalFeti &feti, const qp::MultiVector &lambd
   qp::MultiVector unit(feti.n_owned());
   if (rank == owner)
     unit(row) = 1.;
+  // Not apply(): F-mults count the work of solvers.
   const auto column  = feti.multiply_B(feti.apply_inverse(feti.multiply_Bt(unit)));
   double     product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
   MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
@@ -99,6 +105,8 @@ void set_round_off_to_zero(const feti::TotalFeti     &feti,
     largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
   for (unsigned int i = 0; i < w.n_rows(); ++i)
+    // u may be far larger than the lengths F_ii lambda_i that w is compared with later, as where
+    // prescribed displacements move a body.
     if (std::abs(w(i)) <= round_off * (largest[0] + largest[1]))
       w(i) = 0.;
 }
@@ -109,6 +117,7 @@ double Certificate::worst() const
   double worst = 0.;
   for (const double error :
        {equilibrium, continuity, penetration, negative_pressure, complementarity})
+    // Written so that NaN counts: it must not pass as small.
     if (!(error <= worst))
       worst = std::isnan(error) ? INFINITY : error;
   return worst;
@@ -134,6 +143,7 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
         }
       largest[1] = std::max(largest[1], w(i));
       largest[2] = std::max(largest[2], -lambda(i));
+      // A pull is compared with the largest push, not with the multipliers of gluing.
       largest[3] = std::max(largest[3], lambda(i));
       sums[0] += lambda(i) * w(i);
     }
@@ -147,13 +157,15 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
   const MPI_Comm comm = feti.context().communicator();
   MPI_Allreduce(MPI_IN_PLACE, largest, 5, MPI_DOUBLE, MPI_MAX, comm);
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
+  // A length by which forces deform the bodies: |u| would contain rigid motions, however large.
   const double size = largest_product(feti, lambda, largest[4]);
   Certificate  certificate;
   certificate.equilibrium       = equilibrium_error(feti, lambda, u);
   certificate.continuity        = relative(largest[0], size);
   certificate.penetration       = relative(largest[1], size);
   certificate.negative_pressure = relative(largest[2], largest[3]);
-  certificate.complementarity   = relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
+  // Energies on both sides. Without any strain the work of contact has to vanish exactly.
+  certificate.complementarity = relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
   return certificate;
 }
 
@@ -166,6 +178,7 @@ bool is_nearly_unloaded(const feti::TotalFeti &feti, const qp::MultiVector &lamb
       largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
     }
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
+  // By the estimates F_ii, which are of the right size but for nearly incompressible bodies.
   return largest[0] < 1e-3 * largest[1];
 }
 } // namespace snug::state

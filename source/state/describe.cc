@@ -17,6 +17,7 @@ typename mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim>    &solv
     {
       const auto &nodes = solver.tearing().subdomains[s].nodes;
       for (unsigned int a = 0; a < nodes.size(); ++a)
+        // Copies of a solution agree up to the continuity error of the certificate.
         if (!set[nodes[a]])
           {
             set[nodes[a]] = true;
@@ -33,6 +34,8 @@ namespace {
 /// with a gap below the same part of the largest F_ii lambda_i, weak.
 const double strong_part = 1e-6;
 
+/// The energy is the dual value -(1/2 lambda'F lambda - lambda'd) - 1/2 f'K^+f. With the residual
+/// d - F lambda this is 1/2 lambda'(d + residual) - 1/2 f'K^+f and takes no F-mult.
 template <int dim>
 void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
 {
@@ -68,6 +71,7 @@ void describe_contact(const StateSolver<dim>     &solver,
 {
   const auto &feti  = solver.feti();
   auto        slack = feti.g();
+  // g - B u, the gap that is left, in the units of the scaled rows
   slack.add(-1., feti.multiply_B(state.u));
   const std::vector<double> flags(state.dual.active.begin(), state.dual.active.end());
   const auto               &gluing = solver.gluing();
@@ -75,8 +79,9 @@ void describe_contact(const StateSolver<dim>     &solver,
   const auto                gaps   = gluing.gather_contact(slack.column(0));
   const auto                F_ii   = gluing.gather_contact(feti.diagonal().data());
   const auto                active = gluing.gather_contact(flags.data());
-  const auto areas   = solver.contact().areas(solver.surface().gather(state.positions));
-  double     largest = 0., largest_gap = 0., largest_area = 0.;
+  const auto areas = solver.contact().areas(solver.surface().gather(state.positions));
+  // Largest lambda_i, largest F_ii lambda_i, the length it is measured by, and largest area.
+  double largest = 0., largest_gap = 0., largest_area = 0.;
   for (unsigned int i = 0; i < lambda.size(); ++i)
     {
       largest_area = std::max(largest_area, areas[i]);
@@ -89,7 +94,9 @@ void describe_contact(const StateSolver<dim>     &solver,
       ContactPoint &point = state.contact[i];
       const double  scale = gluing.contact_scales()[i];
       point.area          = areas[i];
-      point.gap           = scale == 0. ? gluing.gap(i, rows, state.load_case) : gaps[i] * scale;
+      // A row divided by nr has its gap divided and its force multiplied by nr: both are undone
+      // here. A row that supports hold entirely has no multiplier, and its gap is fixed.
+      point.gap = scale == 0. ? gluing.gap(i, rows, state.load_case) : gaps[i] * scale;
       if (scale == 0.)
         continue;
       point.force = lambda[i] / scale;
@@ -97,8 +104,10 @@ void describe_contact(const StateSolver<dim>     &solver,
       if (areas[i] > 1e-10 * largest_area)
         point.pressure = point.force / areas[i];
       point.active = active[i] != 0.;
+      // By size, not by the active set: a contact in the set may carry no force.
       point.strong = lambda[i] > strong_part * largest;
-      point.weak   = !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
+      // It opens along one direction of the design and presses along the opposite one.
+      point.weak = !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
       if (largest > 0.)
         state.degeneracy_distance =
           std::min(state.degeneracy_distance,
@@ -106,6 +115,7 @@ void describe_contact(const StateSolver<dim>     &solver,
     }
 }
 
+/// Contact points are replicated: the same sums on all ranks without communication.
 template <int dim>
 void sum_up_contact(const contact::Contact<dim> &contact,
                     const RowCoefficients<dim>  &rows,
@@ -121,6 +131,7 @@ void sum_up_contact(const contact::Contact<dim> &contact,
       const ContactPoint &point = state.contact[i];
       PairState<dim>     &pair  = state.pairs[contact.places()[i].pair];
       ++pair.rows;
+      // The normal points into the master and -force * normal acts on the slave side.
       pair.force -= point.force * rows.contact[i].normal;
       pair.contact_area += point.strong ? point.area : 0.;
       pair.max_pressure = std::max(pair.max_pressure, point.pressure);

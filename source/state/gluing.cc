@@ -10,6 +10,7 @@ struct HeldDirection
   double                 s, ds;
 };
 
+/// Empty derivative frames stand for zero: directions that do not follow the positions.
 template <int dim>
 std::vector<HeldDirection<dim>> held_directions(const supports::HeldFrame<dim> &frame,
                                                 const supports::HeldFrame<dim> &derivative,
@@ -37,6 +38,7 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>      &mesh,
   : held(held), rows(mesh, tearing, surface, held, reference)
 {
   for (const auto &row : rows.owned)
+    // n_contact_rows() for rows of gluing and supports
     owned_contact.push_back(row.source == Source::contact ? row.index : n_contact_rows());
 }
 
@@ -70,6 +72,7 @@ const std::vector<unsigned int> &Gluing<dim>::contact_of_row() const
   return owned_contact;
 }
 
+/// scale_rows() sets the scale of such rows to zero.
 template <int dim>
 std::vector<unsigned int> Gluing<dim>::vanished_rows() const
 {
@@ -80,6 +83,8 @@ std::vector<unsigned int> Gluing<dim>::vanished_rows() const
   return vanished;
 }
 
+/// The entries are those of the reference geometry, also where a value happens to be zero at this
+/// one: the pattern of B does not depend on the design.
 template <int dim>
 void Gluing<dim>::fill_B(unsigned int                s,
                          const RowCoefficients<dim> &now,
@@ -119,6 +124,8 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
           auto               result = dc;
           const unsigned int h      = rows.held_of_surface[c.first];
           if (h < held.n_nodes())
+            // c <- c - sum_k (c . q_k) q_k by the product rule. 1 / nr in the factor is a constant
+            // of the reference. The values s of the load case, any of them, do not enter B.
             for (const auto &d : held_directions(now.held[h], derivative.held[h], 0))
               result -= (dc * d.q + c.second * d.dq) * d.q + (c.second * d.q) * d.dq;
           value = result[entry.dof % dim];
@@ -139,6 +146,7 @@ Gluing<dim>::gap(unsigned int i, const RowCoefficients<dim> &now, unsigned int l
         continue;
       const auto &frame = now.held[h];
       for (unsigned int k = 0; k < frame.directions.size(); ++k)
+        // c . u = (projected c) . u + sum_k (c . q_k) (q_k . u), where q_k . u = s_k is known.
         gap -= (c.second * frame.directions[k]) * frame.values[k][load_case];
     }
   return gap;
@@ -159,6 +167,7 @@ double Gluing<dim>::gap_derivative(unsigned int                i,
       if (h == held.n_nodes())
         continue;
       for (const auto &d : held_directions(now.held[h], derivative.held[h], load_case))
+        // the derivative of the term of gap() by the product rule
         result -= (dc * d.q + c.second * d.dq) * d.s + (c.second * d.q) * d.ds;
     }
   return result;
@@ -173,6 +182,7 @@ qp::MultiVector Gluing<dim>::right_hand_side(const RowCoefficients<dim> &now,
     {
       const auto &row = rows.owned[i];
       if (row.source == Source::contact)
+        // factor 1 / nr, as of the row itself
         g(i) = row.factor * gap(row.index, now, load_case);
       else if (row.source == Source::held)
         g(i) = row.factor * now.held[row.index].values[row.item][load_case];
@@ -191,6 +201,7 @@ qp::MultiVector Gluing<dim>::right_hand_side_derivative(const RowCoefficients<di
       const auto &row = rows.owned[i];
       if (row.source == Source::contact)
         g(i) = row.factor * gap_derivative(row.index, now, derivative, load_case);
+      // Prescribed displacements go with the material point; s' comes from the frame that turns.
       else if (row.source == Source::held && held.follows_positions(row.index))
         g(i) = row.factor * derivative.held[row.index].values[row.item][load_case];
     }
@@ -204,6 +215,8 @@ std::vector<double> Gluing<dim>::gather_contact(const double *owned_values) cons
   for (unsigned int row = 0; row < rows.layout->n_owned(); ++row)
     if (owned_contact[row] < rows.scales.size())
       values[owned_contact[row]] = owned_values[row];
+  // Each row has one owner, so every sum has one term besides zeros: the result is exact and does
+  // not depend on the number of ranks.
   MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
                 rows.layout->communicator());
   return values;
@@ -216,15 +229,20 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const double            
   std::vector<double> values(dim * held.n_nodes(), 0.);
   for (unsigned int row = 0; row < rows.owned.size(); ++row)
     if (rows.owned[row].source == Source::held)
+      // Row and right-hand side have the factor sqrt(m) on q . u = s, once the copies are equal.
       values[dim * rows.owned[row].index + rows.owned[row].item] =
         rows.owned[row].factor * owned_lambda[row];
   MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
                 rows.layout->communicator());
+  // lambda_i / nr_i (projected c . u - projected gap) holds -(c . q_k) (q_k . u - s_k) besides
+  // c . u - gap: that part goes to the supports. After the sum over ranks, since gathered
+  // multipliers are the same on all of them.
   const auto lambda = gather_contact(owned_lambda);
   for (unsigned int i = 0; i < lambda.size(); ++i)
     for (const auto &c : now.contact[i].coefficients)
       {
         const unsigned int h = rows.held_of_surface[c.first];
+        // A vanished row carries no force.
         if (h == held.n_nodes() || rows.scales[i] == 0.)
           continue;
         const auto &directions = now.held[h].directions;

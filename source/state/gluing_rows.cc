@@ -18,6 +18,7 @@ struct GluingRows<dim>::Message
 
   static const unsigned int size = 6 + dim;
 
+  /// Indices travel as doubles beside the factors, which are exact up to 2^53.
   void append_to(std::vector<double> &buffer) const
   {
     for (const unsigned int n :
@@ -52,6 +53,8 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>      &mesh,
                             const RowCoefficients<dim>     &reference)
   : mesh(mesh), surface(surface), held(held)
 {
+  // The order matters: scales need the copies of the surface nodes, the numbers of contact rows
+  // come after those of gluing and supports on the same rank.
   collect_surface(tearing);
   scale_rows(reference);
   const auto           ranks = cluster_ranks(reference.contact);
@@ -70,11 +73,15 @@ GluingRows<dim>::projected(unsigned int                                 surface_
 {
   dealii::Tensor<1, dim> result = coefficient;
   if (held_of_surface[surface_node] < frames.size())
+    // The q are orthonormal, so one after the other is the projection off all of them.
     for (const auto &q : frames[held_of_surface[surface_node]].directions)
       result -= (result * q) * q;
   return result;
 }
 
+/// A coefficient c spread evenly over m copies has the square |c|^2 / m: rows get unit length. At
+/// the reference geometry only, so that nr is no function of the design; a node held in the
+/// direction of a row leaves nothing to divide by.
 template <int dim>
 void GluingRows<dim>::scale_rows(const RowCoefficients<dim> &reference)
 {
@@ -98,6 +105,7 @@ void GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
       surface_of_global[surface.global_node(i)] = i;
       held_of_surface.push_back(held.find(surface.global_node(i)));
     }
+  // How many subdomains, of all ranks, reach each surface node; hanging ones are reached by none.
   copies.assign(surface.n_nodes(), 0);
   for (const auto &subdomain : tearing.subdomains)
     for (const unsigned int node : subdomain.nodes)
@@ -129,6 +137,7 @@ GluingRows<dim>::cluster_ranks(const std::vector<contact::Row<dim>> &contact_row
       {
         const unsigned int a = find(row.coefficients.front().first);
         const unsigned int b = find(c.first);
+        // The root is the first node of its cluster, in whatever order rows come.
         root[std::max(a, b)] = std::min(a, b);
       }
   std::vector<unsigned int> ranks;
@@ -142,6 +151,7 @@ typename GluingRows<dim>::Copies
 GluingRows<dim>::collect_copies(const mesh::Tearing             &tearing,
                                 const std::vector<unsigned int> &rank_of_contact) const
 {
+  // Nodes of contact surfaces go to the rank of their cluster, all others to their owner.
   std::map<unsigned int, unsigned int> special;
   for (unsigned int i = 0; i < surface.n_nodes(); ++i)
     special[surface.global_node(i)] = rank_of_contact[i];
@@ -159,6 +169,8 @@ GluingRows<dim>::collect_copies(const mesh::Tearing             &tearing,
   for (const auto &message : dealii::Utilities::MPI::some_to_some(mesh.communicator(), out))
     for (std::size_t i = 0; i < message.second.size(); i += 2)
       nodes[message.second[i]].push_back(message.second[i + 1]);
+  // Messages come rank by rank. In ascending order the Helmert rows of a node depend on the numbers
+  // of its subdomains alone.
   for (auto &node : nodes)
     std::sort(node.second.begin(), node.second.end());
   return nodes;
@@ -177,17 +189,22 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int i = 1; i < m; ++i)
           {
+            // Helmert row i: the mean of the first i copies against copy i. Rows of differences of
+            // pairs would do as well but are not orthogonal to each other.
             const double norm = std::sqrt(i * (i + 1.));
             for (unsigned int j = 0; j <= i; ++j)
               {
                 messages.emplace_back(subdomains[j], node, owned.size());
                 messages.back().factor[c] = (j < i ? 1. : -1. * i) / norm;
               }
+            // copies are equal: right-hand side 0
             owned.push_back({Source::constant, 0, 0, 0.});
           }
       const unsigned int h = held.find(node);
       if (h == held.n_nodes())
         continue;
+      // One row holds the sum of the copies, not each of them: with the gluing that is the same,
+      // and the rows stay orthonormal.
       const auto &directions = reference.held[h].directions;
       for (unsigned int k = 0; k < directions.size(); ++k)
         {
@@ -195,9 +212,11 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
             {
               messages.emplace_back(subdomain, node, owned.size());
               Message &message = messages.back();
-              message.source   = held.follows_positions(h) ? Source::held : Source::constant;
-              message.index    = h;
-              message.item     = k;
+              // A direction that follows the design has entries for all components, also where it
+              // is zero at the reference: another design may turn it.
+              message.source = held.follows_positions(h) ? Source::held : Source::constant;
+              message.index  = h;
+              message.item   = k;
               for (unsigned int c = 0; c < dim; ++c)
                 message.factor[c] =
                   (held.follows_positions(h) ? 1. : directions[k][c]) / std::sqrt(double(m));
@@ -217,6 +236,8 @@ void GluingRows<dim>::number_contact_rows(const Copies                         &
   for (unsigned int i = 0; i < reference_rows.size(); ++i)
     {
       const auto &coefficients = reference_rows[i].coefficients;
+      // A vanished row would be a zero row of B; its gap is checked by StateProblem instead. All
+      // nodes of a row are in one cluster, so the first names the owner.
       if (scales[i] == 0. || rank_of_contact[coefficients.front().first] != my_rank)
         continue;
       for (unsigned int k = 0; k < coefficients.size(); ++k)
@@ -231,6 +252,7 @@ void GluingRows<dim>::number_contact_rows(const Copies                         &
               message.index    = i;
               message.item     = k;
               for (unsigned int c = 0; c < dim; ++c)
+                // 1 / (nr m): the coefficient itself is multiplied when B is filled.
                 message.factor[c] = 1. / (scales[i] * subdomains.size());
             }
         }
@@ -245,6 +267,7 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
   const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(comm);
   const auto         counts =
     dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(owned.size()));
+  // Owned rows are numbered from 0; globally, those of lower ranks come first.
   const unsigned int first_row = std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
   n_global                     = std::accumulate(counts.begin(), counts.end(), 0u);
 
@@ -254,6 +277,7 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
     {
       message.row += first_row;
       const unsigned int rank =
+        // A rank without subdomains has the first id of the next one: the last of equals has it.
         std::upper_bound(first.begin(), first.end(), message.subdomain) - first.begin() - 1;
       message.append_to(out[rank]);
     }
@@ -270,6 +294,7 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
           nodes.begin();
         for (unsigned int c = 0; c < dim; ++c)
           {
+            // components that the row does not have, see number_node_rows()
             if (message.factor[c] == 0.)
               continue;
             layout_entries[s].push_back({message.row, dim * slot + c});
@@ -279,10 +304,12 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
       }
   qp::RowSet bounded;
   for (const OwnedRow &row : owned)
+    // lambda_i >= 0 for contact, the multipliers of gluing and supports have any sign
     bounded.push_back(row.source == Source::contact);
   layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id);
   for (auto &of_subdomain : entries)
     for (Entry &entry : of_subdomain)
+      // global until here: local rows are known once the layout has seen all entries
       entry.local_row = layout->local_row(entry.local_row);
 }
 

@@ -15,6 +15,7 @@ NodeReach<dim>::NodeReach(const mesh::BodyMesh<dim>       &mesh,
       std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), node) -
       subdomain.nodes.begin());
   };
+  // Most cells have no hanging node: T is left empty then, and stands for the identity.
   bool hanging = false;
   for (const unsigned int node : nodes)
     hanging = hanging || mesh.is_hanging(node);
@@ -29,6 +30,7 @@ NodeReach<dim>::NodeReach(const mesh::BodyMesh<dim>       &mesh,
     {
       rows.emplace_back();
       if (mesh.is_hanging(node))
+        // A master of several hanging nodes, or a node of the cell itself, has one slot.
         for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
           rows.back()[slot(master.first)] += master.second;
       else
@@ -64,6 +66,7 @@ typename NodeReach<dim>::Nodes NodeReach<dim>::values(const double *u) const
   return result;
 }
 
+/// The transpose of values(): a force at a hanging node acts on its masters by their weights.
 template <int dim>
 void NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
 {
@@ -77,6 +80,8 @@ void NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
           u[dim * reached[s] + c] += factor * T[a * m + s] * r[a][c];
 }
 
+/// In two products, K T and T'(K T), over the nonzeros of T: of n^2 m and n m^2 terms at most
+/// instead of the n^2 m^2 of one.
 template <int dim>
 void NodeReach<dim>::condense(std::vector<double> &K) const
 {

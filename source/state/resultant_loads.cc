@@ -4,7 +4,7 @@
 
 namespace snug::state {
 namespace {
-/// Sum over ranks of moments in a row.
+/// Sum over ranks of moments in a row: one reduction for all boundaries.
 template <int dim>
 void add_up(std::vector<elasticity::AreaMoments<dim>> &moments, MPI_Comm comm)
 {
@@ -39,6 +39,7 @@ ResultantLoads<dim>::ResultantLoads(const mesh::BodyMesh<dim>        &mesh,
                                     const std::vector<LoadCase<dim>> &load_cases)
   : mesh(mesh), face_load(face_load), load_cases(load_cases)
 {
+  // A set, so that the boundaries come in one order on all ranks: sums over ranks rely on it.
   std::set<Boundary> boundaries;
   for (const auto &load_case : load_cases)
     for (unsigned int b = 0; b < load_case.bodies.size(); ++b)
@@ -48,13 +49,16 @@ ResultantLoads<dim>::ResultantLoads(const mesh::BodyMesh<dim>        &mesh,
   for (const auto &boundary : boundaries)
     {
       loaded.push_back({boundary, {}, {}});
+      // Faces of owned cells: each is on one rank, so that sums over ranks count it once.
       for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
         if (mesh.boundary_faces()[f].body == boundary.first &&
             mesh.boundary_faces()[f].boundary == boundary.second)
           loaded.back().faces.push_back(f);
     }
-  const auto &X     = mesh.reference_positions();
-  const auto  about = moments([&](unsigned int f, const auto &origin) {
+  const auto &X = mesh.reference_positions();
+  // Origins are zero as yet, which gives the centroid of the reference. Moments about a point far
+  // from the face would make I a difference of large numbers.
+  const auto about = moments([&](unsigned int f, const auto &origin) {
     return this->face_load.moments(at_face(f, X), origin);
   });
   for (unsigned int i = 0; i < loaded.size(); ++i)
@@ -85,6 +89,7 @@ std::vector<elasticity::AreaMoments<dim>> ResultantLoads<dim>::moments(const Com
         result[i].first += of_face.first;
         result[i].second += of_face.second;
       }
+  // The same on all ranks, as load cases are.
   if (!loaded.empty())
     add_up<dim>(result, mesh.communicator());
   return result;
@@ -126,7 +131,8 @@ template <int dim>
 typename ResultantLoads<dim>::Tractions
 ResultantLoads<dim>::traction_derivatives(const Field &positions, const Field &velocity) const
 {
-  const auto now     = spread(positions);
+  const auto now = spread(positions);
+  // A', c' and I' are sums over the whole face: a node moves the traction on all of it.
   const auto changes = moments([&](unsigned int f, const auto &origin) {
     return face_load.moment_derivatives(at_face(f, positions), at_face(f, velocity), origin);
   });
@@ -137,6 +143,8 @@ ResultantLoads<dim>::traction_derivatives(const Field &positions, const Field &v
   return result;
 }
 
+/// f . u = F . U / A + M . y with U = int u dA and y = I^-1 int r x u dA over the whole face. A
+/// first pass sums them up over all ranks, a second adds what they and the faces' own places make.
 template <int dim>
 void ResultantLoads<dim>::add_work_gradient(unsigned int load_case,
                                             const Field &positions,
@@ -147,9 +155,10 @@ void ResultantLoads<dim>::add_work_gradient(unsigned int load_case,
   const auto all = spread(positions);
   for (const auto &entry : all[load_case])
     {
-      const auto &of    = loaded[entry.first];
-      const auto &now   = entry.second;
-      double      sum[] = {0., 0., 0., 0., 0., 0.};
+      const auto &of  = loaded[entry.first];
+      const auto &now = entry.second;
+      // U in the first dim numbers, the moment about c in the last three
+      double sum[] = {0., 0., 0., 0., 0., 0.};
       for (const unsigned int f : of.faces)
         {
           const auto moved =
