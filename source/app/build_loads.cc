@@ -1,7 +1,6 @@
 #include <snug/app/build_loads.h>
-#include <snug/base/errors.h>
+#include <snug/base/values.h>
 #include <snug/geometry/formula.h>
-#include <snug/scene/values.h>
 
 namespace snug::app {
 namespace {
@@ -97,9 +96,9 @@ public:
       }
     for (const auto &item : loads.traction)
       {
-        auto &load    = boundary(item.first, to);
-        load.traction = sum(load.traction,
-                            function_of<dim>(section + "Traction", scene::components(item.second)));
+        auto &load = boundary(item.first, to);
+        load.traction =
+          sum(load.traction, function_of<dim>(section + "Traction", components(item.second)));
       }
     for (const auto &item : loads.force)
       add_resultant("Force", item.first, {to_tensor<dim>(item.second), {}}, to);

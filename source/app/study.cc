@@ -6,7 +6,6 @@
 #include <snug/base/errors.h>
 #include <snug/io/text_file.h>
 #include <snug/scene/read_scene.h>
-#include <snug/scene/values.h>
 
 #include <ostream>
 #include <sstream>
@@ -113,7 +112,13 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   auto mesh = timed_mesh<dim>(context, scene);
   print_import_notes(scene, context.out());
   print(take_inventory(scene, *mesh), context.out());
-  Workshop<dim>(context, scene, std::move(mesh));
+  const Workshop<dim> workshop(context, scene, std::move(mesh));
+  const auto          positions = workshop.positions(workshop.basis->start());
+  // Formulas of loads may have no value where only some ranks look.
+  for (unsigned int c = 0; c < workshop.n_load_cases(); ++c)
+    made_of(scene, [&]() {
+      everywhere(context.communicator(), [&]() { workshop.solver->loads(positions, c); });
+    });
 }
 
 template <int dim>

@@ -80,8 +80,7 @@ const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> &co
     {"nodal", "slave nodes against the closest points of master faces",
      [](const PairGeometry<dim> &pair) { return std::make_unique<NodalRows<dim>>(pair); }},
     {"mortar",
-     "mean gaps around slave nodes, integrated over both faces: "
-     "for meshes that do not match",
+     "mean gaps around slave nodes, integrated over both faces: for meshes that do not match",
      [](const PairGeometry<dim> &pair) { return std::make_unique<MortarRows<dim>>(pair); }}};
   return table;
 }
@@ -126,9 +125,9 @@ void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim>
         }
       // Replicated data: the same answer, and the same error, on all ranks.
       if (groups.back().rows->slaves().empty())
-        throw InputError("contact pair '" + pair.name() +
-                         "': no slave node lies opposite to the master within the search "
-                         "distance and angle");
+        throw InputError(
+          "contact pair '" + pair.name() +
+          "': no slave node lies opposite to the master within the search distance and angle");
     }
   collect_shared_nodes();
   measure_pairing(positions);

@@ -115,7 +115,7 @@ unsigned int boundary_index(const BodyGeometry<dim> &geometry, const std::string
   const auto  found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     // without the entry, which callers know
-    throw InputError("'" + name + "' is no face; the faces are " + joined(names));
+    throw InputError("'" + name + "' is no face; the faces are " + to_text(names));
   return found - names.begin();
 }
 

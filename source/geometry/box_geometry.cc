@@ -79,10 +79,10 @@ void BoxGeometry<dim>::set_spacing(const BodyMeshParameters &parameters)
     {
       // the ratio of neighbours is the (n - 1)-th root of the grading
       if (cells[d] == 1 && grading[d] != 1.)
-        throw bad_entry("Box grading", joined(parameters.grading),
+        throw bad_entry("Box grading", to_text(parameters.grading),
                         "must be 1 along an axis with a single cell");
       if (fine[d] != 0. && !(fine[d] > 0. && fine[d] < size[d] && cells[d] > 1 && grading[d] == 1.))
-        throw bad_entry("Box fine length", joined(parameters.fine_length),
+        throw bad_entry("Box fine length", to_text(parameters.fine_length),
                         "must be 0, or below the size of the box along "
                         "an axis with several cells and no grading");
       spacing[d] = fine[d] != 0. ? AxisSpacing::with_fine_part(cells[d], fine[d] / size[d])
@@ -96,7 +96,7 @@ void BoxGeometry<dim>::add_curved_face(const std::string &face, const std::strin
   const auto &names = this->boundary_names();
   const auto  found = std::find(names.begin(), names.end(), face);
   if (found == names.end())
-    throw bad_entry("Curved faces", face + ": " + value, "the faces are " + joined(names));
+    throw bad_entry("Curved faces", face + ": " + value, "the faces are " + to_text(names));
   FlatFace<dim> flat;
   flat.boundary = found - names.begin();
   flat.name     = face;

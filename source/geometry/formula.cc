@@ -1,4 +1,4 @@
-#include <snug/base/errors.h>
+#include <snug/base/section_check.h>
 #include <snug/geometry/formula.h>
 
 #include <deal.II/base/function_parser.h>
@@ -97,11 +97,12 @@ template <int dim>
 double Formula<dim>::value(const dealii::Point<dim> &point) const
 {
   const double value = parser->value(point);
-  // 1/0 or sqrt(-1): muParser returns inf or nan without an error
-  if (!std::isfinite(value))
+  // 1/0 or sqrt(-1): muParser returns inf or nan without an error. Beyond 1e60, what is computed
+  // from it overflows.
+  if (!(std::abs(value) <= 1e60))
     {
       std::ostringstream where;
-      where << "must be finite everywhere, but is not at (" << point << ")";
+      where << "must be finite everywhere, at most 1e60 in size, but is not at (" << point << ")";
       throw bad_entry(entry, text, where.str());
     }
   return value;
@@ -152,6 +153,27 @@ dealii::Tensor<2, dim> Formula<dim>::hessian(const dealii::Point<dim> &point,
           step);
     }
   return result;
+}
+
+void require_formula(const SectionCheck &section,
+                     const std::string  &entry,
+                     const std::string  &value,
+                     const std::string  &formula)
+{
+  try
+    {
+      if (section.dimension == 2)
+        Formula<2>(entry, formula);
+      else
+        Formula<3>(entry, formula);
+    }
+  catch (const InputError &error)
+    {
+      const std::string message = error.what();
+      throw section.error(entry, value,
+                          (formula == value ? "" : "'" + quotable(formula) + "' ") +
+                            message.substr(message.find("must be")));
+    }
 }
 
 template class Formula<2>;

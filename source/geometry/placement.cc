@@ -70,13 +70,13 @@ public:
   {
     // a negative scale would mirror the body and invert its cells
     if (!(std::isfinite(scale) && scale > 0.))
-      throw bad_entry("Scale", joined(std::vector<double>{scale}), "must be positive");
+      throw bad_entry("Scale", to_text(scale), "must be positive");
     const auto shifts = per_axis<dim, double>("Shift", parameters.shift, 0., false);
     for (unsigned int d = 0; d < dim; ++d)
       shift[d] = shifts[d];
     turned = rotation<dim>(parameters);
     if (!parameters.warp.empty() && parameters.warp.size() != dim)
-      throw bad_entry("Warp", joined(parameters.warp),
+      throw bad_entry("Warp", to_text(parameters.warp),
                       "must be " + std::to_string(dim) + " formulas separated by semicolons");
     for (const auto &text : parameters.warp)
       warp.emplace_back("Warp", text);

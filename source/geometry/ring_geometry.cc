@@ -54,7 +54,7 @@ std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
 {
   const auto given = round_cells(parameters, dim);
   if (parameters.part == "full" && given[0] < 3)
-    throw bad_entry("Cells", joined(given), "must be at least 3 around a full ring");
+    throw bad_entry("Cells", to_text(given), "must be at least 3 around a full ring");
   std::array<unsigned int, dim> cells;
   cells[dim - 1] = given[0];
   cells[dim - 2] = given[1];

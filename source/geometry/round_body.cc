@@ -9,7 +9,7 @@ std::vector<unsigned int> round_cells(const BodyMeshParameters &parameters, unsi
   if (given.empty())
     return std::vector<unsigned int>(n, 4);
   if (given.size() != n || std::count(given.begin(), given.end(), 0u) > 0)
-    throw bad_entry("Cells", joined(given),
+    throw bad_entry("Cells", to_text(given),
                     "must be " + std::to_string(n) + " numbers of at least 1 for a " +
                       parameters.source);
   return given;
@@ -33,7 +33,7 @@ unsigned int n_of_part(const BodyMeshParameters &parameters, unsigned int larges
 void require_positive(const std::string &entry, double value)
 {
   if (!(std::isfinite(value) && value > 0.))
-    throw bad_entry(entry, joined(std::vector<double>{value}), "must be positive");
+    throw bad_entry(entry, to_text(value), "must be positive");
 }
 
 void require_radii(const BodyMeshParameters &parameters)
@@ -41,7 +41,6 @@ void require_radii(const BodyMeshParameters &parameters)
   require_positive("Radius", parameters.radius);
   require_positive("Inner radius", parameters.inner_radius);
   if (parameters.inner_radius >= parameters.radius)
-    throw bad_entry("Inner radius", joined(std::vector<double>{parameters.inner_radius}),
-                    "must be below the radius");
+    throw bad_entry("Inner radius", to_text(parameters.inner_radius), "must be below the radius");
 }
 } // namespace snug::geometry

@@ -25,11 +25,12 @@ void check_regions(const std::vector<std::string> &regions, const std::set<std::
 {
   for (const auto &region : regions)
     if (known.count(region) == 0)
-      throw bad_entry("Mesh regions", geometry::joined(regions),
+      throw bad_entry("Mesh regions", to_text(regions),
                       "'" + region + "' is no region of the file, " +
-                        (known.empty() ? "there are none"
-                                       : "they are " + geometry::joined(std::vector<std::string>(
-                                                         known.begin(), known.end()))));
+                        (known.empty()
+                           ? "there are none"
+                           : "they are " +
+                               to_text(std::vector<std::string>(known.begin(), known.end()))));
 }
 
 [[noreturn]] void throw_without_cells(const MeshFile &file, unsigned int dim)

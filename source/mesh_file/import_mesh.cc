@@ -212,7 +212,7 @@ private:
     const auto  found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
       throw bad_entry("Curved faces", name + ": " + value,
-                      "there is no boundary '" + name + "', they are " + geometry::joined(names));
+                      "there is no boundary '" + name + "', they are " + to_text(names));
     return found - names.begin();
   }
 

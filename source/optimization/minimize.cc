@@ -1,3 +1,4 @@
+#include <snug/base/entries.h>
 #include <snug/optimization/minimize.h>
 #include <snug/optimization/nlopt_search.h>
 
@@ -52,18 +53,10 @@ bool takes_equalities(const std::string &algorithm)
 OptimizationResult
 minimize(const DesignProblem &problem, const OptimizationParameters &parameters, const Hooks &hooks)
 {
-  const auto require = [](bool good, const char *entry, auto value) {
-    if (!good)
-      throw bad_entry(entry, std::to_string(value), "must be positive");
-  };
-  require(parameters.maximum_evaluations > 0, "Maximum evaluations",
-          parameters.maximum_evaluations);
-  require(parameters.gradient_tolerance > 0., "Gradient tolerance", parameters.gradient_tolerance);
-  require(parameters.objective_tolerance > 0., "Objective tolerance",
-          parameters.objective_tolerance);
-  require(parameters.design_tolerance > 0., "Design tolerance", parameters.design_tolerance);
-  require(parameters.constraint_tolerance > 0., "Constraint tolerance",
-          parameters.constraint_tolerance);
+  OptimizationParameters checked = parameters;
+  Entries                entries;
+  checked.declare(entries);
+  entries.check(Origins(), 0);
   return choose(algorithm_table(), parameters.algorithm).make(problem, parameters, hooks);
 }
 } // namespace snug::optimization

@@ -1,17 +1,29 @@
+#include <snug/base/entries.h>
 #include <snug/qp/active_set.h>
 #include <snug/qp/smalse.h>
 
 namespace snug::qp {
+void SolverParameters::declare(Entries &entries)
+{
+  entries.add("Method", method, choice(solver_table()), "Solver of the dual quadratic program.");
+  entries.add("Relative tolerance", relative_tolerance, between(1e-14, 0.1),
+              "What the relative errors of equilibrium, continuity, penetration, negative pressure "
+              "and complementarity may be; between 1e-14 and 0.1.");
+  entries.add("Maximum F-mults", max_iterations, at_least(1),
+              "Largest number of applications of the dual operator in one solve; a state that "
+              "needs more is an error.");
+}
+
 const ChoiceTable<std::unique_ptr<Solver>(const SolverParameters &)> &solver_table()
 {
   static const ChoiceTable<std::unique_ptr<Solver>(const SolverParameters &)> table = {
     {"active set",
-     "inexact primal-dual active set with conjugate gradients; about "
-     "twice a linear solve, one when started from a near solution",
+     "inexact primal-dual active set with conjugate gradients; about twice a linear solve, one "
+     "when started from a near solution",
      [](const SolverParameters &parameters) { return std::make_unique<ActiveSet>(parameters); }},
     {"SMALSE-M",
-     "augmented Lagrangians with projected conjugate gradients; 2 to 4 "
-     "times as much work, but with a proof of convergence",
+     "augmented Lagrangians with projected conjugate gradients; 2 to 4 times as much work, but "
+     "with a proof of convergence",
      [](const SolverParameters &parameters) { return std::make_unique<Smalse>(parameters); }}};
   return table;
 }

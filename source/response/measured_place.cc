@@ -1,3 +1,4 @@
+#include <snug/base/values.h>
 #include <snug/elasticity/cell_point.h>
 #include <snug/response/measured_place.h>
 #include <snug/state/cell_gradients.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 namespace snug::response {
 namespace {
@@ -71,14 +71,6 @@ shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tenso
   return {};
 }
 
-std::string listed(const std::vector<double> &point)
-{
-  std::ostringstream text;
-  for (unsigned int d = 0; d < point.size(); ++d)
-    text << (d == 0 ? "" : ", ") << point[d];
-  return text.str();
-}
-
 /// Throw unless exactly one body holds the point: where bodies touch, their displacements differ.
 void require_one_body(const ResponseParameters        &parameters,
                       const std::vector<std::string>  &names,
@@ -90,9 +82,9 @@ void require_one_body(const ResponseParameters        &parameters,
       bodies += (bodies.empty() ? "" : ", ") + names[b];
   const auto n = holds.size() - std::count(holds.begin(), holds.end(), 0);
   if (n == 0)
-    throw bad_entry(parameters.path("Point"), listed(parameters.point), "lies outside the bodies");
+    throw bad_entry(parameters.path("Point"), to_text(parameters.point), "lies outside the bodies");
   if (n > 1)
-    throw bad_entry(parameters.path("Point"), listed(parameters.point),
+    throw bad_entry(parameters.path("Point"), to_text(parameters.point),
                     "lies in the bodies " + bodies + ": name one with 'Body'");
 }
 } // namespace

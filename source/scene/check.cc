@@ -1,114 +1,153 @@
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
-#include <snug/scene/values.h>
 #include <snug/sensitivity/methods.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 namespace snug::scene {
 namespace {
-/// @p value must be in [lower, upper] (NaN is not).
-void require_range(const Origins     &origins,
-                   const std::string &path,
-                   const double       value,
-                   const double       lower,
-                   const double       upper)
+bool is_good_name(const std::string &name)
 {
-  if (!(value >= lower && value <= upper))
-    throw origins.error(path, to_text(value),
-                        "must lie between " + to_text(lower) + " and " + to_text(upper));
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](const unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-' || c == ' ';
+  });
 }
 
-void require_positive(const Origins &origins, const std::string &path, const unsigned int value)
+void check_list_of_names(const std::string              &entry,
+                         const std::vector<std::string> &names,
+                         const Origins                  &origins)
 {
-  if (value == 0)
-    throw origins.error(path, "0", "must be at least 1");
+  for (const auto &name : names)
+    {
+      if (!is_good_name(name))
+        throw origins.error(entry, to_text(names),
+                            "names must be made of letters, digits, "
+                            "'_', '-' and blanks");
+      if (std::count(names.begin(), names.end(), name) > 1)
+        throw origins.error(entry, to_text(names), "'" + name + "' must not occur twice");
+    }
 }
 
-void check_optimization(const Scene &scene, const Origins &origins)
+void check_model(const Scene &scene, const SectionCheck &top)
 {
-  const auto       &parameters = scene.optimization;
-  const std::string section    = "Optimization/";
-  require_positive(origins, section + "Maximum evaluations", parameters.maximum_evaluations);
-  const std::pair<const char *, double> tolerances[] = {
-    {"Gradient tolerance", parameters.gradient_tolerance},
-    {"Objective tolerance", parameters.objective_tolerance},
-    {"Design tolerance", parameters.design_tolerance},
-    {"Constraint tolerance", parameters.constraint_tolerance}};
-  for (const auto &[name, value] : tolerances)
-    require_range(origins, section + name, value, 1e-15, 0.1);
+  const bool plane = scene.model == "plane strain" || scene.model == "plane stress";
+  top.require((scene.model == "solid") == (scene.dimension == 3), "Model", scene.model,
+              scene.dimension == 3 ? "must be solid for Dimension = 3"
+                                   : "must be one of plane strain, plane stress, "
+                                     "axisymmetric for Dimension = 2");
+  top.require(plane || scene.thickness == 1., "Thickness", to_text(scene.thickness),
+              "must be left out for Model = " + scene.model);
+  top.require(!scene.output_directory.empty(), "Output directory", "", "must not be empty");
 }
 
-void check_gradient(const Scene &scene, const Origins &origins)
+/// Loads of bodies and load cases.
+void check_all_loads(const Scene &scene, const Origins &origins)
+{
+  LoadParameters::Held held;
+  for (const auto &body : scene.bodies)
+    check_loads(SectionCheck(body.section(), origins, scene.dimension), body, held);
+  for (const auto &load_case : scene.load_cases)
+    {
+      const SectionCheck section(load_case.section(), origins, scene.dimension);
+      load_case.loads.check(section, [&](const auto &entry, const auto &value, const auto &face) {
+        require_face(scene, section, entry, value, face);
+      });
+      auto held_here = held;
+      load_case.loads.check_displacements(section, "", held_here);
+    }
+  const bool no_weight = std::all_of(scene.load_cases.begin(), scene.load_cases.end(),
+                                     [](const auto &of) { return of.weight == 0.; });
+  if (!scene.load_cases.empty() && no_weight)
+    throw origins.error(scene.load_cases.front().section() + "/Weight", "0",
+                        "must be above 0 for at least one load case");
+}
+
+void check_gradient(const Scene &scene, const SectionCheck &section)
 {
   // The same in 2D and 3D.
   const std::string &objective = scene.optimization.objective;
   const auto         measured  = response_called(scene, objective);
-  if (scene.gradient.method == "energy" &&
-      sensitivity::needs_solve(*response::make_response<3>(*measured)))
-    throw origins.error("Gradient/Method", scene.gradient.method,
-                        "must be auto, adjoint, direct or finite "
-                        "differences for the objective '" +
-                          objective + "'");
-  const std::pair<const char *, double> steps[] = {{"Gradient/Semi-analytic step",
-                                                    scene.gradient.semi_analytic_step},
-                                                   {"Gradient/Step", scene.gradient.step}};
-  for (const auto &[path, value] : steps)
-    if (!(value > 0. && value <= 0.1))
-      throw origins.error(path, to_text(value), "must be above 0 and at most 0.1");
+  section.require(scene.gradient.method != "energy" ||
+                    !sensitivity::needs_solve(*response::make_response<3>(*measured)),
+                  "Method", scene.gradient.method,
+                  "must be auto, adjoint, direct or finite differences for the objective '" +
+                    objective + "'");
+}
+
+void check_entries(const Scene &scene, const Origins &origins)
+{
+  Scene   copy = scene;
+  Entries entries;
+  declare(entries, copy);
+  entries.check(origins, scene.dimension);
 }
 } // namespace
 
-namespace {
-void check_model(const Scene &scene, const Origins &origins)
+void check_names(const Scene &scene, const Origins &origins)
 {
-  const bool plane = scene.model == "plane strain" || scene.model == "plane stress";
-  if ((scene.model == "solid") != (scene.dimension == 3))
-    throw origins.error("Model", scene.model,
-                        scene.dimension == 3 ? "must be solid for Dimension = 3"
-                                             : "must be one of plane strain, plane stress, "
-                                               "axisymmetric for Dimension = 2");
-  if (!(scene.thickness > 0. && std::isfinite(scene.thickness)))
-    throw origins.error("Thickness", to_text(scene.thickness), "must be positive");
-  if (!plane && scene.thickness != 1.)
-    throw origins.error("Thickness", to_text(scene.thickness),
-                        "must be left out for Model = " + scene.model);
+  if (scene.bodies.empty())
+    throw origins.error("Bodies", "", "must name at least one body");
+  check_list_of_names("Bodies", names_of(scene.bodies), origins);
+  check_list_of_names("Load cases", names_of(scene.load_cases), origins);
+  check_list_of_names("Materials", names_of(scene.materials), origins);
+  check_list_of_names("Obstacles", names_of(scene.obstacles), origins);
+  check_list_of_names("Responses", names_of(scene.responses), origins);
+  if (scene.shapes.size() > 1 || !scene.shapes.front().name.empty())
+    check_list_of_names("Shapes", names_of(scene.shapes), origins);
 }
-} // namespace
 
 void check(const Scene &scene, const Origins &origins)
 {
-  if (scene.dimension != 2 && scene.dimension != 3)
-    throw origins.error("Dimension", to_text(scene.dimension), "must be one of 2, 3");
-  if (scene.degree != 1 && scene.degree != 2)
-    throw origins.error("Element degree", to_text(scene.degree), "must be one of 1, 2");
-  if (scene.output_directory.empty())
-    throw origins.error("Output directory", "", "must not be empty");
-  check_model(scene, origins);
+  const auto section = [&](const std::string &name) {
+    return SectionCheck(name, origins, scene.dimension);
+  };
   check_names(scene, origins);
-  require_range(origins, "Least scaled Jacobian", scene.least_scaled_jacobian, 0., 0.99);
-  check_bodies(scene, origins);
-  check_loads(scene, origins);
+  check_entries(scene, origins);
+  check_model(scene, section(""));
+  for (const auto &material : scene.materials)
+    material.material.check(section(material.section()));
+  for (const auto &body : scene.bodies)
+    check_body(scene, section(body.section()), body);
+  check_all_loads(scene, origins);
   check_contact(scene, origins);
   check_shapes(scene, origins);
-  check_methods(scene, origins);
-}
-
-void check_methods(const Scene &scene, const Origins &origins)
-{
-  require_range(origins, "Solver/Relative tolerance", scene.solver.relative_tolerance, 1e-14, 0.1);
-  require_positive(origins, "Solver/Maximum F-mults", scene.solver.max_iterations);
   check_responses(scene, origins);
-  check_optimization(scene, origins);
-  check_gradient(scene, origins);
+  check_gradient(scene, section("Gradient"));
 }
 
-std::string listed(const std::vector<std::string> &names)
+void require_boundary(const SectionCheck &section,
+                      const std::string  &entry,
+                      const std::string  &value,
+                      const Body         &body,
+                      const std::string  &boundary)
 {
-  std::string text;
-  for (const auto &name : names)
-    text += (text.empty() ? "" : ", ") + name;
-  return text;
+  const auto known = boundary_names(body, section.dimension);
+  section.require(std::find(known.begin(), known.end(), boundary) != known.end(), entry, value,
+                  "'" + quotable(boundary) + "' is no boundary of '" + body.name + "', they are " +
+                    to_text(known) + did_you_mean(boundary, known));
+}
+
+void require_face(const Scene        &scene,
+                  const SectionCheck &section,
+                  const std::string  &entry,
+                  const std::string  &value,
+                  const std::string  &face)
+{
+  const auto [name, boundary] = split_face(face);
+  const unsigned int index    = body_index(scene, name);
+  const auto         known    = names_of(scene.bodies);
+  section.require(!boundary.empty(), entry, value,
+                  "'" + quotable(face) + "' must read 'body.boundary'" +
+                    (scene.obstacles.empty() ? "" : " or be an obstacle in 'Obstacles'"));
+  section.require(index < scene.bodies.size(), entry, value,
+                  "there is no body '" + quotable(name) + "', there are " + to_text(known) +
+                    did_you_mean(name, known));
+  require_boundary(section, entry, value, scene.bodies[index], boundary);
+}
+
+std::string component_names(const unsigned int dimension)
+{
+  return std::string("components are ") + (dimension == 2 ? "x, y" : "x, y, z") + " and normal";
 }
 } // namespace snug::scene

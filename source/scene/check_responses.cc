@@ -2,11 +2,8 @@
 #include <snug/optimization/minimize.h>
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
-#include <snug/scene/section_check.h>
-#include <snug/scene/values.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace snug::scene {
 namespace {
@@ -15,104 +12,35 @@ using Parameters = response::ResponseParameters;
 /// Names of the responses an objective or a constraint may be.
 std::vector<std::string> response_names(const Scene &scene)
 {
-  std::vector<std::string> names;
-  for (const auto &response : scene.responses)
-    names.push_back(response.name);
+  auto names = names_of(scene.responses);
   // The same in 2D and 3D.
   for (const auto &row : response::response_table<3>())
     names.push_back(row.name);
   return names;
 }
 
-/// Checks the entries of one response, as far as no mesh is needed.
-class ResponseCheck : public SectionCheck
+/// What the response names is there.
+void check_places(const Scene &scene, const SectionCheck &section, const Parameters &response)
 {
-public:
-  ResponseCheck(const Scene &scene, const Parameters &response, const Origins &origins)
-    : SectionCheck(response.section(), origins)
-    , scene(scene)
-    , response(response)
-    , entries(response::make_response<3>(response)->entries())
-  {}
-
-  void check() const
-  {
-    check_unread();
-    check_place();
-    check_pair();
-    require(response.exponent >= 1. && response.exponent <= 1000., "Exponent",
-            to_text(response.exponent), "must lie between 1 and 1000");
-    require(response.smoothing > 0. && response.smoothing <= 1., "Smoothing",
-            to_text(response.smoothing), "must be above 0 and at most 1");
-  }
-
-private:
-  bool reads(const std::string &entry) const
-  {
-    return std::find(entries.begin(), entries.end(), entry) != entries.end();
-  }
-
-  /// Entries that are set must be read.
-  void check_unread() const
-  {
-    const Parameters                                  initial;
-    const std::tuple<const char *, std::string, bool> values[] = {
-      {"Body", response.body, response.body.empty()},
-      {"Face", response.face, response.face.empty()},
-      {"Point", to_text(response.point), response.point.empty()},
-      {"Component", response.component, response.component == initial.component},
-      {"Pair", response.pair, response.pair.empty()},
-      {"Exponent", to_text(response.exponent), response.exponent == initial.exponent},
-      {"Smoothing", to_text(response.smoothing), response.smoothing == initial.smoothing}};
-    for (const auto &[entry, value, is_initial] : values)
-      require(is_initial || reads(entry), entry, value,
-              "must be left out for Quantity = " + response.quantity);
-  }
-
-  void check_place() const
-  {
-    if (!response.body.empty())
-      require(body_index(scene, response.body) < scene.bodies.size(), "Body", response.body,
-              "there is no body '" + quotable(response.body) + "'");
-    if (!response.face.empty())
-      require_face(scene, origins, path("Face"), response.face, response.face);
-    const auto &point = response.point;
-    require(point.empty() || (point.size() == scene.dimension && all_finite(point)), "Point",
-            to_text(point),
-            "must have " + to_text(scene.dimension) + " numbers separated by commas");
-    if (reads("Point"))
-      {
-        require(point.empty() != response.face.empty(), "Point", to_text(point),
-                "either 'Point' or 'Face' must be given");
-        require(response.face.empty() || response.body.empty(), "Body", response.body,
-                "must be left out with 'Face'");
-        require(point.empty() || response.component != "normal", "Component", response.component,
-                "must be x, y or z with 'Point'");
-      }
-    require(response.component != "z" || scene.dimension == 3, "Component", response.component,
-            "must be normal, x or y for Dimension = 2");
-  }
-
-  void check_pair() const
-  {
-    if (!reads("Pair"))
-      return;
-    std::vector<std::string> known;
-    for (const auto &pair : scene.contact.pairs)
-      {
-        known.push_back(pair.slave + ": " + pair.master);
-        known.push_back(pair.master + ": " + pair.slave);
-      }
-    require(!known.empty(), "Pair", response.pair, "there is no contact to measure in the scene");
-    require(response.pair.empty() ||
-              std::find(known.begin(), known.end(), response.pair) != known.end(),
-            "Pair", response.pair, "there is no such pair" + did_you_mean(response.pair, known));
-  }
-
-  const Scene                   &scene;
-  const Parameters              &response;
-  const std::vector<std::string> entries;
-};
+  section.require(response.body.empty() || body_index(scene, response.body) < scene.bodies.size(),
+                  "Body", response.body, "there is no body '" + quotable(response.body) + "'");
+  if (!response.face.empty())
+    require_face(scene, section, "Face", response.face, response.face);
+  if (!response.reads("Pair"))
+    return;
+  std::vector<std::string> known;
+  for (const auto &pair : scene.contact.pairs)
+    {
+      known.push_back(pair.slave + ": " + pair.master);
+      known.push_back(pair.master + ": " + pair.slave);
+    }
+  section.require(!known.empty(), "Pair", response.pair,
+                  "there is no contact to measure in the scene");
+  section.require(response.pair.empty() ||
+                    std::find(known.begin(), known.end(), response.pair) != known.end(),
+                  "Pair", response.pair,
+                  "there is no such pair" + did_you_mean(response.pair, known));
+}
 
 bool has_density(const Scene &scene, const Body &body)
 {
@@ -145,18 +73,14 @@ Parameters require_response(const Scene       &scene,
   const auto response = response_called(scene, name);
   if (!response)
     throw origins.error(path, value,
-                        "'" + name + "' is no response, there are " + listed(known) +
+                        "'" + name + "' is no response, there are " + to_text(known) +
                           did_you_mean(name, known));
-  const auto entries = response::make_response<3>(*response)->entries();
-  const auto reads   = [&entries](const char *entry) {
-    return std::find(entries.begin(), entries.end(), entry) != entries.end();
-  };
-  if (response->name.empty() && reads("Point"))
+  if (response->name.empty() && response->reads("Point"))
     throw origins.error(path, value,
                         "'" + name +
                           "' needs a subsection Response with 'Point' "
                           "or 'Face', and a name in 'Responses'");
-  if (reads("Pair") && scene.contact.pairs.empty())
+  if (response->reads("Pair") && scene.contact.pairs.empty())
     throw origins.error(path, value, "'" + name + "' has no contact to measure in the scene");
   if (response->quantity == "mass" && !has_mass(scene, *response))
     throw origins.error(path, value, "'" + name + "' is zero: what it measures has no 'Density'");
@@ -207,7 +131,9 @@ void check_responses(const Scene &scene, const Origins &origins)
       for (const auto &row : response::response_table<3>())
         if (row.name == response.name)
           throw origins.error("Responses", response.name, "must not be the name of a quantity");
-      ResponseCheck(scene, response, origins).check();
+      const SectionCheck section(response.section(), origins, scene.dimension);
+      response.check(section);
+      check_places(scene, section, response);
     }
   const auto &objective = scene.optimization.objective;
   require_response(scene, origins, "Optimization/Objective", objective, objective);

@@ -1,6 +1,5 @@
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/scene/check.h>
-#include <snug/scene/entries.h>
 #include <snug/scene/read_scene.h>
 
 #include <cerrno>
@@ -50,40 +49,35 @@ std::vector<std::string> names_in(const std::vector<Statement> &statements, cons
   for (const auto &statement : statements)
     if (statement.path() == path)
       names = statement.value;
-  return dealii::Utilities::split_string_list(names);
+  return split(names, ',');
+}
+
+/// An item for each name in the entry @p path.
+template <typename Named>
+void make(const std::vector<Statement> &statements,
+          const std::string            &path,
+          std::vector<Named>           &list)
+{
+  list.clear();
+  for (const auto &name : names_in(statements, path))
+    {
+      list.emplace_back();
+      list.back().name = name;
+    }
 }
 
 /// First pass: bodies, load cases, materials, obstacles, responses and
 /// shapes, without what they are made of.
 void make_named(const std::vector<Statement> &statements, Scene &scene)
 {
-  for (const auto &name : names_in(statements, "Bodies"))
-    {
-      scene.bodies.emplace_back();
-      scene.bodies.back().name = name;
-    }
-  for (const auto &name : names_in(statements, "Load cases"))
-    {
-      scene.load_cases.emplace_back();
-      scene.load_cases.back().name = name;
-    }
-  for (const auto &name : names_in(statements, "Materials"))
-    scene.materials.push_back({name, {}});
-  for (const auto &name : names_in(statements, "Obstacles"))
-    {
-      scene.obstacles.emplace_back();
-      scene.obstacles.back().name = name;
-    }
-  for (const auto &name : names_in(statements, "Responses"))
-    {
-      scene.responses.emplace_back();
-      scene.responses.back().name     = name;
-      scene.responses.back().quantity = "potential energy";
-    }
-  const auto shapes = names_in(statements, "Shapes");
-  scene.shapes.resize(std::max<std::size_t>(1, shapes.size()));
-  for (unsigned int i = 0; i < shapes.size(); ++i)
-    scene.shapes[i].name = shapes[i];
+  make(statements, "Bodies", scene.bodies);
+  make(statements, "Load cases", scene.load_cases);
+  make(statements, "Materials", scene.materials);
+  make(statements, "Obstacles", scene.obstacles);
+  make(statements, "Responses", scene.responses);
+  make(statements, "Shapes", scene.shapes);
+  if (scene.shapes.empty())
+    scene.shapes.resize(1);
 }
 
 bool belongs_to_pair(const Statement &statement)
@@ -111,34 +105,15 @@ void assign(const std::vector<Statement> &statements, Scene &scene)
       entries.set(statement);
 }
 
-void fill(std::vector<double> &values, const unsigned int n, const double value)
-{
-  if (values.empty())
-    values.assign(n, value);
-}
-
-/// Give lists that were left empty their defaults.
+/// Give what was left empty its default.
 void complete(Scene &scene)
 {
   if (scene.model == "auto")
     scene.model = scene.dimension == 2 ? "plane strain" : "solid";
   for (auto &body : scene.bodies)
-    {
-      fill(body.mesh.corner, scene.dimension, 0.);
-      fill(body.mesh.size, scene.dimension, 1.);
-      fill(body.mesh.grading, scene.dimension, 1.);
-      fill(body.mesh.fine_length, scene.dimension, 0.);
-    }
-  std::vector<double> last(scene.dimension, 0.);
-  last.back() = 1.;
+    body.mesh.complete(scene.dimension);
   for (auto &obstacle : scene.obstacles)
-    {
-      fill(obstacle.point, scene.dimension, 0.);
-      fill(obstacle.displacement, scene.dimension, 0.);
-      for (auto *direction : {&obstacle.normal, &obstacle.axis})
-        if (direction->empty())
-          *direction = last;
-    }
+    obstacle.complete(scene.dimension);
 }
 
 /// Read the mesh files of all bodies. Their paths become absolute, so
@@ -152,9 +127,9 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
         continue;
       for (const auto &[region, material] : body.materials)
         mesh.named_regions.push_back(region);
-      const std::string path = "Body " + body.name + "/Mesh file";
-      if (mesh.file.empty() || !source.read_file)
-        throw origins.error(path, mesh.file, "must be a mesh file");
+      const SectionCheck section(body.section(), origins, scene.dimension);
+      section.require(!mesh.file.empty() && source.read_file, "Mesh file", mesh.file,
+                      "must be a mesh file");
       try
         {
           namespace fs = std::filesystem;
@@ -166,7 +141,7 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
         }
       catch (const InputError &error)
         {
-          throw mesh_error(body, origins, error.what());
+          throw section.placed(error, "Mesh", mesh.source);
         }
     }
 }
@@ -178,13 +153,6 @@ std::string table_cell(std::string text)
   return text;
 }
 
-/// Its default would be that of the scene the reference is printed from.
-bool is_name_list(const Entries::Description &entry)
-{
-  return entry.name == "Bodies" || entry.name == "Obstacles" || entry.name == "Load cases" ||
-         entry.name == "Pairs" || (entry.name == "Materials" && entry.section.empty()) ||
-         (entry.name == "Responses" && entry.section.empty());
-}
 } // namespace
 
 std::string read_text(const std::string &file, MPI_Comm communicator)
@@ -231,20 +199,18 @@ void print(const Scene &scene, std::ostream &out)
 
 void print_reference(std::ostream &out)
 {
-  Scene scene;
-  scene.bodies.emplace_back();
-  scene.bodies.front().name = "NAME";
-  scene.materials.push_back({"NAME", {}});
-  scene.load_cases.emplace_back();
-  scene.load_cases.front().name = "NAME";
-  scene.obstacles.emplace_back();
-  scene.obstacles.front().name = "NAME";
+  Scene                  scene;
+  std::vector<Statement> names;
+  for (const auto *entry : {"Bodies", "Materials", "Obstacles", "Load cases", "Responses"})
+    names.push_back({"", entry, "NAME", ""});
+  make_named(names, scene);
   scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});
-  scene.responses.emplace_back();
-  scene.responses.back().name     = "NAME";
-  scene.responses.back().quantity = "potential energy";
   Entries entries;
   declare(entries, scene);
+  // Lists of names have those that the reference needs, and no default.
+  const auto initial = [](const std::string &text) {
+    return text.empty() || text == "NAME" || text == "SLAVE: MASTER" ? "" : "`" + text + "`";
+  };
   out << "# Parameters\n\n"
          "Printed by `snug --print-parameters`. Units are yours, but they "
          "must be consistent: with mm, N and MPa, energies are N mm.\n";
@@ -259,10 +225,8 @@ void print_reference(std::ostream &out)
              "|---|---|---|---|\n";
       for (const auto &entry : entries.descriptions())
         if (entry.section == section.name)
-          out << "| `" << entry.name << "` | "
-              << (entry.initial.empty() || is_name_list(entry) ? "" : "`" + entry.initial + "`")
-              << " | " << table_cell(entry.form.allowed) << " | " << table_cell(entry.meaning)
-              << " |\n";
+          out << "| `" << entry.name << "` | " << initial(entry.initial) << " | "
+              << table_cell(entry.form.allowed) << " | " << table_cell(entry.meaning) << " |\n";
     }
 }
 } // namespace snug::scene

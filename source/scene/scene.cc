@@ -1,7 +1,5 @@
 #include <snug/response/response.h>
-#include <snug/scene/values.h>
-
-#include <deal.II/base/utilities.h>
+#include <snug/scene/scene.h>
 
 #include <algorithm>
 #include <sstream>
@@ -64,9 +62,8 @@ std::pair<std::string, std::string> split_displacement(const std::string &text)
 {
   const auto equals = text.find('=');
   if (equals == std::string::npos)
-    return {dealii::Utilities::trim(text), ""};
-  return {dealii::Utilities::trim(text.substr(0, equals)),
-          dealii::Utilities::trim(text.substr(equals + 1))};
+    return {trim(text), ""};
+  return {trim(text.substr(0, equals)), trim(text.substr(equals + 1))};
 }
 
 ConstraintName constraint_name(const Scene &scene, const std::string &name)

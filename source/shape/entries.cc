@@ -16,7 +16,7 @@ dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
   const double length = direction.norm();
   // Written so that NaN is refused as well.
   if (!(length > 0.) || !std::isfinite(length))
-    throw bad_entry(parameters.path("Direction"), listed(components),
+    throw bad_entry(parameters.path("Direction"), to_text(components),
                     "must be empty or " + std::to_string(dim) + " numbers, not all zero");
   return direction / length;
 }
@@ -24,20 +24,34 @@ dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
 SplineNet
 spline_net(const ShapeParameters &parameters, const unsigned int n_axes, const unsigned int degree)
 {
-  // Bernstein polynomials of higher degree lose all digits.
-  const unsigned int least = degree == 0 ? 1 : degree + 1;
-  const unsigned int most  = degree == 0 ? 50 : 1000000;
-  const auto        &n     = parameters.control_points;
-  bool               good  = n.size() == n_axes;
+  const auto &n       = parameters.control_points;
+  const auto  require = [&](const bool good, const std::string &allowed) {
+    if (!good)
+      throw bad_entry(parameters.path("Control points"), to_text(n), allowed);
+  };
+  require(n.size() == n_axes, "must have " + to_text(n_axes) +
+                                (n_axes == 1 ? " number" : " numbers separated by commas") +
+                                ", one per edge of the face or box");
   for (const unsigned int number : n)
-    good = good && number >= least && number <= most;
-  if (!good)
-    throw bad_entry(parameters.path("Control points"), listed(n),
-                    "must be " + std::to_string(n_axes) +
-                      (n_axes == 1 ? " number" : " numbers, each") + " from " +
-                      std::to_string(least) + " to " + std::to_string(most) +
-                      (degree == 0 ? "" : ": at least one more than 'Degree'"));
+    {
+      // Bernstein polynomials of higher degree lose all digits.
+      require(degree > 0 || (number >= 1 && number <= 50), "must lie between 1 and 50 each");
+      require(degree == 0 || number > degree, "must be at least one more than 'Degree' each");
+    }
   return SplineNet(n, degree);
+}
+
+void require_bounds(const ShapeParameters &parameters)
+{
+  const auto &bounds = parameters.bounds;
+  if (!(bounds.size() == 2 && bounds[0] < bounds[1] && std::isfinite(bounds[1] - bounds[0])))
+    throw bad_entry(parameters.path("Bounds"), to_text(bounds),
+                    "must be two numbers separated by a comma, the first below the second");
+  const auto &initial = parameters.initial;
+  for (const double move : initial.empty() ? std::vector<double>{0.} : initial)
+    if (!(move >= bounds[0] && move <= bounds[1]))
+      throw bad_entry(parameters.path("Initial"), to_text(parameters.initial),
+                      to_text(move) + " must lie within the bounds " + to_text(bounds));
 }
 
 template dealii::Tensor<1, 2> unit_direction(const ShapeParameters &);

@@ -42,7 +42,7 @@ FormulaFields<dim>::FormulaFields(const ShapeParameters &parameters)
   for (const auto &components : parameters.modes)
     {
       if (components.size() != dim)
-        throw bad_entry(entry, listed(components),
+        throw bad_entry(entry, to_text(components),
                         "must be " + std::to_string(dim) + " formulas separated by commas");
       formulas.emplace_back();
       for (const auto &text : components)

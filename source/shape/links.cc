@@ -14,14 +14,6 @@ namespace {
 const double image_tolerance = 1e-6;
 
 /// "x: 0.5, y: 1" as users write the planes.
-std::string planes_text(const std::map<std::string, double> &planes)
-{
-  std::ostringstream text;
-  for (const auto &plane : planes)
-    text << (text.tellp() == 0 ? "" : ", ") << plane.first << ": " << plane.second;
-  return text.str();
-}
-
 /// Groups of numbers that are equal but for their signs: a forest, in which each number points to
 /// one of its group with a lower index and has the sign relative to it.
 class SignedGroups
@@ -136,7 +128,7 @@ private:
     std::ostringstream what;
     what << "control point " << controls[i].point << " at (" << controls[i].position
          << ") has no image at (" << position << ") that moves along (" << direction << ")";
-    throw bad_entry(parameters.path("Symmetry"), planes_text(parameters.symmetry), what.str());
+    throw bad_entry(parameters.path("Symmetry"), to_text(parameters.symmetry), what.str());
   }
 
   const std::vector<Control<dim>>    &controls;
@@ -173,7 +165,7 @@ std::vector<bool> fixed_points(const std::vector<Control<dim>> &controls,
       else if (read_index(item, index) && index < n_points)
         listed_points[index] = true;
       else
-        throw bad_entry(parameters.path("Fixed"), listed(parameters.fixed),
+        throw bad_entry(parameters.path("Fixed"), to_text(parameters.fixed),
                         "'" + item + "' must be 'border' or one of the " +
                           std::to_string(n_points) + " control points, counted from 0");
     }
@@ -210,7 +202,7 @@ Links::Links(const std::vector<Control<dim>> &controls, const ShapeParameters &p
       ties.push_back({variable[root.first], groups.is_fixed(i) ? 0. : root.second});
     }
   if (size == 0)
-    throw bad_entry(parameters.path("Fixed"), listed(parameters.fixed),
+    throw bad_entry(parameters.path("Fixed"), to_text(parameters.fixed),
                     "all control points are fixed or frozen: nothing is "
                     "left to move");
 }

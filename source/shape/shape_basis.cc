@@ -68,6 +68,15 @@ typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(unsigned int i) const
 template <int dim>
 const ChoiceTable<MakeShape<dim>> &shape_basis_table()
 {
+  using Names     = std::vector<std::string>;
+  const auto with = [](Names names, const Names &more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
+  };
+  const Names face  = {"Face", "Interior", "Reach", "Direction", "Symmetry", "Fixed"};
+  const Names patch = with(face, {"Control points"});
+  const Names box   = {"Bodies",    "Box corner", "Box size", "Control points",
+                       "Direction", "Symmetry",   "Fixed"};
   // Degree 0 of spline_net() stands for Bernstein polynomials.
   static const ChoiceTable<MakeShape<dim>> table = {
     {"none", "the shape is fixed",
@@ -77,26 +86,34 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
     {"Bezier patch", "heights [length] of Bézier control points over a face",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return on_face<dim, SplinePatch>(mesh, bodies, parameters, 0u);
-     }},
+     },
+     patch},
     {"B-spline patch", "heights [length] of B-spline control points over a face",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return on_face<dim, SplinePatch>(mesh, bodies, parameters, parameters.degree);
-     }},
+     },
+     with(patch, {"Degree"})},
     {"node-wise", "smoothed moves [length] of all nodes of a face",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return on_face<dim, NodeWise>(mesh, bodies, parameters);
-     }},
+     },
+     with(face, {"Filter radius"})},
     {"Bezier box",
      "moves [length] of Bézier control points of a free-form deformation "
      "box",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return std::make_unique<SplineBox<dim>>(mesh, bodies, parameters, 0u);
-     }},
+     },
+     box},
     {"B-spline box", "the same with B-splines",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return std::make_unique<SplineBox<dim>>(mesh, bodies, parameters, parameters.degree);
-     }},
-    {"formula modes", "amplitudes of vector fields on a face or on bodies", formula_modes<dim>}};
+     },
+     with(box, {"Degree"})},
+    {"formula modes",
+     "amplitudes of vector fields on a face or on bodies",
+     formula_modes<dim>,
+     {"Modes", "Bodies", "Face", "Interior", "Reach"}}};
   return table;
 }
 

@@ -21,13 +21,13 @@ std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
   const auto         found = std::find(bodies.names.begin(), bodies.names.end(), name);
   if (dot == std::string::npos || found == bodies.names.end())
     throw bad_entry(parameters.path("Face"), face,
-                    "must be body.face with one of the bodies " + listed(bodies.names));
+                    "must be body.face with one of the bodies " + to_text(bodies.names));
   const unsigned int body     = found - bodies.names.begin();
   const auto        &known    = mesh.geometry(body).boundary_names();
   const auto         boundary = std::find(known.begin(), known.end(), face.substr(dot + 1));
   if (boundary == known.end())
     throw bad_entry(parameters.path("Face"), face,
-                    "the faces of " + name + " are " + listed(known));
+                    "the faces of " + name + " are " + to_text(known));
   return {body, boundary - known.begin()};
 }
 

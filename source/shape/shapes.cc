@@ -3,7 +3,6 @@
 #include <snug/shape/shapes.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace snug::shape {
 namespace {
@@ -15,7 +14,7 @@ Links make_links(const Shape<dim> &basis, const ShapeParameters &parameters)
   if (!controls.empty())
     return Links(controls, parameters);
   if (!parameters.fixed.empty())
-    throw bad_entry(parameters.path("Fixed"), listed(parameters.fixed),
+    throw bad_entry(parameters.path("Fixed"), to_text(parameters.fixed),
                     "must be empty: " + parameters.basis + " have no control points");
   if (!parameters.symmetry.empty())
     throw bad_entry(parameters.path("Symmetry"), parameters.symmetry.begin()->first,
@@ -47,11 +46,7 @@ void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigne
   // A fixed shape needs no bounds.
   if (n == 0)
     return;
-  const auto &bounds = parameters.bounds;
-  if (bounds.size() != 2 || !std::isfinite(bounds[0]) || !std::isfinite(bounds[1]) ||
-      bounds[0] >= bounds[1])
-    throw bad_entry(parameters.path("Bounds"), listed(bounds),
-                    "must be two numbers, the lower one first");
+  require_bounds(parameters);
   auto start = parameters.initial;
   if (start.empty())
     start = {0.};
@@ -59,15 +54,11 @@ void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigne
     // One number stands for all variables.
     start.resize(n, start.front());
   if (start.size() != n)
-    throw bad_entry(parameters.path("Initial"), listed(start),
+    throw bad_entry(parameters.path("Initial"), to_text(start),
                     "must have 1 number or " + std::to_string(n) +
                       " numbers separated by commas, one per variable");
-  for (const double value : start)
-    if (!(value >= bounds[0] && value <= bounds[1]))
-      throw bad_entry(parameters.path("Initial"), listed(parameters.initial),
-                      "must lie within the bounds " + listed(bounds));
-  lower.insert(lower.end(), n, bounds[0]);
-  upper.insert(upper.end(), n, bounds[1]);
+  lower.insert(lower.end(), n, parameters.bounds[0]);
+  upper.insert(upper.end(), n, parameters.bounds[1]);
   initial.insert(initial.end(), start.begin(), start.end());
 }
 

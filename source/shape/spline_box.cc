@@ -55,8 +55,8 @@ std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &
     {
       const auto found = std::find(bodies.names.begin(), bodies.names.end(), name);
       if (found == bodies.names.end())
-        throw bad_entry(parameters.path("Bodies"), listed(parameters.bodies),
-                        "there is no body '" + name + "', there are " + listed(bodies.names));
+        throw bad_entry(parameters.path("Bodies"), to_text(parameters.bodies),
+                        "there is no body '" + name + "', there are " + to_text(bodies.names));
       result[found - bodies.names.begin()] = true;
     }
   return result;
@@ -80,6 +80,27 @@ std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const mesh::Bod
 }
 
 template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>> box_of(const ShapeParameters &parameters)
+{
+  const auto read = [&](const std::string &entry, const std::vector<double> &numbers,
+                        const bool positive) {
+    dealii::Tensor<1, dim> result;
+    bool                   good = numbers.size() == dim;
+    for (unsigned int d = 0; d < dim && good; ++d)
+      {
+        result[d] = numbers[d];
+        good      = std::isfinite(numbers[d]) && (!positive || numbers[d] > 0.);
+      }
+    if (!good)
+      throw bad_entry(parameters.path(entry), to_text(numbers),
+                      "must be " + std::to_string(dim) + (positive ? " numbers > 0" : " numbers"));
+    return result;
+  };
+  return {read("Box corner", parameters.box_corner, false),
+          read("Box size", parameters.box_size, true)};
+}
+
+template <int dim>
 SplineBox<dim>::SplineBox(const mesh::BodyMesh<dim> &mesh,
                           const BodyNames           &bodies,
                           const ShapeParameters     &parameters,
@@ -89,35 +110,16 @@ SplineBox<dim>::SplineBox(const mesh::BodyMesh<dim> &mesh,
   , directions(directions_of_points<dim>(parameters))
   , frozen(net.n_points(), false)
 {
-  read_box(parameters);
-  const auto is_wanted = wanted_bodies(bodies, parameters);
+  std::tie(corner, size) = box_of<dim>(parameters);
+  const auto is_wanted   = wanted_bodies(bodies, parameters);
   find_nodes(is_wanted);
   // A sum over ranks: all of them throw, or none.
   if (dealii::Utilities::MPI::sum<unsigned long>(nodes.size(), mesh.communicator()) == 0)
-    throw bad_entry(parameters.path("Box size"), listed(parameters.box_size),
-                    "the box at (" + listed(parameters.box_corner) +
+    throw bad_entry(parameters.path("Box size"), to_text(parameters.box_size),
+                    "the box at (" + to_text(parameters.box_corner) +
                       ") holds no node of the bodies it shapes");
   freeze_cut_sides(is_wanted);
   freeze_idle_points();
-}
-
-template <int dim>
-void SplineBox<dim>::read_box(const ShapeParameters &parameters)
-{
-  const auto read = [&](const std::string &entry, const std::vector<double> &numbers,
-                        const bool positive, dealii::Tensor<1, dim> &result) {
-    bool good = numbers.size() == dim;
-    for (unsigned int d = 0; d < numbers.size() && good; ++d)
-      {
-        result[d] = numbers[d];
-        good      = std::isfinite(numbers[d]) && (!positive || numbers[d] > 0.);
-      }
-    if (!good)
-      throw bad_entry(parameters.path(entry), listed(numbers),
-                      "must be " + std::to_string(dim) + (positive ? " numbers > 0" : " numbers"));
-  };
-  read("Box corner", parameters.box_corner, false, corner);
-  read("Box size", parameters.box_size, true, size);
 }
 
 template <int dim>
@@ -251,9 +253,11 @@ std::vector<std::pair<unsigned int, unsigned int>> SplineBox<dim>::faces() const
   return boundaries_of(mesh, is_inside);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                \
-  template class SplineBox<dim>;                                             \
-  template std::vector<std::pair<unsigned int, unsigned int>> boundaries_of( \
+#define SNUG_INSTANTIATE(dim)                                                     \
+  template class SplineBox<dim>;                                                  \
+  template std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>> box_of<dim>( \
+    const ShapeParameters &);                                                     \
+  template std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(      \
     const mesh::BodyMesh<dim> &, const std::vector<bool> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -230,6 +230,7 @@ def main():
             check_case(runner, case._replace(options=["--validate"]))
         for case in partial_cases(bodies[0]):
             check_case(runner, case, ranks=3)
+            check_case(runner, case._replace(options=["--validate"]))
         check_files(runner, scene)
         check_mesh_files(runner)
         floating = {f"Body {body}/Supports": "" for body in bodies}

@@ -19,6 +19,8 @@ struct Choice
   std::string         name;
   std::string         meaning; ///< one line, with units
   std::function<Make> make;
+  /// names of the entries it reads, where those of a family differ
+  std::vector<std::string> entries = {};
 };
 
 template <typename Make>

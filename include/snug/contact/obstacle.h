@@ -11,6 +11,11 @@
 #include <string>
 #include <vector>
 
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
+
 namespace snug::contact {
 /// Entries of `subsection Obstacle NAME`; lists have a number per
 /// dimension.
@@ -23,6 +28,13 @@ struct ObstacleParameters
   double              radius = 1.;     ///< [length]
   std::string         formula;         ///< of x, y, z
   std::vector<double> displacement;    ///< [length]
+
+  std::string section() const { return "Obstacle " + name; }
+
+  void declare(Entries &entries);
+  /// Give lists that were left empty their defaults.
+  void complete(unsigned int dimension);
+  void check(const SectionCheck &section) const;
 };
 
 /// Signed distance d to an obstacle, positive outside, with derivatives.

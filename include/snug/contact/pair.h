@@ -8,6 +8,11 @@
 #include <utility>
 #include <vector>
 
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
+
 namespace snug::contact {
 /// How two sides meet: entries of `subsection Contact`, for all pairs, and
 /// of `subsection Pair SLAVE: MASTER`.
@@ -21,6 +26,9 @@ struct PairParameters
   double      largest_angle = 90.;
   std::string gap           = "0";   ///< added to gaps, of x, y, z [length]
   bool        interference  = false; ///< initial overlap is wanted
+
+  void declare(Entries &entries);
+  void check(const SectionCheck &section) const;
 };
 
 /// Entries of `subsection Contact`.
@@ -31,12 +39,18 @@ struct ContactParameters
     std::string    slave;  ///< body.boundary
     std::string    master; ///< body.boundary or obstacle
     PairParameters parameters;
+
+    std::string section() const { return "Pair " + slave + ": " + master; }
+
+    void declare(Entries &entries) { parameters.declare(entries); }
   };
 
   PairParameters     defaults;
   std::vector<Entry> pairs;
   /// how often an optimization goes on with contact paired anew
   unsigned int update_pairing = 0;
+
+  void declare(Entries &entries);
 };
 
 /// One contact pair: a slave side and a master side or obstacle.

@@ -1,6 +1,11 @@
 #ifndef snug_elasticity_material_h
 #define snug_elasticity_material_h
 
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
+
 namespace snug::elasticity {
 /// Isotropic linear elasticity, small strain.
 struct Material
@@ -8,6 +13,9 @@ struct Material
   double youngs_modulus = 1.;  ///< [force / length^2], > 0
   double poissons_ratio = 0.3; ///< in (-1, 0.5)
   double density        = 0.;  ///< [mass / length^3], for gravity
+
+  void declare(Entries &entries);
+  void check(const SectionCheck &section) const;
 
   double lame_lambda() const
   {

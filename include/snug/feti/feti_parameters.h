@@ -3,6 +3,10 @@
 
 #include <string>
 
+namespace snug {
+class Entries;
+}
+
 namespace snug::feti {
 /// Entries of `subsection Solver` that Total FETI reads.
 struct FetiParameters
@@ -10,6 +14,8 @@ struct FetiParameters
   std::string factorization  = "CHOLMOD";   ///< CHOLMOD | MUMPS
   std::string preconditioner = "Dirichlet"; ///< Dirichlet | lumped | none
   std::string scaling        = "stiffness"; ///< stiffness | multiplicity
+
+  void declare(Entries &entries);
 };
 } // namespace snug::feti
 

@@ -12,6 +12,11 @@
 #include <utility>
 #include <vector>
 
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
+
 namespace snug::geometry {
 struct ImportedMesh;
 
@@ -81,6 +86,13 @@ struct BodyMeshParameters
   /// cells are refined where this formula of x, y, z is positive
   std::string  refine_where;
   unsigned int local_refinements = 0;
+
+  void declare(Entries &entries);
+  /// Give lists that were left empty their defaults.
+  void complete(unsigned int dimension);
+  /// The mesh can be made of its entries and is not too large; bodies of
+  /// revolution have no negative radius.
+  void check(const SectionCheck &section, bool axisymmetric) const;
 };
 
 /// A point of a body: a cell of its coarse mesh and coordinates in

@@ -6,6 +6,10 @@
 #include <memory>
 #include <string>
 
+namespace snug {
+class SectionCheck;
+}
+
 namespace dealii {
 template <int dim>
 class FunctionParser;
@@ -42,6 +46,13 @@ private:
   std::string                                  entry, text;
   std::unique_ptr<dealii::FunctionParser<dim>> parser;
 };
+
+/// Throw unless @p formula, which is @p value or a part of it, is a formula
+/// of the coordinates of the scene.
+void require_formula(const SectionCheck &section,
+                     const std::string  &entry,
+                     const std::string  &value,
+                     const std::string  &formula);
 } // namespace snug::geometry
 
 #endif

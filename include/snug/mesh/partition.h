@@ -12,12 +12,18 @@
 #include <string>
 #include <vector>
 
+namespace snug {
+class Entries;
+}
+
 namespace snug::mesh {
 /// Entries of `subsection Decomposition`.
 struct TearingParameters
 {
   unsigned int subdomains = 0;      ///< of all bodies, a target; 0: by size
   std::string  method     = "auto"; ///< a name of partition_table()
+
+  void declare(Entries &entries);
 };
 
 /**

@@ -5,6 +5,10 @@
 #include <utility>
 #include <vector>
 
+namespace snug {
+class Entries;
+}
+
 namespace snug::optimization {
 /// Entries of `subsection Optimization`.
 struct OptimizationParameters
@@ -19,6 +23,8 @@ struct OptimizationParameters
   double design_tolerance     = 1e-7; ///< relative to bound widths
   double gradient_tolerance   = 1e-6; ///< of the projected gradient
   double constraint_tolerance = 1e-8; ///< relative to the target
+
+  void declare(Entries &entries);
 };
 } // namespace snug::optimization
 

@@ -6,6 +6,10 @@
 
 #include <string>
 
+namespace snug {
+class Entries;
+}
+
 namespace snug::qp {
 /// Entries of `subsection Solver` that a QP solver reads.
 struct SolverParameters
@@ -13,6 +17,8 @@ struct SolverParameters
   std::string  method             = "active set";
   double       relative_tolerance = 1e-6; ///< of the KKT residual
   unsigned int max_iterations     = 2000; ///< F-mults of one solve
+
+  void declare(Entries &entries);
 };
 
 /// Where a solve begins. Empty vectors mean a cold start.

@@ -4,15 +4,20 @@
 #include <string>
 #include <vector>
 
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
+
 namespace snug::response {
 /// Entries of `subsection Response NAME`, or the defaults of a response
 /// that is named by its quantity alone.
 struct ResponseParameters
 {
-  std::string name;     ///< empty: that of the quantity
-  std::string quantity; ///< of response_table()
-  std::string body;     ///< empty: all
-  std::string face;     ///< "body.boundary"
+  std::string name;                          ///< empty: that of the quantity
+  std::string quantity = "potential energy"; ///< of response_table()
+  std::string body;                          ///< empty: all
+  std::string face;                          ///< "body.boundary"
   /// [length], in the reference geometry
   std::vector<double> point;
   std::string         component = "normal"; ///< or x, y, z
@@ -21,6 +26,12 @@ struct ResponseParameters
   double              smoothing = 0.1; ///< of contact areas
 
   std::string section() const { return "Response " + name; }
+
+  void declare(Entries &entries);
+  void check(const SectionCheck &section) const;
+
+  /// Whether its quantity reads an entry.
+  bool reads(const std::string &entry) const;
 
   /// Path of an entry, for messages.
   std::string path(const std::string &entry) const { return section() + "/" + entry; }

@@ -1,10 +1,17 @@
 #ifndef snug_scene_load_parameters_h
 #define snug_scene_load_parameters_h
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
 
 namespace snug::scene {
 /**
@@ -24,6 +31,22 @@ struct LoadParameters
   std::map<std::string, std::vector<double>> moment;
   /// "component = formula" [length]
   std::vector<std::pair<std::string, std::string>> displacements;
+
+  /// Entries whose keys are called @p key: boundary or body.boundary.
+  void declare(Entries &entries, const std::string &key);
+
+  /// A boundary, "body.boundary", and a component held there.
+  using Held = std::set<std::pair<std::string, unsigned int>>;
+  /// Throws unless a key of an entry's value names a boundary.
+  using RequireKey =
+    std::function<void(const std::string &entry, const std::string &value, const std::string &key)>;
+
+  void check(const SectionCheck &section, const RequireKey &require_key) const;
+
+  /// @p held: what supports hold; what is prescribed is added. @p prefix
+  /// makes "body.boundary" of a key.
+  void
+  check_displacements(const SectionCheck &section, const std::string &prefix, Held &held) const;
 };
 
 /// Entries of `subsection Load case NAME`.
@@ -33,7 +56,14 @@ struct LoadCaseParameters
   double              weight = 1.; ///< in the objective
   LoadParameters      loads;       ///< besides those of the bodies
   std::vector<double> gravity;     ///< [length / time^2], besides the scene's
+
+  std::string section() const { return "Load case " + name; }
+
+  void declare(Entries &entries);
 };
+
+/// The entry Gravity of a scene or a load case.
+void declare_gravity(Entries &entries, std::vector<double> &gravity);
 } // namespace snug::scene
 
 #endif

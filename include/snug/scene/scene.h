@@ -1,6 +1,7 @@
 #ifndef snug_scene_scene_h
 #define snug_scene_scene_h
 
+#include <snug/base/values.h>
 #include <snug/contact/pair.h>
 #include <snug/elasticity/material.h>
 #include <snug/feti/feti_parameters.h>
@@ -29,11 +30,20 @@ enum class Task
   optimize     ///< the best shape
 };
 
+using snug::from_text;
+using snug::to_text;
+std::string to_text(Task task);
+void        from_text(const std::string &text, Task &task);
+
 /// `subsection Material NAME`.
 struct NamedMaterial
 {
   std::string          name;
   elasticity::Material material;
+
+  std::string section() const { return "Material " + name; }
+
+  void declare(Entries &entries) { material.declare(entries); }
 };
 
 /// Entries of `subsection Body NAME`.
@@ -53,6 +63,8 @@ struct Body
   std::vector<std::string> body_force;
 
   std::string section() const { return "Body " + name; }
+
+  void declare(Entries &entries);
 };
 
 /**
@@ -88,6 +100,20 @@ struct Scene
   std::vector<response::ResponseParameters> responses; ///< named ones
   optimization::OptimizationParameters      optimization;
 };
+
+/// Declare all entries of @p scene, with its values as defaults. The
+/// bodies, obstacles, pairs and shapes there are get their subsections.
+void declare(Entries &entries, Scene &scene);
+
+/// The names of bodies, materials and the like.
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named> &list)
+{
+  std::vector<std::string> names;
+  for (const auto &item : list)
+    names.push_back(item.name);
+  return names;
+}
 
 /// What the meshes of the scene stand for; the model must not be auto.
 mesh::Idealization idealization(const Scene &scene);

@@ -3,6 +3,10 @@
 
 #include <string>
 
+namespace snug {
+class Entries;
+}
+
 namespace snug::sensitivity {
 /// Entries of `subsection Gradient`.
 struct GradientParameters
@@ -23,6 +27,8 @@ struct GradientParameters
   bool shape_gradient = false;
   /// Task = sensitivity: all methods, or only the method
   bool compare = true;
+
+  void declare(Entries &entries);
 };
 } // namespace snug::sensitivity
 

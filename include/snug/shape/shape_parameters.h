@@ -5,6 +5,11 @@
 #include <string>
 #include <vector>
 
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
+
 namespace snug::shape {
 /// Names of the bodies in the order of the mesh, for "body.boundary".
 struct BodyNames
@@ -37,6 +42,13 @@ struct ShapeParameters
 
   /// "Shape" or "Shape NAME".
   std::string section() const { return name.empty() ? "Shape" : "Shape " + name; }
+
+  void declare(Entries &entries);
+  /// As far as no mesh is needed.
+  void check(const SectionCheck &section) const;
+
+  /// Whether its basis reads an entry. Of formula modes, Face decides which.
+  bool reads(const std::string &entry) const;
 
   /// Path of an entry, for messages.
   std::string path(const std::string &entry) const { return section() + "/" + entry; }

@@ -40,7 +40,6 @@ public:
   std::vector<std::pair<unsigned int, unsigned int>> faces() const override;
 
 private:
-  void read_box(const ShapeParameters &parameters);
   void find_nodes(const std::vector<bool> &is_wanted);
   void freeze_cut_sides(const std::vector<bool> &is_wanted);
   void freeze_idle_points();
@@ -54,6 +53,10 @@ private:
   std::vector<std::vector<double>>    places; ///< s of nodes
   std::vector<bool>                   frozen; ///< control points
 };
+
+/// The entries Box corner and Box size. @throws InputError
+template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>> box_of(const ShapeParameters &parameters);
 
 /// Whether each body is in the entry Bodies; an empty one means all.
 /// @throws InputError

@@ -176,6 +176,11 @@ TEST(Errors, PropertiesAndMeshes)
 {
   expect_error({"Body punch/Young's modulus", "-1", "must be positive"});
   expect_error({"Body punch/Young's modulus", "0", "must be positive"});
+  // Forces and displacements would leave the range of floating-point numbers.
+  expect_error({"Body punch/Young's modulus", "1e-300", "must be at least 1e-60"});
+  expect_error({"Body punch/Young's modulus", "1e+300", "must be at most 1e+60"});
+  expect_error({"Body punch/Force", "top: 0 0 -1e+300", "must be at most 1e+60"});
+  EXPECT_EQ(error_of({"Body punch/Young's modulus=1e-60"}), "");
   expect_error({"Body punch/Poisson's ratio", "0.5", "below 0.5"});
   expect_error({"Body punch/Poisson's ratio", "-1", "above -1"});
   expect_error({"Body punch/Box size", "1, 1, 0", "must be positive"});

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include <snug/scene/values.h>
+#include <snug/base/values.h>
 
 using namespace snug;
 
@@ -44,10 +44,9 @@ TEST(ReadScene, KeepsTwoBodiesApart)
   EXPECT_EQ(punch.supports.at("left"), "x");
   EXPECT_EQ(punch.supports.at("front"), "y");
   EXPECT_EQ(punch.loads.pressure.at("top"), "100");
-  EXPECT_EQ(scene::components(punch.loads.traction.at("top")),
+  EXPECT_EQ(components(punch.loads.traction.at("top")),
             (std::vector<std::string>{"0", "0", "-5.5"}));
-  EXPECT_EQ(scene::components(punch.loads.traction.at("left")),
-            (std::vector<std::string>{"1", "0", "0"}));
+  EXPECT_EQ(components(punch.loads.traction.at("left")), (std::vector<std::string>{"1", "0", "0"}));
   EXPECT_EQ(foundation.mesh.cells, (Integers{2, 2, 2}));
   EXPECT_EQ(foundation.mesh.grading, (Numbers{1, 1, 0.5}));
   EXPECT_EQ(foundation.mesh.refinements, 1U);

@@ -1,13 +1,12 @@
-#include <snug/scene/statements.h>
-
-#include <deal.II/base/utilities.h>
+#include <snug/base/statements.h>
+#include <snug/base/values.h>
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
 #include <sstream>
 
-namespace snug::scene {
+namespace snug {
 namespace {
 constexpr const char *white_space = " \t\r\n\v\f";
 
@@ -19,14 +18,6 @@ std::string tidy(const std::string &text)
   while (words >> word)
     result += (result.empty() ? "" : " ") + word;
   return result;
-}
-
-std::string trim(const std::string &text)
-{
-  const auto first = text.find_first_not_of(white_space);
-  if (first == std::string::npos)
-    return "";
-  return text.substr(first, text.find_last_not_of(white_space) + 1 - first);
 }
 
 std::string joined(const std::vector<std::string> &sections)
@@ -213,4 +204,4 @@ std::string did_you_mean(const std::string &word, const std::vector<std::string>
     return "";
   return "; did you mean '" + *best + "'?";
 }
-} // namespace snug::scene
+} // namespace snug

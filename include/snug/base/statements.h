@@ -1,5 +1,5 @@
-#ifndef snug_scene_statements_h
-#define snug_scene_statements_h
+#ifndef snug_base_statements_h
+#define snug_base_statements_h
 
 #include <snug/base/errors.h>
 
@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-namespace snug::scene {
+namespace snug {
 /**
  * One `set NAME = VALUE` of a parameter file or of the command line, or
- * the opening of a subsection (empty name). dealii::ParameterHandler
- * forgets where a value came from; errors found later, by checks across
- * entries, name the line all the same because statements keep it.
+ * the opening of a subsection (empty name). It keeps where it stood, which
+ * errors name that are found later, by checks across entries.
  */
 struct Statement
 {
@@ -61,6 +60,6 @@ std::string quotable(const std::string &text);
 
 /// "; did you mean 'x'?" if one of @p known is close to @p word, else "".
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &known);
-} // namespace snug::scene
+} // namespace snug
 
 #endif

@@ -1,0 +1,186 @@
+#ifndef snug_base_entries_h
+#define snug_base_entries_h
+
+#include <snug/base/choice.h>
+#include <snug/base/statements.h>
+#include <snug/base/values.h>
+
+#include <functional>
+#include <iosfwd>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace snug {
+/// What an entry accepts: for the machine and for people.
+struct Form
+{
+  std::string                 allowed   = {}; ///< goes on after "must be "; "": as its type
+  std::vector<std::string>    choices   = {}; ///< if it is a choice
+  std::string                 explained = {}; ///< what the choices mean
+  std::function<bool(double)> contains  = {}; ///< of every number, if any
+  std::string                 range     = {}; ///< "must be positive", where contains() is false
+  /// "numbers": one per dimension or none at all; "": any number of numbers
+  std::string per_dimension = {};
+};
+
+/// @name Forms of entries
+/// @{
+/// Described by @p allowed; the value's from_text() decides.
+Form allowed(const std::string &description);
+
+/// One of "a|b|c".
+Form choice(const std::string &names);
+
+/// One of a factory table. Of tables for 2D and 3D, which have the same
+/// names, the one for 3D is passed.
+template <typename Make>
+Form choice(const ChoiceTable<Make> &table)
+{
+  Form form      = choice(names(table));
+  form.explained = " " + meanings(table) + ".";
+  return form;
+}
+
+/// "must be positive"
+Form positive();
+/// "must be at least 1", or what @p range says
+Form at_least(double lower, const std::string &range = "");
+/// "must be at most 15"
+Form at_most(double upper);
+/// "must lie between 1 and 10", inclusively
+Form between(double lower, double upper);
+/// "must be above 0 and at most 0.1", or "must be above 0"
+Form above(double lower, double upper = std::numeric_limits<double>::infinity());
+/// "must be above -1 and below 0.5"
+Form inside(double lower, double upper);
+/// Lists of as many numbers as the scene has dimensions, or empty.
+Form per_dimension(Form form = {}, const std::string &what = "numbers separated by commas");
+/// @}
+
+/// What an entry of a type accepts, unless it says more.
+template <typename T>
+const char *allowed_of()
+{
+  if constexpr (std::is_same_v<T, double>)
+    return "a number";
+  if constexpr (std::is_same_v<T, unsigned int>)
+    return "a whole number, 0 or larger";
+  if constexpr (std::is_same_v<T, bool>)
+    return "true or false";
+  if constexpr (std::is_same_v<T, std::vector<double>>)
+    return "numbers separated by commas or blanks";
+  if constexpr (std::is_same_v<T, std::vector<unsigned int>>)
+    return "whole numbers of at least 1 separated by commas or blanks";
+  if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    return "names separated by commas";
+  return "text";
+}
+
+/// How the variable of an entry is read, written and checked.
+struct Access
+{
+  std::function<std::string()>             text;
+  std::function<void(const std::string &)> assign;
+  std::function<std::vector<double>()>     numbers = {}; ///< in it, if any
+};
+
+/// Access to a variable with a to_text() and a from_text(); lists may have
+/// a separator.
+template <typename T, typename... Separator>
+Access access(T &value, const Separator... separator)
+{
+  Access result{[&value, separator...]() { return to_text(value, separator...); },
+                [&value, separator...](const std::string &text) {
+                  from_text(text, value, separator...);
+                }};
+  if constexpr (std::is_same_v<T, double> || std::is_same_v<T, unsigned int>)
+    result.numbers = [&value]() { return std::vector<double>{double(value)}; };
+  if constexpr (std::is_same_v<T, std::vector<double>> ||
+                std::is_same_v<T, std::vector<unsigned int>>)
+    result.numbers = [&value]() { return std::vector<double>(value.begin(), value.end()); };
+  if constexpr (std::is_same_v<T, VectorMap>)
+    result.numbers = [&value]() {
+      std::vector<double> numbers;
+      for (const auto &[key, vector] : value)
+        numbers.insert(numbers.end(), vector.begin(), vector.end());
+      return numbers;
+    };
+  return result;
+}
+
+/**
+ * The entries of a parameter file, each bound to the variable it sets, and
+ * all that is known of them: name, default, form, range and meaning. A
+ * parameter is declared here once, by the module that reads it. The
+ * variables must outlive this object.
+ */
+class Entries
+{
+public:
+  struct Description
+  {
+    std::string section; ///< "" at the top
+    std::string name;
+    std::string initial; ///< value when it was declared
+    Form        form;
+    std::string meaning;
+    Access      access;
+
+    std::string path() const { return section.empty() ? name : section + "/" + name; }
+  };
+
+  struct Section
+  {
+    std::string name, meaning;
+  };
+
+  /// Entries added from here on belong to this subsection.
+  void begin_section(const std::string &name, const std::string &meaning);
+
+  void
+  add(const std::string &name, const Access &access, const Form &form, const std::string &meaning);
+
+  template <typename T>
+  void add(const std::string &name, T &value, const std::string &meaning)
+  {
+    add(name, value, Form(), meaning);
+  }
+
+  template <typename T>
+  void add(const std::string &name, T &value, Form form, const std::string &meaning)
+  {
+    if (form.allowed.empty())
+      form.allowed = allowed_of<T>();
+    if (std::is_same_v<T, bool>)
+      form.choices = {"true", "false"};
+    add(name, snug::access(value), form, meaning);
+  }
+
+  /// Assign a value, or nothing if the statement only opens a subsection.
+  /// @throws InputError, one line, if there is no such entry or
+  /// subsection, or the value has the wrong form.
+  void set(const Statement &statement);
+
+  /// @throws InputError unless every value has the form and the range of
+  /// its entry, in a scene of @p dimension dimensions.
+  void check(const Origins &origins, unsigned int dimension) const;
+
+  /// Every entry with its value, readable by parse_statements().
+  void print(std::ostream &out) const;
+
+  const std::vector<Section> &sections() const { return section_list; }
+
+  const std::vector<Description> &descriptions() const { return list; }
+
+private:
+  /// Throw, unless the statement only opens a subsection there is.
+  void reject_unknown(const Statement &statement) const;
+
+  std::vector<Section>     section_list = {{"", ""}};
+  std::vector<Description> list;
+};
+} // namespace snug
+
+#endif

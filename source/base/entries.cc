@@ -1,0 +1,194 @@
+#include <snug/base/entries.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace snug {
+namespace {
+Form in_range(const std::function<bool(double)> &contains, const std::string &range)
+{
+  Form form;
+  form.contains = contains;
+  form.range    = range;
+  return form;
+}
+
+/// Assign @p text. @throws InputError unless it has the form of the entry.
+void assign(const Entries::Description &entry, const Origins &origins, const std::string &text)
+{
+  const auto &choices = entry.form.choices;
+  try
+    {
+      if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end())
+        return entry.access.assign(text);
+    }
+  catch (const std::exception &)
+    {}
+  throw origins.error(entry.path(), text,
+                      "must be " + entry.form.allowed + did_you_mean(text, choices));
+}
+
+/// What is wrong with the numbers of an entry; "" if nothing is.
+std::string
+complaint(const Form &form, const std::vector<double> &numbers, const unsigned int dimension)
+{
+  // Squares of what is made of two of them can still be added up.
+  const double largest = 1e60;
+  if (!form.per_dimension.empty() && !numbers.empty() && numbers.size() != dimension)
+    return "must have " + to_text(dimension) + " " + form.per_dimension + ", one per dimension";
+  for (const double number : numbers)
+    {
+      if (form.contains && !form.contains(number))
+        return form.range;
+      if (std::abs(number) > largest)
+        return "must be at most " + to_text(largest) + " in size";
+    }
+  return "";
+}
+} // namespace
+
+Form allowed(const std::string &description)
+{
+  Form form;
+  form.allowed = description;
+  return form;
+}
+
+Form choice(const std::string &names)
+{
+  Form form;
+  form.choices = split(names, '|');
+  form.allowed = (form.choices.size() > 1 ? "one of " : "") + to_text(form.choices);
+  return form;
+}
+
+Form positive()
+{
+  return in_range([](const double v) { return v > 0.; }, "must be positive");
+}
+
+Form at_least(const double lower, const std::string &range)
+{
+  return in_range([=](const double v) { return v >= lower; },
+                  range.empty() ? "must be at least " + to_text(lower) : range);
+}
+
+Form at_most(const double upper)
+{
+  return in_range([=](const double v) { return v <= upper; }, "must be at most " + to_text(upper));
+}
+
+Form between(const double lower, const double upper)
+{
+  return in_range([=](const double v) { return v >= lower && v <= upper; },
+                  "must lie between " + to_text(lower) + " and " + to_text(upper));
+}
+
+Form above(const double lower, const double upper)
+{
+  return in_range([=](const double v) { return v > lower && v <= upper; },
+                  "must be above " + to_text(lower) +
+                    (std::isfinite(upper) ? " and at most " + to_text(upper) : ""));
+}
+
+Form inside(const double lower, const double upper)
+{
+  return in_range([=](const double v) { return v > lower && v < upper; },
+                  "must be above " + to_text(lower) + " and below " + to_text(upper));
+}
+
+Form per_dimension(Form form, const std::string &what)
+{
+  form.per_dimension = what;
+  return form;
+}
+
+void Entries::begin_section(const std::string &name, const std::string &meaning)
+{
+  section_list.push_back({name, meaning});
+}
+
+void Entries::add(const std::string &name,
+                  const Access      &access,
+                  const Form        &form,
+                  const std::string &meaning)
+{
+  list.push_back(
+    {section_list.back().name, name, access.text(), form, meaning + form.explained, access});
+}
+
+void Entries::set(const Statement &statement)
+{
+  const auto entry = std::find_if(list.begin(), list.end(), [&statement](const Description &known) {
+    return known.section == statement.section && known.name == statement.name;
+  });
+  if (entry == list.end())
+    return reject_unknown(statement);
+  assign(*entry, Origins(statement.origin, {}), statement.value);
+}
+
+void Entries::check(const Origins &origins, const unsigned int dimension) const
+{
+  for (const auto &entry : list)
+    {
+      // A program may have set what no text would: infinities, choices
+      // that are none. Assigning a value to itself finds that.
+      const std::string text = entry.access.text();
+      assign(entry, origins, text);
+      if (!entry.access.numbers)
+        continue;
+      const auto wrong = complaint(entry.form, entry.access.numbers(), dimension);
+      if (!wrong.empty())
+        throw origins.error(entry.path(), text, wrong);
+    }
+}
+
+void Entries::reject_unknown(const Statement &statement) const
+{
+  std::vector<std::string> section_names, names;
+  std::string              elsewhere;
+  for (const auto &section : section_list)
+    if (!section.name.empty())
+      section_names.push_back(section.name);
+  for (const auto &entry : list)
+    {
+      if (entry.section == statement.section)
+        names.push_back(entry.name);
+      else if (entry.name == statement.name)
+        elsewhere = entry.section.empty() ? "; it belongs outside of subsections"
+                                          : "; it belongs to subsection '" + entry.section + "'";
+    }
+  const std::string origin = statement.origin + ": ";
+  if (names.empty())
+    throw InputError(origin + "unknown subsection '" + quotable(statement.section) + "'" +
+                     did_you_mean(statement.section, section_names) +
+                     " (bodies, materials and shapes need a name in "
+                     "'Bodies', 'Materials' or 'Shapes')");
+  if (statement.name.empty())
+    return;
+  throw InputError(origin + "unknown entry '" + quotable(statement.path()) + "' = '" +
+                   quotable(statement.value) + "'" +
+                   (elsewhere.empty() ? did_you_mean(statement.name, names) : elsewhere));
+}
+
+void Entries::print(std::ostream &out) const
+{
+  for (const auto &section : section_list)
+    {
+      const std::string indent = section.name.empty() ? "" : "  ";
+      std::size_t       width  = 0;
+      for (const auto &entry : list)
+        if (entry.section == section.name)
+          width = std::max(width, entry.name.size());
+      if (!section.name.empty())
+        out << "subsection " << section.name << '\n';
+      for (const auto &entry : list)
+        if (entry.section == section.name)
+          out << indent << "set " << entry.name << std::string(width - entry.name.size(), ' ')
+              << " = " << entry.access.text() << '\n';
+      if (!section.name.empty())
+        out << "end\n";
+    }
+}
+} // namespace snug

@@ -1,0 +1,21 @@
+#include <snug/base/section_check.h>
+#include <snug/elasticity/material.h>
+
+namespace snug::elasticity {
+void Material::declare(Entries &entries)
+{
+  entries.add("Young's modulus", youngs_modulus, positive(),
+              "Young's modulus [force/length^2], positive.");
+  entries.add("Poisson's ratio", poissons_ratio, inside(-1., 0.5),
+              "Poisson's ratio, above -1 and below 0.5.");
+  entries.add("Density", density, at_least(0., "must not be negative"),
+              "Mass per volume [mass/length^3], for gravity and mass.");
+}
+
+void Material::check(const SectionCheck &section) const
+{
+  // Displacements go with its inverse, and the dual problem with their squares.
+  section.require(youngs_modulus >= 1e-60, "Young's modulus", to_text(youngs_modulus),
+                  "must be at least 1e-60, or forces and displacements overflow");
+}
+} // namespace snug::elasticity

@@ -1,0 +1,107 @@
+#include <snug/base/section_check.h>
+#include <snug/geometry/body_geometry.h>
+#include <snug/geometry/formula.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::geometry {
+namespace {
+/// Every rank holds all coarse cells.
+void require_coarse(const SectionCheck &section,
+                    const double        cells,
+                    const std::string  &entry,
+                    const std::string  &value)
+{
+  section.require(cells <= 4e6, entry, value,
+                  "must give at most 4e6 cells; use 'Refinements' for more");
+}
+
+void check_box(const SectionCheck &section, const BodyMeshParameters &mesh)
+{
+  section.require(!mesh.cells.empty(), "Box cells", "",
+                  "must have " + to_text(section.dimension) +
+                    " numbers separated by commas, one per dimension");
+  double cells = 1.;
+  for (const unsigned int n : mesh.cells)
+    cells *= n;
+  require_coarse(section, cells, "Box cells", to_text(mesh.cells));
+}
+
+void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, const double cells)
+{
+  const bool file = mesh.source == "file";
+  require_coarse(section, cells, file ? "Mesh file" : "Cells",
+                 file ? mesh.file : to_text(mesh.round_cells));
+  // p4est numbers at most 2^31 nodes.
+  section.require(mesh.refinements < 30 &&
+                    cells * std::pow(2., section.dimension * mesh.refinements) <= 1e9,
+                  "Refinements", to_text(mesh.refinements), "must give at most 1e9 cells");
+}
+
+void check_radius(const SectionCheck &section, const BodyMeshParameters &mesh, const double least)
+{
+  const std::string allowed = "must not lead to a negative x, the radius of axisymmetric models, "
+                              "but does to " +
+                              to_text(least);
+  const bool moved = !mesh.shift.empty() && mesh.shift[0] < 0.;
+  const bool box   = mesh.source == "box" && mesh.corner[0] < 0.;
+  section.require(least >= 0. || !moved, "Shift", to_text(mesh.shift), allowed);
+  section.require(least >= 0. || !box, "Box corner", to_text(mesh.corner), allowed);
+  section.require(least >= 0., "Mesh", mesh.source, allowed);
+}
+
+/// The least x, the radius, of the vertices, or of two in each cell, which are
+/// most; 0 if only round-off is below. @throws InputError where a formula is
+/// not finite. What lies between vertices is checked once there is a mesh.
+template <int dim>
+double least_radius(const BodyGeometry<dim> &geometry, const bool all)
+{
+  double least = 0., largest = 0.;
+  for (unsigned int cell = 0; cell < geometry.n_coarse_cells(); ++cell)
+    for (unsigned int v = 0; v < 1 << dim; v += all ? 1 : (1 << dim) - 1)
+      {
+        dealii::Point<dim> unit;
+        for (unsigned int d = 0; d < dim; ++d)
+          unit[d] = v >> d & 1;
+        const double x = geometry.position({cell, unit})[0];
+        least          = std::min(least, x);
+        largest        = std::max(largest, x);
+      }
+  const double round_off = 1e-10;
+  return least < -round_off * largest ? least : 0.;
+}
+
+template <int dim>
+void check_in(const SectionCheck &section, const BodyMeshParameters &mesh, const bool axisymmetric)
+{
+  std::unique_ptr<BodyGeometry<dim>> geometry;
+  double                             least = 0.;
+  try
+    {
+      if (!mesh.refine_where.empty())
+        Formula<dim>("Refine where", mesh.refine_where);
+      geometry = make_geometry<dim>(mesh);
+      if (axisymmetric || !mesh.warp.empty() || !mesh.curved_faces.empty())
+        least = least_radius(*geometry, axisymmetric);
+    }
+  catch (const InputError &error)
+    {
+      throw section.placed(error, "Mesh", mesh.source);
+    }
+  check_size(section, mesh, geometry->n_coarse_cells());
+  if (axisymmetric)
+    check_radius(section, mesh, least);
+}
+} // namespace
+
+void BodyMeshParameters::check(const SectionCheck &section, const bool axisymmetric) const
+{
+  if (source == "box")
+    check_box(section, *this);
+  section.dimension == 2 ? check_in<2>(section, *this, axisymmetric)
+                         : check_in<3>(section, *this, axisymmetric);
+  section.require(local_refinements == 0 || !refine_where.empty(), "Refine where", refine_where,
+                  "must be a formula of x, y, z when there are local refinements");
+}
+} // namespace snug::geometry

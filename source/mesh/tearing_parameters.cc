@@ -1,0 +1,23 @@
+#include <snug/base/entries.h>
+#include <snug/mesh/partition.h>
+
+#include <stdexcept>
+
+namespace snug::mesh {
+void TearingParameters::declare(Entries &entries)
+{
+  const auto text = [this]() { return subdomains == 0 ? "auto" : to_text(subdomains); };
+  const auto read = [this](const std::string &text) {
+    unsigned int number = 0;
+    if (text != "auto")
+      from_text(text, number);
+    if (text != "auto" && number == 0)
+      throw std::invalid_argument("no subdomain");
+    subdomains = number;
+  };
+  entries.add("Subdomains", {text, read}, allowed("auto or a whole number of at least 1"),
+              "Wanted number of subdomains of all bodies and ranks; auto: by size. There are at "
+              "least as many as ranks.");
+  entries.add("Method", method, choice(partition_table<3>()), "How a body is divided.");
+}
+} // namespace snug::mesh

@@ -1,0 +1,29 @@
+#include <snug/base/entries.h>
+#include <snug/optimization/combination.h>
+#include <snug/optimization/minimize.h>
+
+namespace snug::optimization {
+void OptimizationParameters::declare(Entries &entries)
+{
+  entries.add("Algorithm", algorithm, choice(algorithm_table()), "The optimizer.");
+  entries.add(
+    "Objective", objective,
+    "The response to be made least: a name in 'Responses' or a quantity of subsection Response.");
+  entries.add("Combine", combine, choice(combination_table()),
+              "What several load cases make of the objective.");
+  entries.add("Constraints", constraints, allowed("a list 'response: limit, response: limit, ...'"),
+              "Limits of responses, any number of them: 'volume: = initial, peak: <= 120, tip: >= "
+              "0.9 initial'; initial is the value of the first design, and = may be left out. With "
+              "several load cases, a response of the state names its own: 'closing.tip: <= 5'.");
+  entries.add("Maximum evaluations", maximum_evaluations, at_least(1),
+              "Largest number of designs that are evaluated.");
+  entries.add("Gradient tolerance", gradient_tolerance, between(1e-15, 0.1),
+              "Stop when the projected gradient is smaller, relative to the first gradient.");
+  entries.add("Objective tolerance", objective_tolerance, between(1e-15, 0.1),
+              "Stop when the objective changes by less, relative.");
+  entries.add("Design tolerance", design_tolerance, between(1e-15, 0.1),
+              "Stop when all variables change by less, relative to the width of their bounds.");
+  entries.add("Constraint tolerance", constraint_tolerance, between(1e-15, 0.1),
+              "Allowed error of the constraints, relative to their values.");
+}
+} // namespace snug::optimization

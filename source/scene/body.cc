@@ -1,0 +1,152 @@
+#include <snug/base/section_check.h>
+#include <snug/elasticity/formulation.h>
+#include <snug/geometry/formula.h>
+#include <snug/geometry/regions.h>
+#include <snug/scene/check.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace snug::scene {
+namespace {
+TextMap materials_from(const std::string &text)
+{
+  TextMap materials;
+  if (text.find(':') != std::string::npos)
+    from_text(text, materials);
+  else if (!text.empty())
+    materials[""] = text;
+  return materials;
+}
+
+struct Region
+{
+  std::string   name;
+  unsigned long n_cells;
+};
+
+template <int dim>
+std::vector<Region> regions_in(const Body &body)
+{
+  const auto          geometry = geometry::make_geometry<dim>(body.mesh);
+  const auto          names    = geometry->region_names();
+  const auto          n_cells  = geometry::cells_of_regions(*geometry);
+  std::vector<Region> regions;
+  for (unsigned int r = 0; r < names.size(); ++r)
+    regions.push_back({names[r], n_cells[r]});
+  return regions;
+}
+
+/// Every region has a material, and every material a region.
+void check_regions(const SectionCheck &section, const Body &body)
+{
+  const auto regions = section.dimension == 2 ? regions_in<2>(body) : regions_in<3>(body);
+  const auto names   = names_of(regions);
+  const auto require = [&](const bool good, const std::string &allowed) {
+    section.require(good, "Materials", text_of_materials(body.materials), allowed);
+  };
+  for (const auto &[name, material] : body.materials)
+    {
+      const auto found = std::find(names.begin(), names.end(), name);
+      require(name.empty() || found != names.end(), "'" + quotable(name) + "' is no region of '" +
+                                                      body.name + "', they are " + to_text(names) +
+                                                      did_you_mean(name, names));
+      require(name.empty() || regions[found - names.begin()].n_cells > 0,
+              "the region '" + name + "' has no cells");
+    }
+  for (const auto &region : regions)
+    require(region.n_cells == 0 || body.materials.count("") > 0 ||
+              body.materials.count(region.name) > 0,
+            "the region '" + region.name + "' has no material");
+}
+
+void check_materials(const Scene &scene, const SectionCheck &section, const Body &body)
+{
+  if (body.materials.empty())
+    return body.material.check(section);
+  section.require_read(body.material, {},
+                       "must be left out, as 'Materials' says what the body is made of");
+  const auto known = names_of(scene.materials);
+  for (const auto &[region, material] : body.materials)
+    section.require(std::find(known.begin(), known.end(), material) != known.end(), "Materials",
+                    text_of_materials(body.materials),
+                    "'" + quotable(material) + "' is none of the 'Materials' of the scene" +
+                      (known.empty() ? "" : ", " + to_text(known)) + did_you_mean(material, known));
+  check_regions(section, body);
+}
+
+void check_supports(const SectionCheck &section, const Body &body)
+{
+  const std::string value = to_text(body.supports);
+  for (const auto &[boundary, words] : body.supports)
+    require_boundary(section, "Supports", value, body, boundary);
+  for (const auto &[boundary, words] : body.supports)
+    try
+      {
+        section.require(!component_list(words, section.dimension).empty(), "Supports", value,
+                        "'" + boundary + "' must hold some components");
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw section.error("Supports", value,
+                            error.what() + std::string("; ") + component_names(section.dimension));
+      }
+}
+} // namespace
+
+void Body::declare(Entries &entries)
+{
+  mesh.declare(entries);
+  material.declare(entries);
+  entries.add(
+    "Materials",
+    {[this]() { return text_of_materials(materials); },
+     [this](const std::string &text) { materials = materials_from(text); }},
+    allowed("the name of a material, or a list 'region: material, ...' of different regions"),
+    "Materials of the scene the body is made of, instead of its own modulus, ratio and density: "
+    "'steel' for all of it, or one per region, 'core: steel, coat: rubber'. Regions are the groups "
+    "of cells of a mesh file and those of 'Region formulas'; cells in none are the region body.");
+  entries.add("Formulation", formulation, choice(elasticity::formulation_table()),
+              "How elements take the change of volume.");
+  entries.add("Supports", supports,
+              allowed("a list 'boundary: components, ...' of different boundaries"),
+              "Boundaries with the displacement components held at zero: 'bottom: xyz, left: x'. "
+              "'normal' is the component along the outward normal of any face, flat, oblique or "
+              "curved (symmetry planes, rollers): 'side: normal, end: normal z'.");
+  loads.declare(entries, "boundary");
+  entries.add("Body force",
+              {[this]() { return to_text(body_force); },
+               [this](const std::string &text) { body_force = vector_components(text); }},
+              allowed("formulas separated by commas or blanks, one per dimension"),
+              "Force per volume along x, y, z [force/length^3], formulas of x, y, z in the "
+              "reference geometry; empty: none.");
+}
+
+void check_body(const Scene &scene, const SectionCheck &section, const Body &body)
+{
+  body.mesh.check(section, scene.model == "axisymmetric");
+  check_materials(scene, section, body);
+  section.require(scene.model != "plane stress" || body.formulation == "standard", "Formulation",
+                  body.formulation,
+                  "must be standard for Model = plane stress, which does not lock");
+  check_supports(section, body);
+}
+
+void check_loads(const SectionCheck &section, const Body &body, LoadParameters::Held &held)
+{
+  const std::string prefix = body.name + ".";
+  for (const auto &[boundary, words] : body.supports)
+    for (const unsigned int c : component_list(words, section.dimension))
+      held.emplace(prefix + boundary, c);
+  body.loads.check(section, [&](const auto &entry, const auto &value, const auto &boundary) {
+    require_boundary(section, entry, value, body, boundary);
+  });
+  body.loads.check_displacements(section, prefix, held);
+  const std::string value = to_text(body.body_force);
+  section.require(body.body_force.empty() || body.body_force.size() == section.dimension,
+                  "Body force", value,
+                  "must have " + to_text(section.dimension) + " formulas, one per dimension");
+  for (const auto &formula : body.body_force)
+    geometry::require_formula(section, "Body force", value, formula);
+}
+} // namespace snug::scene

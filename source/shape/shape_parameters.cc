@@ -1,0 +1,156 @@
+#include <snug/base/section_check.h>
+#include <snug/shape/entries.h>
+#include <snug/shape/formula_modes.h>
+#include <snug/shape/interior.h>
+#include <snug/shape/shape_basis.h>
+#include <snug/shape/spline_box.h>
+
+#include <algorithm>
+
+namespace snug::shape {
+namespace {
+void declare_places(Entries &entries, ShapeParameters &shape)
+{
+  entries.add(
+    "Face", shape.face, allowed("body.boundary"),
+    "The face that is shaped, 'body.boundary', by patches, node-wise or by formula modes.");
+  entries.add("Bodies", shape.bodies,
+              "The bodies that boxes, or formula modes without a face, shape; empty: all.");
+  entries.add("Box corner", shape.box_corner, per_dimension(),
+              "Corner of a free-form deformation box with the smallest coordinates [length].");
+  entries.add(
+    "Box size", shape.box_size, per_dimension(positive()),
+    "Its edges along x, y, z [length]. Control points on sides that cut a body are frozen.");
+}
+
+void declare_modes(Entries &entries, ShapeParameters &shape)
+{
+  entries.add("Control points", shape.control_points,
+              "Number of control points along each edge of the face or box, in the order x, y, z; "
+              "numbered with the first edge fastest.");
+  entries.add(
+    "Degree", shape.degree,
+    "Degree of B-splines, at least 1 and below the number of control points along each edge.");
+  entries.add("Direction", shape.direction, per_dimension(),
+              "Direction x, y, z in which control points or nodes move, one design variable each. "
+              "Empty: normal to the face; in boxes along each axis, so that a control point has as "
+              "many variables as the scene dimensions.");
+  entries.add("Filter radius", shape.filter_radius,
+              "Node-wise: a node follows the mean of the variables within this radius [length], "
+              "with weights that fall linearly to zero.");
+  entries.add("Modes", shape.modes,
+              allowed("a list 'FORMULA, FORMULA, FORMULA; ...' of vectors separated by semicolons"),
+              "Formula modes: vector fields of x, y, z, one per design variable, separated by "
+              "semicolons: '0, 0, x*(1-x); 0, 0, max(0,y)'.");
+}
+
+void declare_links(Entries &entries, ShapeParameters &shape)
+{
+  entries.add("Fixed", shape.fixed, allowed("a list of 'border' and numbers of control points"),
+              "Control points or nodes that stay: 'border' (of the face or box) and numbers "
+              "counted from 0 as in control-points.csv.");
+  entries.add("Symmetry", shape.symmetry, allowed("a list 'axis: number, ...' of different axes"),
+              "Mirror planes, axis: coordinate [length], which tie control points or nodes to "
+              "their images: 'x: 0.5'.");
+}
+
+/// The entries its basis reads.
+std::vector<std::string> entries_of(const ShapeParameters &shape)
+{
+  // The same in 2D and 3D.
+  auto       entries = choose(shape_basis_table<3>(), shape.basis).entries;
+  const auto drop    = [&entries](const std::string &name) {
+    entries.erase(std::remove(entries.begin(), entries.end(), name), entries.end());
+  };
+  const auto has = [&entries](const std::string &name) {
+    return std::find(entries.begin(), entries.end(), name) != entries.end();
+  };
+  if (!has("Bodies") || !has("Face"))
+    return entries;
+  if (shape.face.empty())
+    for (const auto *name : {"Face", "Interior", "Reach"})
+      drop(name);
+  else
+    drop("Bodies");
+  return entries;
+}
+
+/// What the basis makes of its entries can be made, as far as no mesh is
+/// needed. @throws InputError naming the entry
+template <int dim>
+void make_parts(const ShapeParameters &shape)
+{
+  if (!shape.direction.empty())
+    unit_direction<dim>(shape);
+  if (shape.reads("Control points"))
+    spline_net(shape, dim - (shape.reads("Face") ? 1 : 0),
+               shape.reads("Degree") ? shape.degree : 0);
+  if (shape.reads("Box size"))
+    box_of<dim>(shape);
+  if (shape.reads("Modes"))
+    FormulaFields<dim> fields(shape);
+  require_bounds(shape);
+}
+
+void check_links(const SectionCheck &section, const ShapeParameters &shape)
+{
+  const std::string axes = std::string("xyz").substr(0, section.dimension);
+  for (const auto &[axis, position] : shape.symmetry)
+    section.require(axis.size() == 1 && axes.find(axis) != std::string::npos, "Symmetry",
+                    to_text(shape.symmetry),
+                    "must be a list 'axis: number' with axes of '" + axes + "'");
+  for (const auto &item : shape.fixed)
+    section.require(item == "border" ||
+                      (!item.empty() && item.find_first_not_of("0123456789") == std::string::npos),
+                    "Fixed", to_text(shape.fixed),
+                    "'" + quotable(item) + "' must be 'border' or the number of a control point");
+}
+} // namespace
+
+void ShapeParameters::declare(Entries &entries)
+{
+  entries.add("Basis", basis, choice(shape_basis_table<3>()),
+              "How design variables move the nodes.");
+  declare_places(entries, *this);
+  declare_modes(entries, *this);
+  declare_links(entries, *this);
+  entries.add("Interior", interior, choice(interior_table<3>()),
+              "How the nodes of the body follow its shaped face. With Laplace and elasticity, "
+              "faces that touch the shaped one slide in themselves and the others stay. Boxes and "
+              "fields on bodies need none.");
+  entries.add("Reach", reach, at_least(0., "must be positive, or 0 for the whole body"),
+              "How far from the shaped face [length] the interior follows; 0: through the whole "
+              "body. What does not move is not assembled again.");
+  entries.add("Bounds", bounds, "Smallest and largest value of a design variable [length].");
+  entries.add("Initial", initial,
+              "Design variables at the start [length]: one for all, one for each, or empty: 0.");
+}
+
+bool ShapeParameters::reads(const std::string &entry) const
+{
+  const auto entries = entries_of(*this);
+  return std::find(entries.begin(), entries.end(), entry) != entries.end();
+}
+
+void ShapeParameters::check(const SectionCheck &section) const
+{
+  if (basis == "none")
+    return;
+  auto read = entries_of(*this);
+  read.insert(read.end(), {"Basis", "Bounds", "Initial"});
+  section.require_read(*this, read, "must be left out for Basis = " + basis);
+  section.require(degree >= 1 && degree <= 10, "Degree", to_text(degree),
+                  "must lie between 1 and 10");
+  try
+    {
+      section.dimension == 2 ? make_parts<2>(*this) : make_parts<3>(*this);
+    }
+  catch (const InputError &error)
+    {
+      throw section.placed(error, "Basis", basis);
+    }
+  section.require(filter_radius > 0. || !reads("Filter radius"), "Filter radius",
+                  to_text(filter_radius), "must be positive");
+  check_links(section, *this);
+}
+} // namespace snug::shape
