@@ -138,6 +138,10 @@ void Optimize<dim>::report(const optimization::Iteration &iteration)
     if (workshop.context.rank() == 0)
       history.add(line);
   });
+  // a replay solves nothing that could be drawn
+  const unsigned int every = workshop.scene.optimization.draw_every;
+  if (every > 0 && line.iteration > 0 && line.iteration % every == 0 && last_design == iteration.x)
+    draw_last(line.iteration);
 }
 
 template <int dim>
@@ -207,6 +211,16 @@ void Optimize<dim>::draw_first()
     first_summaries.push_back(workshop.summarize(state));
 }
 
+/// Draw the design that was evaluated last, unless its picture is there.
+template <int dim>
+void Optimize<dim>::draw_last(const unsigned int iteration)
+{
+  draw_first();
+  if (iteration == 0 || iteration > drawn)
+    workshop.draw(iteration, last, last_gradients.of_response.front().shape);
+  drawn = iteration;
+}
+
 /// Pair contact at @p design. @return false if slave nodes are where they
 /// were paired.
 template <int dim>
@@ -251,7 +265,7 @@ void Optimize<dim>::finish(const optimization::OptimizationResult &result)
   if (last.empty() || last_design != result.x)
     evaluate(result.x);
   const auto &of_objective = last_gradients.of_response.front();
-  workshop.draw(result.iterations, last, of_objective.shape);
+  draw_last(result.iterations);
   workshop.export_shape(result.x);
 
   io::Summary summary;

@@ -17,6 +17,9 @@ void OptimizationParameters::declare(Entries &entries)
               "several load cases, a response of the state names its own: 'closing.tip: <= 5'.");
   entries.add("Maximum evaluations", maximum_evaluations, at_least(1),
               "Largest number of designs that are evaluated.");
+  entries.add("Draw every", draw_every,
+              "Also draw the design of every so many iterations; 0: the first and the last one "
+              "alone.");
   entries.add("Gradient tolerance", gradient_tolerance, between(1e-15, 0.1),
               "Stop when the projected gradient is smaller, relative to the first gradient.");
   entries.add("Objective tolerance", objective_tolerance, between(1e-15, 0.1),

@@ -202,8 +202,24 @@ def check_good(runner, scene):
         if not (results / name).is_file():
             runner.failed += 1
             print(f"FAILED a state: leaves no {name}")
+    check_pictures(runner, scene)
     runner.expect_success("what was read reads again",
                           ["--validate", results / "parameters.prm"])
+
+
+def check_pictures(runner, scene):
+    """Of an optimization: the first and the last design, and those asked for."""
+    for every, more in (0, False), (1, True):
+        folder = runner.folder / f"drawn-{every}"
+        runner.expect_success(f"Draw every = {every}", [
+            scene, "--output", folder, "--set", "Task=optimize",
+            "--set", "Optimization/Maximum evaluations=5",
+            "--set", f"Optimization/Draw every={every}"])
+        drawn = (folder / "solution.pvd").read_text(encoding="utf-8")
+        times = re.findall(r'timestep="([^"]*)"', drawn)
+        if len(times) != len(set(times)) or (len(times) > 2) != more:
+            runner.failed += 1
+            print(f"FAILED Draw every = {every}: pictures at {times}")
 
 
 def main():

@@ -10,7 +10,8 @@
 namespace snug::app {
 /**
  * The optimization of a scene: evaluates designs, keeps the journal, the
- * history and the warm start, and draws the first and the last design.
+ * history and the warm start, and draws the first and the last design, and
+ * those of iterations in between if asked for.
  * After a run it may pair contact anew and begin another.
  */
 template <int dim>
@@ -50,6 +51,7 @@ private:
   optimization::OptimizationResult search(const Design                           &start,
                                           const optimization::OptimizationResult &before);
   void                             draw_first();
+  void                             draw_last(unsigned int iteration);
   bool                             pair_anew(const Design &design);
   void                             finish(const optimization::OptimizationResult &result);
 
@@ -69,6 +71,7 @@ private:
   std::vector<io::Summary::State>              first_summaries;
   bool                                         paired_anew     = false; ///< and not yet evaluated
   unsigned int                                 iterations_done = 0;     ///< of earlier searches
+  unsigned int                                 drawn           = 0;     ///< iteration drawn last
 };
 } // namespace snug::app
 

@@ -19,10 +19,11 @@ struct OptimizationParameters
   /// response, or "load case.response", and its limit, see read_limit()
   std::vector<std::pair<std::string, std::string>> constraints;
   unsigned int                                     maximum_evaluations = 200;
-  double objective_tolerance  = 1e-8; ///< relative, of the objective
-  double design_tolerance     = 1e-7; ///< relative to bound widths
-  double gradient_tolerance   = 1e-6; ///< of the projected gradient
-  double constraint_tolerance = 1e-8; ///< relative to the target
+  unsigned int draw_every           = 0;    ///< iterations; 0: the first and last design
+  double       objective_tolerance  = 1e-8; ///< relative, of the objective
+  double       design_tolerance     = 1e-7; ///< relative to bound widths
+  double       gradient_tolerance   = 1e-6; ///< of the projected gradient
+  double       constraint_tolerance = 1e-8; ///< relative to the target
 
   void declare(Entries &entries);
 };
