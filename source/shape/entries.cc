@@ -1,6 +1,7 @@
 #include <snug/base/errors.h>
 #include <snug/shape/entries.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace snug::shape {
@@ -38,6 +39,21 @@ spline_net(const ShapeParameters &parameters, const unsigned int n_axes, const u
                       std::to_string(least) + " to " + std::to_string(most) +
                       (degree == 0 ? "" : ": at least one more than 'Degree'"));
   return SplineNet(n, degree);
+}
+
+/// The error lists the bodies there are.
+std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &parameters)
+{
+  std::vector<bool> result(bodies.names.size(), parameters.bodies.empty());
+  for (const auto &name : parameters.bodies)
+    {
+      const auto found = std::find(bodies.names.begin(), bodies.names.end(), name);
+      if (found == bodies.names.end())
+        throw bad_entry(parameters.path("Bodies"), listed(parameters.bodies),
+                        "there is no body '" + name + "', there are " + listed(bodies.names));
+      result[found - bodies.names.begin()] = true;
+    }
+  return result;
 }
 
 template dealii::Tensor<1, 2> unit_direction(const ShapeParameters &);

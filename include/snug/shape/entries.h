@@ -29,6 +29,10 @@ dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters);
 /// Bernstein polynomials. @throws InputError naming Control points or
 /// Degree.
 SplineNet spline_net(const ShapeParameters &parameters, unsigned int n_axes, unsigned int degree);
+
+/// Whether each body is in the entry Bodies; an empty one means all.
+/// @throws InputError
+std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &parameters);
 } // namespace snug::shape
 
 #endif
