@@ -42,21 +42,6 @@ RunContext::RunContext(MPI_Comm communicator, std::ostream &out)
   live_line = my_rank == 0 && &out == &std::cout && isatty(STDOUT_FILENO) && !under_launcher();
 }
 
-MPI_Comm RunContext::communicator() const
-{
-  return comm;
-}
-
-unsigned int RunContext::rank() const
-{
-  return my_rank;
-}
-
-unsigned int RunContext::n_ranks() const
-{
-  return size;
-}
-
 std::ostream &RunContext::out()
 {
   if (live_line_shown)

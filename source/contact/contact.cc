@@ -1,8 +1,7 @@
 #include <snug/base/errors.h>
 #include <snug/contact/contact.h>
 #include <snug/contact/mortar_rows.h>
-#include <snug/contact/nodal_rows.h>
-#include <snug/contact/obstacle_rows.h>
+#include <snug/contact/pair_rows.h>
 
 #include <algorithm>
 #include <map>
@@ -77,8 +76,7 @@ template <int dim>
 const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> &contact_method_table()
 {
   static const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> table = {
-    {"nodal", "slave nodes against the closest points of master faces",
-     [](const PairGeometry<dim> &pair) { return std::make_unique<NodalRows<dim>>(pair); }},
+    {"nodal", "slave nodes against the closest points of master faces", nodal_rows<dim>},
     {"mortar",
      "mean gaps around slave nodes, integrated over both faces: for meshes that do not match",
      [](const PairGeometry<dim> &pair) { return std::make_unique<MortarRows<dim>>(pair); }}};
@@ -173,36 +171,12 @@ typename Contact<dim>::Group Contact<dim>::make_group(const PairGeometry<dim> &g
   const PairParameters &parameters = geometry.pair.parameters;
   Group                 group;
   group.rows = geometry.pair.obstacle
-                 ? std::make_unique<ObstacleRows<dim>>(geometry)
+                 ? obstacle_rows(geometry)
                  : choose(contact_method_table<dim>(), parameters.method).make(geometry);
   group.step = gap_step * geometry.slave_size();
   if (parameters.gap != "0")
     group.offset = std::make_unique<geometry::Formula<dim>>("Gap", parameters.gap);
   return group;
-}
-
-template <int dim>
-const std::vector<Pair> &Contact<dim>::pairs() const
-{
-  return chosen;
-}
-
-template <int dim>
-unsigned int Contact<dim>::n_rows() const
-{
-  return row_places.size();
-}
-
-template <int dim>
-const std::vector<RowPlace> &Contact<dim>::places() const
-{
-  return row_places;
-}
-
-template <int dim>
-const std::vector<SharedNode> &Contact<dim>::shared_nodes() const
-{
-  return shared;
 }
 
 template <int dim>
@@ -329,12 +303,6 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
                          : along(offset - paired_offsets[i], rows[i].normal) / sizes[slave]);
     }
   return result;
-}
-
-template <int dim>
-const std::vector<double> &Contact<dim>::overlaps() const
-{
-  return deepest;
 }
 
 template const ChoiceTable<std::unique_ptr<RowGroup<2>>(const PairGeometry<2> &)> &

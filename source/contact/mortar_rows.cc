@@ -24,13 +24,12 @@ std::vector<double> whole_integrals(const mesh::Surface<dim>                 &su
                                     const faces::FaceShape<dim>              &shape,
                                     const typename mesh::Surface<dim>::Field &positions)
 {
-  const auto                            &nodes = surface.faces()[face].nodes;
-  const dealii::QGauss<dim - 1>          gauss(shape.degree() + 2);
-  typename faces::FaceShape<dim>::Values values;
-  std::vector<double>                    result(nodes.size(), 0.);
+  const auto                   &nodes = surface.faces()[face].nodes;
+  const dealii::QGauss<dim - 1> gauss(shape.degree() + 2);
+  std::vector<double>           result(nodes.size(), 0.);
   for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      shape.evaluate(gauss.point(q), values);
+      const auto             values = shape.at(gauss.point(q));
       dealii::Tensor<1, dim> x;
       for (unsigned int k = 0; k < nodes.size(); ++k)
         x += values.value[k] * positions[nodes[k]];
@@ -241,12 +240,6 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
       throw TangledMesh("the master side has moved away from contact "
                         "nodes that it was opposite to");
   return sums;
-}
-
-template <int dim>
-const std::vector<unsigned int> &MortarRows<dim>::slaves() const
-{
-  return multipliers.nodes;
 }
 
 /// Hanging nodes are left out: they have no unknowns whose force could be asked for.

@@ -1,5 +1,7 @@
 #include <snug/base/errors.h>
-#include <snug/contact/nodal_rows.h>
+#include <snug/contact/pair_rows.h>
+#include <snug/contact/projection.h>
+#include <snug/contact/supported_normals.h>
 #include <snug/faces/tributary.h>
 
 #include <map>
@@ -51,150 +53,162 @@ Row<dim> make_row(const std::vector<std::pair<unsigned int, double>> &factors,
   row.normal = n;
   return row;
 }
+
+template <int dim>
+class NodalRows : public RowGroup<dim>
+{
+public:
+  using Field = typename RowGroup<dim>::Field;
+
+  /// Slave nodes that hang have no row (project() leaves them out): they move with their masters,
+  /// whose rows hold them, and a row of their own would be nearly a combination of those.
+  explicit NodalRows(const PairGeometry<dim> &pair)
+    : surface(pair.surface), shape(pair.shape), sides(pair.sides), held(pair.held)
+  {
+    const Opposition<dim> opposition(pair);
+    const auto            normals = master_normals(pair.positions);
+    for (const Projection &projection : project(surface, sides, shape, pair.positions))
+      {
+        const unsigned int slave = projection.slave;
+        const double       distance =
+          (at_master<dim>(projection, pair.positions) - pair.positions[slave]).norm();
+        const auto n = row_normal<dim>(projection, normals.normals()).n;
+        // The distance counts on both sides: a deep overlap is as far away as a wide gap.
+        if (pair.taken[slave] || !opposition.holds(slave, distance, n))
+          continue;
+        found.push_back(projection);
+        slave_nodes.push_back(slave);
+      }
+    resolve_hanging();
+  }
+
+  const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
+
+  std::vector<Row<dim>> rows(const Field &positions) const override
+  {
+    const auto            normals = master_normals(positions);
+    std::vector<Row<dim>> result;
+    for (unsigned int i = 0; i < found.size(); ++i)
+      {
+        const auto n = row_normal<dim>(found[i], normals.normals()).n;
+        // With the positions of the hanging nodes themselves: the gap is that of the mesh as it is.
+        const double gap = n * (at_master<dim>(found[i], positions) - positions[found[i].slave]);
+        result.push_back(make_row(factors[i], n, gap));
+      }
+    return result;
+  }
+
+  std::vector<Row<dim>> row_derivatives(const Field &positions,
+                                        const Field &velocity) const override
+  {
+    const auto            normals     = master_normals(positions);
+    const auto            derivatives = normals.derivative(velocity);
+    std::vector<Row<dim>> result;
+    for (unsigned int i = 0; i < found.size(); ++i)
+      {
+        const auto                  &projection = found[i];
+        const auto                   normal     = row_normal<dim>(projection, normals.normals());
+        const dealii::Tensor<1, dim> dv         = -1. * at_master<dim>(projection, derivatives);
+        // Weights are frozen, so only the nodal normals change v.
+        const auto   dn = faces::unit_vector_derivative(normal.n, normal.length, dv);
+        const double dgap =
+          dn * (at_master<dim>(projection, positions) - positions[projection.slave]) +
+          normal.n * (at_master<dim>(projection, velocity) - velocity[projection.slave]);
+        result.push_back(make_row(factors[i], dn, dgap));
+      }
+    return result;
+  }
+
+  void add_energy_gradient(const Field               &positions,
+                           const Field               &displacement,
+                           const std::vector<double> &forces,
+                           Field                     &gradient) const override
+  {
+    AssertDimension(forces.size(), found.size());
+    const auto normals = master_normals(positions);
+    Field      normal_gradients(surface.n_nodes());
+    for (unsigned int i = 0; i < found.size(); ++i)
+      {
+        const auto &projection = found[i];
+        const auto  normal     = row_normal<dim>(projection, normals.normals());
+        // d/dn of n . (sum_b factor_b u_b - sum_k w_k x_k + x_s)
+        dealii::Tensor<1, dim> n_gradient =
+          positions[projection.slave] - at_master<dim>(projection, positions);
+        for (const auto &factor : factors[i])
+          n_gradient += factor.second * displacement[factor.first];
+        // The derivative of a unit vector is symmetric and serves as its own transpose.
+        const auto v_gradient =
+          forces[i] * faces::unit_vector_derivative(normal.n, normal.length, n_gradient);
+        // By the positions in the gap; displacements are fixed.
+        gradient[projection.slave] += forces[i] * normal.n;
+        for (const auto &master : projection.masters)
+          {
+            gradient[master.first] -= forces[i] * master.second * normal.n;
+            normal_gradients[master.first] -= master.second * v_gradient;
+          }
+      }
+    normals.add_transpose(normal_gradients, gradient);
+  }
+
+  /// Over the whole slave side, also where the master side ends within it: the force of a row
+  /// divided by this area is a mean pressure around its node.
+  std::vector<double> areas(const Field &positions) const override
+  {
+    return faces::tributary_areas<dim>({surface, sides.slave, shape}, slave_nodes, positions);
+  }
+
+  void add_area_gradient(const Field               &positions,
+                         const std::vector<double> &factors,
+                         Field                     &gradient) const override
+  {
+    faces::add_tributary_gradient<dim>({surface, sides.slave, shape}, slave_nodes, positions,
+                                       factors, gradient);
+  }
+
+private:
+  const mesh::Surface<dim>    &surface;
+  const faces::FaceShape<dim> &shape;
+  PairFaces                    sides;
+  faces::HeldDirections<dim>   held;
+  std::vector<Projection>      found;
+  std::vector<unsigned int>    slave_nodes;
+  /// of each row: surface nodes, ascending, and their factors of n in the
+  /// coefficients: 1 (slave) or -w (masters, none hanging)
+  std::vector<std::vector<std::pair<unsigned int, double>>> factors;
+
+  /// factors: 1 at the slave, -w_k at the masters, those that hang replaced by their own masters.
+  /// The map merges nodes that are reached twice and sorts them.
+  void resolve_hanging()
+  {
+    for (const Projection &projection : found)
+      {
+        std::map<unsigned int, double> factor;
+        factor[projection.slave] = 1.;
+        for (const auto &node : projection.masters)
+          {
+            const auto &masters = surface.masters(node.first);
+            if (masters.empty())
+              factor[node.first] -= node.second;
+            for (const auto &master : masters)
+              factor[master.first] -= node.second * master.second;
+          }
+        factors.emplace_back(factor.begin(), factor.end());
+      }
+  }
+
+  SupportedNormals<dim> master_normals(const Field &positions) const
+  {
+    return {surface, sides.master, shape, positions, held};
+  }
+};
 } // namespace
 
-/// Slave nodes that hang have no row (project() leaves them out): they move with their masters,
-/// whose rows hold them, and a row of their own would be nearly a combination of those.
 template <int dim>
-NodalRows<dim>::NodalRows(const PairGeometry<dim> &pair)
-  : surface(pair.surface), shape(pair.shape), sides(pair.sides), held(pair.held)
+std::unique_ptr<RowGroup<dim>> nodal_rows(const PairGeometry<dim> &pair)
 {
-  const Opposition<dim> opposition(pair);
-  const auto            normals = master_normals(pair.positions);
-  for (const Projection &projection : project(surface, sides, shape, pair.positions))
-    {
-      const unsigned int slave = projection.slave;
-      const double       distance =
-        (at_master<dim>(projection, pair.positions) - pair.positions[slave]).norm();
-      const auto n = row_normal<dim>(projection, normals.normals()).n;
-      // The distance counts on both sides: a deep overlap is as far away as a wide gap.
-      if (pair.taken[slave] || !opposition.holds(slave, distance, n))
-        continue;
-      found.push_back(projection);
-      slave_nodes.push_back(slave);
-    }
-  resolve_hanging();
+  return std::make_unique<NodalRows<dim>>(pair);
 }
 
-/// factors: 1 at the slave, -w_k at the masters, those that hang replaced by their own masters. The
-/// map merges nodes that are reached twice and sorts them.
-template <int dim>
-void NodalRows<dim>::resolve_hanging()
-{
-  for (const Projection &projection : found)
-    {
-      std::map<unsigned int, double> factor;
-      factor[projection.slave] = 1.;
-      for (const auto &node : projection.masters)
-        {
-          const auto &masters = surface.masters(node.first);
-          if (masters.empty())
-            factor[node.first] -= node.second;
-          for (const auto &master : masters)
-            factor[master.first] -= node.second * master.second;
-        }
-      factors.emplace_back(factor.begin(), factor.end());
-    }
-}
-
-template <int dim>
-const std::vector<unsigned int> &NodalRows<dim>::slaves() const
-{
-  return slave_nodes;
-}
-
-template <int dim>
-SupportedNormals<dim> NodalRows<dim>::master_normals(const Field &positions) const
-{
-  return {surface, sides.master, shape, positions, held};
-}
-
-template <int dim>
-std::vector<Row<dim>> NodalRows<dim>::rows(const Field &positions) const
-{
-  const auto            normals = master_normals(positions);
-  std::vector<Row<dim>> result;
-  for (unsigned int i = 0; i < found.size(); ++i)
-    {
-      const auto n = row_normal<dim>(found[i], normals.normals()).n;
-      // With the positions of the hanging nodes themselves: the gap is that of the mesh as it is.
-      const double gap = n * (at_master<dim>(found[i], positions) - positions[found[i].slave]);
-      result.push_back(make_row(factors[i], n, gap));
-    }
-  return result;
-}
-
-template <int dim>
-std::vector<Row<dim>> NodalRows<dim>::row_derivatives(const Field &positions,
-                                                      const Field &velocity) const
-{
-  const auto            normals     = master_normals(positions);
-  const auto            derivatives = normals.derivative(velocity);
-  std::vector<Row<dim>> result;
-  for (unsigned int i = 0; i < found.size(); ++i)
-    {
-      const auto                  &projection = found[i];
-      const auto                   normal     = row_normal<dim>(projection, normals.normals());
-      const dealii::Tensor<1, dim> dv         = -1. * at_master<dim>(projection, derivatives);
-      // Weights are frozen, so only the nodal normals change v.
-      const auto   dn = faces::unit_vector_derivative(normal.n, normal.length, dv);
-      const double dgap =
-        dn * (at_master<dim>(projection, positions) - positions[projection.slave]) +
-        normal.n * (at_master<dim>(projection, velocity) - velocity[projection.slave]);
-      result.push_back(make_row(factors[i], dn, dgap));
-    }
-  return result;
-}
-
-template <int dim>
-void NodalRows<dim>::add_energy_gradient(const Field               &positions,
-                                         const Field               &displacement,
-                                         const std::vector<double> &forces,
-                                         Field                     &gradient) const
-{
-  AssertDimension(forces.size(), found.size());
-  const auto normals = master_normals(positions);
-  Field      normal_gradients(surface.n_nodes());
-  for (unsigned int i = 0; i < found.size(); ++i)
-    {
-      const auto &projection = found[i];
-      const auto  normal     = row_normal<dim>(projection, normals.normals());
-      // d/dn of n . (sum_b factor_b u_b - sum_k w_k x_k + x_s)
-      dealii::Tensor<1, dim> n_gradient =
-        positions[projection.slave] - at_master<dim>(projection, positions);
-      for (const auto &factor : factors[i])
-        n_gradient += factor.second * displacement[factor.first];
-      // The derivative of a unit vector is symmetric and serves as its own transpose.
-      const auto v_gradient =
-        forces[i] * faces::unit_vector_derivative(normal.n, normal.length, n_gradient);
-      // By the positions in the gap; displacements are fixed.
-      gradient[projection.slave] += forces[i] * normal.n;
-      for (const auto &master : projection.masters)
-        {
-          gradient[master.first] -= forces[i] * master.second * normal.n;
-          normal_gradients[master.first] -= master.second * v_gradient;
-        }
-    }
-  normals.add_transpose(normal_gradients, gradient);
-}
-
-/// Over the whole slave side, also where the master side ends within it: the force of a row divided
-/// by this area is a mean pressure around its node.
-template <int dim>
-std::vector<double> NodalRows<dim>::areas(const Field &positions) const
-{
-  return faces::tributary_areas<dim>({surface, sides.slave, shape}, slave_nodes, positions);
-}
-
-template <int dim>
-void NodalRows<dim>::add_area_gradient(const Field               &positions,
-                                       const std::vector<double> &factors,
-                                       Field                     &gradient) const
-{
-  faces::add_tributary_gradient<dim>({surface, sides.slave, shape}, slave_nodes, positions, factors,
-                                     gradient);
-}
-
-template class NodalRows<2>;
-template class NodalRows<3>;
+template std::unique_ptr<RowGroup<2>> nodal_rows(const PairGeometry<2> &);
+template std::unique_ptr<RowGroup<3>> nodal_rows(const PairGeometry<3> &);
 } // namespace snug::contact

@@ -61,8 +61,7 @@ struct SearchFace
     typename faces::FaceShape<dim>::Coordinates middle;
     for (int a = 0; a < dim - 1; ++a)
       middle[a] = 0.5;
-    typename faces::FaceShape<dim>::Values values;
-    shape.evaluate(middle, values);
+    const auto values = shape.at(middle);
     for (unsigned int k = 0; k < nodes.size(); ++k)
       centre += values.value[k] * nodes[k];
     normal =

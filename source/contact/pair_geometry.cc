@@ -47,12 +47,6 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
 }
 
 template <int dim>
-double PairGeometry<dim>::slave_size() const
-{
-  return mean_face_size(surface, sides.slave, positions);
-}
-
-template <int dim>
 Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
   : normals(faces::NodalNormals<dim>(pair.surface, pair.sides.slave, pair.shape, pair.positions)
               .normals())
@@ -63,20 +57,6 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
                        ? std::numeric_limits<double>::infinity()
                        : parameters.search_distance * (1. + round_off);
   least_cosine     = std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) - round_off;
-}
-
-template <int dim>
-bool Opposition<dim>::is_near(double distance) const
-{
-  return std::abs(distance) <= largest_distance;
-}
-
-template <int dim>
-bool Opposition<dim>::holds(unsigned int                  slave,
-                            double                        distance,
-                            const dealii::Tensor<1, dim> &normal) const
-{
-  return is_near(distance) && normals[slave] * normal >= least_cosine;
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                   \

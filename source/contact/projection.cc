@@ -61,7 +61,50 @@ public:
     , tree(dealii::pack_rtree_of_indices(boxes))
   {}
 
-  Found closest(const dealii::Tensor<1, dim> &p) const;
+  Found closest(const dealii::Tensor<1, dim> &p) const
+  {
+    namespace bgi = boost::geometry::index;
+    const dealii::Point<dim> centre(p);
+    // An upper bound of the distance from the faces of the nearest boxes,
+    // then all faces whose boxes meet the cube of that size around p.
+    double bound = std::numeric_limits<double>::infinity();
+    // Four, as the face of the nearest box need not be the nearest face; any number gives a bound.
+    for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 4)))
+      bound = std::min(bound, faces::closest_point(shape, nodes[i], p).squared_distance);
+    double reach = 0.;
+    for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 1)))
+      reach = extent(i);
+    // A little more than the bound, so that faces which are equally close are candidates, too, and
+    // also where the distance is zero.
+    reach                    = std::sqrt(bound) * (1. + 1e-6) + 1e-6 * reach;
+    dealii::Point<dim> lower = centre, upper = centre;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] -= reach;
+        upper[d] += reach;
+      }
+    const dealii::BoundingBox<dim> cube({lower, upper});
+
+    std::vector<std::size_t> candidates;
+    for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(cube)))
+      candidates.push_back(i);
+    // By index, as the first of those that tie is taken: on matching meshes the closest point is
+    // often a corner of four faces, and rounding must not choose between them.
+    std::sort(candidates.begin(), candidates.end());
+    std::vector<faces::ClosestPoint<dim>> points;
+    std::size_t                           best = 0;
+    for (const std::size_t i : candidates)
+      {
+        points.push_back(faces::closest_point(shape, nodes[i], p));
+        if (points.back().squared_distance < points[best].squared_distance)
+          best = points.size() - 1;
+      }
+    std::size_t first = 0;
+    // Ends at `best` at the latest, which ties with itself.
+    while (!ties(points[first], points[best], extent(candidates[best])))
+      ++first;
+    return {faces[candidates[first]], points[first]};
+  }
 
 private:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
@@ -73,118 +116,55 @@ private:
   const Boxes                                                                  boxes;
   const decltype(dealii::pack_rtree_of_indices(std::declval<const Boxes &>())) tree;
 
-  static std::vector<Nodes> node_positions(const mesh::Surface<dim>        &surface,
-                                           const std::vector<unsigned int> &faces,
-                                           const Field                     &positions);
-  static Boxes face_boxes(const faces::FaceShape<dim> &shape, const std::vector<Nodes> &nodes);
-  double       extent(std::size_t i) const;
-  bool         ties(const faces::ClosestPoint<dim> &a,
-                    const faces::ClosestPoint<dim> &best,
-                    double                          extent) const;
+  std::vector<Nodes> node_positions(const mesh::Surface<dim>        &surface,
+                                    const std::vector<unsigned int> &faces,
+                                    const Field                     &positions)
+  {
+    std::vector<Nodes> result(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (const unsigned int node : surface.faces()[faces[i]].nodes)
+        result[i].push_back(positions[node]);
+    return result;
+  }
+
+  Boxes face_boxes(const faces::FaceShape<dim> &shape, const std::vector<Nodes> &nodes)
+  {
+    Boxes result;
+    for (const Nodes &face : nodes)
+      {
+        std::vector<dealii::Point<dim>> points;
+        for (const auto &point : hull_points<dim>(shape, face))
+          points.emplace_back(point);
+        result.emplace_back(points);
+      }
+    return result;
+  }
+
+  /// The diagonal of the box: the length that rounding of positions is compared with.
+  double extent(std::size_t i) const
+  {
+    const auto &corners = boxes[i].get_boundary_points();
+    return corners.first.distance(corners.second);
+  }
+
+  /// Equally close: the same point, which faces share, or another one at
+  /// the same distance but for round-off. Points in between are different
+  /// answers, of which the closer is right.
+  bool
+  ties(const faces::ClosestPoint<dim> &a, const faces::ClosestPoint<dim> &best, double extent) const
+  {
+    const double apart = (a.position - best.position).norm();
+    return apart <= 1e-11 * extent ||
+           (apart > 1e-3 * extent && a.squared_distance <= best.squared_distance * (1. + 1e-12));
+  }
 };
-
-template <int dim>
-std::vector<typename MasterSide<dim>::Nodes>
-MasterSide<dim>::node_positions(const mesh::Surface<dim>        &surface,
-                                const std::vector<unsigned int> &faces,
-                                const Field                     &positions)
-{
-  std::vector<Nodes> result(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    for (const unsigned int node : surface.faces()[faces[i]].nodes)
-      result[i].push_back(positions[node]);
-  return result;
-}
-
-template <int dim>
-typename MasterSide<dim>::Boxes MasterSide<dim>::face_boxes(const faces::FaceShape<dim> &shape,
-                                                            const std::vector<Nodes>    &nodes)
-{
-  Boxes result;
-  for (const Nodes &face : nodes)
-    {
-      std::vector<dealii::Point<dim>> points;
-      for (const auto &point : hull_points<dim>(shape, face))
-        points.emplace_back(point);
-      result.emplace_back(points);
-    }
-  return result;
-}
-
-/// The diagonal of the box: the length that rounding of positions is compared with.
-template <int dim>
-double MasterSide<dim>::extent(std::size_t i) const
-{
-  const auto &corners = boxes[i].get_boundary_points();
-  return corners.first.distance(corners.second);
-}
-
-/// Equally close: the same point, which faces share, or another one at
-/// the same distance but for round-off. Points in between are different
-/// answers, of which the closer is right.
-template <int dim>
-bool MasterSide<dim>::ties(const faces::ClosestPoint<dim> &a,
-                           const faces::ClosestPoint<dim> &best,
-                           double                          extent) const
-{
-  const double apart = (a.position - best.position).norm();
-  return apart <= 1e-11 * extent ||
-         (apart > 1e-3 * extent && a.squared_distance <= best.squared_distance * (1. + 1e-12));
-}
-
-template <int dim>
-typename MasterSide<dim>::Found MasterSide<dim>::closest(const dealii::Tensor<1, dim> &p) const
-{
-  namespace bgi = boost::geometry::index;
-  const dealii::Point<dim> centre(p);
-  // An upper bound of the distance from the faces of the nearest boxes,
-  // then all faces whose boxes meet the cube of that size around p.
-  double bound = std::numeric_limits<double>::infinity();
-  // Four, as the face of the nearest box need not be the nearest face; any number gives a bound.
-  for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 4)))
-    bound = std::min(bound, faces::closest_point(shape, nodes[i], p).squared_distance);
-  double reach = 0.;
-  for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 1)))
-    reach = extent(i);
-  // A little more than the bound, so that faces which are equally close are candidates, too, and
-  // also where the distance is zero.
-  reach                    = std::sqrt(bound) * (1. + 1e-6) + 1e-6 * reach;
-  dealii::Point<dim> lower = centre, upper = centre;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      lower[d] -= reach;
-      upper[d] += reach;
-    }
-  const dealii::BoundingBox<dim> cube({lower, upper});
-
-  std::vector<std::size_t> candidates;
-  for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(cube)))
-    candidates.push_back(i);
-  // By index, as the first of those that tie is taken: on matching meshes the closest point is
-  // often a corner of four faces, and rounding must not choose between them.
-  std::sort(candidates.begin(), candidates.end());
-  std::vector<faces::ClosestPoint<dim>> points;
-  std::size_t                           best = 0;
-  for (const std::size_t i : candidates)
-    {
-      points.push_back(faces::closest_point(shape, nodes[i], p));
-      if (points.back().squared_distance < points[best].squared_distance)
-        best = points.size() - 1;
-    }
-  std::size_t first = 0;
-  // Ends at `best` at the latest, which ties with itself.
-  while (!ties(points[first], points[best], extent(candidates[best])))
-    ++first;
-  return {faces[candidates[first]], points[first]};
-}
 
 template <int dim>
 std::vector<std::pair<unsigned int, double>> weights(const faces::FaceShape<dim>     &shape,
                                                      const dealii::Point<dim - 1>    &xi,
                                                      const std::vector<unsigned int> &nodes)
 {
-  typename faces::FaceShape<dim>::Values values;
-  shape.evaluate(xi, values);
+  const auto                                   values = shape.at(xi);
   std::vector<std::pair<unsigned int, double>> result;
   double                                       sum = 0.;
   for (unsigned int k = 0; k < nodes.size(); ++k)

@@ -32,12 +32,6 @@ SupportedNormals<dim>::SupportedNormals(const mesh::Surface<dim>         &surfac
 }
 
 template <int dim>
-const typename SupportedNormals<dim>::Field &SupportedNormals<dim>::normals() const
-{
-  return unit;
-}
-
-template <int dim>
 typename SupportedNormals<dim>::Field SupportedNormals<dim>::derivative(const Field &velocity) const
 {
   Field result = nodal.derivative(velocity);

@@ -4,31 +4,31 @@
 
 namespace snug::elasticity {
 template <int dim>
-dealii::Tensor<2, dim> jacobian(const LagrangePoint<dim>                  &shape,
+dealii::Tensor<2, dim> jacobian(const mesh::LagrangePoint<dim>            &shape,
                                 const std::vector<dealii::Tensor<1, dim>> &X)
 {
-  AssertDimension(X.size(), shape.gradients.size());
+  AssertDimension(X.size(), shape.gradient.size());
   dealii::Tensor<2, dim> J;
   for (unsigned int a = 0; a < X.size(); ++a)
-    J += outer_product(X[a], shape.gradients[a]);
+    J += outer_product(X[a], shape.gradient[a]);
   return J;
 }
 
 template <int dim>
-dealii::Tensor<1, dim> value(const LagrangePoint<dim>                  &shape,
+dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
                              const std::vector<dealii::Tensor<1, dim>> &u)
 {
-  AssertDimension(u.size(), shape.values.size());
+  AssertDimension(u.size(), shape.value.size());
   dealii::Tensor<1, dim> result;
   for (unsigned int a = 0; a < u.size(); ++a)
-    result += shape.values[a] * u[a];
+    result += shape.value[a] * u[a];
   return result;
 }
 
 template <int dim>
-CellPoint<dim>::CellPoint(const LagrangePoint<dim> &shape,
-                          const Nodes              &X,
-                          const mesh::Idealization &idealization)
+CellPoint<dim>::CellPoint(const mesh::LagrangePoint<dim> &shape,
+                          const Nodes                    &X,
+                          const mesh::Idealization       &idealization)
   : shape(shape), inverse_radius(0.)
 {
   // J_cd = dX_c / d xi_d, so that g_a = J^-T dN_a/d xi is the row vector dN_a/d xi times J^-1.
@@ -47,13 +47,13 @@ CellPoint<dim>::CellPoint(const LagrangePoint<dim> &shape,
     }
   for (unsigned int a = 0; a < X.size(); ++a)
     // In the plane of a section; what is across it is added by gradient().
-    gradients[a] = shape.gradients[a] * inverse;
+    gradients[a] = shape.gradient[a] * inverse;
 }
 
 template <int dim>
 dealii::Tensor<2, 3> CellPoint<dim>::gradient(const Nodes &u) const
 {
-  AssertDimension(u.size(), shape.values.size());
+  AssertDimension(u.size(), shape.value.size());
   dealii::Tensor<2, dim> sum;
   for (unsigned int a = 0; a < u.size(); ++a)
     sum += outer_product(u[a], gradients[a]);
@@ -72,7 +72,7 @@ dealii::Tensor<2, 3> CellPoint<dim>::gradient(const Nodes &u) const
 template <int dim>
 void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
 {
-  AssertDimension(f.size(), shape.values.size());
+  AssertDimension(f.size(), shape.value.size());
   dealii::Tensor<2, dim> in_plane;
   for (unsigned int c = 0; c < dim; ++c)
     for (unsigned int d = 0; d < dim; ++d)
@@ -82,7 +82,7 @@ void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
   for (unsigned int a = 0; a < f.size(); ++a)
     {
       f[a] += in_plane * gradients[a];
-      f[a][0] += hoop * shape.values[a];
+      f[a][0] += hoop * shape.value[a];
     }
 }
 
@@ -90,15 +90,15 @@ void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
 template <int dim>
 void CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const
 {
-  AssertDimension(f.size(), shape.values.size());
+  AssertDimension(f.size(), shape.value.size());
   for (unsigned int a = 0; a < f.size(); ++a)
-    f[a] += dV * shape.values[a] * source;
+    f[a] += dV * shape.value[a] * source;
 }
 
 #define SNUG_INSTANTIATE(dim)                                                            \
-  template dealii::Tensor<2, dim> jacobian(const LagrangePoint<dim> &,                   \
+  template dealii::Tensor<2, dim> jacobian(const mesh::LagrangePoint<dim> &,             \
                                            const std::vector<dealii::Tensor<1, dim>> &); \
-  template dealii::Tensor<1, dim> value(const LagrangePoint<dim> &,                      \
+  template dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim> &,                \
                                         const std::vector<dealii::Tensor<1, dim>> &);    \
   template struct CellPoint<dim>;
 SNUG_INSTANTIATE(2)

@@ -16,8 +16,8 @@ Element<dim>::Element(const unsigned int        degree,
   : degree(degree)
   , idealization(idealization)
   , formulation(formulation)
-  , gauss(lagrange_gauss_points<dim>(degree))
-  , nodes(lagrange_nodes<dim>(degree))
+  , gauss(mesh::lagrange_gauss_points<dim>(degree))
+  , nodes(mesh::lagrange_nodes<dim>(degree))
 {
   using Kind = mesh::Idealization::Kind;
   Assert(degree == 1 || degree == 2, dealii::ExcMessage("Elements have degree 1 or 2."));
@@ -31,13 +31,7 @@ Element<dim>::Element(const unsigned int        degree,
   for (const auto &shape : gauss)
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int a = 0; a < n_padded; ++a)
-        reference_gradients.push_back(a < n_nodes() ? shape.gradients[a][d] : 0.);
-}
-
-template <int dim>
-unsigned int Element<dim>::n_nodes() const
-{
-  return nodes.size();
+        reference_gradients.push_back(a < n_nodes() ? shape.gradient[a][d] : 0.);
 }
 
 template <int dim>
@@ -148,7 +142,7 @@ dealii::SymmetricTensor<2, 3> Element<dim>::stress(const Nodes              &X,
                                                    const dealii::Point<dim> &point) const
 {
   // one more point, without a weight, receives what the cell makes
-  const auto shape = lagrange_point<dim>(degree, point);
+  const auto shape = mesh::lagrange_point<dim>(degree, point);
   // It takes part in no projection, as its dV is 0.
   auto points = gauss_points(X);
   points.emplace_back(shape, X, idealization);

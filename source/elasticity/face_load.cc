@@ -8,26 +8,26 @@ namespace snug::elasticity {
 namespace {
 /// t_i = dx / d xi_i of the positions (or velocities) of a face's nodes.
 template <int dim>
-std::array<dealii::Tensor<1, dim>, dim - 1> tangents(const LagrangePoint<dim - 1> &shape,
+std::array<dealii::Tensor<1, dim>, dim - 1> tangents(const mesh::LagrangePoint<dim - 1> &shape,
                                                      const std::vector<dealii::Tensor<1, dim>> &X)
 {
-  AssertDimension(X.size(), shape.values.size());
+  AssertDimension(X.size(), shape.value.size());
   std::array<dealii::Tensor<1, dim>, dim - 1> t;
   for (unsigned int a = 0; a < X.size(); ++a)
     for (unsigned int i = 0; i < dim - 1; ++i)
-      t[i] += shape.gradients[a][i] * X[a];
+      t[i] += shape.gradient[a][i] * X[a];
   return t;
 }
 
 /// sum_a N_a x_a.
 template <int dim>
-dealii::Tensor<1, dim> interpolate(const LagrangePoint<dim - 1>              &shape,
+dealii::Tensor<1, dim> interpolate(const mesh::LagrangePoint<dim - 1>        &shape,
                                    const std::vector<dealii::Tensor<1, dim>> &x)
 {
-  AssertDimension(x.size(), shape.values.size());
+  AssertDimension(x.size(), shape.value.size());
   dealii::Tensor<1, dim> sum;
   for (unsigned int a = 0; a < x.size(); ++a)
-    sum += shape.values[a] * x[a];
+    sum += shape.value[a] * x[a];
   return sum;
 }
 
@@ -75,9 +75,9 @@ struct FacePoint
 {
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-  FacePoint(const LagrangePoint<dim - 1> &shape,
-            const mesh::Idealization     &idealization,
-            const Nodes                  &X)
+  FacePoint(const mesh::LagrangePoint<dim - 1> &shape,
+            const mesh::Idealization           &idealization,
+            const Nodes                        &X)
     : shape(shape)
     , x(interpolate<dim>(shape, X))
     , t(tangents<dim>(shape, X))
@@ -107,13 +107,13 @@ struct FacePoint
     for (unsigned int a = 0; a < gradient.size(); ++a)
       {
         // In axisymmetric models the weight 2 pi r follows the nodes, too.
-        gradient[a] += (c * m) * shape.values[a] * weight_gradient;
+        gradient[a] += (c * m) * shape.value[a] * weight_gradient;
         for (unsigned int i = 0; i < dim - 1; ++i)
-          gradient[a] += weight * shape.gradients[a][i] * gradient_t[i];
+          gradient[a] += weight * shape.gradient[a][i] * gradient_t[i];
       }
   }
 
-  const LagrangePoint<dim - 1>               &shape;
+  const mesh::LagrangePoint<dim - 1>         &shape;
   dealii::Tensor<1, dim>                      x;
   std::array<dealii::Tensor<1, dim>, dim - 1> t;
   dealii::Tensor<1, dim>                      m;
@@ -139,7 +139,7 @@ dealii::Tensor<1, dim> traction(const FaceLoadValues<dim> &load, unsigned int q)
 /// degree + 1 Gauss points per direction.
 template <int dim>
 FaceLoad<dim>::FaceLoad(const unsigned int degree, const mesh::Idealization &idealization)
-  : idealization(idealization), gauss(lagrange_gauss_points<dim - 1>(degree))
+  : idealization(idealization), gauss(mesh::lagrange_gauss_points<dim - 1>(degree))
 {
   Assert(degree == 1 || degree == 2, dealii::ExcMessage("Faces have degree 1 or 2."));
 }
@@ -164,7 +164,7 @@ void FaceLoad<dim>::force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes
       const auto           force = point.area() * (traction(load, q) + load.linear.value(point.x)) -
                          pressure(load, q) * point.weight * point.m;
       for (unsigned int a = 0; a < X.size(); ++a)
-        f[a] += gauss[q].values[a] * force;
+        f[a] += gauss[q].value[a] * force;
     }
 }
 
@@ -187,7 +187,7 @@ void FaceLoad<dim>::force_derivative(const Nodes               &X,
         point.area_derivative(V) * (traction(load, q) + load.linear.value(point.x)) +
         point.area() * linear_derivative - pressure(load, q) * point.vector_derivative(V);
       for (unsigned int a = 0; a < X.size(); ++a)
-        f[a] += gauss[q].values[a] * force_derivative;
+        f[a] += gauss[q].value[a] * force_derivative;
     }
 }
 
@@ -249,7 +249,7 @@ void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
         -1. * turned(w, displacement) - shift - 2. * yw * r + wr * in_plane_y + yr * in_plane_w;
       point.add_vector_gradient(factor * kappa / point.m.norm() * point.m, gradient);
       for (unsigned int a = 0; a < X.size(); ++a)
-        gradient[a] += factor * point.area() * shape.values[a] * k;
+        gradient[a] += factor * point.area() * shape.value[a] * k;
     }
 }
 
@@ -315,7 +315,7 @@ std::vector<double> FaceLoad<dim>::areas(const Nodes &X) const
     {
       const double dA = FacePoint<dim>(shape, idealization, X).area();
       for (unsigned int a = 0; a < X.size(); ++a)
-        areas[a] += shape.values[a] * dA;
+        areas[a] += shape.value[a] * dA;
     }
   return areas;
 }

@@ -78,12 +78,6 @@ SpreadResultant<dim>::SpreadResultant(const Resultant<dim>         &resultant,
   spread.spin = inverse_inertia * resultant.moment;
 }
 
-template <int dim>
-const LinearTraction<dim> &SpreadResultant<dim>::traction() const
-{
-  return spread;
-}
-
 /// c' = (first' - A' (c - o)) / A, a' = -A'/A a, and I' by Steiner's rule with its product terms.
 template <int dim>
 LinearTraction<dim> SpreadResultant<dim>::derivative(const AreaMoments<dim> &change) const
@@ -99,18 +93,6 @@ LinearTraction<dim> SpreadResultant<dim>::derivative(const AreaMoments<dim> &cha
   // From I w = M with M fixed: I w' = -I' w. Without a moment the inverse is zero, and so is w'.
   result.spin = -1. * divided_by_inertia(inertia(second_change) * spread.spin);
   return result;
-}
-
-template <int dim>
-dealii::Tensor<1, 3> SpreadResultant<dim>::divided_by_inertia(const dealii::Tensor<1, 3> &m) const
-{
-  return inverse_inertia * m;
-}
-
-template <int dim>
-double SpreadResultant<dim>::area() const
-{
-  return moments.area;
 }
 
 template class SpreadResultant<2>;

@@ -35,12 +35,6 @@ PressureSpace<dim>::PressureSpace(const unsigned int                     degree,
 }
 
 template <int dim>
-const std::vector<std::vector<double>> &PressureSpace<dim>::functions() const
-{
-  return orthonormal;
-}
-
-template <int dim>
 void PressureSpace<dim>::project(std::vector<double> &values) const
 {
   std::vector<double> projection(values.size(), 0.);

@@ -37,10 +37,10 @@ public:
   static constexpr int N            = n * dim; ///< unknowns
 
   /// @p reference: [point][d][a] as in Element.
-  void compute_gradients(const std::vector<dealii::Tensor<1, dim>> &X,
-                         const std::vector<LagrangePoint<dim>>     &gauss,
-                         const double                              *reference,
-                         const mesh::Idealization                  &idealization);
+  void compute_gradients(const std::vector<dealii::Tensor<1, dim>>   &X,
+                         const std::vector<mesh::LagrangePoint<dim>> &gauss,
+                         const double                                *reference,
+                         const mesh::Idealization                    &idealization);
 
   /// H on and above its diagonal tiles.
   void compute_products();
@@ -52,7 +52,8 @@ public:
   void add_hoop(double lambda, double mu, double *K) const;
 
   /// K += kappa sum_i c_i c_i' of Element.
-  void add_projected(double kappa, const std::vector<LagrangePoint<dim>> &gauss, double *K) const;
+  void
+  add_projected(double kappa, const std::vector<mesh::LagrangePoint<dim>> &gauss, double *K) const;
 
 private:
   double positions[dim][n_padded];
@@ -85,10 +86,10 @@ StiffnessKernel<dim, degree, axisymmetric>::jacobian(const double *reference) co
 
 template <int dim, int degree, bool axisymmetric>
 void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
-  const std::vector<dealii::Tensor<1, dim>> &X,
-  const std::vector<LagrangePoint<dim>>     &gauss,
-  const double                              *reference,
-  const mesh::Idealization                  &idealization)
+  const std::vector<dealii::Tensor<1, dim>>   &X,
+  const std::vector<mesh::LagrangePoint<dim>> &gauss,
+  const double                                *reference,
+  const mesh::Idealization                    &idealization)
 {
   for (int c = 0; c < dim; ++c)
     for (int a = 0; a < n_padded; ++a)
@@ -115,7 +116,7 @@ void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
           volumes[q] *= idealization.weight(x);
           if (axisymmetric)
             for (int a = 0; a < n_padded; ++a)
-              gradients[q][n_rows - n_padded + a] = a < n ? gauss[q].values[a] / x[0] : 0.;
+              gradients[q][n_rows - n_padded + a] = a < n ? gauss[q].value[a] / x[0] : 0.;
         }
       // One factor of each product carries dV, so that H is a plain product of two arrays.
       for (int row = 0; row < n_rows; ++row)
@@ -199,9 +200,9 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
 
 template <int dim, int degree, bool axisymmetric>
 void StiffnessKernel<dim, degree, axisymmetric>::add_projected(
-  const double                           kappa,
-  const std::vector<LagrangePoint<dim>> &gauss,
-  double                                *K) const
+  const double                                 kappa,
+  const std::vector<mesh::LagrangePoint<dim>> &gauss,
+  double                                      *K) const
 {
   // c_i' u = int psi_i div u dV; sqrt(kappa) in both factors keeps K symmetric to the last bit.
   std::vector<dealii::Point<dim>> xi;

@@ -11,7 +11,7 @@ VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
                                   const mesh::Idealization &idealization,
                                   const double              p,
                                   const double              scale)
-  : idealization(idealization), p(p), scale(scale), gauss(lagrange_gauss_points<dim>(degree))
+  : idealization(idealization), p(p), scale(scale), gauss(mesh::lagrange_gauss_points<dim>(degree))
 {}
 
 /// s = 2 mu dev e.

@@ -29,8 +29,8 @@ public:
 
   DistanceExpansion<dim> expand(const dealii::Point<dim - 1> &xi)
   {
-    DistanceExpansion<dim> result;
-    shape.evaluate(xi, values);
+    DistanceExpansion<dim>                      result;
+    const auto                                  values = shape.at(xi);
     std::array<dealii::Tensor<1, dim>, dim - 1> t;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       {
@@ -61,7 +61,6 @@ private:
   const FaceShape<dim>                      &shape;
   const std::vector<dealii::Tensor<1, dim>> &nodes;
   const dealii::Tensor<1, dim>              &p;
-  typename FaceShape<dim>::Values            values;
 };
 
 /// Beyond the face's centre of curvature the Hessian is indefinite; 1e-10 also leaves out Hessians

@@ -1,55 +1,9 @@
 #include <snug/base/errors.h>
 #include <snug/faces/face_map.h>
+#include <snug/mesh/lagrange.h>
 
 namespace snug::faces {
 namespace {
-/// The Lagrange polynomials of [0,1] and their derivatives.
-template <typename Number>
-struct Lagrange
-{
-  std::array<Number, 3> value, slope;
-
-  Lagrange(unsigned int degree, const Number &x)
-  {
-    if (degree == 1)
-      {
-        value = {{1. - x, x, 0.}};
-        slope = {{-1., 1., 0.}};
-      }
-    else
-      {
-        value = {{(1. - x) * (1. - 2. * x), 4. * x * (1. - x), x * (2. * x - 1.)}};
-        slope = {{4. * x - 3., 4. - 8. * x, 4. * x - 1.}};
-      }
-  }
-};
-
-/// Nodes in tensor order, the first coordinate fastest, as in FaceShape.
-template <typename Number>
-void fill(FaceValues<2, Number> &values, unsigned int degree, const FaceCoordinates<2, Number> &xi)
-{
-  const Lagrange<Number> x(degree, xi[0]);
-  for (unsigned int k = 0; k <= degree; ++k)
-    {
-      values.value[k]       = x.value[k];
-      values.gradient[k][0] = x.slope[k];
-    }
-}
-
-template <typename Number>
-void fill(FaceValues<3, Number> &values, unsigned int degree, const FaceCoordinates<3, Number> &xi)
-{
-  const Lagrange<Number> x(degree, xi[0]), y(degree, xi[1]);
-  unsigned int           k = 0;
-  for (unsigned int j = 0; j <= degree; ++j)
-    for (unsigned int i = 0; i <= degree; ++i, ++k)
-      {
-        values.value[k]       = x.value[i] * y.value[j];
-        values.gradient[k][0] = x.slope[i] * y.value[j];
-        values.gradient[k][1] = x.value[i] * y.slope[j];
-      }
-}
-
 /// x with A x = b
 /// A is of plain numbers also where b carries derivatives: one Newton step with the derivative at
 /// the solution gives the derivatives of the solution exactly, whatever those of A are.
@@ -107,7 +61,23 @@ template <int dim, typename Number>
 FaceValues<dim, Number>::FaceValues(unsigned int degree, const FaceCoordinates<dim, Number> &xi)
   : n_nodes(dim == 2 ? degree + 1 : (degree + 1) * (degree + 1))
 {
-  fill(*this, degree, xi);
+  std::array<std::array<std::array<Number, 2>, 3>, dim - 1> along;
+  for (int axis = 0; axis < dim - 1; ++axis)
+    for (unsigned int i = 0; i <= degree; ++i)
+      along[axis][i] = mesh::lagrange<1>(degree, i, xi[axis]);
+  for (unsigned int k = 0; k < n_nodes; ++k)
+    {
+      const auto i = mesh::node_indices<dim - 1>(degree, k);
+      value[k]     = along[0][i[0]][0];
+      for (int t = 0; t < dim - 1; ++t)
+        gradient[k][t] = along[0][i[0]][t == 0];
+      for (int axis = 1; axis < dim - 1; ++axis)
+        {
+          value[k] = value[k] * along[axis][i[axis]][0];
+          for (int t = 0; t < dim - 1; ++t)
+            gradient[k][t] = gradient[k][t] * along[axis][i[axis]][t == axis];
+        }
+    }
 }
 
 template <int dim, typename Number>
@@ -116,12 +86,6 @@ PlaneFace<dim, Number>::PlaneFace(unsigned int degree, const std::vector<Point> 
 {
   for (const auto &node : nodes)
     values.push_back(values_of<dim>(node));
-}
-
-template <int dim, typename Number>
-const std::vector<FaceCoordinates<dim, Number>> &PlaneFace<dim, Number>::nodes() const
-{
-  return points;
 }
 
 template <int dim, typename Number>

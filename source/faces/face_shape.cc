@@ -1,58 +1,6 @@
 #include <snug/faces/face_shape.h>
 
-#include <deal.II/base/polynomial.h>
-
 namespace snug::faces {
-template <int dim>
-FaceShape<dim>::FaceShape(unsigned int degree)
-  : p(degree)
-  , polynomials(dealii::Polynomials::LagrangeEquidistant::generate_complete_basis(degree))
-  , node_values(polynomials.n())
-{
-  for (unsigned int k = 0; k < n_nodes(); ++k)
-    evaluate(node(k), node_values[k]);
-}
-
-template <int dim>
-unsigned int FaceShape<dim>::n_nodes() const
-{
-  return polynomials.n();
-}
-
-template <int dim>
-unsigned int FaceShape<dim>::degree() const
-{
-  return p;
-}
-
-/// The digits of k in base p + 1 are the node's place along each coordinate, the first one last.
-template <int dim>
-typename FaceShape<dim>::Coordinates FaceShape<dim>::node(unsigned int k) const
-{
-  Coordinates xi;
-  for (int i = 0; i < n_tangents; ++i, k /= p + 1)
-    xi[i] = static_cast<double>(k % (p + 1)) / p;
-  return xi;
-}
-
-template <int dim>
-void FaceShape<dim>::evaluate(const Coordinates &xi, Values &values) const
-{
-  // evaluate() of deal.II computes what it gets room for: none for third and fourth derivatives.
-  std::vector<dealii::Tensor<3, dim - 1>> third;
-  std::vector<dealii::Tensor<4, dim - 1>> fourth;
-  values.value.resize(n_nodes());
-  values.gradient.resize(n_nodes());
-  values.hessian.resize(n_nodes());
-  polynomials.evaluate(xi, values.value, values.gradient, values.hessian, third, fourth);
-}
-
-template <int dim>
-const typename FaceShape<dim>::Values &FaceShape<dim>::at_node(unsigned int k) const
-{
-  return node_values[k];
-}
-
 /// Of positions the tangents, of velocities their derivatives.
 template <int dim>
 typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values    &values,
@@ -105,8 +53,6 @@ area_vector_transpose(const std::array<dealii::Tensor<1, 3>, 2> &t, const dealii
   return {{dealii::cross_product_3d(t[1], b), dealii::cross_product_3d(b, t[0])}};
 }
 
-template class FaceShape<2>;
-template class FaceShape<3>;
 template typename FaceShape<2>::Tangents tangents<2>(const FaceShape<2>::Values &,
                                                      const std::vector<unsigned int> &,
                                                      const mesh::Surface<2>::Field &);

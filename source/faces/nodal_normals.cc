@@ -46,12 +46,6 @@ NodalNormals<dim>::NodalNormals(const mesh::Surface<dim>        &surface,
 }
 
 template <int dim>
-const typename NodalNormals<dim>::Field &NodalNormals<dim>::normals() const
-{
-  return unit;
-}
-
-template <int dim>
 typename NodalNormals<dim>::Field NodalNormals<dim>::derivative(const Field &velocity) const
 {
   Field result(surface.n_nodes());

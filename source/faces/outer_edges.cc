@@ -134,8 +134,7 @@ double OuterEdges<dim>::excess_at_edge(const Edge                               
                                        const dealii::Tensor<1, dim>             &offset,
                                        const typename mesh::Surface<dim>::Field &positions) const
 {
-  typename FaceShape<dim>::Values values;
-  shape.evaluate(xi, values);
+  const auto values = shape.at(xi);
   // d x/d xi is also the extent of the face along xi, as xi runs from 0 to 1.
   const auto             t = tangents<dim>(values, surface.faces()[edge.first].nodes, positions);
   const unsigned int     across  = edge.second / 2;

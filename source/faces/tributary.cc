@@ -23,15 +23,14 @@ void for_each_point(const TributaryFaces<dim>                &of,
                     const Work                               &work)
 {
   // |area| is not a polynomial on curved faces: one point more than elements take.
-  const dealii::QGauss<dim - 1>   quadrature(of.shape.degree() + 2);
-  typename FaceShape<dim>::Values values;
-  const auto                     &section = of.surface.idealization();
+  const dealii::QGauss<dim - 1> quadrature(of.shape.degree() + 2);
+  const auto                   &section = of.surface.idealization();
   for (const unsigned int f : of.faces)
     {
       const auto &nodes = of.surface.faces()[f].nodes;
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
-          of.shape.evaluate(quadrature.point(q), values);
+          const auto             values = of.shape.at(quadrature.point(q));
           dealii::Tensor<1, dim> x;
           for (unsigned int k = 0; k < nodes.size(); ++k)
             x += values.value[k] * positions[nodes[k]];

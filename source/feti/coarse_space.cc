@@ -166,11 +166,6 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   modes = dense::product(modes, dense::product(scaled, transposed));
 }
 
-unsigned int CoarseSpace::n_kernel() const
-{
-  return table.body.size() * table.n_modes;
-}
-
 /// Each rank adds its owned rows; the sum over ranks makes coarse vectors equal on all of them.
 qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet *free) const
 {
@@ -232,31 +227,6 @@ std::vector<double> CoarseSpace::gram_values(const qp::RowSet &free) const
   for (std::size_t i = 0; i < packed.size(); ++i)
     values[bounded_places[i]] += packed[i];
   return values;
-}
-
-const CsrMatrix &CoarseSpace::pattern() const
-{
-  return gram;
-}
-
-const FactorPool &CoarseSpace::factors() const
-{
-  return factor_pool;
-}
-
-const qp::MultiVector &CoarseSpace::body_modes() const
-{
-  return modes;
-}
-
-const std::vector<unsigned int> &CoarseSpace::representatives() const
-{
-  return representative;
-}
-
-const SubdomainTable &CoarseSpace::subdomains() const
-{
-  return table;
 }
 
 /// Of all rows: a scale, which need not be that of a face.

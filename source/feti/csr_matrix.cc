@@ -27,12 +27,6 @@ std::size_t CsrMatrix::position(PetscInt i, PetscInt j) const
   return std::lower_bound(begin, end, j) - columns.begin();
 }
 
-/// By search: for scales and set-up, not for inner loops.
-double CsrMatrix::diagonal(PetscInt i) const
-{
-  return values[position(i, i)];
-}
-
 void CsrMatrix::multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const
 {
   for (unsigned int k = 0; k < x.n_columns(); ++k)

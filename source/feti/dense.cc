@@ -20,6 +20,8 @@ qp::MultiVector product(const qp::MultiVector &A, const qp::MultiVector &B)
   return C;
 }
 
+// LAPACK works on the columns where they are; dealii::LAPACKFullMatrix would
+// copy them in and out, and has no eigenvectors of all of a symmetric matrix.
 qp::MultiVector solve_spd(qp::MultiVector A, qp::MultiVector B)
 {
   const PetscBLASInt n = A.n_rows(), k = B.n_columns();

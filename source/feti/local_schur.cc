@@ -1,9 +1,12 @@
+#include <snug/feti/dense.h>
 #include <snug/feti/local_schur.h>
-
-#include <algorithm>
 
 namespace snug::feti {
 namespace {
+/// Squares of singular values of R on the boundary, relative to the
+/// largest, below which a rigid motion leaves the boundary at rest.
+const double rank_cut = 1e-12;
+
 /// y += A x, every column, for symmetric A of which the rows end at the
 /// diagonal: half the memory to read, which is what takes time here.
 void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::MultiVector &y)
@@ -31,17 +34,20 @@ LocalSchur::LocalSchur(const SubdomainSystem &system,
                        bool                   lumped,
                        const std::string     &package,
                        RunContext            &context)
-  : system(system), context(context), lumped(lumped)
+  : system(system), context(context), lumped(lumped), package(package)
+{}
+
+void LocalSchur::choose_boundary(bool with_fixing_dofs)
 {
   const unsigned int n = system.n_dofs();
   std::vector<bool>  on_boundary(n, false);
   for (const BEntry &entry : system.B)
     on_boundary[entry.dof] = true;
-  // a few contact rows need not hold the subdomain: K_ii would be singular
-  if (std::count(on_boundary.begin(), on_boundary.end(), true) <
-      static_cast<std::ptrdiff_t>(system.fixing_dofs.size()))
+  if (with_fixing_dofs)
     for (const unsigned int dof : system.fixing_dofs)
       on_boundary[dof] = true;
+  has_fixing_dofs = with_fixing_dofs;
+  n_b = n_i = 0;
   position_b.assign(n, n);
   position_i.assign(n, n);
   for (unsigned int i = 0; i < n; ++i)
@@ -52,15 +58,21 @@ LocalSchur::LocalSchur(const SubdomainSystem &system,
   for (unsigned int &position : position_b)
     if (position == n)
       position = n_b;
-  bb = extract(true, true);
-  if (lumped)
-    return;
-  ib = extract(false, true);
-  ii = extract(false, false);
-  if (n_i == 0)
-    return;
-  factor = std::make_unique<SparseFactor>(ii.matrix, package);
-  ++context.work.symbolic_factorizations;
+}
+
+/// Whether no rigid motion leaves b at rest. The number of its unknowns
+/// does not tell: contact rows along one axis leave the others free, and
+/// two nodes a rotation; K_ii would be singular.
+bool LocalSchur::boundary_holds() const
+{
+  qp::MultiVector R_b(n_b, system.R.n_columns());
+  for (unsigned int mode = 0; mode < system.R.n_columns(); ++mode)
+    for (unsigned int i = 0; i < system.n_dofs(); ++i)
+      if (position_b[i] < n_b)
+        R_b(position_b[i], mode) = system.R(i, mode);
+  auto       gram    = dense::transpose_product(R_b, R_b);
+  const auto squares = dense::eigen(gram);
+  return squares.empty() || squares.front() > rank_cut * squares.back();
 }
 
 LocalSchur::Part LocalSchur::extract(bool rows_on_boundary, bool columns_on_boundary) const
@@ -90,6 +102,26 @@ LocalSchur::Part LocalSchur::extract(bool rows_on_boundary, bool columns_on_boun
 
 void LocalSchur::factorize(const std::string &what)
 {
+  const bool first = position_b.empty();
+  if (first)
+    choose_boundary(false);
+  const bool escapes = !has_fixing_dofs && !boundary_holds();
+  if (escapes)
+    choose_boundary(true);
+  if (first || escapes)
+    {
+      bb = extract(true, true);
+      if (!lumped)
+        {
+          ib = extract(false, true);
+          ii = extract(false, false);
+        }
+      if (!lumped && n_i > 0)
+        {
+          factor = std::make_unique<SparseFactor>(ii.matrix, package);
+          ++context.work.symbolic_factorizations;
+        }
+    }
   for (Part *part : {&bb, &ib, &ii})
     for (std::size_t p = 0; p < part->source.size(); ++p)
       part->matrix.values[p] = system.K.values[part->source[p]];
@@ -97,16 +129,6 @@ void LocalSchur::factorize(const std::string &what)
     return;
   factor->factorize(what);
   ++context.work.numeric_factorizations;
-}
-
-const std::vector<unsigned int> &LocalSchur::boundary_position() const
-{
-  return position_b;
-}
-
-unsigned int LocalSchur::n_boundary() const
-{
-  return n_b;
 }
 
 qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const

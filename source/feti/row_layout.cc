@@ -124,26 +124,6 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
     unknowns.emplace_back(places[2 * entry], places[2 * entry + 1]);
 }
 
-MPI_Comm RowLayout::communicator() const
-{
-  return comm;
-}
-
-unsigned int RowLayout::n_owned() const
-{
-  return is_bounded.size();
-}
-
-unsigned int RowLayout::n_local() const
-{
-  return local_rows.size();
-}
-
-const qp::RowSet &RowLayout::bounded() const
-{
-  return is_bounded;
-}
-
 /// A row that this rank does not touch gives the number of another one.
 unsigned int RowLayout::local_row(unsigned int global_row) const
 {
@@ -192,11 +172,6 @@ std::vector<double> RowLayout::gather_entries(unsigned int               width,
     std::copy_n(unsorted.begin() + std::size_t(order[i]) * width, width,
                 sorted.begin() + i * width);
   return sorted;
-}
-
-const std::vector<unsigned int> &RowLayout::entry_start() const
-{
-  return start;
 }
 
 const std::vector<std::pair<unsigned int, unsigned int>> &RowLayout::entry_unknowns() const

@@ -147,58 +147,6 @@ void TotalFeti::weight_rows()
     }
 }
 
-RunContext &TotalFeti::context() const
-{
-  return run;
-}
-
-unsigned int TotalFeti::n_owned() const
-{
-  return layout.n_owned();
-}
-
-const qp::RowSet &TotalFeti::bounded() const
-{
-  return layout.bounded();
-}
-
-const qp::MultiVector &TotalFeti::d() const
-{
-  return dual_load;
-}
-
-const qp::MultiVector &TotalFeti::e() const
-{
-  return rigid_load;
-}
-
-/// Often far below F_ii, as the neighbours of the unknowns are held: a thousandth of it where
-/// Poisson's ratio is 0.4999.
-const std::vector<double> &TotalFeti::diagonal() const
-{
-  return F_diagonal;
-}
-
-const qp::MultiVector &TotalFeti::g() const
-{
-  return gap;
-}
-
-const std::vector<SubdomainSystem> &TotalFeti::subdomains() const
-{
-  return systems;
-}
-
-unsigned int TotalFeti::n_bodies() const
-{
-  return coarse.subdomains().body_names.size();
-}
-
-unsigned int TotalFeti::n_kernel() const
-{
-  return coarse.n_kernel();
-}
-
 /// F x = B K^+ B' x. K^+ is one of many generalized inverses: F differs from that of another one by
 /// some G'X + X'G, which P F P does not see.
 qp::MultiVector TotalFeti::apply(const qp::MultiVector &x) const
@@ -206,16 +154,6 @@ qp::MultiVector TotalFeti::apply(const qp::MultiVector &x) const
   // A block of k columns counts k, though it is one pass over the factors.
   run.work.f_mults += x.n_columns();
   return multiply_B(apply_inverse(multiply_Bt(x)));
-}
-
-qp::MultiVector TotalFeti::apply_G(const qp::MultiVector &x) const
-{
-  return coarse.multiply(x, nullptr);
-}
-
-qp::MultiVector TotalFeti::apply_Gt(const qp::MultiVector &alpha) const
-{
-  return coarse.transpose_multiply(alpha, nullptr);
 }
 
 qp::MultiVector TotalFeti::multiply_B(const PrimalVectors &v) const
@@ -303,23 +241,17 @@ PrimalVectors TotalFeti::loads() const
   return f;
 }
 
-double TotalFeti::feasibility_scale(const qp::MultiVector &lambda) const
-{
-  return feasibility_scale(rigid_load, lambda);
-}
-
 double TotalFeti::feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const
 {
   // The largest over subdomains, as the forces that glue them are of the size of their own loads
   // even where those of the body cancel.
-  double             largest = 0., norm_e = 0.;
-  const unsigned int m = coarse.subdomains().n_modes;
+  double             largest = 0.;
+  const unsigned int m       = coarse.subdomains().n_modes;
   for (unsigned int s = 0; s < coarse.n_kernel() / m; ++s)
     {
       double square = 0.;
       for (unsigned int i = 0; i < m; ++i)
         square += e(s * m + i) * e(s * m + i);
-      norm_e += square;
       largest = std::max(largest, square);
     }
   return std::sqrt(largest) + coarse.norm() * qp::norms(lambda, run.communicator())[0];

@@ -187,25 +187,6 @@ double BlockGeometry<dim>::n_coarse_cells() const
 }
 
 template <int dim>
-const std::vector<std::string> &BlockGeometry<dim>::boundary_names() const
-{
-  return mesh->boundary_names;
-}
-
-template <int dim>
-std::vector<std::string> BlockGeometry<dim>::region_names() const
-{
-  return mesh->region_names;
-}
-
-template <int dim>
-unsigned int BlockGeometry<dim>::region(unsigned int coarse_cell) const
-{
-  // coarse cells are numbered block after block, see coarse_mesh()
-  return mesh->regions[coarse_cell / cells_per_block()];
-}
-
-template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) const
 {
   const auto index = multi_index<dim>(point.cell % cells_per_block(), mesh->cells);
@@ -213,19 +194,6 @@ dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) con
   for (unsigned int d = 0; d < dim; ++d)
     u[d] = (index[d] + point.unit[d]) / mesh->cells[d];
   return block_position(point.cell / cells_per_block(), u);
-}
-
-template <int dim>
-dealii::Point<dim> BlockGeometry<dim>::logical(const MeshPoint<dim> &point) const
-{
-  // Blocks have no common axes, so these are positions in units of the body's diagonal.
-  return Point((position(point) - lower) / lower.distance(upper));
-}
-
-template <int dim>
-dealii::Tensor<1, dim> BlockGeometry<dim>::extent() const
-{
-  return upper - lower;
 }
 
 template <int dim>

@@ -8,30 +8,12 @@
 namespace snug::geometry {
 /// One region, unless a mesh file or formulas say more.
 template <int dim>
-std::vector<std::string> BodyGeometry<dim>::region_names() const
-{
-  return {"body"};
-}
-
-template <int dim>
 unsigned int BodyGeometry<dim>::region(unsigned int) const
 {
   return 0;
 }
 
 /// Bodies of blocks have none, so the partition "auto" leaves them to METIS.
-template <int dim>
-bool BodyGeometry<dim>::has_grid() const
-{
-  return false;
-}
-
-template <int dim>
-bool BodyGeometry<dim>::has_frame() const
-{
-  return false;
-}
-
 template <int dim>
 dealii::Point<dim> BodyGeometry<dim>::box_fraction(const dealii::Point<dim> &) const
 {

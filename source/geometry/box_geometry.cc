@@ -6,6 +6,15 @@
 
 namespace snug::geometry {
 namespace {
+/// In the order of boundaries 2d + s.
+template <int dim>
+std::vector<std::string> box_faces()
+{
+  if (dim == 2)
+    return {"left", "right", "bottom", "top"};
+  return {"left", "right", "front", "back", "bottom", "top"};
+}
+
 /**
  * A box with graded cells and curved faces. Logical coordinate xi of an
  * axis is the fraction f(xi) of its length (AxisSpacing). Each curved
@@ -16,7 +25,21 @@ template <int dim>
 class BoxGeometry : public GridGeometry<dim>
 {
 public:
-  explicit BoxGeometry(const BodyMeshParameters &parameters);
+  explicit BoxGeometry(const BodyMeshParameters &parameters)
+    : GridGeometry<dim>(per_axis<dim, unsigned int>("Box cells", parameters.cells, 1, true),
+                        box_faces<dim>())
+    , corner(per_axis<dim, double>("Box corner", parameters.corner, 0., false))
+    , size(per_axis<dim, double>("Box size", parameters.size, 1., true))
+  {
+    set_spacing(parameters);
+    for (const auto &face : parameters.curved_faces)
+      add_curved_face(face.first, face.second);
+    // Formulas without a finite value are found here, on all ranks alike,
+    // unless that happens between the vertices of the coarse mesh.
+    if (!curved_faces.empty())
+      for (const auto &point : this->coarse_mesh().vertices)
+        grid_position(point);
+  }
 
   dealii::Tensor<1, dim> extent() const override
   {
@@ -28,11 +51,38 @@ public:
 
   bool has_frame() const override { return true; }
 
-  dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override;
+  dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
+  {
+    dealii::Point<dim> fraction;
+    for (unsigned int d = 0; d < dim; ++d)
+      fraction[d] = spacing[d].fraction(logical[d]);
+    return fraction;
+  }
 
-  dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const override;
+  dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const override
+  {
+    dealii::Point<dim> position;
+    for (unsigned int d = 0; d < dim; ++d)
+      position[d] = corner[d] + size[d] * fraction[d];
+    return position;
+  }
 
-  dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const override;
+  dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const override
+  {
+    const dealii::Point<dim> fraction = box_fraction(logical);
+    const dealii::Point<dim> flat     = box_position(fraction);
+    dealii::Point<dim>       result   = flat;
+    for (const auto &face : curved_faces)
+      {
+        const unsigned int axis  = face.boundary() / 2;
+        const bool         upper = face.boundary() % 2 == 1;
+        // Displacements are those at the flat point, so that the order of faces does not matter,
+        // and opposite faces do not move each other.
+        const double blend = upper ? fraction[axis] : 1. - fraction[axis];
+        result[axis] += (upper ? 1. : -1.) * blend * face.displacement(flat);
+      }
+    return result;
+  }
 
 private:
   using GridGeometry<dim>::cells;
@@ -40,112 +90,46 @@ private:
   std::array<AxisSpacing, dim> spacing;
   std::vector<CurvedFace<dim>> curved_faces;
 
-  void set_spacing(const BodyMeshParameters &parameters);
-  void add_curved_face(const std::string &face, const std::string &value);
+  void set_spacing(const BodyMeshParameters &parameters)
+  {
+    const auto grading = per_axis<dim, double>("Box grading", parameters.grading, 1., true);
+    const auto fine = per_axis<dim, double>("Box fine length", parameters.fine_length, 0., false);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        // the ratio of neighbours is the (n - 1)-th root of the grading
+        if (cells[d] == 1 && grading[d] != 1.)
+          throw bad_entry("Box grading", to_text(parameters.grading),
+                          "must be 1 along an axis with a single cell");
+        if (fine[d] != 0. &&
+            !(fine[d] > 0. && fine[d] < size[d] && cells[d] > 1 && grading[d] == 1.))
+          throw bad_entry("Box fine length", to_text(parameters.fine_length),
+                          "must be 0, or below the size of the box along "
+                          "an axis with several cells and no grading");
+        spacing[d] = fine[d] != 0. ? AxisSpacing::with_fine_part(cells[d], fine[d] / size[d])
+                                   : AxisSpacing::graded(cells[d], grading[d]);
+      }
+  }
+
+  void add_curved_face(const std::string &face, const std::string &value)
+  {
+    const auto &names = this->boundary_names();
+    const auto  found = std::find(names.begin(), names.end(), face);
+    if (found == names.end())
+      throw bad_entry("Curved faces", face + ": " + value, "the faces are " + to_text(names));
+    FlatFace<dim> flat;
+    flat.boundary = found - names.begin();
+    flat.name     = face;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        // along the normal it is not used
+        flat.half_size[d] = 0.5 * size[d];
+        flat.centre[d]    = corner[d] + 0.5 * size[d];
+      }
+    const unsigned int normal = flat.boundary / 2;
+    flat.centre[normal]       = corner[normal] + (flat.boundary % 2 == 1 ? size[normal] : 0.);
+    curved_faces.emplace_back(flat, value);
+  }
 };
-
-/// In the order of boundaries 2d + s.
-template <int dim>
-std::vector<std::string> box_faces()
-{
-  if (dim == 2)
-    return {"left", "right", "bottom", "top"};
-  return {"left", "right", "front", "back", "bottom", "top"};
-}
-
-template <int dim>
-BoxGeometry<dim>::BoxGeometry(const BodyMeshParameters &parameters)
-  : GridGeometry<dim>(per_axis<dim, unsigned int>("Box cells", parameters.cells, 1, true),
-                      box_faces<dim>())
-  , corner(per_axis<dim, double>("Box corner", parameters.corner, 0., false))
-  , size(per_axis<dim, double>("Box size", parameters.size, 1., true))
-{
-  set_spacing(parameters);
-  for (const auto &face : parameters.curved_faces)
-    add_curved_face(face.first, face.second);
-  // Formulas without a finite value are found here, on all ranks alike,
-  // unless that happens between the vertices of the coarse mesh.
-  if (!curved_faces.empty())
-    for (const auto &point : this->coarse_mesh().vertices)
-      grid_position(point);
-}
-
-template <int dim>
-void BoxGeometry<dim>::set_spacing(const BodyMeshParameters &parameters)
-{
-  const auto grading = per_axis<dim, double>("Box grading", parameters.grading, 1., true);
-  const auto fine    = per_axis<dim, double>("Box fine length", parameters.fine_length, 0., false);
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      // the ratio of neighbours is the (n - 1)-th root of the grading
-      if (cells[d] == 1 && grading[d] != 1.)
-        throw bad_entry("Box grading", to_text(parameters.grading),
-                        "must be 1 along an axis with a single cell");
-      if (fine[d] != 0. && !(fine[d] > 0. && fine[d] < size[d] && cells[d] > 1 && grading[d] == 1.))
-        throw bad_entry("Box fine length", to_text(parameters.fine_length),
-                        "must be 0, or below the size of the box along "
-                        "an axis with several cells and no grading");
-      spacing[d] = fine[d] != 0. ? AxisSpacing::with_fine_part(cells[d], fine[d] / size[d])
-                                 : AxisSpacing::graded(cells[d], grading[d]);
-    }
-}
-
-template <int dim>
-void BoxGeometry<dim>::add_curved_face(const std::string &face, const std::string &value)
-{
-  const auto &names = this->boundary_names();
-  const auto  found = std::find(names.begin(), names.end(), face);
-  if (found == names.end())
-    throw bad_entry("Curved faces", face + ": " + value, "the faces are " + to_text(names));
-  FlatFace<dim> flat;
-  flat.boundary = found - names.begin();
-  flat.name     = face;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      // along the normal it is not used
-      flat.half_size[d] = 0.5 * size[d];
-      flat.centre[d]    = corner[d] + 0.5 * size[d];
-    }
-  const unsigned int normal = flat.boundary / 2;
-  flat.centre[normal]       = corner[normal] + (flat.boundary % 2 == 1 ? size[normal] : 0.);
-  curved_faces.emplace_back(flat, value);
-}
-
-template <int dim>
-dealii::Point<dim> BoxGeometry<dim>::box_fraction(const dealii::Point<dim> &logical) const
-{
-  dealii::Point<dim> fraction;
-  for (unsigned int d = 0; d < dim; ++d)
-    fraction[d] = spacing[d].fraction(logical[d]);
-  return fraction;
-}
-
-template <int dim>
-dealii::Point<dim> BoxGeometry<dim>::box_position(const dealii::Point<dim> &fraction) const
-{
-  dealii::Point<dim> position;
-  for (unsigned int d = 0; d < dim; ++d)
-    position[d] = corner[d] + size[d] * fraction[d];
-  return position;
-}
-
-template <int dim>
-dealii::Point<dim> BoxGeometry<dim>::grid_position(const dealii::Point<dim> &logical) const
-{
-  const dealii::Point<dim> fraction = box_fraction(logical);
-  const dealii::Point<dim> flat     = box_position(fraction);
-  dealii::Point<dim>       result   = flat;
-  for (const auto &face : curved_faces)
-    {
-      const unsigned int axis  = face.boundary() / 2;
-      const bool         upper = face.boundary() % 2 == 1;
-      // Displacements are those at the flat point, so that the order of faces does not matter, and
-      // opposite faces do not move each other.
-      const double blend = upper ? fraction[axis] : 1. - fraction[axis];
-      result[axis] += (upper ? 1. : -1.) * blend * face.displacement(flat);
-    }
-  return result;
-}
 } // namespace
 
 template <int dim>

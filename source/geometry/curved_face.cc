@@ -78,12 +78,6 @@ double CurvedFace<dim>::squared_distance(const dealii::Point<dim> &offset) const
 }
 
 template <int dim>
-unsigned int CurvedFace<dim>::boundary() const
-{
-  return flat.boundary;
-}
-
-template <int dim>
 double CurvedFace<dim>::displacement(const dealii::Point<dim> &point) const
 {
   if (formula)

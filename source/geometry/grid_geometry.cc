@@ -94,12 +94,6 @@ double GridGeometry<dim>::n_coarse_cells() const
 }
 
 template <int dim>
-const std::vector<std::string> &GridGeometry<dim>::boundary_names() const
-{
-  return names;
-}
-
-template <int dim>
 dealii::Point<dim> GridGeometry<dim>::logical(const MeshPoint<dim> &point) const
 {
   dealii::Point<dim> result;
@@ -111,19 +105,6 @@ dealii::Point<dim> GridGeometry<dim>::logical(const MeshPoint<dim> &point) const
       rest /= cells[d];
     }
   return result;
-}
-
-template <int dim>
-dealii::Point<dim> GridGeometry<dim>::position(const MeshPoint<dim> &point) const
-{
-  // at every node anew, so that refined cells keep spacing and curvature
-  return grid_position(logical(point));
-}
-
-template <int dim>
-bool GridGeometry<dim>::has_grid() const
-{
-  return true;
 }
 
 template class GridGeometry<2>;

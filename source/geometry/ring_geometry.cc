@@ -7,46 +7,6 @@
 
 namespace snug::geometry {
 namespace {
-/**
- * Logical axes: 2D radius, angle; 3D height, radius, angle. The angle,
- * last, is closed in a full ring, which has no frame then.
- */
-template <int dim>
-class RingGeometry : public GridGeometry<dim>
-{
-public:
-  explicit RingGeometry(const BodyMeshParameters &parameters);
-
-  dealii::Tensor<1, dim> extent() const override
-  {
-    dealii::Tensor<1, dim> result;
-    // 3D; in 2D axis 0 is the radius, set next
-    result[0]       = length;
-    result[dim - 2] = outer - inner;
-    // the arc halfway between the circles
-    result[dim - 1] = angle * (inner + outer) / 2.;
-    return result;
-  }
-
-  // a half has the angle pi, a full ring 2 pi
-  bool has_frame() const override { return angle < 1.5 * dealii::numbers::PI; }
-
-  dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
-  {
-    return logical;
-  }
-
-  dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const override;
-
-  dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const override
-  {
-    return box_position(logical);
-  }
-
-private:
-  double inner, outer, length, angle;
-};
-
 /// From the order of the entry (around, across, along) to that of the axes. Two cells around a
 /// full ring would be flat: all their vertices lie on one line.
 template <int dim>
@@ -76,35 +36,69 @@ std::vector<std::string> ring_faces(const std::string &part)
   return names;
 }
 
+/**
+ * Logical axes: 2D radius, angle; 3D height, radius, angle. The angle,
+ * last, is closed in a full ring, which has no frame then.
+ */
 template <int dim>
-RingGeometry<dim>::RingGeometry(const BodyMeshParameters &parameters)
-  : GridGeometry<dim>(ring_cells<dim>(parameters),
-                      ring_faces<dim>(parameters.part),
-                      parameters.part == "full")
-  , inner(parameters.inner_radius)
-  , outer(parameters.radius)
-  , length(parameters.length)
-  , angle(2. * dealii::numbers::PI / n_of_part(parameters, 4))
+class RingGeometry : public GridGeometry<dim>
 {
-  // the checks come after the initialization, which takes any numbers
-  require_radii(parameters);
-  if (dim == 3)
-    require_positive("Length", length);
-}
+public:
+  explicit RingGeometry(const BodyMeshParameters &parameters)
+    : GridGeometry<dim>(ring_cells<dim>(parameters),
+                        ring_faces<dim>(parameters.part),
+                        parameters.part == "full")
+    , inner(parameters.inner_radius)
+    , outer(parameters.radius)
+    , length(parameters.length)
+    , angle(2. * dealii::numbers::PI / n_of_part(parameters, 4))
+  {
+    // the checks come after the initialization, which takes any numbers
+    require_radii(parameters);
+    if (dim == 3)
+      require_positive("Length", length);
+  }
 
-template <int dim>
-dealii::Point<dim> RingGeometry<dim>::box_position(const dealii::Point<dim> &fraction) const
-{
-  // axes in this order make right-handed cells: (r, phi) in 2D, (z, r, phi) in 3D
-  const double       r   = inner + (outer - inner) * fraction[dim - 2];
-  const double       phi = angle * fraction[dim - 1];
-  dealii::Point<dim> position;
-  position[0] = r * std::cos(phi);
-  position[1] = r * std::sin(phi);
-  if (dim == 3)
-    position[dim - 1] = length * fraction[0];
-  return position;
-}
+  dealii::Tensor<1, dim> extent() const override
+  {
+    dealii::Tensor<1, dim> result;
+    // 3D; in 2D axis 0 is the radius, set next
+    result[0]       = length;
+    result[dim - 2] = outer - inner;
+    // the arc halfway between the circles
+    result[dim - 1] = angle * (inner + outer) / 2.;
+    return result;
+  }
+
+  // a half has the angle pi, a full ring 2 pi
+  bool has_frame() const override { return angle < 1.5 * dealii::numbers::PI; }
+
+  dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
+  {
+    return logical;
+  }
+
+  dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const override
+  {
+    // axes in this order make right-handed cells: (r, phi) in 2D, (z, r, phi) in 3D
+    const double       r   = inner + (outer - inner) * fraction[dim - 2];
+    const double       phi = angle * fraction[dim - 1];
+    dealii::Point<dim> position;
+    position[0] = r * std::cos(phi);
+    position[1] = r * std::sin(phi);
+    if (dim == 3)
+      position[dim - 1] = length * fraction[0];
+    return position;
+  }
+
+  dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const override
+  {
+    return box_position(logical);
+  }
+
+private:
+  double inner, outer, length, angle;
+};
 } // namespace
 
 template <int dim>

@@ -230,33 +230,9 @@ template <int dim>
 BodyMesh<dim>::~BodyMesh() = default;
 
 template <int dim>
-const Idealization &BodyMesh<dim>::idealization() const
-{
-  return data->idealization;
-}
-
-template <int dim>
 const geometry::BodyGeometry<dim> &BodyMesh<dim>::geometry(unsigned int body) const
 {
   return *data->geometries[body];
-}
-
-template <int dim>
-const std::vector<typename BodyMesh<dim>::Cell> &BodyMesh<dim>::cells() const
-{
-  return data->cells;
-}
-
-template <int dim>
-const std::vector<typename BodyMesh<dim>::Face> &BodyMesh<dim>::boundary_faces() const
-{
-  return data->faces;
-}
-
-template <int dim>
-const std::vector<typename BodyMesh<dim>::Hanging> &BodyMesh<dim>::hanging() const
-{
-  return data->hanging;
 }
 
 template <int dim>
@@ -303,18 +279,6 @@ unsigned int BodyMesh<dim>::body_of_node(unsigned int node) const
   return data->node_body[node];
 }
 
-template <int dim>
-const std::vector<dealii::Point<dim>> &BodyMesh<dim>::logical_positions() const
-{
-  return data->logical;
-}
-
-template <int dim>
-const typename BodyMesh<dim>::Field &BodyMesh<dim>::reference_positions() const
-{
-  return data->reference;
-}
-
 /// In any order, since masters are never hanging.
 template <int dim>
 void BodyMesh<dim>::interpolate_hanging(Field &field) const
@@ -358,6 +322,12 @@ SNUG_GETTER(unsigned long, n_global_cells, data->triangulation.n_global_active_c
 SNUG_GETTER(unsigned int, n_bodies, data->geometries.size())
 SNUG_GETTER(unsigned int, n_local_nodes, data->reference.size())
 SNUG_GETTER(unsigned long, n_global_free_nodes, data->n_free_nodes)
+SNUG_GETTER(const Idealization &, idealization, data->idealization)
+SNUG_GETTER(const std::vector<typename BodyMesh<dim>::Cell> &, cells, data->cells)
+SNUG_GETTER(const std::vector<typename BodyMesh<dim>::Face> &, boundary_faces, data->faces)
+SNUG_GETTER(const std::vector<typename BodyMesh<dim>::Hanging> &, hanging, data->hanging)
+SNUG_GETTER(const std::vector<dealii::Point<dim>> &, logical_positions, data->logical)
+SNUG_GETTER(const typename BodyMesh<dim>::Field &, reference_positions, data->reference)
 #undef SNUG_GETTER
 
 template class BodyMesh<2>;

@@ -28,8 +28,61 @@ public:
     set_order(covers);
   }
 
-  void            choose(const std::vector<bool> &held);
-  MultiplierNodes result() const;
+  void choose(const std::vector<bool> &held)
+  {
+    std::vector<unsigned int> left;
+    for (const unsigned int node : order)
+      if (candidates[node].is_weak() || held[node])
+        left.push_back(node);
+      else
+        candidates[node].owners = {{node, 1.}};
+    auto weak = std::stable_partition(left.begin(), left.end(), [&](unsigned int node) {
+      return !candidates[node].is_weak();
+    });
+    std::vector<unsigned int> held_nodes(left.begin(), weak);
+    left.erase(left.begin(), weak);
+    give_away(held_nodes);
+    for (const unsigned int node : held_nodes)
+      candidates[node].owners = {{node, 1.}};
+    // Weak nodes far from good ones are reached in sweeps. Where all are weak the best is kept.
+    while (!left.empty())
+      if (!give_away(left))
+        {
+          const auto best =
+            std::max_element(left.begin(), left.end(), [&](unsigned int a, unsigned int b) {
+              return candidates[a].covered < candidates[b].covered;
+            });
+          candidates[*best].owners = {{*best, 1.}};
+          left.erase(best);
+        }
+  }
+
+  MultiplierNodes result() const
+  {
+    MultiplierNodes                      result;
+    std::map<unsigned int, unsigned int> index;
+    for (const unsigned int node : order)
+      if (candidates.at(node).owners.count(node) > 0)
+        {
+          index[node] = result.nodes.size();
+          result.nodes.push_back(node);
+        }
+    result.shares.resize(surface.n_nodes());
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+      {
+        std::map<unsigned int, double> shares;
+        // The shares of hanging nodes go through their masters to those masters' owners.
+        for (const auto &master : masters(node))
+          {
+            const auto found = candidates.find(master.first);
+            if (found != candidates.end())
+              for (const auto &owner : found->second.owners)
+                shares[index.at(owner.first)] += master.second * owner.second;
+          }
+        result.shares[node].assign(shares.begin(), shares.end());
+      }
+    return result;
+  }
 
 private:
   /// A node that does not hang.
@@ -52,192 +105,126 @@ private:
   std::vector<unsigned int>         order; ///< of the candidates
   std::map<unsigned int, Candidate> candidates;
 
-  Owners masters(unsigned int node) const;
-  void   collect(const std::vector<FaceCover> &covers);
-  void   set_order(const std::vector<FaceCover> &covers);
-  Owners owners_of_nearest(unsigned int node, const std::vector<unsigned int> &eligible) const;
-  bool   give_away(std::vector<unsigned int> &left);
-};
+  /// The node itself, or its masters and weights if it hangs.
+  Owners masters(unsigned int node) const
+  {
+    // A hanging node's function belongs to its masters in the displacement, and so in the rows.
+    const auto &of_node = surface.masters(node);
+    if (of_node.empty())
+      return {{node, 1.}};
+    return {of_node.begin(), of_node.end()};
+  }
 
-/// The node itself, or its masters and weights if it hangs.
-template <int dim>
-Owners MultiplierChoice<dim>::masters(unsigned int node) const
-{
-  // A hanging node's function belongs to its masters in the displacement, and so in the rows.
-  const auto &of_node = surface.masters(node);
-  if (of_node.empty())
-    return {{node, 1.}};
-  return {of_node.begin(), of_node.end()};
-}
-
-template <int dim>
-void MultiplierChoice<dim>::collect(const std::vector<FaceCover> &covers)
-{
-  for (const FaceCover &cover : covers)
-    {
-      const auto &nodes = surface.faces()[cover.face].nodes;
-      Owners      covered, whole;
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        for (const auto &master : masters(nodes[k]))
-          {
-            covered[master.first] += master.second * cover.covered[k];
-            whole[master.first] += master.second * cover.whole[k];
-            candidates[master.first];
-          }
-      for (const auto &node : covered)
-        {
-          // Functions of degree 2 may integrate to zero or less at corners in 3D: such a node is
-          // judged by the sum over its faces alone.
-          Candidate   &candidate = candidates[node.first];
-          const double most      = whole[node.first];
-          candidate.covered += node.second;
-          candidate.largest_whole = std::max(candidate.largest_whole, most);
-          if (most > 0.)
-            candidate.best_part = std::max(candidate.best_part, node.second / most);
-          for (const auto &other : covered)
-            if (other.first != node.first)
-              candidate.neighbours.push_back(other.first);
-        }
-    }
-}
-
-/// Candidates as the faces name them, then those only hanging nodes reach
-/// by position: an order that does not depend on the numbering of nodes.
-template <int dim>
-void MultiplierChoice<dim>::set_order(const std::vector<FaceCover> &covers)
-{
-  std::set<unsigned int> left;
-  for (const auto &candidate : candidates)
-    left.insert(candidate.first);
-  for (const FaceCover &cover : covers)
-    for (const unsigned int node : surface.faces()[cover.face].nodes)
-      if (left.erase(node) > 0)
-        order.push_back(node);
-  const auto named = order.size();
-  order.insert(order.end(), left.begin(), left.end());
-  std::sort(order.begin() + named, order.end(), [&](unsigned int a, unsigned int b) {
-    const auto &x = positions[a], &y = positions[b];
-    return std::lexicographical_compare(x.begin_raw(), x.end_raw(), y.begin_raw(), y.end_raw());
-  });
-}
-
-/// The mean of the owners of the nearest neighbours among @p eligible,
-/// which is sorted; empty if there are none.
-template <int dim>
-Owners MultiplierChoice<dim>::owners_of_nearest(unsigned int                     node,
-                                                const std::vector<unsigned int> &eligible) const
-{
-  // Distances this close are one distance: on symmetric meshes a node gives to all its nearest
-  // neighbours alike, or the pressure would lose the symmetry of the mesh.
-  const double              equal   = 1. + 1e-6;
-  double                    nearest = std::numeric_limits<double>::max();
-  std::vector<unsigned int> found;
-  const auto                distance = [&](unsigned int other) {
-    return (positions[other] - positions[node]).norm();
-  };
-  for (const unsigned int other : candidates.at(node).neighbours)
-    if (std::binary_search(eligible.begin(), eligible.end(), other))
+  void collect(const std::vector<FaceCover> &covers)
+  {
+    for (const FaceCover &cover : covers)
       {
-        found.push_back(other);
-        nearest = std::min(nearest, distance(other));
+        const auto &nodes = surface.faces()[cover.face].nodes;
+        Owners      covered, whole;
+        for (unsigned int k = 0; k < nodes.size(); ++k)
+          for (const auto &master : masters(nodes[k]))
+            {
+              covered[master.first] += master.second * cover.covered[k];
+              whole[master.first] += master.second * cover.whole[k];
+              candidates[master.first];
+            }
+        for (const auto &node : covered)
+          {
+            // Functions of degree 2 may integrate to zero or less at corners in 3D: such a node is
+            // judged by the sum over its faces alone.
+            Candidate   &candidate = candidates[node.first];
+            const double most      = whole[node.first];
+            candidate.covered += node.second;
+            candidate.largest_whole = std::max(candidate.largest_whole, most);
+            if (most > 0.)
+              candidate.best_part = std::max(candidate.best_part, node.second / most);
+            for (const auto &other : covered)
+              if (other.first != node.first)
+                candidate.neighbours.push_back(other.first);
+          }
       }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [&](unsigned int other) { return distance(other) > equal * nearest; }),
-              found.end());
-  Owners result;
-  for (const unsigned int other : found)
-    for (const auto &owner : candidates.at(other).owners)
-      result[owner.first] += owner.second / found.size();
-  return result;
-}
+  }
+
+  /// Candidates as the faces name them, then those only hanging nodes reach
+  /// by position: an order that does not depend on the numbering of nodes.
+  void set_order(const std::vector<FaceCover> &covers)
+  {
+    std::set<unsigned int> left;
+    for (const auto &candidate : candidates)
+      left.insert(candidate.first);
+    for (const FaceCover &cover : covers)
+      for (const unsigned int node : surface.faces()[cover.face].nodes)
+        if (left.erase(node) > 0)
+          order.push_back(node);
+    const auto named = order.size();
+    order.insert(order.end(), left.begin(), left.end());
+    std::sort(order.begin() + named, order.end(), [&](unsigned int a, unsigned int b) {
+      const auto &x = positions[a], &y = positions[b];
+      return std::lexicographical_compare(x.begin_raw(), x.end_raw(), y.begin_raw(), y.end_raw());
+    });
+  }
+
+  /// The mean of the owners of the nearest neighbours among @p eligible,
+  /// which is sorted; empty if there are none.
+  Owners owners_of_nearest(unsigned int node, const std::vector<unsigned int> &eligible) const
+  {
+    // Distances this close are one distance: on symmetric meshes a node gives to all its nearest
+    // neighbours alike, or the pressure would lose the symmetry of the mesh.
+    const double              equal   = 1. + 1e-6;
+    double                    nearest = std::numeric_limits<double>::max();
+    std::vector<unsigned int> found;
+    const auto                distance = [&](unsigned int other) {
+      return (positions[other] - positions[node]).norm();
+    };
+    for (const unsigned int other : candidates.at(node).neighbours)
+      if (std::binary_search(eligible.begin(), eligible.end(), other))
+        {
+          found.push_back(other);
+          nearest = std::min(nearest, distance(other));
+        }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](unsigned int other) {
+                                 return distance(other) > equal * nearest;
+                               }),
+                found.end());
+    Owners result;
+    for (const unsigned int other : found)
+      for (const auto &owner : candidates.at(other).owners)
+        result[owner.first] += owner.second / found.size();
+    return result;
+  }
+
+  bool give_away(std::vector<unsigned int> &left)
+  {
+    std::vector<unsigned int> settled;
+    for (const auto &candidate : candidates)
+      if (!candidate.second.owners.empty())
+        settled.push_back(candidate.first);
+    std::map<unsigned int, Owners> given;
+    for (const unsigned int node : left)
+      {
+        const Owners owners = owners_of_nearest(node, settled);
+        if (!owners.empty())
+          given[node] = owners;
+      }
+    for (const auto &entry : given)
+      {
+        candidates[entry.first].owners = entry.second;
+        left.erase(std::find(left.begin(), left.end(), entry.first));
+      }
+    return !given.empty();
+  }
+};
 
 /// Let all nodes of @p left with neighbours that have owners take the
 /// same; false if there are none.
 // All shares of a sweep are found before any is given: the result must not depend on the order.
-template <int dim>
-bool MultiplierChoice<dim>::give_away(std::vector<unsigned int> &left)
-{
-  std::vector<unsigned int> settled;
-  for (const auto &candidate : candidates)
-    if (!candidate.second.owners.empty())
-      settled.push_back(candidate.first);
-  std::map<unsigned int, Owners> given;
-  for (const unsigned int node : left)
-    {
-      const Owners owners = owners_of_nearest(node, settled);
-      if (!owners.empty())
-        given[node] = owners;
-    }
-  for (const auto &entry : given)
-    {
-      candidates[entry.first].owners = entry.second;
-      left.erase(std::find(left.begin(), left.end(), entry.first));
-    }
-  return !given.empty();
-}
-
 // A held node has no displacement along the normal, so its own row would demand what nobody can
 // give; a weak one would nearly repeat its neighbour's. Held ones go first, since a weak node may
 // then give to whoever a held one gave to. A held node without free neighbours keeps its row: the
 // master may still move.
-template <int dim>
-void MultiplierChoice<dim>::choose(const std::vector<bool> &held)
-{
-  std::vector<unsigned int> left;
-  for (const unsigned int node : order)
-    if (candidates[node].is_weak() || held[node])
-      left.push_back(node);
-    else
-      candidates[node].owners = {{node, 1.}};
-  auto                      weak = std::stable_partition(left.begin(), left.end(),
-                                                         [&](unsigned int node) { return !candidates[node].is_weak(); });
-  std::vector<unsigned int> held_nodes(left.begin(), weak);
-  left.erase(left.begin(), weak);
-  give_away(held_nodes);
-  for (const unsigned int node : held_nodes)
-    candidates[node].owners = {{node, 1.}};
-  // Weak nodes far from good ones are reached in sweeps. Where all are weak the best is kept.
-  while (!left.empty())
-    if (!give_away(left))
-      {
-        const auto best =
-          std::max_element(left.begin(), left.end(), [&](unsigned int a, unsigned int b) {
-            return candidates[a].covered < candidates[b].covered;
-          });
-        candidates[*best].owners = {{*best, 1.}};
-        left.erase(best);
-      }
-}
-
-template <int dim>
-MultiplierNodes MultiplierChoice<dim>::result() const
-{
-  MultiplierNodes                      result;
-  std::map<unsigned int, unsigned int> index;
-  for (const unsigned int node : order)
-    if (candidates.at(node).owners.count(node) > 0)
-      {
-        index[node] = result.nodes.size();
-        result.nodes.push_back(node);
-      }
-  result.shares.resize(surface.n_nodes());
-  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    {
-      std::map<unsigned int, double> shares;
-      // The shares of hanging nodes go through their masters to those masters' owners.
-      for (const auto &master : masters(node))
-        {
-          const auto found = candidates.find(master.first);
-          if (found != candidates.end())
-            for (const auto &owner : found->second.owners)
-              shares[index.at(owner.first)] += master.second * owner.second;
-        }
-      result.shares[node].assign(shares.begin(), shares.end());
-    }
-  return result;
-}
 } // namespace
 
 template <int dim>

@@ -242,14 +242,6 @@ SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
 }
 
 template <int dim>
-template <typename Number>
-faces::FaceValues<dim, Number>
-SegmentQuadrature<dim>::shape(const faces::FaceCoordinates<dim, Number> &xi) const
-{
-  return {degree, xi};
-}
-
-template <int dim>
 bool SegmentQuadrature<dim>::overlap(const FaceNodes<dim, double> &slave,
                                      const FaceNodes<dim, double> &master,
                                      double                        margin) const

@@ -45,11 +45,6 @@ Mprgp::Mprgp(const DualProblem  &problem,
   renew_face();
 }
 
-double Mprgp::dot(const MultiVector &x, const MultiVector &y) const
-{
-  return inner_products(x, y, comm)(0);
-}
-
 /// Residual and gradient from scratch: one F-mult.
 /// As lambda = lambda_Im + x and P lambda_Im = 0, P lambda = P x and Q x = lambda - P lambda -
 /// lambda_Im. With r = d - F (lambda_Im + P x) the gradient is g = A x - b + q = q + rho Q x - P r.
@@ -95,11 +90,6 @@ void Mprgp::set_multipliers(const MultiVector &multipliers)
   g.add(1., multipliers);
   g.add(-1., q);
   q = multipliers;
-}
-
-double Mprgp::infeasibility() const
-{
-  return norms(Qx, comm)[0];
 }
 
 double Mprgp::value() const

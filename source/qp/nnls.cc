@@ -3,9 +3,8 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <petscsys.h>
-
-#include <petscblaslapack.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,28 +17,16 @@ const double right_angle = 1e-12; ///< cosine, in NNLS
 std::vector<double>
 least_squares(const MultiVector &A, const MultiVector &b, const std::vector<unsigned int> &columns)
 {
-  PetscBLASInt m = A.n_rows(), n = columns.size(), one = 1, rank, info;
-  PetscBLASInt ldb = std::max(m, n), size = -1;
-  MultiVector  part(A.n_rows(), 0);
-  for (const unsigned int j : columns)
-    part.append(A.columns_from(j, 1));
-  std::vector<double> y(ldb), singular(std::min(m, n)), work(1);
-  std::copy(b.column(0), b.column(0) + m, y.begin());
-  double cut = 1e-13;
-  for (unsigned int pass = 0; pass < 2; ++pass)
-    {
-      // The first pass asks for the size of the workspace. Contact columns are often
-      // dependent, as the nodes of a flat face push alike: hence singular values, with a cut.
-      LAPACKgelss_(&m, &n, &one, part.column(0), &m, y.data(), &ldb, singular.data(), &cut, &rank,
-                   work.data(), &size, &info);
-      size = static_cast<PetscBLASInt>(work[0]);
-      work.resize(std::max<PetscBLASInt>(size, 1));
-    }
-  if (info != 0)
-    throw SolveError("the equilibrium test failed: its least squares "
-                     "problem has no singular value decomposition");
-  y.resize(n);
-  return y;
+  dealii::LAPACKFullMatrix<double> part(A.n_rows(), columns.size());
+  for (unsigned int i = 0; i < A.n_rows(); ++i)
+    for (unsigned int j = 0; j < columns.size(); ++j)
+      part(i, j) = A(i, columns[j]);
+  // Contact columns are often dependent, as the nodes of a flat face push alike: hence singular
+  // values, with a cut.
+  part.compute_inverse_svd(1e-13);
+  dealii::Vector<double> y(columns.size());
+  part.vmult(y, dealii::Vector<double>(b.column(0), b.column(0) + b.n_rows()));
+  return {y.begin(), y.end()};
 }
 
 double norm_of(const double *x, unsigned int n)

@@ -19,14 +19,19 @@ const unsigned int max_outer         = 1000;
 
 /**
  * 1.05 times the largest Rayleigh quotient met by power steps with
- * P F P, which start from @p b and a pattern of the row number.
+ * P F P, which start from @p b and a pattern of the row number, counted
+ * over all ranks.
  */
 double operator_norm(const DualProblem &problem, const Face &all, MultiVector v)
 {
-  const MPI_Comm comm = problem.context().communicator();
-  const double   size = norms(v, comm)[0];
-  for (unsigned int i = 0; i < v.n_rows(); ++i)
-    v(i) = (size > 0. ? v(i) / size : 0.) + 1e-2 * std::cos(1. + i * i);
+  const MPI_Comm      comm  = problem.context().communicator();
+  const double        size  = norms(v, comm)[0];
+  const unsigned long n     = v.n_rows();
+  unsigned long       first = 0; // row of this rank
+  MPI_Scan(&n, &first, 1, MPI_UNSIGNED_LONG, MPI_SUM, comm);
+  first -= n;
+  for (unsigned int i = 0; i < n; ++i)
+    v(i) = (size > 0. ? v(i) / size : 0.) + 1e-2 * std::cos(1. + double(first + i) * (first + i));
   double norm = 0.;
   for (unsigned int k = 0; k < power_steps; ++k)
     {
@@ -61,6 +66,13 @@ public:
 private:
   void begin(const WarmStart &start);
   bool certified();
+
+  double residual_here() const
+  {
+    return kkt_residual(problem, inner->face(), inner->feasible_lambda(), inner->residual(),
+                        equality.scale)
+      .relative;
+  }
 
   unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
 
@@ -146,9 +158,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
     {
       inner->minimize(stop);
       ++solution.outer_iterations;
-      solution.kkt_residual = kkt_residual(problem, inner->face(), inner->feasible_lambda(),
-                                           inner->residual(), equality.scale)
-                                .relative;
+      solution.kkt_residual = residual_here();
       std::ostringstream line;
       line << "SMALSE-M, step " << solution.outer_iterations << ": KKT residual "
            << solution.kkt_residual << ", " << f_mults() << " F-mults";
@@ -172,7 +182,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
       inner->update_multipliers();
       last_value = value;
     }
-  throw not_converged("SMALSE-M", solution.kkt_residual, parameters.relative_tolerance, f_mults());
+  throw not_converged("SMALSE-M", residual_here(), parameters.relative_tolerance, f_mults());
 }
 } // namespace
 

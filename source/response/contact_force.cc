@@ -1,6 +1,5 @@
-#include <snug/response/contact_force.h>
-#include <snug/response/contact_measure.h>
 #include <snug/response/measured_place.h>
+#include <snug/response/quantities.h>
 
 namespace snug::response {
 namespace {
@@ -29,74 +28,80 @@ normal_gradient(const state::StateSolver<dim>            &solver,
     gradient[node] -= of_gaps[node];
   return gradient;
 }
+
+template <int dim>
+class ContactForce : public Response<dim>
+{
+public:
+  explicit ContactForce(const ResponseParameters &parameters) : parameters(parameters) {}
+
+  std::vector<std::string> entries() const override { return {"Pair", "Component"}; }
+
+  void check(const state::StateSolver<dim> &solver) const override
+  {
+    // Both throw for names that do not exist.
+    rows_of_pair(solver, parameters.pair);
+    if (parameters.component != "normal")
+      unit_vector<dim>(parameters);
+  }
+
+  double value(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state) const override
+  {
+    const auto chosen = rows_of_pair(solver, parameters.pair);
+    const auto rows   = solver.contact().rows(solver.surface().gather(state.positions));
+    double     force  = 0.;
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      if (chosen[i])
+        force -=
+          state.contact[i].force *
+          // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i itself.
+          (parameters.component == "normal" ? -1. : rows[i].normal * unit_vector<dim>(parameters));
+    return force;
+  }
+
+  Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state) const override
+  {
+    const auto    chosen = rows_of_pair(solver, parameters.pair);
+    Partials<dim> result;
+    // J is linear in the forces: its derivatives are the factors of value().
+    for (const bool row : chosen)
+      result.forces.push_back(row ? 1. : 0.);
+    result.positions.resize(solver.mesh().n_local_nodes());
+    if (parameters.component == "normal")
+      return result;
+    const auto e    = unit_vector<dim>(parameters);
+    const auto x    = solver.surface().gather(state.positions);
+    const auto rows = solver.contact().rows(x);
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      result.forces[i] *= -(rows[i].normal * e);
+    // Pair by pair, as a boundary may be the slave of one pair and the master of another: moved in
+    // both at once, the coefficients of both sides would add up.
+    const auto &pairs = solver.contact().pairs();
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        std::vector<double> forces(rows.size(), 0.);
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          if (chosen[i] && solver.contact().places()[i].pair == p)
+            forces[i] = -state.contact[i].force;
+        solver.surface().add_owned(normal_gradient(solver, pairs[p], x, forces, e),
+                                   result.positions);
+      }
+    return result;
+  }
+
+private:
+  const ResponseParameters parameters;
+};
 } // namespace
 
 template <int dim>
-ContactForce<dim>::ContactForce(const ResponseParameters &parameters) : parameters(parameters)
-{}
-
-template <int dim>
-std::vector<std::string> ContactForce<dim>::entries() const
+std::unique_ptr<Response<dim>> contact_force(const ResponseParameters &parameters)
 {
-  return {"Pair", "Component"};
+  return std::make_unique<ContactForce<dim>>(parameters);
 }
 
-template <int dim>
-void ContactForce<dim>::check(const state::StateSolver<dim> &solver) const
-{
-  // Both throw for names that do not exist.
-  rows_of_pair(solver, parameters.pair);
-  if (parameters.component != "normal")
-    unit_vector<dim>(parameters);
-}
-
-template <int dim>
-double ContactForce<dim>::value(const state::StateSolver<dim>  &solver,
-                                const state::ContactState<dim> &state) const
-{
-  const auto chosen = rows_of_pair(solver, parameters.pair);
-  const auto rows   = solver.contact().rows(solver.surface().gather(state.positions));
-  double     force  = 0.;
-  for (unsigned int i = 0; i < rows.size(); ++i)
-    if (chosen[i])
-      force -=
-        state.contact[i].force *
-        // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i itself.
-        (parameters.component == "normal" ? -1. : rows[i].normal * unit_vector<dim>(parameters));
-  return force;
-}
-
-template <int dim>
-Partials<dim> ContactForce<dim>::partials(const state::StateSolver<dim>  &solver,
-                                          const state::ContactState<dim> &state) const
-{
-  const auto    chosen = rows_of_pair(solver, parameters.pair);
-  Partials<dim> result;
-  // J is linear in the forces: its derivatives are the factors of value().
-  for (const bool row : chosen)
-    result.forces.push_back(row ? 1. : 0.);
-  result.positions.resize(solver.mesh().n_local_nodes());
-  if (parameters.component == "normal")
-    return result;
-  const auto e    = unit_vector<dim>(parameters);
-  const auto x    = solver.surface().gather(state.positions);
-  const auto rows = solver.contact().rows(x);
-  for (unsigned int i = 0; i < rows.size(); ++i)
-    result.forces[i] *= -(rows[i].normal * e);
-  // Pair by pair, as a boundary may be the slave of one pair and the master of another: moved in
-  // both at once, the coefficients of both sides would add up.
-  const auto &pairs = solver.contact().pairs();
-  for (unsigned int p = 0; p < pairs.size(); ++p)
-    {
-      std::vector<double> forces(rows.size(), 0.);
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        if (chosen[i] && solver.contact().places()[i].pair == p)
-          forces[i] = -state.contact[i].force;
-      solver.surface().add_owned(normal_gradient(solver, pairs[p], x, forces, e), result.positions);
-    }
-  return result;
-}
-
-template class ContactForce<2>;
-template class ContactForce<3>;
+template std::unique_ptr<Response<2>> contact_force(const ResponseParameters &);
+template std::unique_ptr<Response<3>> contact_force(const ResponseParameters &);
 } // namespace snug::response

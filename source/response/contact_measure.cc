@@ -1,4 +1,4 @@
-#include <snug/response/contact_measure.h>
+#include <snug/response/quantities.h>
 
 #include <algorithm>
 
@@ -21,6 +21,80 @@ PressureRows pressure_rows(const std::vector<unsigned int> &rows,
     }
   return result;
 }
+
+template <int dim>
+class ContactMeasure : public Response<dim>
+{
+public:
+  ContactMeasure(const ResponseParameters       &parameters,
+                 const Measure                  &measure,
+                 const std::vector<std::string> &entries)
+    : pair(parameters.pair), measure(measure), read(entries)
+  {}
+
+  std::vector<std::string> entries() const override
+  {
+    auto result = read;
+    // All measures read it, besides their own entries.
+    result.push_back("Pair");
+    return result;
+  }
+
+  /// Throws where there is no such pair.
+  void check(const state::StateSolver<dim> &solver) const override { rows_of_pair(solver, pair); }
+
+  double value(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state) const override
+  {
+    return measure(pressure_rows(counted_rows(solver, state), state)).value;
+  }
+
+  Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state) const override
+  {
+    const auto rows     = counted_rows(solver, state);
+    const auto measured = measure(pressure_rows(rows, state));
+    // J(p, A(X)): the areas are functions of the positions at fixed forces.
+    std::vector<double> by_area(state.contact.size(), 0.);
+    Partials<dim>       result;
+    // Rows that do not count have no influence.
+    result.forces.assign(state.contact.size(), 0.);
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        result.forces[rows[i]] = measured.by_force[i];
+        by_area[rows[i]]       = measured.by_area[i];
+      }
+    result.positions.resize(solver.mesh().n_local_nodes());
+    // The gradient at the surface nodes is replicated: each rank adds those of its own nodes.
+    solver.surface().add_owned(
+      solver.contact().area_gradient(solver.surface().gather(state.positions), by_area),
+      result.positions);
+    return result;
+  }
+
+private:
+  std::vector<unsigned int> counted_rows(const state::StateSolver<dim>  &solver,
+                                         const state::ContactState<dim> &state) const
+  {
+    // Contact points are replicated: no communication, and the same rows on all ranks.
+    const auto chosen  = rows_of_pair(solver, pair);
+    double     largest = 0.;
+    for (unsigned int i = 0; i < chosen.size(); ++i)
+      if (chosen[i])
+        largest = std::max(largest, state.contact[i].area);
+    std::vector<unsigned int> result;
+    for (unsigned int i = 0; i < chosen.size(); ++i)
+      // Scale 0: supports hold the row entirely, it has no multiplier.
+      if (chosen[i] && solver.gluing().contact_scales()[i] != 0. &&
+          state.contact[i].area > smallest_area * largest)
+        result.push_back(i);
+    return result;
+  }
+
+  const std::string              pair;
+  const Measure                  measure;
+  const std::vector<std::string> read;
+};
 } // namespace
 
 template <int dim>
@@ -41,81 +115,19 @@ std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std:
 }
 
 template <int dim>
-ContactMeasure<dim>::ContactMeasure(const ResponseParameters       &parameters,
-                                    const Measure                  &measure,
-                                    const std::vector<std::string> &entries)
-  : pair(parameters.pair), measure(measure), read(entries)
-{}
-
-template <int dim>
-std::vector<std::string> ContactMeasure<dim>::entries() const
+std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &parameters,
+                                               const Measure                  &measure,
+                                               const std::vector<std::string> &entries)
 {
-  auto result = read;
-  // All measures read it, besides their own entries.
-  result.push_back("Pair");
-  return result;
+  return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries);
 }
 
-/// Throws where there is no such pair.
-template <int dim>
-void ContactMeasure<dim>::check(const state::StateSolver<dim> &solver) const
-{
-  rows_of_pair(solver, pair);
-}
-
-template <int dim>
-std::vector<unsigned int>
-ContactMeasure<dim>::counted_rows(const state::StateSolver<dim>  &solver,
-                                  const state::ContactState<dim> &state) const
-{
-  // Contact points are replicated: no communication, and the same rows on all ranks.
-  const auto chosen  = rows_of_pair(solver, pair);
-  double     largest = 0.;
-  for (unsigned int i = 0; i < chosen.size(); ++i)
-    if (chosen[i])
-      largest = std::max(largest, state.contact[i].area);
-  std::vector<unsigned int> result;
-  for (unsigned int i = 0; i < chosen.size(); ++i)
-    // Scale 0: supports hold the row entirely, it has no multiplier.
-    if (chosen[i] && solver.gluing().contact_scales()[i] != 0. &&
-        state.contact[i].area > smallest_area * largest)
-      result.push_back(i);
-  return result;
-}
-
-template <int dim>
-double ContactMeasure<dim>::value(const state::StateSolver<dim>  &solver,
-                                  const state::ContactState<dim> &state) const
-{
-  return measure(pressure_rows(counted_rows(solver, state), state)).value;
-}
-
-template <int dim>
-Partials<dim> ContactMeasure<dim>::partials(const state::StateSolver<dim>  &solver,
-                                            const state::ContactState<dim> &state) const
-{
-  const auto rows     = counted_rows(solver, state);
-  const auto measured = measure(pressure_rows(rows, state));
-  // J(p, A(X)): the areas are functions of the positions at fixed forces.
-  std::vector<double> by_area(state.contact.size(), 0.);
-  Partials<dim>       result;
-  // Rows that do not count have no influence.
-  result.forces.assign(state.contact.size(), 0.);
-  for (unsigned int i = 0; i < rows.size(); ++i)
-    {
-      result.forces[rows[i]] = measured.by_force[i];
-      by_area[rows[i]]       = measured.by_area[i];
-    }
-  result.positions.resize(solver.mesh().n_local_nodes());
-  // The gradient at the surface nodes is replicated: each rank adds those of its own nodes.
-  solver.surface().add_owned(
-    solver.contact().area_gradient(solver.surface().gather(state.positions), by_area),
-    result.positions);
-  return result;
-}
-
-template std::vector<bool> rows_of_pair(const state::StateSolver<2> &, const std::string &);
-template std::vector<bool> rows_of_pair(const state::StateSolver<3> &, const std::string &);
-template class ContactMeasure<2>;
-template class ContactMeasure<3>;
+#define SNUG_INSTANTIATE(dim)                                                                    \
+  template std::vector<bool> rows_of_pair(const state::StateSolver<dim> &, const std::string &); \
+  template std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters &,            \
+                                                          const Measure &,                       \
+                                                          const std::vector<std::string> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::response

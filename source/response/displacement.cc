@@ -1,5 +1,5 @@
-#include <snug/response/displacement.h>
 #include <snug/response/measured_place.h>
+#include <snug/response/quantities.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -102,122 +102,128 @@ Average average(const state::StateSolver<dim>  &solver,
                               solver.context().communicator(), dealii::ArrayView<double>(sums, 2));
   return {sums[0], sums[1]};
 }
+
+template <int dim>
+class Displacement : public Response<dim>
+{
+public:
+  explicit Displacement(const ResponseParameters &parameters) : parameters(parameters) {}
+
+  std::vector<std::string> entries() const override
+  {
+    return {"Body", "Face", "Point", "Component"};
+  }
+
+  /// A point has no normal: only faces take the component normal.
+  void check(const state::StateSolver<dim> &solver) const override
+  {
+    if (parameters.point.empty())
+      find_boundary(solver, parameters);
+    else
+      find_point(solver, parameters);
+    if (parameters.component != "normal" || !parameters.point.empty())
+      unit_vector<dim>(parameters);
+  }
+
+  double value(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state) const override
+  {
+    if (parameters.point.empty())
+      {
+        const auto of_face = average(solver, state, parameters);
+        return of_face.integral / of_face.area;
+      }
+    const auto e     = unit_vector<dim>(parameters);
+    double     value = 0.;
+    for (const auto &place : find_point(solver, parameters))
+      {
+        const auto u =
+          solver.assemblers()[place.subdomain]->cell_values(place.cell,
+                                                            state.u[place.subdomain].column(0));
+        for (unsigned int a = 0; a < u.size(); ++a)
+          value += place.weights[a] * (u[a] * e);
+      }
+    // One rank has the point, the others add 0: the sum is exact.
+    return dealii::Utilities::MPI::sum(value, solver.context().communicator());
+  }
+
+  Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state) const override
+  {
+    return parameters.point.empty() ? partials_on_face(solver, state) : partials_at_point(solver);
+  }
+
+private:
+  /// Weights are of the place in the cell, which the design does not change: dJ/dX = 0.
+  Partials<dim> partials_at_point(const state::StateSolver<dim> &solver) const
+  {
+    Partials<dim> result;
+    result.positions.resize(solver.mesh().n_local_nodes());
+    for (const auto &assembler : solver.assemblers())
+      result.u.emplace_back(assembler->n_dofs());
+    for (const auto &place : find_point(solver, parameters))
+      {
+        Nodes<dim> r;
+        for (const double weight : place.weights)
+          r.push_back(weight * unit_vector<dim>(parameters));
+        solver.assemblers()[place.subdomain]->add_cell_vector(place.cell, 1., r,
+                                                              result.u[place.subdomain].column(0));
+      }
+    return result;
+  }
+
+  /// With J = I / A, I = int u . e dA and A = int dA: J' = I' / A - J A' / A. I is the work f(X) .
+  /// u of a unit load, so dI/du = f and dI/dX is the gradient of that work.
+  Partials<dim> partials_on_face(const state::StateSolver<dim>  &solver,
+                                 const state::ContactState<dim> &state) const
+  {
+    const auto    whole = average(solver, state, parameters);
+    const double  J     = whole.integral / whole.area;
+    Partials<dim> result;
+    result.positions.resize(solver.mesh().n_local_nodes());
+    for (const auto &assembler : solver.assemblers())
+      result.u.emplace_back(assembler->n_dofs());
+    for (const auto &face : faces_of(solver, parameters))
+      {
+        const auto &assembler = *solver.assemblers()[face.subdomain];
+        const auto &load      = solver.face_load();
+        const auto  cell_X    = assembler.cell_field(face.cell, state.positions);
+        const auto  X         = at_face<dim>(face.places, cell_X);
+        const auto  u =
+          at_face<dim>(face.places,
+                       assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
+        const auto unit = unit_load<dim>(parameters, X.size());
+        Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
+        load.force(X, unit, f);
+        for (unsigned int a = 0; a < f.size(); ++a)
+          // On the copies of the face's own subdomain. Directions u' are equal on all copies, so
+          // that it does not matter which of them has the share.
+          in_cell[face.places[a]] += f[a] / whole.area;
+        assembler.add_cell_vector(face.cell, 1., in_cell, result.u[face.subdomain].column(0));
+        load.add_force_gradient(X, unit, u, 1. / whole.area, gradient);
+        // int dA = int e . e dA
+        dealii::Tensor<1, dim> e;
+        e[0] = 1.;
+        load.add_force_gradient(X, {{}, Nodes<dim>(X.size(), e), {}}, Nodes<dim>(X.size(), e),
+                                -J / whole.area, gradient);
+        const auto &nodes = solver.mesh().boundary_faces()[face.index].nodes;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          // At the nodes of the face: shape functions of other nodes of the cell vanish on it.
+          result.positions[nodes[a]] += gradient[a];
+      }
+    return result;
+  }
+
+  const ResponseParameters parameters;
+};
 } // namespace
 
 template <int dim>
-Displacement<dim>::Displacement(const ResponseParameters &parameters) : parameters(parameters)
-{}
-
-template <int dim>
-std::vector<std::string> Displacement<dim>::entries() const
+std::unique_ptr<Response<dim>> displacement(const ResponseParameters &parameters)
 {
-  return {"Body", "Face", "Point", "Component"};
+  return std::make_unique<Displacement<dim>>(parameters);
 }
 
-/// A point has no normal: only faces take the component normal.
-template <int dim>
-void Displacement<dim>::check(const state::StateSolver<dim> &solver) const
-{
-  if (parameters.point.empty())
-    find_boundary(solver, parameters);
-  else
-    find_point(solver, parameters);
-  if (parameters.component != "normal" || !parameters.point.empty())
-    unit_vector<dim>(parameters);
-}
-
-template <int dim>
-double Displacement<dim>::value(const state::StateSolver<dim>  &solver,
-                                const state::ContactState<dim> &state) const
-{
-  if (parameters.point.empty())
-    {
-      const auto of_face = average(solver, state, parameters);
-      return of_face.integral / of_face.area;
-    }
-  const auto e     = unit_vector<dim>(parameters);
-  double     value = 0.;
-  for (const auto &place : find_point(solver, parameters))
-    {
-      const auto u =
-        solver.assemblers()[place.subdomain]->cell_values(place.cell,
-                                                          state.u[place.subdomain].column(0));
-      for (unsigned int a = 0; a < u.size(); ++a)
-        value += place.weights[a] * (u[a] * e);
-    }
-  // One rank has the point, the others add 0: the sum is exact.
-  return dealii::Utilities::MPI::sum(value, solver.context().communicator());
-}
-
-template <int dim>
-Partials<dim> Displacement<dim>::partials(const state::StateSolver<dim>  &solver,
-                                          const state::ContactState<dim> &state) const
-{
-  return parameters.point.empty() ? partials_on_face(solver, state) : partials_at_point(solver);
-}
-
-/// Weights are of the place in the cell, which the design does not change: dJ/dX = 0.
-template <int dim>
-Partials<dim> Displacement<dim>::partials_at_point(const state::StateSolver<dim> &solver) const
-{
-  Partials<dim> result;
-  result.positions.resize(solver.mesh().n_local_nodes());
-  for (const auto &assembler : solver.assemblers())
-    result.u.emplace_back(assembler->n_dofs());
-  for (const auto &place : find_point(solver, parameters))
-    {
-      Nodes<dim> r;
-      for (const double weight : place.weights)
-        r.push_back(weight * unit_vector<dim>(parameters));
-      solver.assemblers()[place.subdomain]->add_cell_vector(place.cell, 1., r,
-                                                            result.u[place.subdomain].column(0));
-    }
-  return result;
-}
-
-/// With J = I / A, I = int u . e dA and A = int dA: J' = I' / A - J A' / A. I is the work f(X) . u
-/// of a unit load, so dI/du = f and dI/dX is the gradient of that work.
-template <int dim>
-Partials<dim> Displacement<dim>::partials_on_face(const state::StateSolver<dim>  &solver,
-                                                  const state::ContactState<dim> &state) const
-{
-  const auto    whole = average(solver, state, parameters);
-  const double  J     = whole.integral / whole.area;
-  Partials<dim> result;
-  result.positions.resize(solver.mesh().n_local_nodes());
-  for (const auto &assembler : solver.assemblers())
-    result.u.emplace_back(assembler->n_dofs());
-  for (const auto &face : faces_of(solver, parameters))
-    {
-      const auto &assembler = *solver.assemblers()[face.subdomain];
-      const auto &load      = solver.face_load();
-      const auto  cell_X    = assembler.cell_field(face.cell, state.positions);
-      const auto  X         = at_face<dim>(face.places, cell_X);
-      const auto  u =
-        at_face<dim>(face.places,
-                     assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
-      const auto unit = unit_load<dim>(parameters, X.size());
-      Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
-      load.force(X, unit, f);
-      for (unsigned int a = 0; a < f.size(); ++a)
-        // On the copies of the face's own subdomain. Directions u' are equal on all copies, so that
-        // it does not matter which of them has the share.
-        in_cell[face.places[a]] += f[a] / whole.area;
-      assembler.add_cell_vector(face.cell, 1., in_cell, result.u[face.subdomain].column(0));
-      load.add_force_gradient(X, unit, u, 1. / whole.area, gradient);
-      // int dA = int e . e dA
-      dealii::Tensor<1, dim> e;
-      e[0] = 1.;
-      load.add_force_gradient(X, {{}, Nodes<dim>(X.size(), e), {}}, Nodes<dim>(X.size(), e),
-                              -J / whole.area, gradient);
-      const auto &nodes = solver.mesh().boundary_faces()[face.index].nodes;
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-        // At the nodes of the face: shape functions of other nodes of the cell vanish on it.
-        result.positions[nodes[a]] += gradient[a];
-    }
-  return result;
-}
-
-template class Displacement<2>;
-template class Displacement<3>;
+template std::unique_ptr<Response<2>> displacement(const ResponseParameters &);
+template std::unique_ptr<Response<3>> displacement(const ResponseParameters &);
 } // namespace snug::response

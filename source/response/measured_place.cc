@@ -49,7 +49,7 @@ shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tenso
   // Converges at once in parallelepipeds and within a few steps in cells that are curved a little.
   for (unsigned int step = 0; step < 20; ++step)
     {
-      const auto shape = elasticity::lagrange_point<dim>(degree, xi);
+      const auto shape = mesh::lagrange_point<dim>(degree, xi);
       const auto J     = elasticity::jacobian(shape, X);
       // NaN included: such an iterate has left the cell.
       if (!(std::abs(determinant(J)) > 0.))
@@ -61,7 +61,7 @@ shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tenso
             // A point on a face between cells must not fall between them by round-off.
             if (xi[d] < -tolerance || xi[d] > 1. + tolerance)
               return {};
-          return shape.values;
+          return shape.value;
         }
       xi += move;
       // Points far outside send Newton's method away; NaN ends it as well.

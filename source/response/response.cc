@@ -1,34 +1,6 @@
-#include <snug/response/body_integral.h>
-#include <snug/response/contact_force.h>
-#include <snug/response/contact_measure.h>
-#include <snug/response/displacement.h>
-#include <snug/response/response.h>
-#include <snug/response/von_mises_norm.h>
-#include <snug/response/work.h>
+#include <snug/response/quantities.h>
 
 namespace snug::response {
-template <int dim>
-std::vector<std::string> Response<dim>::entries() const
-{
-  return {};
-}
-
-template <int dim>
-bool Response<dim>::needs_solution() const
-{
-  return true;
-}
-
-template <int dim>
-bool Response<dim>::stationary() const
-{
-  return false;
-}
-
-template <int dim>
-void Response<dim>::check(const state::StateSolver<dim> &) const
-{}
-
 namespace {
 using Parameters = ResponseParameters;
 
@@ -36,75 +8,66 @@ using Parameters = ResponseParameters;
 template <int dim>
 ChoiceTable<MakeResponse<dim>> body_responses()
 {
-  using State    = state::ContactState<dim>;
-  using Integral = BodyIntegral<dim>;
-  return {
-    {"potential energy",
-     "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
-     "spreads the contact pressure evenly",
-     [](const Parameters &) { return std::make_unique<Work<dim>>(&State::energy, 1., -1.); }},
-    {"compliance",
-     "f'u, the work of the loads [force length]; with a body held by "
-     "contact alone it rewards lifting that body",
-     [](const Parameters &) { return std::make_unique<Work<dim>>(&State::compliance, 0., 1.); }},
-    {"strain energy", "1/2 u'Ku [force length]",
-     [](const Parameters &) { return std::make_unique<Work<dim>>(&State::strain_energy, 1., 0.); }},
-    {"volume", "volume of a body or all [length^3]",
-     [](const Parameters &parameters) {
-       return std::make_unique<Integral>(parameters, Integral::Weight::one);
-     }},
-    {"mass", "density times volume of a body or all [mass]",
-     [](const Parameters &parameters) {
-       return std::make_unique<Integral>(parameters, Integral::Weight::density);
-     }},
-    {"displacement", "a component of that of a point or averaged over a face [length]",
-     [](const Parameters &parameters) { return std::make_unique<Displacement<dim>>(parameters); }},
-    {"von Mises norm",
-     "p-norm of the von Mises stress over a body or all, divided by that "
-     "of 1 [force/length^2]",
-     [](const Parameters &parameters) { return std::make_unique<VonMisesNorm<dim>>(parameters); }}};
+  using State = state::ContactState<dim>;
+  return {{"potential energy",
+           "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
+           "spreads the contact pressure evenly",
+           [](const Parameters &) { return work<dim>(&State::energy, 1., -1.); }},
+          {"compliance",
+           "f'u, the work of the loads [force length]; with a body held by "
+           "contact alone it rewards lifting that body",
+           [](const Parameters &) { return work<dim>(&State::compliance, 0., 1.); }},
+          {"strain energy", "1/2 u'Ku [force length]",
+           [](const Parameters &) { return work<dim>(&State::strain_energy, 1., 0.); }},
+          {"volume", "volume of a body or all [length^3]",
+           [](const Parameters &parameters) { return body_integral<dim>(parameters, false); }},
+          {"mass", "density times volume of a body or all [mass]",
+           [](const Parameters &parameters) { return body_integral<dim>(parameters, true); }},
+          {"displacement", "a component of that of a point or averaged over a face [length]",
+           displacement<dim>},
+          {"von Mises norm",
+           "p-norm of the von Mises stress over a body or all, divided by that "
+           "of 1 [force/length^2]",
+           von_mises_norm<dim>}};
 }
 
 template <int dim>
 ChoiceTable<MakeResponse<dim>> contact_responses()
 {
-  using Measure = ContactMeasure<dim>;
   return {{"contact force",
            "of a pair or all, on the slave side; the component normal adds up "
            "the sizes at all points [force]",
-           [](const Parameters &parameters) {
-             return std::make_unique<ContactForce<dim>>(parameters);
-           }},
+           contact_force<dim>},
           {"contact area",
            "area where the pressure is above the part 'Smoothing' of its mean "
            "[length^2]",
            [](const Parameters &parameters) {
              const double e = parameters.smoothing;
-             return std::make_unique<Measure>(
-               parameters, [e](const auto &rows) { return contact_area(rows, e); },
-               std::vector<std::string>{"Smoothing"});
+             return contact_measure<dim>(parameters,
+                                         [e](const auto &rows) { return contact_area(rows, e); },
+                                         {"Smoothing"});
            }},
           {"pressure norm", "p-norm of the contact pressure [force/length^2 length^(2/p)]",
            [](const Parameters &parameters) {
              const double p = parameters.exponent;
-             return std::make_unique<Measure>(
-               parameters, [p](const auto &rows) { return pressure_norm(rows, p); },
-               std::vector<std::string>{"Exponent"});
+             return contact_measure<dim>(parameters,
+                                         [p](const auto &rows) { return pressure_norm(rows, p); },
+                                         {"Exponent"});
            }},
           {"peak pressure",
            "p-norm of the contact pressure, each point weighing as much as the "
            "force it carries [force/length^2]; below the largest pressure",
            [](const Parameters &parameters) {
              const double p = parameters.exponent;
-             return std::make_unique<Measure>(
-               parameters, [p](const auto &rows) { return peak_pressure(rows, p); },
-               std::vector<std::string>{"Exponent"});
+             return contact_measure<dim>(parameters,
+                                         [p](const auto &rows) { return peak_pressure(rows, p); },
+                                         {"Exponent"});
            }},
           {"pressure variance",
            "mean square of the contact pressure less its mean over the slave "
            "side [(force/length^2)^2]",
            [](const Parameters &parameters) {
-             return std::make_unique<Measure>(parameters, pressure_variance);
+             return contact_measure<dim>(parameters, pressure_variance);
            }}};
 }
 } // namespace
@@ -128,7 +91,6 @@ std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameter
 }
 
 #define SNUG_INSTANTIATE(dim)                                           \
-  template class Response<dim>;                                         \
   template const ChoiceTable<MakeResponse<dim>> &response_table<dim>(); \
   template std::unique_ptr<Response<dim>>        make_response<dim>(const ResponseParameters &);
 SNUG_INSTANTIATE(2)

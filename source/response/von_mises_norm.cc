@@ -1,4 +1,5 @@
-#include <snug/response/von_mises_norm.h>
+#include <snug/elasticity/von_mises_power.h>
+#include <snug/response/quantities.h>
 #include <snug/state/cell_gradients.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,90 +8,105 @@
 #include <cmath>
 
 namespace snug::response {
+namespace {
 template <int dim>
-VonMisesNorm<dim>::VonMisesNorm(const ResponseParameters &parameters)
-  : body(parameters.body), p(parameters.exponent)
-{}
-
-template <int dim>
-std::vector<std::string> VonMisesNorm<dim>::entries() const
+class VonMisesNorm : public Response<dim>
 {
-  return {"Body", "Exponent"};
-}
+public:
+  explicit VonMisesNorm(const ResponseParameters &parameters)
+    : body(parameters.body), p(parameters.exponent)
+  {}
 
-template <int dim>
-typename VonMisesNorm<dim>::Integrals
-VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
-                             const state::ContactState<dim> &state) const
-{
-  using Power         = elasticity::VonMisesPower<dim>;
-  const auto    &mesh = solver.mesh();
-  const MPI_Comm comm = solver.context().communicator();
-  Integrals      result;
-  // First the scale: without it, large exponents overflow or underflow.
-  const Power stress(mesh.degree(), mesh.idealization(), p, 1.);
-  state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
-    const auto &assembler = *solver.assemblers()[s];
-    const auto  X         = assembler.cell_field(i, state.positions);
-    result.volume += assembler.element().volume(X);
-    result.scale =
-      std::max(result.scale, stress.largest(X, assembler.material(i),
-                                            assembler.cell_values(i, state.u[s].column(0))));
-  });
-  result.scale  = dealii::Utilities::MPI::max(result.scale, comm);
-  result.volume = dealii::Utilities::MPI::sum(result.volume, comm);
-  // On all ranks, since the scale is the largest of all.
-  if (result.scale == 0.)
+  std::vector<std::string> entries() const override { return {"Body", "Exponent"}; }
+
+  double value(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state) const override
+  {
+    const auto of = integrals(solver, state);
+    // Divided by the volume, J is the stress itself where it is even.
+    return of.scale * std::pow(of.power / of.volume, 1. / p);
+  }
+
+  Partials<dim> partials(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state) const override
+  {
+    const auto    of = integrals(solver, state);
+    Partials<dim> result;
+    result.positions.resize(solver.mesh().n_local_nodes());
+    for (const auto &assembler : solver.assemblers())
+      result.u.emplace_back(assembler->n_dofs());
+    if (of.scale == 0.)
+      return result;
+    // dJ = J/p (dS/S - dV/V). The scale in S is a constant: it cancels in J.
+    const double                         J = of.scale * std::pow(of.power / of.volume, 1. / p);
+    const elasticity::VonMisesPower<dim> power(solver.mesh().degree(), solver.mesh().idealization(),
+                                               p, of.scale);
+    state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+      const auto                         &assembler = *solver.assemblers()[s];
+      const auto                          X         = assembler.cell_field(i, state.positions);
+      std::vector<dealii::Tensor<1, dim>> by_u(X.size()), by_X(X.size());
+      power.add_gradients(X, assembler.material(i), assembler.cell_values(i, state.u[s].column(0)),
+                          J / (p * of.power), by_u, by_X);
+      assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
+      // dJ/du belongs to the unknowns of the subdomain, where masters act for hanging nodes; dJ/dX
+      // to the nodes of the mesh, hanging ones included.
+      assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
+      state::add_to_cell_nodes(solver, s, i, by_X, result.positions);
+    });
     return result;
-  const Power power(mesh.degree(), mesh.idealization(), p, result.scale);
-  state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
-    const auto &assembler = *solver.assemblers()[s];
-    result.power += power.value(assembler.cell_field(i, state.positions), assembler.material(i),
-                                assembler.cell_values(i, state.u[s].column(0)));
-  });
-  result.power = dealii::Utilities::MPI::sum(result.power, comm);
-  return result;
-}
+  }
 
-template <int dim>
-double VonMisesNorm<dim>::value(const state::StateSolver<dim>  &solver,
-                                const state::ContactState<dim> &state) const
-{
-  const auto of = integrals(solver, state);
-  // Divided by the volume, J is the stress itself where it is even.
-  return of.scale * std::pow(of.power / of.volume, 1. / p);
-}
+private:
+  /// S = int (sigma_vM / scale)^p dV with the largest stress as the scale,
+  /// and the volume; scale 0: no stress.
+  struct Integrals
+  {
+    double scale = 0., power = 0., volume = 0.;
+  };
 
-template <int dim>
-Partials<dim> VonMisesNorm<dim>::partials(const state::StateSolver<dim>  &solver,
-                                          const state::ContactState<dim> &state) const
-{
-  const auto    of = integrals(solver, state);
-  Partials<dim> result;
-  result.positions.resize(solver.mesh().n_local_nodes());
-  for (const auto &assembler : solver.assemblers())
-    result.u.emplace_back(assembler->n_dofs());
-  if (of.scale == 0.)
+  Integrals integrals(const state::StateSolver<dim>  &solver,
+                      const state::ContactState<dim> &state) const
+  {
+    using Power         = elasticity::VonMisesPower<dim>;
+    const auto    &mesh = solver.mesh();
+    const MPI_Comm comm = solver.context().communicator();
+    Integrals      result;
+    // First the scale: without it, large exponents overflow or underflow.
+    const Power stress(mesh.degree(), mesh.idealization(), p, 1.);
+    state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+      const auto &assembler = *solver.assemblers()[s];
+      const auto  X         = assembler.cell_field(i, state.positions);
+      result.volume += assembler.element().volume(X);
+      result.scale =
+        std::max(result.scale, stress.largest(X, assembler.material(i),
+                                              assembler.cell_values(i, state.u[s].column(0))));
+    });
+    result.scale  = dealii::Utilities::MPI::max(result.scale, comm);
+    result.volume = dealii::Utilities::MPI::sum(result.volume, comm);
+    // On all ranks, since the scale is the largest of all.
+    if (result.scale == 0.)
+      return result;
+    const Power power(mesh.degree(), mesh.idealization(), p, result.scale);
+    state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
+      const auto &assembler = *solver.assemblers()[s];
+      result.power += power.value(assembler.cell_field(i, state.positions), assembler.material(i),
+                                  assembler.cell_values(i, state.u[s].column(0)));
+    });
+    result.power = dealii::Utilities::MPI::sum(result.power, comm);
     return result;
-  // dJ = J/p (dS/S - dV/V). The scale in S is a constant: it cancels in J.
-  const double                         J = of.scale * std::pow(of.power / of.volume, 1. / p);
-  const elasticity::VonMisesPower<dim> power(solver.mesh().degree(), solver.mesh().idealization(),
-                                             p, of.scale);
-  state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
-    const auto                         &assembler = *solver.assemblers()[s];
-    const auto                          X         = assembler.cell_field(i, state.positions);
-    std::vector<dealii::Tensor<1, dim>> by_u(X.size()), by_X(X.size());
-    power.add_gradients(X, assembler.material(i), assembler.cell_values(i, state.u[s].column(0)),
-                        J / (p * of.power), by_u, by_X);
-    assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
-    // dJ/du belongs to the unknowns of the subdomain, where masters act for hanging nodes; dJ/dX to
-    // the nodes of the mesh, hanging ones included.
-    assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
-    state::add_to_cell_nodes(solver, s, i, by_X, result.positions);
-  });
-  return result;
+  }
+
+  const std::string body; ///< empty: all
+  const double      p;
+};
+} // namespace
+
+template <int dim>
+std::unique_ptr<Response<dim>> von_mises_norm(const ResponseParameters &parameters)
+{
+  return std::make_unique<VonMisesNorm<dim>>(parameters);
 }
 
-template class VonMisesNorm<2>;
-template class VonMisesNorm<3>;
+template std::unique_ptr<Response<2>> von_mises_norm(const ResponseParameters &);
+template std::unique_ptr<Response<3>> von_mises_norm(const ResponseParameters &);
 } // namespace snug::response

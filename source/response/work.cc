@@ -1,50 +1,63 @@
-#include <snug/response/work.h>
+#include <snug/response/quantities.h>
 #include <snug/state/cell_gradients.h>
 
 namespace snug::response {
+namespace {
 template <int dim>
-Work<dim>::Work(double State::*value, double stiffness, double load)
-  : member(value), stiffness(stiffness), load(load)
-{}
-
-/// 1/2 u'Ku - f'u: dJ/du = Ku - f = -B'lambda.
-template <int dim>
-bool Work<dim>::stationary() const
+class Work : public Response<dim>
 {
-  return stiffness == 1. && load == -1.;
+public:
+  using State = state::ContactState<dim>;
+
+  Work(double State::*value, double stiffness, double load)
+    : member(value), stiffness(stiffness), load(load)
+  {}
+
+  /// 1/2 u'Ku - f'u: dJ/du = Ku - f = -B'lambda.
+  bool stationary() const override { return stiffness == 1. && load == -1.; }
+
+  double value(const state::StateSolver<dim> &, const State &state) const override
+  {
+    // As described by the state: the energy is the dual value, more exact than one made from u.
+    return state.*member;
+  }
+
+  /// K is that of the geometry set last, which has to be the state's.
+  Partials<dim> partials(const state::StateSolver<dim> &solver, const State &state) const override
+  {
+    Partials<dim> result;
+    result.positions.resize(solver.mesh().n_local_nodes());
+    // Assembled again, as the solver holds the loads of the case solved last.
+    const auto f = solver.loads(state.positions, state.load_case);
+    for (unsigned int s = 0; s < state.u.size(); ++s)
+      {
+        result.u.emplace_back(state.u[s].n_rows());
+        result.u.back().add(load, f[s]);
+        if (stiffness != 0.)
+          solver.feti().subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
+      }
+    if (stiffness != 0.)
+      // d/dX (u'Ku) at fixed u; w = u here
+      state::add_stiffness_gradient(solver, state, state.u, stiffness / 2., result.positions);
+    if (load != 0.)
+      // dead loads: f depends on X, not on u
+      state::add_load_gradient(solver, state, state.u, load, result.positions);
+    return result;
+  }
+
+private:
+  double State::*member;
+  double         stiffness, load;
+};
+} // namespace
+
+template <int dim>
+std::unique_ptr<Response<dim>>
+work(double state::ContactState<dim>::*value, double stiffness, double load)
+{
+  return std::make_unique<Work<dim>>(value, stiffness, load);
 }
 
-template <int dim>
-double Work<dim>::value(const state::StateSolver<dim> &, const State &state) const
-{
-  // As described by the state: the energy is the dual value, more exact than one made from u.
-  return state.*member;
-}
-
-/// K is that of the geometry set last, which has to be the state's.
-template <int dim>
-Partials<dim> Work<dim>::partials(const state::StateSolver<dim> &solver, const State &state) const
-{
-  Partials<dim> result;
-  result.positions.resize(solver.mesh().n_local_nodes());
-  // Assembled again, as the solver holds the loads of the case solved last.
-  const auto f = solver.loads(state.positions, state.load_case);
-  for (unsigned int s = 0; s < state.u.size(); ++s)
-    {
-      result.u.emplace_back(state.u[s].n_rows());
-      result.u.back().add(load, f[s]);
-      if (stiffness != 0.)
-        solver.feti().subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
-    }
-  if (stiffness != 0.)
-    // d/dX (u'Ku) at fixed u; w = u here
-    state::add_stiffness_gradient(solver, state, state.u, stiffness / 2., result.positions);
-  if (load != 0.)
-    // dead loads: f depends on X, not on u
-    state::add_load_gradient(solver, state, state.u, load, result.positions);
-  return result;
-}
-
-template class Work<2>;
-template class Work<3>;
+template std::unique_ptr<Response<2>> work(double state::ContactState<2>::*, double, double);
+template std::unique_ptr<Response<3>> work(double state::ContactState<3>::*, double, double);
 } // namespace snug::response

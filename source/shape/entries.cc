@@ -1,6 +1,7 @@
 #include <snug/base/errors.h>
 #include <snug/shape/entries.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace snug::shape {
@@ -54,6 +55,44 @@ void require_bounds(const ShapeParameters &parameters)
                       to_text(move) + " must lie within the bounds " + to_text(bounds));
 }
 
+template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>> box_of(const ShapeParameters &parameters)
+{
+  const auto read = [&](const std::string &entry, const std::vector<double> &numbers,
+                        const bool positive) {
+    dealii::Tensor<1, dim> result;
+    bool                   good = numbers.size() == dim;
+    for (unsigned int d = 0; d < dim && good; ++d)
+      {
+        result[d] = numbers[d];
+        good      = std::isfinite(numbers[d]) && (!positive || numbers[d] > 0.);
+      }
+    if (!good)
+      throw bad_entry(parameters.path(entry), to_text(numbers),
+                      "must be " + std::to_string(dim) + (positive ? " numbers > 0" : " numbers"));
+    return result;
+  };
+  return {read("Box corner", parameters.box_corner, false),
+          read("Box size", parameters.box_size, true)};
+}
+
+/// The error lists the bodies there are.
+std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &parameters)
+{
+  std::vector<bool> result(bodies.names.size(), parameters.bodies.empty());
+  for (const auto &name : parameters.bodies)
+    {
+      const auto found = std::find(bodies.names.begin(), bodies.names.end(), name);
+      if (found == bodies.names.end())
+        throw bad_entry(parameters.path("Bodies"), to_text(parameters.bodies),
+                        "there is no body '" + name + "', there are " + to_text(bodies.names));
+      result[found - bodies.names.begin()] = true;
+    }
+  return result;
+}
+
+template std::pair<dealii::Tensor<1, 2>, dealii::Tensor<1, 2>> box_of<2>(const ShapeParameters &);
+template std::pair<dealii::Tensor<1, 3>, dealii::Tensor<1, 3>> box_of<3>(const ShapeParameters &);
 template dealii::Tensor<1, 2> unit_direction(const ShapeParameters &);
 template dealii::Tensor<1, 3> unit_direction(const ShapeParameters &);
 } // namespace snug::shape

@@ -1,6 +1,4 @@
 #include <snug/shape/interior.h>
-#include <snug/shape/linear_blending.h>
-#include <snug/shape/solved_interior.h>
 
 namespace snug::shape {
 template <int dim>
@@ -12,17 +10,14 @@ const ChoiceTable<MakeInterior<dim>> &interior_table()
     {"linear blending",
      "in boxes, a share of the face's move that falls linearly to zero at "
      "the opposite face",
-     [](const auto &face, const auto &parameters) {
-       return std::make_unique<LinearBlending<dim>>(face, parameters);
-     }},
+     linear_blending<dim>},
     {"Laplace", "each component of the move is harmonic",
      [](const auto &face, const auto &parameters) {
-       return std::make_unique<SolvedInterior<dim>>(face, parameters.reach, InteriorKind::Laplace);
+       return solved_interior(face, parameters, InteriorKind::Laplace);
      }},
     {"elasticity", "the body is elastic, the stiffer the smaller its cells",
      [](const auto &face, const auto &parameters) {
-       return std::make_unique<SolvedInterior<dim>>(face, parameters.reach,
-                                                    InteriorKind::elasticity);
+       return solved_interior(face, parameters, InteriorKind::elasticity);
      }}};
   return table;
 }

@@ -1,7 +1,7 @@
 #include <snug/faces/face_shape.h>
-#include <snug/shape/linear_blending.h>
+#include <snug/shape/interior.h>
 
-#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -130,10 +130,9 @@ private:
         result[t] = (at[t] - box.lower[t]) / (box.upper[t] - box.lower[t]);
       return result;
     };
-    typename faces::FaceShape<dim>::Values values;
     // By the shape functions of the elements, so that nodes on the face follow it exactly and the
     // interior bends as the face does between its nodes.
-    shape.evaluate(xi(place), values);
+    const auto                                   values = shape.at(xi(place));
     std::vector<std::pair<unsigned int, double>> result;
     // The faces' own coordinates may be turned against the box's.
     for (const unsigned int node : nodes)
@@ -177,62 +176,74 @@ blend_factor(const ShapedFace<dim> &face, const dealii::Point<dim> &logical, con
     return 1. - depth;
   return std::max(0., 1. - depth * height / reach);
 }
+template <int dim>
+class LinearBlending : public Interior<dim>
+{
+public:
+  using Field     = typename Interior<dim>::Field;
+  using FaceField = typename Interior<dim>::FaceField;
+
+  LinearBlending(const ShapedFace<dim> &face, const double reach) : face(face)
+  {
+    const auto &mesh = face.mesh();
+    // Boxes are axis-parallel in logical coordinates, also where they are curved, turned or graded:
+    // the point below or above a node has the same tangential coordinates.
+    const LogicalFaces<dim> faces(face);
+    for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+      {
+        if (mesh.body_of_node(node) != face.body() || mesh.is_hanging(node))
+          continue;
+        const auto  &logical = mesh.logical_positions()[node];
+        const double b       = blend_factor(face, logical, reach);
+        // beyond the reach: the node stays
+        if (b == 0.)
+          continue;
+        rows.push_back({node, faces.weights(faces.tangential(logical))});
+        for (auto &weight : rows.back().weights)
+          weight.second *= b;
+      }
+  }
+
+  Field extend(const FaceField &moves) const override
+  {
+    Field result(face.mesh().n_local_nodes());
+    for (const NodeWeights &row : rows)
+      for (const auto &weight : row.weights)
+        result[row.node] += weight.second * moves[weight.first];
+    return result;
+  }
+
+  FaceField transpose(const Field &gradient) const override
+  {
+    FaceField result(face.surface().n_nodes());
+    for (const NodeWeights &row : rows)
+      for (const auto &weight : row.weights)
+        result[weight.first] += weight.second * gradient[row.node];
+    return result;
+  }
+
+private:
+  /// b times the weights of the face's nodes at one node of the body.
+  struct NodeWeights
+  {
+    unsigned int                                 node; ///< local
+    std::vector<std::pair<unsigned int, double>> weights;
+  };
+
+  const ShapedFace<dim>   &face;
+  std::vector<NodeWeights> rows;
+};
 } // namespace
 
 template <int dim>
-LinearBlending<dim>::LinearBlending(const ShapedFace<dim> &face, const ShapeParameters &parameters)
-  : face(face)
+std::unique_ptr<Interior<dim>> linear_blending(const ShapedFace<dim> &face,
+                                               const ShapeParameters &parameters)
 {
-  const auto &mesh = face.mesh();
-  // Boxes are axis-parallel in logical coordinates, also where they are curved, turned or graded:
-  // the point below or above a node has the same tangential coordinates.
-  const LogicalFaces<dim> faces(face);
-  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-    {
-      // Hanging nodes are interpolated in the end.
-      if (mesh.body_of_node(node) != face.body() || mesh.is_hanging(node))
-        continue;
-      const auto  &logical = mesh.logical_positions()[node];
-      const double b       = blend_factor(face, logical, parameters.reach);
-      // beyond the reach: the node stays
-      if (b == 0.)
-        continue;
-      rows.push_back({node, faces.weights(faces.tangential(logical))});
-      for (auto &weight : rows.back().weights)
-        weight.second *= b;
-    }
+  return std::make_unique<LinearBlending<dim>>(face, parameters.reach);
 }
 
-template <int dim>
-typename LinearBlending<dim>::Field LinearBlending<dim>::extend(const FaceField &moves) const
-{
-  Field result(face.mesh().n_local_nodes());
-  for (const NodeWeights &row : rows)
-    for (const auto &weight : row.weights)
-      result[row.node] += weight.second * moves[weight.first];
-  // The formula need not be linear between the masters of a hanging node, which has to follow them.
-  face.mesh().interpolate_hanging(result);
-  return result;
-}
-
-template <int dim>
-typename LinearBlending<dim>::FaceField LinearBlending<dim>::transpose(const Field &gradient) const
-{
-  Field free = gradient;
-  face.mesh().distribute_hanging(free);
-  // All ranks know the face, each has a part of the interior: what its nodes pass on is summed.
-  std::vector<double> sums(dim * face.surface().n_nodes(), 0.);
-  for (const NodeWeights &row : rows)
-    for (const auto &weight : row.weights)
-      for (unsigned int c = 0; c < dim; ++c)
-        sums[dim * weight.first + c] += weight.second * free[row.node][c];
-  dealii::Utilities::MPI::sum(sums, face.mesh().communicator(), sums);
-  FaceField result(face.surface().n_nodes());
-  for (unsigned int i = 0; i < sums.size(); ++i)
-    result[i / dim][i % dim] = sums[i];
-  return result;
-}
-
-template class LinearBlending<2>;
-template class LinearBlending<3>;
+template std::unique_ptr<Interior<2>> linear_blending(const ShapedFace<2> &,
+                                                      const ShapeParameters &);
+template std::unique_ptr<Interior<3>> linear_blending(const ShapedFace<3> &,
+                                                      const ShapeParameters &);
 } // namespace snug::shape

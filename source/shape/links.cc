@@ -207,11 +207,6 @@ Links::Links(const std::vector<Control<dim>> &controls, const ShapeParameters &p
                     "left to move");
 }
 
-unsigned int Links::n_variables() const
-{
-  return size;
-}
-
 /// Fixed controls have the sign 0, and an index that means nothing.
 std::vector<double> Links::expand(const std::vector<double> &alpha) const
 {

@@ -147,18 +147,6 @@ void NodeRoles<dim>::hold_or_slide()
     }
 }
 
-template <int dim>
-unsigned int NodeRoles<dim>::driver(const unsigned int node) const
-{
-  return drivers[node];
-}
-
-template <int dim>
-const dealii::Tensor<2, dim> &NodeRoles<dim>::freedom(const unsigned int node) const
-{
-  return projectors[node];
-}
-
 template class NodeRoles<2>;
 template class NodeRoles<3>;
 } // namespace snug::shape

@@ -1,43 +1,30 @@
 #include <snug/base/errors.h>
+#include <snug/shape/entries.h>
 #include <snug/shape/links.h>
+#include <snug/shape/make_modes.h>
 #include <snug/shape/near_points.h>
-#include <snug/shape/node_wise.h>
-#include <snug/shape/spline_patch.h>
 
 #include <cmath>
 
 namespace snug::shape {
-template <int dim>
-NodeWise<dim>::NodeWise(const ShapedFace<dim> &face, const ShapeParameters &parameters)
-  : face(face), directions(face_directions(face, parameters))
-{
-  const double radius = parameters.filter_radius;
-  // A radius below the distance of the nodes leaves each node its own weight: no filter.
-  if (!(radius > 0.) || !std::isfinite(radius))
-    throw bad_entry(parameters.path("Filter radius"), std::to_string(radius),
-                    "must be positive for a node-wise shape");
-  for (unsigned int node = 0; node < face.surface().n_nodes(); ++node)
-    // Hanging nodes follow their masters and have no variable.
-    if (!face.is_hanging(node))
-      nodes.push_back(node);
-  set_weights(radius);
-  lead_to_fixed(parameters);
-}
+namespace {
+/// Variables of one node and their factors.
+using Weights = std::vector<std::pair<unsigned int, double>>;
 
+/// w_ij / sum_j w_ij
 template <int dim>
-void NodeWise<dim>::set_weights(const double radius)
+std::vector<Weights> filter_weights(const std::vector<dealii::Tensor<1, dim>> &places,
+                                    const std::vector<double>                 &areas,
+                                    const double                               radius)
 {
-  FaceField places;
-  for (const unsigned int node : nodes)
-    places.push_back(face.positions()[node]);
   const NearPoints<dim> near(places);
-  rows.resize(nodes.size());
-  for (unsigned int i = 0; i < nodes.size(); ++i)
+  std::vector<Weights>  rows(places.size());
+  for (unsigned int i = 0; i < places.size(); ++i)
     {
       double sum = 0.;
       near.for_each(places[i], radius, [&](unsigned int j, double r) {
         // By area: a finer mesh has more nodes in the radius, not a stronger pull.
-        const double weight = face.areas()[nodes[j]] * (1. - r / radius);
+        const double weight = areas[j] * (1. - r / radius);
         rows[i].emplace_back(j, weight);
         sum += weight;
       });
@@ -45,75 +32,67 @@ void NodeWise<dim>::set_weights(const double radius)
         // Equal alpha give equal heights: the filter keeps constants.
         weight.second /= sum;
     }
+  return rows;
 }
 
-/// Without c_i the filter would move a fixed node by its neighbours, or, if only its own row was
-/// zero, leave a step of one cell beside it.
+/// Rows times c_i. Without c_i the filter would move a fixed node by its neighbours, or, if only
+/// its own row was zero, leave a step of one cell beside it.
 template <int dim>
-void NodeWise<dim>::lead_to_fixed(const ShapeParameters &parameters)
+void lead_to_fixed(const std::vector<dealii::Tensor<1, dim>> &places,
+                   const std::vector<bool>                   &fixed,
+                   const double                               radius,
+                   std::vector<Weights>                      &rows)
 {
-  const auto fixed = fixed_points(controls(), parameters);
-  FaceField  places;
-  for (unsigned int i = 0; i < nodes.size(); ++i)
+  std::vector<dealii::Tensor<1, dim>> fixed_places;
+  for (unsigned int i = 0; i < places.size(); ++i)
     if (fixed[i])
-      places.push_back(face.positions()[nodes[i]]);
-  const NearPoints<dim> near(places);
-  // Without fixed nodes near.distance() gives the radius, and the factor is 1.
-  const double radius = parameters.filter_radius;
-  for (unsigned int i = 0; i < nodes.size(); ++i)
+      fixed_places.push_back(places[i]);
+  const NearPoints<dim> near(fixed_places);
+  for (unsigned int i = 0; i < places.size(); ++i)
     {
-      const double factor = near.distance(face.positions()[nodes[i]], radius) / radius;
+      // Without fixed nodes near.distance() gives the radius, and the factor is 1.
+      const double factor = near.distance(places[i], radius) / radius;
       for (auto &weight : rows[i])
         weight.second *= factor;
     }
 }
+} // namespace
 
 template <int dim>
-unsigned int NodeWise<dim>::n_variables() const
+Modes<dim> node_wise(const ShapedFace<dim> &face, const ShapeParameters &parameters)
 {
-  return nodes.size();
-}
-
-template <int dim>
-typename NodeWise<dim>::FaceField NodeWise<dim>::apply(const std::vector<double> &alpha) const
-{
-  AssertDimension(alpha.size(), n_variables());
-  FaceField moves(face.surface().n_nodes());
+  const double radius = parameters.filter_radius;
+  const auto   d      = face_directions(face, parameters);
+  // A radius below the distance of the nodes leaves each node its own weight: no filter.
+  if (!(radius > 0.) || !std::isfinite(radius))
+    throw bad_entry(parameters.path("Filter radius"), std::to_string(radius),
+                    "must be positive for a node-wise shape");
+  Modes<dim>                          modes;
+  std::vector<unsigned int>           nodes; // of the variables
+  std::vector<dealii::Tensor<1, dim>> places;
+  std::vector<double>                 areas;
+  for (unsigned int node = 0; node < face.surface().n_nodes(); ++node)
+    // Hanging nodes follow their masters and have no variable.
+    if (!face.is_hanging(node))
+      {
+        const auto &place = face.positions()[node];
+        modes.controls.push_back(
+          {modes.n_variables++, dealii::Point<dim>(place), d[node], face.border()[node], false});
+        nodes.push_back(node);
+        places.push_back(place);
+        areas.push_back(face.areas()[node]);
+      }
+  auto weights = filter_weights(places, areas, radius);
+  lead_to_fixed(places, fixed_points(modes.controls, parameters), radius, weights);
+  modes.n_nodes = face.surface().n_nodes();
+  std::vector<typename Modes<dim>::Row> rows(modes.n_nodes);
   for (unsigned int i = 0; i < nodes.size(); ++i)
-    {
-      double height = 0.;
-      for (const auto &weight : rows[i])
-        height += weight.second * alpha[weight.first];
-      moves[nodes[i]] = height * directions[nodes[i]];
-    }
-  return moves;
+    for (const auto &weight : weights[i])
+      rows[nodes[i]].emplace_back(weight.first, weight.second * d[nodes[i]]);
+  modes.row = [rows = std::move(rows)](unsigned int node) { return rows[node]; };
+  return modes;
 }
 
-/// The weights are not symmetric, w_ij / sum_j w_ij: the transpose is no filter of the gradient.
-template <int dim>
-std::vector<double> NodeWise<dim>::transpose(const FaceField &gradient) const
-{
-  std::vector<double> result(n_variables(), 0.);
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    {
-      const double along = gradient[nodes[i]] * directions[nodes[i]];
-      for (const auto &weight : rows[i])
-        result[weight.first] += weight.second * along;
-    }
-  return result;
-}
-
-/// A control point is a node; its variable moves the neighbours as well.
-template <int dim>
-std::vector<Control<dim>> NodeWise<dim>::controls() const
-{
-  std::vector<Control<dim>> result;
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    result.push_back({i, dealii::Point<dim>(face.positions()[nodes[i]]), directions[nodes[i]],
-                      face.border()[nodes[i]], false});
-  return result;
-}
-
-template class NodeWise<2>;
-template class NodeWise<3>;
+template Modes<2> node_wise(const ShapedFace<2> &, const ShapeParameters &);
+template Modes<3> node_wise(const ShapedFace<3> &, const ShapeParameters &);
 } // namespace snug::shape

@@ -1,68 +1,170 @@
-#include <snug/base/errors.h>
-#include <snug/shape/face_basis.h>
 #include <snug/shape/formula_modes.h>
-#include <snug/shape/node_wise.h>
-#include <snug/shape/spline_box.h>
-#include <snug/shape/spline_patch.h>
+#include <snug/shape/make_modes.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/utility.hpp>
+
+#include <set>
 
 namespace snug::shape {
 namespace {
-/// The basis of scenes whose shape is fixed.
+/// (body, boundary) of boundary faces with one of the local nodes marked,
+/// of all ranks, ascending. Collective.
 template <int dim>
-class NoBasis : public Shape<dim>
+std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const mesh::BodyMesh<dim> &mesh,
+                                                                 const std::vector<bool> &is_marked)
 {
-public:
-  using Field = typename ShapeBasis<dim>::Field;
+  using Boundary = std::pair<unsigned int, unsigned int>;
+  std::set<Boundary> found;
+  for (const auto &face : mesh.boundary_faces())
+    for (const unsigned int node : face.nodes)
+      if (is_marked[node])
+        found.insert({face.body, face.boundary});
+  const std::vector<Boundary> mine(found.begin(), found.end());
+  // A set: ascending, each boundary once, the same on all ranks.
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(mesh.communicator(), mine))
+    found.insert(of_rank.begin(), of_rank.end());
+  return {found.begin(), found.end()};
+}
 
-  explicit NoBasis(const mesh::BodyMesh<dim> &mesh) : mesh(mesh) {}
-
-  unsigned int n_variables() const override { return 0; }
-
-  Field apply(const std::vector<double> &) const override { return Field(mesh.n_local_nodes()); }
-
-  std::vector<double> transpose(const Field &) const override { return {}; }
-
-  std::vector<Control<dim>> controls() const override { return {}; }
-
-  std::vector<std::pair<unsigned int, unsigned int>> faces() const override { return {}; }
-
-private:
-  const mesh::BodyMesh<dim> &mesh;
-};
-
-/// The basis of modes of the entry Face, made from @p arguments.
-template <int dim, template <int> class Modes, typename... Arguments>
+/// The basis of modes of the entry Face, @p make(face).
+template <int dim, typename Make>
 std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
                                     const BodyNames           &bodies,
                                     const ShapeParameters     &parameters,
-                                    const Arguments &...arguments)
+                                    const Make                &make)
 {
   auto face = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
   // Modes and interior refer to the face, which keeps its place when the pointer moves.
-  auto modes    = std::make_unique<Modes<dim>>(*face, parameters, arguments...);
+  auto modes    = make(*face);
   auto interior = choose(interior_table<dim>(), parameters.interior).make(*face, parameters);
-  return std::make_unique<FaceBasis<dim>>(std::move(face), std::move(modes), std::move(interior));
+  return std::make_unique<Shape<dim>>(std::move(face), std::move(modes), std::move(interior));
 }
 
 /// Fields of whole bodies move the interior by themselves; on a face it has to follow.
 template <int dim>
-std::unique_ptr<Shape<dim>> formula_modes(const mesh::BodyMesh<dim> &mesh,
-                                          const BodyNames           &bodies,
-                                          const ShapeParameters     &parameters)
+std::unique_ptr<Shape<dim>> of_formulas(const mesh::BodyMesh<dim> &mesh,
+                                        const BodyNames           &bodies,
+                                        const ShapeParameters     &parameters)
 {
   if (parameters.face.empty())
-    return std::make_unique<FormulaBodies<dim>>(mesh, bodies, parameters);
-  return on_face<dim, FormulaFace>(mesh, bodies, parameters);
+    return std::make_unique<Shape<dim>>(mesh, formula_modes(mesh, bodies, parameters));
+  return on_face(mesh, bodies, parameters,
+                 [&](const auto &face) { return formula_modes(face, parameters); });
+}
+
+template <int dim>
+std::unique_ptr<Shape<dim>> patch(const mesh::BodyMesh<dim> &mesh,
+                                  const BodyNames           &bodies,
+                                  const ShapeParameters     &parameters,
+                                  const unsigned int         degree)
+{
+  return on_face(mesh, bodies, parameters,
+                 [&](const auto &face) { return spline_patch(face, parameters, degree); });
 }
 } // namespace
 
-/// The velocity dX/dalpha_i, the same at every design since V is constant.
+template <int dim>
+typename Modes<dim>::Field Modes<dim>::apply(const std::vector<double> &alpha) const
+{
+  AssertDimension(alpha.size(), n_variables);
+  Field moves(n_nodes);
+  for (unsigned int node = 0; node < n_nodes; ++node)
+    for (const auto &entry : row(node))
+      moves[node] += alpha[entry.first] * entry.second;
+  return moves;
+}
+
+template <int dim>
+std::vector<double> Modes<dim>::transpose(const Field &gradient) const
+{
+  AssertDimension(gradient.size(), n_nodes);
+  std::vector<double> result(n_variables, 0.);
+  for (unsigned int node = 0; node < n_nodes; ++node)
+    for (const auto &entry : row(node))
+      result[entry.first] += entry.second * gradient[node];
+  return result;
+}
+
 template <int dim>
 typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(unsigned int i) const
 {
-  std::vector<double> alpha(n_variables(), 0.);
-  alpha[i] = 1.;
-  return apply(alpha);
+  // V is constant, and an interior costs a solve. Most columns move few nodes: only those are kept.
+  if (kept.count(i) == 0)
+    {
+      std::vector<double> alpha(n_variables(), 0.);
+      alpha[i]         = 1.;
+      const auto moves = apply(alpha);
+      auto      &of_i  = kept[i];
+      for (unsigned int node = 0; node < moves.size(); ++node)
+        if (moves[node].norm_square() > 0.)
+          of_i.emplace_back(node, moves[node]);
+      n_nodes = moves.size();
+    }
+  Field result(n_nodes);
+  for (const auto &entry : kept[i])
+    result[entry.first] = entry.second;
+  return result;
+}
+
+template <int dim>
+Shape<dim>::Shape(const mesh::BodyMesh<dim> &mesh, Modes<dim> modes)
+  : mesh(mesh), modes(std::move(modes))
+{}
+
+template <int dim>
+Shape<dim>::Shape(std::unique_ptr<ShapedFace<dim>> face,
+                  Modes<dim>                       modes,
+                  std::unique_ptr<Interior<dim>>   interior)
+  : mesh(face->mesh())
+  , face(std::move(face))
+  , modes(std::move(modes))
+  , interior(std::move(interior))
+{}
+
+/// Modes are free to move hanging nodes anywhere; C puts them back on the lines or faces of their
+/// masters, and H those of the mesh, or it would tear open there.
+template <int dim>
+typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) const
+{
+  Field moves = modes.apply(alpha);
+  if (face)
+    {
+      face->interpolate_hanging(moves);
+      moves = interior->extend(moves);
+    }
+  mesh.interpolate_hanging(moves);
+  return moves;
+}
+
+/// V' = M'C'E'H': the transposes in reverse order.
+template <int dim>
+std::vector<double> Shape<dim>::transpose(const Field &gradient) const
+{
+  Field at_nodes = gradient;
+  mesh.distribute_hanging(at_nodes);
+  if (face)
+    {
+      at_nodes = interior->transpose(at_nodes);
+      face->distribute_hanging(at_nodes);
+    }
+  // All of V' is linear, so that ranks add their shares at the end, where there are few numbers.
+  auto result = modes.transpose(at_nodes);
+  dealii::Utilities::MPI::sum(result, mesh.communicator(), result);
+  return result;
+}
+
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>> Shape<dim>::faces() const
+{
+  if (face)
+    return {{face->body(), face->boundary()}};
+  // Nodes that no variable moves have no entries.
+  std::vector<bool> moves;
+  for (unsigned int node = 0; node < modes.n_nodes; ++node)
+    moves.push_back(!modes.row(node).empty());
+  return boundaries_of(mesh, moves);
 }
 
 template <int dim>
@@ -73,52 +175,60 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
     names.insert(names.end(), more.begin(), more.end());
     return names;
   };
-  const Names face  = {"Face", "Interior", "Reach", "Direction", "Symmetry", "Fixed"};
-  const Names patch = with(face, {"Control points"});
-  const Names box   = {"Bodies",    "Box corner", "Box size", "Control points",
-                       "Direction", "Symmetry",   "Fixed"};
+  const Names face_entries  = {"Face", "Interior", "Reach", "Direction", "Symmetry", "Fixed"};
+  const Names patch_entries = with(face_entries, {"Control points"});
+  const Names box_entries   = {"Bodies",    "Box corner", "Box size", "Control points",
+                               "Direction", "Symmetry",   "Fixed"};
   // Degree 0 of spline_net() stands for Bernstein polynomials.
   static const ChoiceTable<MakeShape<dim>> table = {
     {"none", "the shape is fixed",
      [](const auto &mesh, const auto &, const auto &) {
-       return std::make_unique<NoBasis<dim>>(mesh);
+       Modes<dim> none;
+       none.n_nodes = mesh.n_local_nodes();
+       return std::make_unique<Shape<dim>>(mesh, none);
      }},
     {"Bezier patch", "heights [length] of Bézier control points over a face",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
-       return on_face<dim, SplinePatch>(mesh, bodies, parameters, 0u);
+       return patch(mesh, bodies, parameters, 0u);
      },
-     patch},
+     patch_entries},
     {"B-spline patch", "heights [length] of B-spline control points over a face",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
-       return on_face<dim, SplinePatch>(mesh, bodies, parameters, parameters.degree);
+       return patch(mesh, bodies, parameters, parameters.degree);
      },
-     with(patch, {"Degree"})},
+     with(patch_entries, {"Degree"})},
     {"node-wise", "smoothed moves [length] of all nodes of a face",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
-       return on_face<dim, NodeWise>(mesh, bodies, parameters);
+       return on_face(mesh, bodies, parameters,
+                      [&](const auto &face) { return node_wise(face, parameters); });
      },
-     with(face, {"Filter radius"})},
+     with(face_entries, {"Filter radius"})},
     {"Bezier box",
      "moves [length] of Bézier control points of a free-form deformation "
      "box",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
-       return std::make_unique<SplineBox<dim>>(mesh, bodies, parameters, 0u);
+       return std::make_unique<Shape<dim>>(mesh, spline_box(mesh, bodies, parameters, 0u));
      },
-     box},
+     box_entries},
     {"B-spline box", "the same with B-splines",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
-       return std::make_unique<SplineBox<dim>>(mesh, bodies, parameters, parameters.degree);
+       return std::make_unique<Shape<dim>>(mesh,
+                                           spline_box(mesh, bodies, parameters, parameters.degree));
      },
-     with(box, {"Degree"})},
+     with(box_entries, {"Degree"})},
     {"formula modes",
      "amplitudes of vector fields on a face or on bodies",
-     formula_modes<dim>,
+     of_formulas<dim>,
      {"Modes", "Bodies", "Face", "Interior", "Reach"}}};
   return table;
 }
 
-template class ShapeBasis<2>;
-template class ShapeBasis<3>;
-template const ChoiceTable<MakeShape<2>> &shape_basis_table<2>();
-template const ChoiceTable<MakeShape<3>> &shape_basis_table<3>();
+#define SNUG_INSTANTIATE(dim)     \
+  template struct Modes<dim>;     \
+  template class ShapeBasis<dim>; \
+  template class Shape<dim>;      \
+  template const ChoiceTable<MakeShape<dim>> &shape_basis_table();
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::shape

@@ -3,7 +3,6 @@
 #include <snug/shape/formula_modes.h>
 #include <snug/shape/interior.h>
 #include <snug/shape/shape_basis.h>
-#include <snug/shape/spline_box.h>
 
 #include <algorithm>
 

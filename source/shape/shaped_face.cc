@@ -94,66 +94,6 @@ void ShapedFace<dim>::find_border()
   on_border.assign(marks.begin(), marks.end());
 }
 
-template <int dim>
-const mesh::BodyMesh<dim> &ShapedFace<dim>::mesh() const
-{
-  return body_mesh;
-}
-
-template <int dim>
-unsigned int ShapedFace<dim>::body() const
-{
-  return place.first;
-}
-
-template <int dim>
-unsigned int ShapedFace<dim>::boundary() const
-{
-  return place.second;
-}
-
-template <int dim>
-const mesh::Surface<dim> &ShapedFace<dim>::surface() const
-{
-  return nodes;
-}
-
-template <int dim>
-const typename ShapedFace<dim>::Field &ShapedFace<dim>::positions() const
-{
-  return reference;
-}
-
-template <int dim>
-const typename ShapedFace<dim>::Field &ShapedFace<dim>::normals() const
-{
-  return unit_normals;
-}
-
-template <int dim>
-const std::vector<double> &ShapedFace<dim>::areas() const
-{
-  return node_areas;
-}
-
-template <int dim>
-const std::vector<bool> &ShapedFace<dim>::border() const
-{
-  return on_border;
-}
-
-template <int dim>
-double ShapedFace<dim>::diameter() const
-{
-  return diagonal;
-}
-
-template <int dim>
-bool ShapedFace<dim>::is_hanging(const unsigned int surface_node) const
-{
-  return !nodes.masters(surface_node).empty();
-}
-
 /// On surface nodes, as BodyMesh does on local nodes. Masters of hanging nodes are surface nodes.
 template <int dim>
 void ShapedFace<dim>::interpolate_hanging(Field &field) const
@@ -180,8 +120,20 @@ void ShapedFace<dim>::distribute_hanging(Field &field) const
       }
 }
 
+/// Of unit length: variables are heights.
+template <int dim>
+typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
+                                                const ShapeParameters &parameters)
+{
+  if (parameters.direction.empty())
+    return face.normals();
+  return typename ShapedFace<dim>::Field(face.surface().n_nodes(), unit_direction<dim>(parameters));
+}
+
 #define SNUG_INSTANTIATE(dim)                                                                \
   template class ShapedFace<dim>;                                                            \
+  template typename ShapedFace<dim>::Field       face_directions(const ShapedFace<dim> &,    \
+                                                                 const ShapeParameters &);   \
   template std::pair<unsigned int, unsigned int> find_face<dim>(const mesh::BodyMesh<dim> &, \
                                                                 const BodyNames &,           \
                                                                 const ShapeParameters &);

@@ -63,12 +63,6 @@ void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigne
 }
 
 template <int dim>
-unsigned int Shapes<dim>::n_variables() const
-{
-  return lower.size();
-}
-
-template <int dim>
 std::vector<double> Shapes<dim>::expanded(const Part &part, const std::vector<double> &alpha)
 {
   const auto first = alpha.begin() + part.first;
@@ -113,24 +107,6 @@ std::vector<std::pair<unsigned int, unsigned int>> Shapes<dim>::faces() const
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
-}
-
-template <int dim>
-const std::vector<double> &Shapes<dim>::lower_bounds() const
-{
-  return lower;
-}
-
-template <int dim>
-const std::vector<double> &Shapes<dim>::upper_bounds() const
-{
-  return upper;
-}
-
-template <int dim>
-const std::vector<double> &Shapes<dim>::start() const
-{
-  return initial;
 }
 
 /// Places in the reference plus the moves by all variables of the point.

@@ -16,11 +16,6 @@ Spline::Spline(const unsigned int n, const unsigned int degree)
   knots.insert(knots.end(), degree + 1, 1.);
 }
 
-unsigned int Spline::n() const
-{
-  return size;
-}
-
 /// The recurrence of Cox and de Boor for all degree + 1 nonzero splines at once, in place:
 /// B_i^p = (s - t_i) / (t_(i+p) - t_i) B_i^(p-1)
 ///       + (t_(i+p+1) - s) / (t_(i+p+1) - t_(i+1)) B_(i+1)^(p-1).
@@ -65,11 +60,6 @@ SplineNet::SplineNet(const std::vector<unsigned int> &n, const unsigned int degr
   for (const unsigned int points : n)
     // One span, Bernstein polynomials; a single point has degree 0 and moves all alike.
     axes.emplace_back(points, degree == 0 ? points - 1 : degree);
-}
-
-unsigned int SplineNet::n_axes() const
-{
-  return axes.size();
 }
 
 unsigned int SplineNet::n_points() const

@@ -15,7 +15,7 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
   : mesh(mesh), subdomain(subdomain), model(model), the_element(element), face_load(face_load)
 {
   for (const unsigned int cell : subdomain.cells)
-    cell_reach.emplace_back(mesh, subdomain, mesh.cells()[cell].nodes);
+    cell_reach.emplace_back(mesh, mesh.cells()[cell].nodes, subdomain.nodes);
   std::vector<unsigned int> cells = subdomain.cells;
   std::sort(cells.begin(), cells.end());
   for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
@@ -29,7 +29,7 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
         {
           // Faces with a load in any load case are kept, so that one index serves for all of them.
           faces.push_back(f);
-          face_reach.emplace_back(mesh, subdomain, face.nodes);
+          face_reach.emplace_back(mesh, face.nodes, subdomain.nodes);
         }
     }
   build_pattern();
@@ -41,7 +41,7 @@ template <int dim>
 void Assembler<dim>::build_pattern()
 {
   node_neighbours.resize(subdomain.nodes.size());
-  for (const NodeReach<dim> &cell : cell_reach)
+  for (const mesh::NodeReach<dim> &cell : cell_reach)
     for (const unsigned int a : cell.slots())
       node_neighbours[a].insert(node_neighbours[a].end(), cell.slots().begin(), cell.slots().end());
   for (auto &neighbours : node_neighbours)
@@ -49,7 +49,7 @@ void Assembler<dim>::build_pattern()
       std::sort(neighbours.begin(), neighbours.end());
       neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     }
-  for (const NodeReach<dim> &cell : cell_reach)
+  for (const mesh::NodeReach<dim> &cell : cell_reach)
     {
       // Looked up once: K is assembled for each design with the same pattern.
       places.emplace_back();
@@ -62,12 +62,6 @@ void Assembler<dim>::build_pattern()
 }
 
 /// Hanging nodes have none: Subdomain::nodes holds their masters instead.
-template <int dim>
-unsigned int Assembler<dim>::n_dofs() const
-{
-  return dim * subdomain.nodes.size();
-}
-
 template <int dim>
 feti::CsrMatrix Assembler<dim>::sparsity() const
 {
@@ -92,7 +86,7 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
   std::vector<double> cell_matrix;
   for (unsigned int i = 0; i < cell_reach.size(); ++i)
     {
-      const NodeReach<dim> &cell = cell_reach[i];
+      const mesh::NodeReach<dim> &cell = cell_reach[i];
       the_element.stiffness(cell_field(i, positions), material(i), cell_matrix);
       const unsigned int m = cell.slots().size();
       // Also adapts the size: m slots may be more than the nodes of the cell.
@@ -194,18 +188,6 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
 }
 
 template <int dim>
-const std::vector<unsigned int> &Assembler<dim>::cells() const
-{
-  return subdomain.cells;
-}
-
-template <int dim>
-const std::vector<unsigned int> &Assembler<dim>::loaded_faces() const
-{
-  return faces;
-}
-
-template <int dim>
 typename Assembler<dim>::Nodes Assembler<dim>::cell_field(unsigned int i, const Field &field) const
 {
   Nodes result;
@@ -224,33 +206,15 @@ typename Assembler<dim>::Nodes Assembler<dim>::face_field(unsigned int i, const 
 }
 
 template <int dim>
-typename Assembler<dim>::Nodes Assembler<dim>::cell_values(unsigned int i, const double *u) const
-{
-  return cell_reach[i].values(u);
-}
-
-template <int dim>
 void Assembler<dim>::add_cell_vector(unsigned int i, double factor, const Nodes &r, double *u) const
 {
   cell_reach[i].add(factor, r, u);
 }
 
 template <int dim>
-typename Assembler<dim>::Nodes Assembler<dim>::face_values(unsigned int i, const double *u) const
-{
-  return face_reach[i].values(u);
-}
-
-template <int dim>
 void Assembler<dim>::add_face_vector(unsigned int i, double factor, const Nodes &r, double *u) const
 {
   face_reach[i].add(factor, r, u);
-}
-
-template <int dim>
-const BodyLoads<dim> &Assembler<dim>::loads(unsigned int load_case) const
-{
-  return model.load_cases[load_case].bodies[subdomain.body];
 }
 
 template <int dim>
@@ -337,12 +301,6 @@ template <int dim>
 const elasticity::Material &Assembler<dim>::material(unsigned int i) const
 {
   return model.bodies[subdomain.body].material(mesh.cells()[subdomain.cells[i]]);
-}
-
-template <int dim>
-const elasticity::Element<dim> &Assembler<dim>::element() const
-{
-  return the_element;
 }
 
 template class Assembler<2>;

@@ -31,12 +31,6 @@ Orthonormalised<dim>::Orthonormalised(const HeldFrame<dim> &given)
     }
 }
 
-template <int dim>
-const HeldFrame<dim> &Orthonormalised<dim>::frame() const
-{
-  return orthonormal;
-}
-
 // The diagonal of L is the sine of the angle between a direction and those before it.
 template <int dim>
 double Orthonormalised<dim>::independence() const

@@ -218,12 +218,6 @@ HeldFrame<dim> HeldNodes<dim>::given_frame(const Node &node, const Normals &n) c
 }
 
 template <int dim>
-unsigned int HeldNodes<dim>::n_nodes() const
-{
-  return nodes.size();
-}
-
-template <int dim>
 unsigned int HeldNodes<dim>::find(unsigned int global_node) const
 {
   const auto found = std::lower_bound(nodes.begin(), nodes.end(), global_node,
@@ -233,18 +227,6 @@ unsigned int HeldNodes<dim>::find(unsigned int global_node) const
   return found != nodes.end() && surface.global_node(found->surface_node) == global_node
            ? found - nodes.begin()
            : nodes.size();
-}
-
-template <int dim>
-bool HeldNodes<dim>::follows_positions(unsigned int held_node) const
-{
-  return nodes[held_node].follows;
-}
-
-template <int dim>
-bool HeldNodes<dim>::follow_positions() const
-{
-  return !sides.empty();
 }
 
 template <int dim>

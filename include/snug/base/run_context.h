@@ -32,11 +32,11 @@ public:
   /// @p out receives the log on rank 0; other ranks print nothing.
   RunContext(MPI_Comm communicator, std::ostream &out);
 
-  MPI_Comm communicator() const;
+  MPI_Comm communicator() const { return comm; }
 
-  unsigned int rank() const;
+  unsigned int rank() const { return my_rank; }
 
-  unsigned int n_ranks() const;
+  unsigned int n_ranks() const { return size; }
 
   /// The log; swallows everything on ranks other than 0.
   std::ostream &out();

@@ -48,11 +48,11 @@ public:
   Contact &operator=(const Contact &) = delete;
 
   /// The pairs with their slaves chosen, which come first.
-  const std::vector<Pair>     &pairs() const;
-  unsigned int                 n_rows() const;
-  const std::vector<RowPlace> &places() const;
+  const std::vector<Pair>     &pairs() const { return chosen; }
+  unsigned int                 n_rows() const { return row_places.size(); }
+  const std::vector<RowPlace> &places() const { return row_places; }
   /// Of all groups; rows count through.
-  const std::vector<SharedNode> &shared_nodes() const;
+  const std::vector<SharedNode> &shared_nodes() const { return shared; }
 
   std::vector<Row<dim>> rows(const Field &positions) const;
   std::vector<Row<dim>> row_derivatives(const Field &positions, const Field &velocity) const;
@@ -75,7 +75,7 @@ public:
   /// were paired with; 0 for obstacles, whose points follow.
   std::vector<double> drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
   /// The deepest overlap of each pair where it was paired.
-  const std::vector<double> &overlaps() const;
+  const std::vector<double> &overlaps() const { return deepest; }
   /// @}
 
 private:

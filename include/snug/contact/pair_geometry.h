@@ -5,7 +5,15 @@
 #include <snug/faces/face_shape.h>
 #include <snug/faces/held_directions.h>
 
+#include <cmath>
+
 namespace snug::contact {
+/// Mean edge length of @p faces: diagonal over sqrt(dim-1) [length].
+template <int dim>
+double mean_face_size(const mesh::Surface<dim>                 &surface,
+                      const std::vector<unsigned int>          &faces,
+                      const typename mesh::Surface<dim>::Field &positions);
+
 /// The two sides of a pair: indices of surface faces.
 struct PairFaces
 {
@@ -33,16 +41,10 @@ struct PairGeometry
   std::vector<bool> taken;
 
   /// Mean edge length of the slave faces.
-  double slave_size() const;
+  double slave_size() const { return mean_face_size(surface, sides.slave, positions); }
 };
 
-/// Mean edge length of @p faces: diagonal over sqrt(dim-1) [length].
-template <int dim>
-double mean_face_size(const mesh::Surface<dim>                 &surface,
-                      const std::vector<unsigned int>          &faces,
-                      const typename mesh::Surface<dim>::Field &positions);
-
-/// Edge length, as above, of the largest face at each surface node.
+/// Edge length, as of mean_face_size(), of the largest face at each surface node.
 template <int dim>
 std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &surface,
                                     const typename mesh::Surface<dim>::Field &positions);
@@ -57,10 +59,13 @@ public:
 
   /// Whether the size of @p distance is within the search distance, up to
   /// round-off.
-  bool is_near(double distance) const;
+  bool is_near(double distance) const { return std::abs(distance) <= largest_distance; }
 
   /// Also for the unit @p normal into the master.
-  bool holds(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const;
+  bool holds(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const
+  {
+    return is_near(distance) && normals[slave] * normal >= least_cosine;
+  }
 
 private:
   typename mesh::Surface<dim>::Field normals; ///< of the slave side

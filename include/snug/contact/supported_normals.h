@@ -27,7 +27,7 @@ public:
                    const Field                      &positions,
                    const faces::HeldDirections<dim> &held);
 
-  const Field &normals() const;
+  const Field &normals() const { return unit; }
 
   /// n' along @p velocity of the positions.
   Field derivative(const Field &velocity) const;

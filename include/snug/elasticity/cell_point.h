@@ -1,8 +1,8 @@
 #ifndef snug_elasticity_cell_point_h
 #define snug_elasticity_cell_point_h
 
-#include <snug/elasticity/lagrange.h>
 #include <snug/mesh/idealization.h>
+#include <snug/mesh/lagrange.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -12,12 +12,12 @@
 namespace snug::elasticity {
 /// J = sum_a X_a (x) dN_a/d xi [length].
 template <int dim>
-dealii::Tensor<2, dim> jacobian(const LagrangePoint<dim>                  &shape,
+dealii::Tensor<2, dim> jacobian(const mesh::LagrangePoint<dim>            &shape,
                                 const std::vector<dealii::Tensor<1, dim>> &X);
 
 /// sum_a N_a u_a.
 template <int dim>
-dealii::Tensor<1, dim> value(const LagrangePoint<dim>                  &shape,
+dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
                              const std::vector<dealii::Tensor<1, dim>> &u);
 
 /**
@@ -34,9 +34,9 @@ struct CellPoint
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
   /// The shape must outlive this object; J must be regular.
-  CellPoint(const LagrangePoint<dim> &shape,
-            const Nodes              &X,
-            const mesh::Idealization &idealization);
+  CellPoint(const mesh::LagrangePoint<dim> &shape,
+            const Nodes                    &X,
+            const mesh::Idealization       &idealization);
 
   /// sum_a u_a (x) g_a, and sum_a N_a/r u_a,r.
   dealii::Tensor<2, 3> gradient(const Nodes &u) const;
@@ -47,8 +47,8 @@ struct CellPoint
   /// f_a += dV N_a source.
   void add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const;
 
-  const LagrangePoint<dim> &shape;
-  double                    dV; ///< weight times det J times that of the section [length^3]
+  const mesh::LagrangePoint<dim> &shape;
+  double                          dV; ///< weight times det J times that of the section [length^3]
   std::array<dealii::Tensor<1, dim>, 27> gradients;      ///< g_a [1/length]
   double                                 inverse_radius; ///< or 0
 };

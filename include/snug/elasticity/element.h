@@ -54,7 +54,7 @@ public:
                    Formulation               formulation  = Formulation::standard);
 
   /// n.
-  unsigned int n_nodes() const;
+  unsigned int n_nodes() const { return nodes.size(); }
 
   /// K (n*dim x n*dim, row by row), exactly symmetric
   /// [force / length].
@@ -149,11 +149,11 @@ private:
   template <int degree, bool axisymmetric>
   void compute_stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const;
 
-  unsigned int                    degree;
-  mesh::Idealization              idealization;
-  Formulation                     formulation;
-  std::vector<LagrangePoint<dim>> gauss;
-  std::vector<LagrangePoint<dim>> nodes;
+  unsigned int                          degree;
+  mesh::Idealization                    idealization;
+  Formulation                           formulation;
+  std::vector<mesh::LagrangePoint<dim>> gauss;
+  std::vector<mesh::LagrangePoint<dim>> nodes;
   /// dN_a / d xi_d of gauss, [point][d][a], a padded with zeros to a
   /// multiple of 4: the layout stiffness() vectorizes over.
   std::vector<double> reference_gradients;

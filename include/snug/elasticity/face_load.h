@@ -1,9 +1,9 @@
 #ifndef snug_elasticity_face_load_h
 #define snug_elasticity_face_load_h
 
-#include <snug/elasticity/lagrange.h>
 #include <snug/elasticity/linear_traction.h>
 #include <snug/mesh/idealization.h>
+#include <snug/mesh/lagrange.h>
 
 #include <vector>
 
@@ -102,8 +102,8 @@ public:
   std::vector<double> areas(const Nodes &X) const;
 
 private:
-  mesh::Idealization                  idealization;
-  std::vector<LagrangePoint<dim - 1>> gauss;
+  mesh::Idealization                        idealization;
+  std::vector<mesh::LagrangePoint<dim - 1>> gauss;
 };
 } // namespace snug::elasticity
 

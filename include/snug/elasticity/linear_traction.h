@@ -66,15 +66,18 @@ public:
                   const AreaMoments<dim>       &moments,
                   const dealii::Tensor<1, dim> &origin);
 
-  const LinearTraction<dim> &traction() const;
+  const LinearTraction<dim> &traction() const { return spread; }
 
   /// The derivative where the moments have derivatives @p derivative.
   LinearTraction<dim> derivative(const AreaMoments<dim> &derivative) const;
 
   /// I^-1 m.
-  dealii::Tensor<1, 3> divided_by_inertia(const dealii::Tensor<1, 3> &m) const;
+  dealii::Tensor<1, 3> divided_by_inertia(const dealii::Tensor<1, 3> &m) const
+  {
+    return inverse_inertia * m;
+  }
 
-  double area() const;
+  double area() const { return moments.area; }
 
 private:
   AreaMoments<dim>     moments;

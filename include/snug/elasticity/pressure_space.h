@@ -23,7 +23,7 @@ public:
                 const std::vector<double>             &dV);
 
   /// Values at the points, [function][point].
-  const std::vector<std::vector<double>> &functions() const;
+  const std::vector<std::vector<double>> &functions() const { return orthonormal; }
 
   /// Values at the points <- their projection.
   void project(std::vector<double> &values) const;

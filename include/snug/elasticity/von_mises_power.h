@@ -48,9 +48,9 @@ private:
   dealii::SymmetricTensor<2, 3>
   deviator_at(const CellPoint<dim> &point, const Material &material, const Nodes &u) const;
 
-  const mesh::Idealization              idealization;
-  const double                          p, scale;
-  const std::vector<LagrangePoint<dim>> gauss;
+  const mesh::Idealization                    idealization;
+  const double                                p, scale;
+  const std::vector<mesh::LagrangePoint<dim>> gauss;
 };
 } // namespace snug::elasticity
 

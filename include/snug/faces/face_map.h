@@ -35,7 +35,7 @@ public:
   /// The nodes y_k in the plane, in units of about the face's size.
   PlaneFace(unsigned int degree, const std::vector<Point> &nodes);
 
-  const std::vector<Point> &nodes() const;
+  const std::vector<Point> &nodes() const { return points; }
 
   /**
    * The coordinates xi with sum_k N_k(xi) y_k = @p y, which may lie a

@@ -1,9 +1,8 @@
 #ifndef snug_faces_face_shape_h
 #define snug_faces_face_shape_h
 
+#include <snug/mesh/lagrange.h>
 #include <snug/mesh/surface.h>
-
-#include <deal.II/base/tensor_product_polynomials.h>
 
 #include <array>
 #include <vector>
@@ -25,30 +24,25 @@ public:
   using Tangents                  = std::array<dealii::Tensor<1, dim>, dim - 1>;
 
   /// Values and derivatives of all shape functions at one point.
-  struct Values
-  {
-    std::vector<double>                     value;
-    std::vector<dealii::Tensor<1, dim - 1>> gradient;
-    std::vector<dealii::Tensor<2, dim - 1>> hessian;
-  };
+  using Values = mesh::LagrangePoint<dim - 1>;
 
-  explicit FaceShape(unsigned int degree);
+  explicit FaceShape(unsigned int degree) : p(degree), nodes(mesh::lagrange_nodes<dim - 1>(degree))
+  {}
 
-  unsigned int n_nodes() const;
-  unsigned int degree() const;
+  unsigned int n_nodes() const { return nodes.size(); }
+  unsigned int degree() const { return p; }
 
   /// Coordinates of node @p k.
-  Coordinates node(unsigned int k) const;
+  Coordinates node(unsigned int k) const { return nodes[k].point; }
 
-  void evaluate(const Coordinates &xi, Values &values) const;
+  Values at(const Coordinates &xi) const { return mesh::lagrange_point<dim - 1>(p, xi); }
 
   /// Values at node @p k.
-  const Values &at_node(unsigned int k) const;
+  const Values &at_node(unsigned int k) const { return nodes[k]; }
 
 private:
-  unsigned int                              p;
-  dealii::TensorProductPolynomials<dim - 1> polynomials;
-  std::vector<Values>                       node_values;
+  unsigned int        p;
+  std::vector<Values> nodes;
 };
 
 /// x,_1 and x,_2 of the face with @p nodes at a point with shape @p values.

@@ -24,7 +24,7 @@ public:
                const FaceShape<dim>            &shape,
                const Field                     &positions);
 
-  const Field &normals() const;
+  const Field &normals() const { return unit; }
 
   /// n' along @p velocity of the positions.
   Field derivative(const Field &velocity) const;

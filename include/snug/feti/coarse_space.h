@@ -39,7 +39,7 @@ public:
               unsigned int                        stride,
               const std::vector<qp::MultiVector> &Z);
 
-  unsigned int n_kernel() const;
+  unsigned int n_kernel() const { return table.body.size() * table.n_modes; }
 
   /// G_M x summed over ranks (n_kernel x k); M = all rows if null.
   qp::MultiVector multiply(const qp::MultiVector &x, const qp::RowSet *free) const;
@@ -51,19 +51,19 @@ public:
   std::vector<double> gram_values(const qp::RowSet &free) const;
 
   /// Pattern of G G' with the representatives of all bodies coupled.
-  const CsrMatrix &pattern() const;
+  const CsrMatrix &pattern() const { return gram; }
 
   /// Where faces find their matrix and factorization.
-  const FactorPool &factors() const;
+  const FactorPool &factors() const { return factor_pool; }
 
   /// Orthonormal body modes in coarse coordinates, n_kernel x n_bodies
   /// n_modes; equal on all ranks.
-  const qp::MultiVector &body_modes() const;
+  const qp::MultiVector &body_modes() const { return modes; }
 
   /// Coarse coordinates of one representative subdomain per body.
-  const std::vector<unsigned int> &representatives() const;
+  const std::vector<unsigned int> &representatives() const { return representative; }
 
-  const SubdomainTable &subdomains() const;
+  const SubdomainTable &subdomains() const { return table; }
 
   /// Frobenius norm of G. Collective.
   double norm() const;

@@ -27,7 +27,8 @@ struct CsrMatrix
   /// Position of (i, j) in values; the entry must exist.
   std::size_t position(PetscInt i, PetscInt j) const;
 
-  double diagonal(PetscInt i) const;
+  /// By search: for scales and set-up, not for inner loops.
+  double diagonal(PetscInt i) const { return values[position(i, i)]; }
 
   /// y += factor * A x, for every column.
   void multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const;

@@ -11,26 +11,27 @@
 namespace snug::feti {
 /**
  * The primal operator of one subdomain inside the preconditioner, on its
- * unknowns b with an entry in B, and on the fixing unknowns where those are
- * too few to hold it:
+ * unknowns b with an entry in B, and on the fixing unknowns where holding
+ * those leaves it a rigid motion:
  * S = K_bb - K_bi K_ii^{-1} K_ib ("Dirichlet") or K_bb ("lumped").
+ * b and the symbolic part are made with the first numbers.
  */
 class LocalSchur
 {
 public:
-  /// Symbolic part. @p system must outlive this object.
+  /// @p system must outlive this object.
   LocalSchur(const SubdomainSystem &system,
              bool                   lumped,
              const std::string     &package,
              RunContext            &context);
 
-  /// Numeric part for the present K.
+  /// For the present K and R.
   void factorize(const std::string &what);
 
   /// Unknown of the subdomain -> position in b, or n_boundary().
-  const std::vector<unsigned int> &boundary_position() const;
+  const std::vector<unsigned int> &boundary_position() const { return position_b; }
 
-  unsigned int n_boundary() const;
+  unsigned int n_boundary() const { return n_b; }
 
   /// S x for every column; n_boundary rows.
   qp::MultiVector apply(const qp::MultiVector &x) const;
@@ -42,11 +43,15 @@ private:
     std::vector<std::size_t> source; ///< positions in K.values
   };
 
+  void choose_boundary(bool with_fixing_dofs);
+  bool boundary_holds() const;
   Part extract(bool rows_on_boundary, bool columns_on_boundary) const;
 
   const SubdomainSystem        &system;
   RunContext                   &context;
-  bool                          lumped;
+  const bool                    lumped;
+  const std::string             package;
+  bool                          has_fixing_dofs = false;
   unsigned int                  n_b = 0, n_i = 0;
   std::vector<unsigned int>     position_b, position_i;
   Part                          bb; ///< its lower triangle

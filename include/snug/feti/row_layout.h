@@ -32,10 +32,10 @@ public:
             const std::vector<std::vector<Entry>> &entries,
             unsigned int                           first_subdomain);
 
-  MPI_Comm          communicator() const;
-  unsigned int      n_owned() const;
-  unsigned int      n_local() const;
-  const qp::RowSet &bounded() const;
+  MPI_Comm          communicator() const { return comm; }
+  unsigned int      n_owned() const { return is_bounded.size(); }
+  unsigned int      n_local() const { return local_rows.size(); }
+  const qp::RowSet &bounded() const { return is_bounded; }
   /// Local row of a global row this rank touches.
   unsigned int local_row(unsigned int global_row) const;
 
@@ -51,7 +51,7 @@ public:
    */
   std::vector<double> gather_entries(unsigned int width, const std::vector<double> &values) const;
   /// First gathered entry of each owned row; n_owned + 1.
-  const std::vector<unsigned int> &entry_start() const;
+  const std::vector<unsigned int> &entry_start() const { return start; }
   /// Global subdomain and unknown of each gathered entry.
   const std::vector<std::pair<unsigned int, unsigned int>> &entry_unknowns() const;
 

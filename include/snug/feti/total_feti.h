@@ -38,18 +38,29 @@ public:
   /// @param[in] g right-hand side of the owned rows [length].
   void set_loads(const qp::MultiVector &g);
 
-  RunContext            &context() const override;
-  unsigned int           n_owned() const override;
-  const qp::RowSet      &bounded() const override;
-  const qp::MultiVector &d() const override;
-  const qp::MultiVector &e() const override;
+  RunContext            &context() const override { return run; }
+  unsigned int           n_owned() const override { return layout.n_owned(); }
+  const qp::RowSet      &bounded() const override { return layout.bounded(); }
+  const qp::MultiVector &d() const override { return dual_load; }
+  const qp::MultiVector &e() const override { return rigid_load; }
   /// (B D^{-1} B')_ii with D = diag K: the compliance of the row's
   /// unknowns with their neighbours held.
-  const std::vector<double> &diagonal() const override;
+  /// Often far below F_ii, as the neighbours of the unknowns are held: a thousandth of it where
+  /// Poisson's ratio is 0.4999.
+  const std::vector<double> &diagonal() const override { return F_diagonal; }
   qp::MultiVector            apply(const qp::MultiVector &x) const override;
-  qp::MultiVector            apply_G(const qp::MultiVector &x) const override;
-  qp::MultiVector            apply_Gt(const qp::MultiVector &alpha) const override;
-  double                     feasibility_scale(const qp::MultiVector &lambda) const override;
+  qp::MultiVector            apply_G(const qp::MultiVector &x) const override
+  {
+    return coarse.multiply(x, nullptr);
+  }
+  qp::MultiVector apply_Gt(const qp::MultiVector &alpha) const override
+  {
+    return coarse.transpose_multiply(alpha, nullptr);
+  }
+  double feasibility_scale(const qp::MultiVector &lambda) const override
+  {
+    return feasibility_scale(rigid_load, lambda);
+  }
   /// The same for another rigid part @p e of the loads, one column.
   double feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const;
   std::unique_ptr<qp::Face> face(const qp::RowSet &free) const override;
@@ -74,14 +85,14 @@ public:
   /// The loads f of the systems.
   PrimalVectors loads() const;
 
-  const qp::MultiVector &g() const;
+  const qp::MultiVector &g() const { return gap; }
 
-  const std::vector<SubdomainSystem> &subdomains() const;
+  const std::vector<SubdomainSystem> &subdomains() const { return systems; }
 
-  unsigned int n_bodies() const;
+  unsigned int n_bodies() const { return coarse.subdomains().body_names.size(); }
 
   /// Rows of G: rigid modes of all subdomains.
-  unsigned int n_kernel() const;
+  unsigned int n_kernel() const { return coarse.n_kernel(); }
 
 private:
   class FetiFace;

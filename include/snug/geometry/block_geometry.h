@@ -23,17 +23,25 @@ public:
 
   double n_coarse_cells() const override;
 
-  const std::vector<std::string> &boundary_names() const override;
+  const std::vector<std::string> &boundary_names() const override { return mesh->boundary_names; }
 
-  std::vector<std::string> region_names() const override;
+  std::vector<std::string> region_names() const override { return mesh->region_names; }
 
-  unsigned int region(unsigned int coarse_cell) const override;
+  unsigned int region(unsigned int coarse_cell) const override
+  {
+    // coarse cells are numbered block after block, see coarse_mesh()
+    return mesh->regions[coarse_cell / cells_per_block()];
+  }
 
   dealii::Point<dim> position(const MeshPoint<dim> &point) const override;
 
-  dealii::Point<dim> logical(const MeshPoint<dim> &point) const override;
+  dealii::Point<dim> logical(const MeshPoint<dim> &point) const override
+  {
+    // Blocks have no common axes, so these are positions in units of the body's diagonal.
+    return Point((position(point) - lower) / lower.distance(upper));
+  }
 
-  dealii::Tensor<1, dim> extent() const override;
+  dealii::Tensor<1, dim> extent() const override { return upper - lower; }
 
 private:
   using Manifold = const dealii::Manifold<dim, dim>;

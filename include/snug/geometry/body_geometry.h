@@ -139,7 +139,7 @@ public:
   virtual const std::vector<std::string> &boundary_names() const = 0;
 
   /// Names of the regions; at least one. A region may be empty.
-  virtual std::vector<std::string> region_names() const;
+  virtual std::vector<std::string> region_names() const { return {"body"}; }
 
   /// Index of the region of a cell of the coarse mesh.
   virtual unsigned int region(unsigned int coarse_cell) const;
@@ -154,8 +154,8 @@ public:
   /// Lengths along the logical axes; only their ratios matter.
   virtual dealii::Tensor<1, dim> extent() const = 0;
 
-  virtual bool has_grid() const;
-  virtual bool has_frame() const;
+  virtual bool has_grid() const { return false; }
+  virtual bool has_frame() const { return false; }
 
   /**
    * Fraction in [0,1]^dim of the body's frame at @p logical. For face

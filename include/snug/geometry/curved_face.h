@@ -37,7 +37,7 @@ public:
    */
   CurvedFace(const FlatFace<dim> &flat, const std::string &value);
 
-  unsigned int boundary() const;
+  unsigned int boundary() const { return flat.boundary; }
 
   /// Outward displacement [length] of the flat face at the projection of
   /// @p point onto it. @throws InputError if a formula is not finite.

@@ -25,13 +25,17 @@ public:
 
   double n_coarse_cells() const override;
 
-  const std::vector<std::string> &boundary_names() const override;
+  const std::vector<std::string> &boundary_names() const override { return names; }
 
-  dealii::Point<dim> position(const MeshPoint<dim> &point) const override;
+  dealii::Point<dim> position(const MeshPoint<dim> &point) const override
+  {
+    // at every node anew, so that refined cells keep spacing and curvature
+    return grid_position(logical(point));
+  }
 
   dealii::Point<dim> logical(const MeshPoint<dim> &point) const override;
 
-  bool has_grid() const override;
+  bool has_grid() const override { return true; }
 
   /// Reference position at logical coordinates.
   virtual dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const = 0;

@@ -41,7 +41,10 @@ public:
 
   /// The shape functions of both faces.
   template <typename Number>
-  faces::FaceValues<dim, Number> shape(const faces::FaceCoordinates<dim, Number> &xi) const;
+  faces::FaceValues<dim, Number> shape(const faces::FaceCoordinates<dim, Number> &xi) const
+  {
+    return {degree, xi};
+  }
 
   /// Do the faces overlap if the slave face is widened by @p margin, a part
   /// of its size, on all sides?

@@ -57,7 +57,7 @@ public:
   void set_multipliers(const MultiVector &q);
 
   /// ||Q x|| = ||G_b x||. Collective.
-  double infeasibility() const;
+  double infeasibility() const { return norms(Qx, comm)[0]; }
 
   /// The augmented Lagrangian at the iterate, without constants.
   double value() const;
@@ -97,7 +97,10 @@ private:
   void        proportion(const Gradient &gradient);
   void        recompute();
   void        renew_face();
-  double      dot(const MultiVector &x, const MultiVector &y) const;
+  double      dot(const MultiVector &x, const MultiVector &y) const
+  {
+    return inner_products(x, y, comm)(0);
+  }
 
   const DualProblem    &problem;
   const EqualityPart   &equality;

@@ -19,6 +19,14 @@ SplineNet spline_net(const ShapeParameters &parameters, unsigned int n_axes, uns
 
 /// The entries Bounds and Initial fit each other. @throws InputError
 void require_bounds(const ShapeParameters &parameters);
+
+/// The entries Box corner and Box size. @throws InputError
+template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>> box_of(const ShapeParameters &parameters);
+
+/// Whether each body is in the entry Bodies; an empty one means all.
+/// @throws InputError
+std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &parameters);
 } // namespace snug::shape
 
 #endif

@@ -2,6 +2,7 @@
 #define snug_shape_interior_h
 
 #include <snug/base/choice.h>
+#include <snug/shape/interior_matrix.h>
 #include <snug/shape/shaped_face.h>
 
 #include <memory>
@@ -10,7 +11,7 @@ namespace snug::shape {
 /**
  * How a body's nodes follow its shaped face: a linear operator from the
  * displacements of the face's nodes to those of all nodes, which keeps the
- * former. Hanging nodes follow their masters.
+ * former. Hanging nodes of the mesh are left to the caller.
  */
 template <int dim>
 class Interior
@@ -25,8 +26,8 @@ public:
   /// Collective.
   virtual Field extend(const FaceField &moves) const = 0;
 
-  /// Transpose of extend(), summed over ranks; @p gradient adds up to the
-  /// whole over ranks. Collective.
+  /// Transpose of extend(); @p gradient, which has nothing at hanging nodes,
+  /// and the result add up to the whole over ranks. Collective.
   virtual FaceField transpose(const Field &gradient) const = 0;
 };
 
@@ -34,6 +35,36 @@ public:
 template <int dim>
 using MakeInterior = std::unique_ptr<Interior<dim>>(const ShapedFace<dim> &,
                                                     const ShapeParameters &);
+
+/**
+ * Nodes of a box follow the point of the shaped face below or above them,
+ *   u(x) = b(x) u(face point),  b = max(0, 1 - depth / reach),
+ * where depth is measured in the box before its faces are curved and reach
+ * is the box's height unless given. The face point is found in logical
+ * coordinates, its displacement interpolated as the elements do.
+ */
+template <int dim>
+std::unique_ptr<Interior<dim>> linear_blending(const ShapedFace<dim> &face,
+                                               const ShapeParameters &parameters);
+
+/**
+ * A body's nodes follow the shaped face by an elliptic problem on the
+ * reference mesh,
+ *   A_ff u_f = -A_fd u_d,
+ * with d the nodes of the face and f those that are free. A is the
+ * Laplacian of each component, or the stiffness of an elastic body whose
+ * Young's modulus in each cell is the inverse of the cell's volume, which
+ * spares small cells (Stein, Tezduyar, Benney, J. Appl. Mech. 70, 2003).
+ * With P the projectors of NodeRoles, A_ff stands for P A_ff P, completed
+ * by a multiple of I - P.
+ *
+ * One solve per extend() and transpose(): conjugate gradients with
+ * algebraic multigrid, down to round-off, so that the two are adjoint.
+ * Both throw a SolveError where that fails.
+ */
+template <int dim>
+std::unique_ptr<Interior<dim>>
+solved_interior(const ShapedFace<dim> &face, const ShapeParameters &parameters, InteriorKind kind);
 
 /// Rows "linear blending", "Laplace" and "elasticity".
 template <int dim>

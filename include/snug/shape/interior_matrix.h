@@ -36,13 +36,13 @@ public:
 private:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-  std::vector<Block> laplacian(const Nodes &X) const;
-  std::vector<Block> stiffness(const Nodes &X) const;
+  /// Row by row.
+  std::vector<double> laplacian(const Nodes &X) const;
 
-  const mesh::BodyMesh<dim>                  &mesh;
-  InteriorKind                                kind;
-  elasticity::Element<dim>                    element;
-  std::vector<elasticity::LagrangePoint<dim>> gauss;
+  const mesh::BodyMesh<dim>            &mesh;
+  InteriorKind                          kind;
+  elasticity::Element<dim>              element;
+  std::vector<mesh::LagrangePoint<dim>> gauss;
 };
 } // namespace snug::shape
 

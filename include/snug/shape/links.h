@@ -33,7 +33,7 @@ public:
   template <int dim>
   Links(const std::vector<Control<dim>> &controls, const ShapeParameters &parameters);
 
-  unsigned int n_variables() const;
+  unsigned int n_variables() const { return size; }
 
   /// L alpha.
   std::vector<double> expand(const std::vector<double> &alpha) const;

@@ -21,11 +21,11 @@ public:
   NodeRoles(const ShapedFace<dim> &face, double reach);
 
   /// Surface node of a local node of the shaped face; else none.
-  unsigned int driver(unsigned int node) const;
+  unsigned int driver(unsigned int node) const { return drivers[node]; }
 
   /// Projector onto the directions in which a node may follow; zero for
   /// nodes of the face, held and hanging ones and those of other bodies.
-  const dealii::Tensor<2, dim> &freedom(unsigned int node) const;
+  const dealii::Tensor<2, dim> &freedom(unsigned int node) const { return projectors[node]; }
 
 private:
   using Normals = std::vector<dealii::Tensor<1, dim>>;

@@ -1,10 +1,10 @@
 #ifndef snug_shape_shape_basis_h
 #define snug_shape_shape_basis_h
 
-#include <snug/base/choice.h>
-#include <snug/mesh/body_mesh.h>
-#include <snug/shape/shape_parameters.h>
+#include <snug/shape/interior.h>
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -19,6 +19,29 @@ struct Control
   dealii::Tensor<1, dim> direction;      ///< move of the point per variable
   bool                   border = false; ///< on the rim of the shape
   bool                   frozen = false; ///< must not move
+};
+
+/**
+ * A linear operator from design variables to the moves of nodes, by nodes:
+ * those of a shaped face, the same on all ranks, or the local ones of the
+ * mesh. Hanging nodes do not count.
+ */
+template <int dim>
+struct Modes
+{
+  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per node
+  /// Variables that move a node, and its move per variable.
+  using Row = std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>;
+
+  unsigned int n_variables = 0, n_nodes = 0;
+  /// Row of a node. Asked for each time, so that bases that would fill the
+  /// memory with their rows need not keep them.
+  std::function<Row(unsigned int)> row = [](unsigned int) { return Row(); };
+  /// One per variable, or none if variables have no place.
+  std::vector<Control<dim>> controls;
+
+  Field               apply(const std::vector<double> &alpha) const;
+  std::vector<double> transpose(const Field &gradient) const;
 };
 
 /**
@@ -42,20 +65,50 @@ public:
   /// @p gradient adds up to the whole over ranks. Collective.
   virtual std::vector<double> transpose(const Field &gradient) const = 0;
 
-  /// Column i on the local nodes. Collective.
+  /// Column i on the local nodes, made when it is asked for first and kept
+  /// for all designs. Collective.
   Field column(unsigned int i) const;
+
+private:
+  /// Nodes that a variable moves, and their velocities.
+  mutable std::map<unsigned int, std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>> kept;
+  mutable unsigned int n_nodes = 0;
 };
 
-/// A basis made from the entries of one subsection.
+/**
+ * A basis made from the entries of one subsection: V = H E C M with the
+ * modes M. Of modes of a face, C makes its hanging nodes follow and E its
+ * body's interior; others have none of these. H interpolates the hanging
+ * nodes of the mesh.
+ */
 template <int dim>
 class Shape : public ShapeBasis<dim>
 {
 public:
-  /// One per variable, or none if variables have no place.
-  virtual std::vector<Control<dim>> controls() const = 0;
+  using Field = typename ShapeBasis<dim>::Field;
 
-  /// (body, boundary) of the faces that are shaped, ascending.
-  virtual std::vector<std::pair<unsigned int, unsigned int>> faces() const = 0;
+  /// Modes of the local nodes of the mesh, which must outlive this.
+  Shape(const mesh::BodyMesh<dim> &mesh, Modes<dim> modes);
+
+  /// Modes of a face.
+  Shape(std::unique_ptr<ShapedFace<dim>> face,
+        Modes<dim>                       modes,
+        std::unique_ptr<Interior<dim>>   interior);
+
+  unsigned int        n_variables() const override { return modes.n_variables; }
+  Field               apply(const std::vector<double> &alpha) const override;
+  std::vector<double> transpose(const Field &gradient) const override;
+
+  const std::vector<Control<dim>> &controls() const { return modes.controls; }
+
+  /// (body, boundary) of the faces that are shaped, ascending. Collective.
+  std::vector<std::pair<unsigned int, unsigned int>> faces() const;
+
+private:
+  const mesh::BodyMesh<dim>       &mesh;
+  std::unique_ptr<ShapedFace<dim>> face; ///< null: of the whole mesh
+  Modes<dim>                       modes;
+  std::unique_ptr<Interior<dim>>   interior; ///< null without a face
 };
 
 /// A shape from its entries. @throws InputError naming the entry.

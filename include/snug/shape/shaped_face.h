@@ -21,24 +21,24 @@ public:
              const BodyNames           &bodies,
              const ShapeParameters     &parameters);
 
-  const mesh::BodyMesh<dim> &mesh() const;
-  unsigned int               body() const;
-  unsigned int               boundary() const;
-  const mesh::Surface<dim>  &surface() const;
+  const mesh::BodyMesh<dim> &mesh() const { return body_mesh; }
+  unsigned int               body() const { return place.first; }
+  unsigned int               boundary() const { return place.second; }
+  const mesh::Surface<dim>  &surface() const { return nodes; }
 
   /// Reference positions of the surface nodes [length].
-  const Field &positions() const;
+  const Field &positions() const { return reference; }
   /// Unit outward normals.
-  const Field &normals() const;
+  const Field &normals() const { return unit_normals; }
   /// The face's area spread over its nodes, hanging ones have none
   /// [length^(dim-1)].
-  const std::vector<double> &areas() const;
+  const std::vector<double> &areas() const { return node_areas; }
   /// Nodes that other boundaries of the body share.
-  const std::vector<bool> &border() const;
+  const std::vector<bool> &border() const { return on_border; }
   /// Diagonal of the bounding box of the nodes [length].
-  double diameter() const;
+  double diameter() const { return diagonal; }
 
-  bool is_hanging(unsigned int surface_node) const;
+  bool is_hanging(unsigned int surface_node) const { return !nodes.masters(surface_node).empty(); }
   /// values at hanging nodes <- interpolation of their masters
   void interpolate_hanging(Field &field) const;
   /// Transpose: add values at hanging nodes to their masters, then zero.
@@ -62,6 +62,12 @@ template <int dim>
 std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
                                                 const BodyNames           &bodies,
                                                 const ShapeParameters     &parameters);
+
+/// Unit vectors of the entry Direction, or the normals, at the face's
+/// nodes. @throws InputError
+template <int dim>
+typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
+                                                const ShapeParameters &parameters);
 } // namespace snug::shape
 
 #endif

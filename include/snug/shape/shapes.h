@@ -32,7 +32,7 @@ public:
          const BodyNames                    &bodies,
          const std::vector<ShapeParameters> &parameters);
 
-  unsigned int        n_variables() const override;
+  unsigned int        n_variables() const override { return lower.size(); }
   Field               apply(const std::vector<double> &alpha) const override;
   std::vector<double> transpose(const Field &gradient) const override;
 
@@ -41,9 +41,9 @@ public:
 
   /// @name Bounds and start of the variables
   /// @{
-  const std::vector<double> &lower_bounds() const;
-  const std::vector<double> &upper_bounds() const;
-  const std::vector<double> &start() const;
+  const std::vector<double> &lower_bounds() const { return lower; }
+  const std::vector<double> &upper_bounds() const { return upper; }
+  const std::vector<double> &start() const { return initial; }
   /// @}
 
   /// The control points of a design, shape by shape.

@@ -19,7 +19,7 @@ public:
   /// @p degree < @p n.
   Spline(unsigned int n, unsigned int degree);
 
-  unsigned int n() const;
+  unsigned int n() const { return size; }
 
   /// Values at @p s in [0,1] of the degree + 1 splines from number
   /// .first on; the others are zero there.
@@ -42,7 +42,7 @@ public:
   /// 0 stands for one span, n - 1.
   SplineNet(const std::vector<unsigned int> &n, unsigned int degree);
 
-  unsigned int n_axes() const;
+  unsigned int n_axes() const { return axes.size(); }
 
   unsigned int n_points() const;
 

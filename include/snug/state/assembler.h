@@ -3,8 +3,8 @@
 
 #include <snug/elasticity/face_load.h>
 #include <snug/feti/subdomain_system.h>
+#include <snug/mesh/node_reach.h>
 #include <snug/mesh/tearing.h>
-#include <snug/state/node_reach.h>
 #include <snug/state/resultant_loads.h>
 
 namespace snug::state {
@@ -27,7 +27,7 @@ public:
             const elasticity::Element<dim>  &element,
             const elasticity::FaceLoad<dim> &face_load);
 
-  unsigned int n_dofs() const;
+  unsigned int n_dofs() const { return dim * subdomain.nodes.size(); }
 
   /// Pattern of K.
   feti::CsrMatrix sparsity() const;
@@ -56,19 +56,19 @@ public:
   std::vector<unsigned int> fixing_dofs(const Field &positions) const;
 
   /// Subdomain cells and loaded boundary faces as (mesh index).
-  const std::vector<unsigned int> &cells() const;
-  const std::vector<unsigned int> &loaded_faces() const;
+  const std::vector<unsigned int> &cells() const { return subdomain.cells; }
+  const std::vector<unsigned int> &loaded_faces() const { return faces; }
 
   /// Values of a nodal field at the nodes of cell i of cells().
   Nodes cell_field(unsigned int i, const Field &field) const;
   /// Values of the subdomain vector u at the nodes of cell i.
-  Nodes cell_values(unsigned int i, const double *u) const;
+  Nodes cell_values(unsigned int i, const double *u) const { return cell_reach[i].values(u); }
   /// u += factor * T' r for cell i.
   void add_cell_vector(unsigned int i, double factor, const Nodes &r, double *u) const;
 
   /// The same for loaded face i of loaded_faces().
   Nodes face_field(unsigned int i, const Field &field) const;
-  Nodes face_values(unsigned int i, const double *u) const;
+  Nodes face_values(unsigned int i, const double *u) const { return face_reach[i].values(u); }
   void  add_face_vector(unsigned int i, double factor, const Nodes &r, double *u) const;
   /// Its loads in a load case.
   elasticity::FaceLoadValues<dim>
@@ -84,11 +84,14 @@ public:
   Nodes body_force(unsigned int i, unsigned int load_case) const;
   /// Material of cell i of cells().
   const elasticity::Material     &material(unsigned int i) const;
-  const elasticity::Element<dim> &element() const;
+  const elasticity::Element<dim> &element() const { return the_element; }
 
 private:
-  void                     build_pattern();
-  const BodyLoads<dim>    &loads(unsigned int load_case) const;
+  void                  build_pattern();
+  const BodyLoads<dim> &loads(unsigned int load_case) const
+  {
+    return model.load_cases[load_case].bodies[subdomain.body];
+  }
   const BoundaryLoad<dim> *boundary_load(unsigned int i, unsigned int load_case) const;
 
   const mesh::BodyMesh<dim>             &mesh;
@@ -97,7 +100,7 @@ private:
   const elasticity::Element<dim>        &the_element;
   const elasticity::FaceLoad<dim>       &face_load;
   std::vector<unsigned int>              faces; ///< indices of boundary_faces()
-  std::vector<NodeReach<dim>>            cell_reach, face_reach;
+  std::vector<mesh::NodeReach<dim>>      cell_reach, face_reach;
   std::vector<std::vector<unsigned int>> node_neighbours;
   /// per cell, slot a and slot b: place of b among a's neighbours
   std::vector<std::vector<unsigned int>> places;

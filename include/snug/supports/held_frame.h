@@ -29,7 +29,7 @@ public:
   explicit Orthonormalised(const HeldFrame<dim> &given);
 
   /// q_k and s_k.
-  const HeldFrame<dim> &frame() const;
+  const HeldFrame<dim> &frame() const { return orthonormal; }
 
   /// The smallest L_jj: the sine of the smallest angle between a d_j and
   /// the span of those before it. Zero: dependent, and frame() is not

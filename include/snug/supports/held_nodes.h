@@ -39,14 +39,14 @@ public:
             const Field                     &positions);
 
   /// Held nodes, ascending by global node.
-  unsigned int n_nodes() const;
+  unsigned int n_nodes() const { return nodes.size(); }
   /// The held node with this global node, or n_nodes().
   unsigned int find(unsigned int global_node) const;
 
   /// Whether a node's directions follow the positions (normals are held).
-  bool follows_positions(unsigned int held_node) const;
+  bool follows_positions(unsigned int held_node) const { return nodes[held_node].follows; }
   /// Whether any node's directions do.
-  bool follow_positions() const;
+  bool follow_positions() const { return !sides.empty(); }
 
   /// Orthonormal constraints at @p positions. Collective.
   /// @throws TangledMesh where held directions have become dependent.

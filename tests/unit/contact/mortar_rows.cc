@@ -52,14 +52,13 @@ struct MortarBoxes : public TwoBoxes<dim>
   template <typename Pressure>
   Field consistent_forces(const Pressure &p) const
   {
-    const FaceShape<dim>            shape(this->mesh.degree());
-    const dealii::QGauss<dim - 1>   gauss(5);
-    typename FaceShape<dim>::Values values;
-    Field                           result(this->surface.n_nodes());
+    const FaceShape<dim>          shape(this->mesh.degree());
+    const dealii::QGauss<dim - 1> gauss(5);
+    Field                         result(this->surface.n_nodes());
     for (const auto &face : this->surface.faces())
       for (unsigned int q = 0; q < gauss.size(); ++q)
         {
-          shape.evaluate(gauss.point(q), values);
+          const auto             values = shape.at(gauss.point(q));
           dealii::Tensor<1, dim> x;
           for (unsigned int k = 0; k < face.nodes.size(); ++k)
             x += values.value[k] * this->positions[face.nodes[k]];

@@ -189,8 +189,7 @@ TEST(OuterEdges, AreTheRimAlsoWhereNodesHang)
               dealii::Point<2>(0.5, 1.), dealii::Point<2>(0., 0.), dealii::Point<2>(1., 1.),
               dealii::Point<2>(0.5, 0.5)})
           {
-            FaceShape<3>::Values values;
-            shape.evaluate(xi, values);
+            const auto           values = shape.at(xi);
             dealii::Tensor<1, 3> x;
             for (unsigned int k = 0; k < shape.n_nodes(); ++k)
               x += values.value[k] * scene.positions[scene.surface.faces()[f].nodes[k]];

@@ -26,8 +26,7 @@ dealii::Tensor<1, dim> face_point(const FaceShape<dim>                      &sha
                                   const std::vector<dealii::Tensor<1, dim>> &nodes,
                                   const dealii::Point<dim - 1>              &xi)
 {
-  typename FaceShape<dim>::Values values;
-  shape.evaluate(xi, values);
+  const auto             values = shape.at(xi);
   dealii::Tensor<1, dim> x;
   for (unsigned int k = 0; k < nodes.size(); ++k)
     x += values.value[k] * nodes[k];
@@ -84,9 +83,8 @@ TEST(ClosestPoint, OffsetAlongTheNormalLeadsBackToRoundOff)
     {
       const auto             nodes = crooked_face<3>(shape, 0.05, random);
       const dealii::Point<2> xi(uniform(random), uniform(random));
-      FaceShape<3>::Values   values;
-      shape.evaluate(xi, values);
-      dealii::Tensor<1, 3> t1, t2;
+      const auto             values = shape.at(xi);
+      dealii::Tensor<1, 3>   t1, t2;
       for (unsigned int k = 0; k < nodes.size(); ++k)
         {
           t1 += values.gradient[k][0] * nodes[k];

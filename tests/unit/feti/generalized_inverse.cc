@@ -164,4 +164,20 @@ TEST(LocalSchur, IsTheSchurComplement)
             }
     }
 }
+/// Many rows along one axis leave a body free to move along the others.
+TEST(LocalSchur, HoldsWhereRowsLeaveRigidMotions)
+{
+  std::ostringstream log;
+  RunContext         context(MPI_COMM_WORLD, log);
+  for (auto &system : examples())
+    {
+      const unsigned int dim = system.R.n_columns() == 3 ? 2 : 3;
+      for (unsigned int dof = dim - 1; dof < system.n_dofs(); dof += dim)
+        if (dof < system.n_dofs() / 2)
+          system.B.push_back({0, dof, 1.});
+      feti::LocalSchur schur(system, false, "CHOLMOD", context);
+      EXPECT_NO_THROW(schur.factorize("the body"));
+      EXPECT_GT(schur.n_boundary(), system.B.size());
+    }
+}
 } // namespace

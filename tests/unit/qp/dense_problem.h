@@ -24,11 +24,14 @@ public:
   using MultiVector = snug::qp::MultiVector;
   using RowSet      = snug::qp::RowSet;
 
-  explicit DenseProblem(const DenseData &data) : data(data), run(MPI_COMM_WORLD, log)
+  /// The rows go to the first @p n_owners ranks in equal parts; 0: to all.
+  explicit DenseProblem(const DenseData &data, unsigned int n_owners = 0)
+    : data(data), run(MPI_COMM_WORLD, log)
   {
-    const unsigned int n = data.F.n_rows();
-    first                = n * run.rank() / run.n_ranks();
-    end                  = n * (run.rank() + 1) / run.n_ranks();
+    const unsigned int n      = data.F.n_rows();
+    const unsigned int owners = n_owners == 0 ? run.n_ranks() : n_owners;
+    first                     = n * std::min(run.rank(), owners) / owners;
+    end                       = n * std::min(run.rank() + 1, owners) / owners;
     my_bounded.assign(data.bounded.begin() + first, data.bounded.begin() + end);
     my_d = slice(data.d);
     for (unsigned int i = first; i < end; ++i)

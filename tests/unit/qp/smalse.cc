@@ -107,6 +107,37 @@ TEST(Smalse, PullingLoadEndsWithAnError)
   EXPECT_THROW(run(), snug::SolveError); // named at once
 }
 
+/// Rough solutions show the way there, exact ones hide it.
+TEST(Smalse, DoesNotDependOnWhoOwnsTheRows)
+{
+  const auto         data = Membranes(two_by_two()).data();
+  const DenseProblem spread(data), on_one_rank(data, 1);
+  const auto         a = solve_by("SMALSE-M", spread, 1e-3);
+  const auto         b = solve_by("SMALSE-M", on_one_rank, 1e-3);
+  EXPECT_EQ(a.f_mults, b.f_mults);
+  EXPECT_LT(dense::distance(spread.gather(a.lambda), on_one_rank.gather(b.lambda)), 1e-10);
+}
+
+TEST(SolverTable, SolversWithoutFMultsLeftSayWhatTheyReached)
+{
+  for (const char *method : {"active set", "SMALSE-M"})
+    {
+      const DenseProblem problem(Membranes(two_by_two()).data());
+      SolverParameters   parameters;
+      parameters.max_iterations = 1;
+      try
+        {
+          snug::choose(solver_table(), method).make(parameters)->solve(problem, WarmStart());
+          ADD_FAILURE() << method << ": no error";
+        }
+      catch (const snug::SolveError &error)
+        {
+          EXPECT_EQ(std::string(error.what()).find("residual of 0 "), std::string::npos)
+            << error.what();
+        }
+    }
+}
+
 TEST(SolverTable, ListsBothSolvers)
 {
   EXPECT_EQ(snug::names(solver_table()), "active set|SMALSE-M");

@@ -1,19 +1,18 @@
-#include <snug/state/node_reach.h>
+#include <snug/mesh/node_reach.h>
 
 #include <algorithm>
 #include <map>
 
-namespace snug::state {
+namespace snug::mesh {
 template <int dim>
-NodeReach<dim>::NodeReach(const mesh::BodyMesh<dim>       &mesh,
-                          const mesh::Subdomain           &subdomain,
-                          const std::vector<unsigned int> &nodes)
+NodeReach<dim>::NodeReach(const BodyMesh<dim>             &mesh,
+                          const std::vector<unsigned int> &nodes,
+                          const std::vector<unsigned int> &among)
   : n_nodes(nodes.size())
 {
-  const auto slot = [&](unsigned int node) {
-    return static_cast<unsigned int>(
-      std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), node) -
-      subdomain.nodes.begin());
+  const auto slot = [&](unsigned int node) -> unsigned int {
+    return among.empty() ? node
+                         : std::lower_bound(among.begin(), among.end(), node) - among.begin();
   };
   // Most cells have no hanging node: T is left empty then, and stands for the identity.
   bool hanging = false;
@@ -43,12 +42,6 @@ NodeReach<dim>::NodeReach(const mesh::BodyMesh<dim>       &mesh,
   for (const auto &row : rows)
     for (const unsigned int s : reached)
       T.push_back(row.count(s) ? row.at(s) : 0.);
-}
-
-template <int dim>
-const std::vector<unsigned int> &NodeReach<dim>::slots() const
-{
-  return reached;
 }
 
 template <int dim>
@@ -108,4 +101,4 @@ void NodeReach<dim>::condense(std::vector<double> &K) const
 
 template class NodeReach<2>;
 template class NodeReach<3>;
-} // namespace snug::state
+} // namespace snug::mesh

@@ -1,4 +1,4 @@
-#include <snug/elasticity/lagrange.h>
+#include <snug/mesh/lagrange.h>
 
 #include <deal.II/fe/fe_q.h>
 
@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-using namespace snug::elasticity;
+using namespace snug::mesh;
 
 namespace {
 /// Values and gradients against dealii::FE_Q at a point in the cube.
@@ -18,14 +18,14 @@ void compare_with_fe_q(const unsigned int degree)
   for (unsigned int d = 0; d < dim; ++d)
     point[d] = 0.2 + 0.3 * d;
   const auto found = lagrange_point<dim>(degree, point);
-  ASSERT_EQ(found.values.size(), fe.n_dofs_per_cell());
+  ASSERT_EQ(found.value.size(), fe.n_dofs_per_cell());
   for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
     {
       unsigned int a = 0, stride = 1;
       for (unsigned int d = 0; d < dim; ++d, stride *= degree + 1)
         a += stride * std::lround(fe.unit_support_point(i)[d] * degree);
-      EXPECT_NEAR(found.values[a], fe.shape_value(i, point), 1e-14);
-      EXPECT_LT((found.gradients[a] - fe.shape_grad(i, point)).norm(), 1e-13);
+      EXPECT_NEAR(found.value[a], fe.shape_value(i, point), 1e-14);
+      EXPECT_LT((found.gradient[a] - fe.shape_grad(i, point)).norm(), 1e-13);
     }
 }
 } // namespace
@@ -47,7 +47,7 @@ TEST(Lagrange, IsNodal)
       const auto points = lagrange_nodes<3>(degree);
       for (unsigned int a = 0; a < points.size(); ++a)
         for (unsigned int b = 0; b < points.size(); ++b)
-          EXPECT_EQ(points[a].values[b], a == b ? 1. : 0.);
+          EXPECT_EQ(points[a].value[b], a == b ? 1. : 0.);
     }
 }
 

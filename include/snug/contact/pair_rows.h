@@ -1,0 +1,37 @@
+#ifndef snug_contact_pair_rows_h
+#define snug_contact_pair_rows_h
+
+#include <snug/contact/pair_geometry.h>
+#include <snug/contact/row_group.h>
+
+#include <memory>
+
+namespace snug::contact {
+/**
+ * Nodal (node to face) contact of one pair. The row of slave node s with
+ * the weights w_k of its closest point (see Projection) is
+ * c_s = n, c_k = -w_k n, gap = n . (sum_k w_k x_k - x_s),
+ * n = -v/|v|, v = sum_k w_k n_k by the SupportedNormals n_k of the master;
+ * hanging master nodes are replaced by their masters. Faces and weights
+ * stay, normals and gaps follow the positions. Slave nodes that hang, or
+ * whose closest point lies beyond the edge of the master side
+ * (edge_tolerance), is out of reach or does not face them (Opposition),
+ * carry no row.
+ */
+template <int dim>
+std::unique_ptr<RowGroup<dim>> nodal_rows(const PairGeometry<dim> &pair);
+
+/**
+ * Slave nodes against a rigid obstacle. With the distance d(x) to the
+ * obstacle as it is placed, the row of slave node s is
+ *   c_s = n = -grad d(x_s),  gap = d(x_s) + n . w,
+ * where w is the displacement of the obstacle. Normal and gap follow the
+ * slave node: n' = -H V_s with the Hessian H of d, d' = -n . V_s.
+ * Slave nodes that hang, are out of reach or do not face the obstacle
+ * (Opposition) carry no row.
+ */
+template <int dim>
+std::unique_ptr<RowGroup<dim>> obstacle_rows(const PairGeometry<dim> &pair);
+} // namespace snug::contact
+
+#endif
