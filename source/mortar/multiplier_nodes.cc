@@ -116,8 +116,11 @@ void MultiplierChoice<dim>::set_order(const std::vector<FaceCover> &covers)
   const auto named = order.size();
   order.insert(order.end(), left.begin(), left.end());
   std::sort(order.begin() + named, order.end(), [&](unsigned int a, unsigned int b) {
-    const auto &x = positions[a], &y = positions[b];
-    return std::lexicographical_compare(x.begin_raw(), x.end_raw(), y.begin_raw(), y.end_raw());
+    const auto  &x = positions[a], &y = positions[b];
+    unsigned int c = 0;
+    while (c + 1 < dim && x[c] == y[c])
+      ++c;
+    return x[c] < y[c];
   });
 }
 
