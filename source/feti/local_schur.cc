@@ -27,11 +27,11 @@ void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::Mul
 }
 } // namespace
 
-LocalSchur::LocalSchur(const SubdomainSystem &system,
-                       bool                   lumped,
+LocalSchur::LocalSchur(const SubdomainSystem &the_system,
+                       bool                   the_lumped,
                        const std::string     &package,
-                       RunContext            &context)
-  : system(system), context(context), lumped(lumped)
+                       RunContext            &the_context)
+  : system(the_system), context(the_context), lumped(the_lumped)
 {
   const unsigned int n = system.n_dofs();
   std::vector<bool>  on_boundary(n, false);

@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/qp/nnls.h>
 
 #include <deal.II/base/exceptions.h>
@@ -18,7 +19,7 @@ const double right_angle = 1e-12; ///< cosine, in NNLS
 std::vector<double>
 least_squares(const MultiVector &A, const MultiVector &b, const std::vector<unsigned int> &columns)
 {
-  PetscBLASInt m = A.n_rows(), n = columns.size(), one = 1, rank, info;
+  PetscBLASInt m = A.n_rows(), n = narrow<PetscBLASInt>(columns.size()), one = 1, rank, info;
   PetscBLASInt ldb = std::max(m, n), size = -1;
   MultiVector  part(A.n_rows(), 0);
   for (const unsigned int j : columns)
@@ -54,13 +55,13 @@ double norm_of(const double *x, unsigned int n)
 class NonNegativeLeastSquares
 {
 public:
-  NonNegativeLeastSquares(const MultiVector &A, const MultiVector &b)
-    : A(A)
-    , b(b)
-    , lengths(A.n_columns())
-    , x(A.n_columns())
-    , residual(b)
-    , refused(A.n_columns(), false)
+  NonNegativeLeastSquares(const MultiVector &the_A, const MultiVector &the_b)
+    : A(the_A)
+    , b(the_b)
+    , lengths(the_A.n_columns())
+    , x(the_A.n_columns())
+    , residual(the_b)
+    , refused(the_A.n_columns(), false)
   {
     for (unsigned int j = 0; j < A.n_columns(); ++j)
       lengths[j] = norm_of(A.column(j), A.n_rows());
