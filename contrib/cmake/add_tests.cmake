@@ -22,13 +22,17 @@ function(snug_add_unit_test module)
     add_custom_target(build.${ARG_LABEL})
   endif()
   add_dependencies(build.${ARG_LABEL} ${target})
+  set(timeout 300)
+  if(SNUG_INSTRUMENT)
+    set(timeout 1800)
+  endif()
   foreach(ranks ${ARG_RANKS})
     set(test ${target}.np${ranks})
     add_test(NAME ${test}
       COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
               ${MPIEXEC_PREFLAGS} $<TARGET_FILE:${target}>)
     set_tests_properties(${test} PROPERTIES
-      LABELS "${ARG_LABEL};${module}" PROCESSORS ${ranks} TIMEOUT 300
+      LABELS "${ARG_LABEL};${module}" PROCESSORS ${ranks} TIMEOUT ${timeout}
       ENVIRONMENT "${SNUG_TEST_ENVIRONMENT}")
   endforeach()
 endfunction()

@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 
 #include <unistd.h>
@@ -58,8 +59,8 @@ void RunContext::progress(const std::string &text)
   live_line_shown = true;
 }
 
-RunContext::Timer::Timer(RunContext &context, const std::string &stage)
-  : context(context), stage(stage), start(std::chrono::steady_clock::now())
+RunContext::Timer::Timer(RunContext &the_context, const std::string &the_stage)
+  : context(the_context), stage(the_stage), start(std::chrono::steady_clock::now())
 {}
 
 RunContext::Timer::~Timer()
@@ -137,7 +138,7 @@ void rethrow_together(MPI_Comm comm, int kind, const std::string &message)
   if (failing == size)
     return;
   MPI_Bcast(&kind, 1, MPI_INT, failing, comm);
-  int length = message.size();
+  int length = narrow<int>(message.size());
   MPI_Bcast(&length, 1, MPI_INT, failing, comm);
   std::string text = message;
   text.resize(length);

@@ -1,6 +1,8 @@
 #include <snug/contact/level_set.h>
 #include <snug/contact/obstacle.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 namespace snug::contact {
 namespace {
 template <int dim>
@@ -76,7 +78,8 @@ dealii::Point<dim> to_point(const std::vector<double> &coordinates)
 {
   AssertDimension(coordinates.size(), dim);
   dealii::Point<dim> point;
-  std::copy(coordinates.begin(), coordinates.end(), point.begin_raw());
+  for (unsigned int c = 0; c < dim; ++c)
+    point[c] = coordinates[c];
   return point;
 }
 

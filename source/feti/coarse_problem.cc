@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/dense.h>
 
@@ -47,9 +48,10 @@ CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
   // only the unknowns of one subdomain per body become coupled.
   if (N.n_columns() > 0)
     {
-      const auto        &f = space.representatives();
-      const unsigned int r = N.n_columns();
-      qp::MultiVector    N_f(f.size(), r), N_f_transposed(r, f.size());
+      const auto        &f   = space.representatives();
+      const unsigned int r   = N.n_columns();
+      const auto         n_f = narrow<unsigned int>(f.size());
+      qp::MultiVector    N_f(n_f, r), N_f_transposed(r, n_f);
       // Of the size of G_M G_M', as rho of K_rho is of that of K.
       double rho = 0.;
       for (unsigned int i = 0; i < matrix.n_rows; ++i)

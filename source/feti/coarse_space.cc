@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/dense.h>
 
@@ -18,7 +19,7 @@ std::vector<Pair> unite(const std::set<Pair> &mine, MPI_Comm comm)
       flat.push_back(pair.first);
       flat.push_back(pair.second);
     }
-  int n_ranks, count = flat.size();
+  int n_ranks, count = narrow<int>(flat.size());
   MPI_Comm_size(comm, &n_ranks);
   std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
@@ -38,12 +39,12 @@ std::vector<Pair> unite(const std::set<Pair> &mine, MPI_Comm comm)
 /// The order of the sum depends on the number of ranks, and with it the last digits.
 void sum_over_ranks(std::vector<double> &values, MPI_Comm comm)
 {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM, comm);
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), narrow<int>(values.size()), MPI_DOUBLE, MPI_SUM, comm);
 }
 } // namespace
 
-CoarseSpace::CoarseSpace(const RowLayout &layout, const SubdomainTable &table)
-  : layout(layout), table(table)
+CoarseSpace::CoarseSpace(const RowLayout &the_layout, const SubdomainTable &the_table)
+  : layout(the_layout), table(the_table)
 {
   // Entries are sorted by subdomain within a row: those of one subdomain make one block of G, the
   // n_modes numbers G(s, row) = R_s' B_s(row, :)'.
@@ -56,17 +57,17 @@ CoarseSpace::CoarseSpace(const RowLayout &layout, const SubdomainTable &table)
         {
           if (e == start[row] || unknowns[e].first != unknowns[e - 1].first)
             block_subdomain.push_back(unknowns[e].first);
-          block_of_entry.push_back(block_subdomain.size() - 1);
+          block_of_entry.push_back(narrow<unsigned int>(block_subdomain.size()) - 1);
         }
-      block_start.push_back(block_subdomain.size());
+      block_start.push_back(narrow<unsigned int>(block_subdomain.size()));
     }
   // A body's first subdomain stands for it: Z_s is regular, so that its n_modes coarse unknowns
   // tell all rigid motions of the body apart.
-  const unsigned int n_bodies = table.body_names.size();
+  const auto n_bodies = narrow<unsigned int>(table.body_names.size());
   for (unsigned int body = 0; body < n_bodies; ++body)
     {
-      const unsigned int s =
-        std::find(table.body.begin(), table.body.end(), body) - table.body.begin();
+      const auto s = narrow<unsigned int>(std::find(table.body.begin(), table.body.end(), body) -
+                                          table.body.begin());
       for (unsigned int mode = 0; mode < table.n_modes; ++mode)
         representative.push_back(s * table.n_modes + mode);
     }
@@ -77,7 +78,7 @@ CoarseSpace::CoarseSpace(const RowLayout &layout, const SubdomainTable &table)
 /// lets all of them share a symbolic factorization.
 void CoarseSpace::build_pattern()
 {
-  const unsigned int m = table.n_modes, n_subdomains = table.body.size();
+  const unsigned int m = table.n_modes, n_subdomains = narrow<unsigned int>(table.body.size());
   std::set<Pair>     couplings, bounded_couplings;
   // Also subdomains without rows have their place on the diagonal.
   for (unsigned int s = 0; s < n_subdomains; ++s)
@@ -142,7 +143,7 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
       add_row(row, equality_gram);
   sum_over_ranks(equality_gram, layout.communicator());
 
-  const unsigned int n_bodies = table.body_names.size();
+  const auto n_bodies = narrow<unsigned int>(table.body_names.size());
   // Subdomains hold orthonormal R of their own; Z_s says what combination of them moves the body as
   // a whole. Each rank fills in its subdomains; adding zeros is exact.
   modes = qp::MultiVector(n_kernel(), n_bodies * m);
@@ -159,7 +160,8 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   for (unsigned int j = 0; j < values.size(); ++j)
     for (unsigned int i = 0; i < values.size(); ++i)
       scaled(i, j) = vectors(i, j) / std::sqrt(values[j]);
-  qp::MultiVector transposed(values.size(), values.size());
+  const auto      n = narrow<unsigned int>(values.size());
+  qp::MultiVector transposed(n, n);
   for (unsigned int j = 0; j < values.size(); ++j)
     for (unsigned int i = 0; i < values.size(); ++i)
       transposed(i, j) = vectors(j, i);

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/csr_matrix.h>
 
 #include <algorithm>
@@ -7,13 +8,13 @@ CsrMatrix CsrMatrix::from_rows(const std::vector<std::vector<PetscInt>> &columns
                                unsigned int                              n_columns)
 {
   CsrMatrix matrix;
-  matrix.n_rows    = columns_of_rows.size();
+  matrix.n_rows    = narrow<unsigned int>(columns_of_rows.size());
   matrix.n_columns = n_columns;
   matrix.row_start.assign(1, 0);
   for (const auto &row : columns_of_rows)
     {
       matrix.columns.insert(matrix.columns.end(), row.begin(), row.end());
-      matrix.row_start.push_back(matrix.columns.size());
+      matrix.row_start.push_back(narrow<PetscInt>(matrix.columns.size()));
     }
   matrix.values.assign(matrix.columns.size(), 0.);
   return matrix;

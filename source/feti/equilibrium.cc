@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/feti/dense.h>
 #include <snug/feti/total_feti.h>
 #include <snug/qp/nnls.h>
@@ -23,7 +24,7 @@ qp::MultiVector contact_columns(const CoarseSpace &coarse, const RowLayout &layo
     if (layout.bounded()[i])
       for (unsigned int mode = 0; mode < n_modes; ++mode)
         mine.push_back(rows(i, mode));
-  int n_ranks, count = mine.size();
+  int n_ranks, count = narrow<int>(mine.size());
   MPI_Comm_size(layout.communicator(), &n_ranks);
   std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, layout.communicator());

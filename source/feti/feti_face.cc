@@ -1,8 +1,8 @@
 #include <snug/feti/feti_face.h>
 
 namespace snug::feti {
-TotalFeti::FetiFace::FetiFace(const TotalFeti &feti, const qp::RowSet &free)
-  : feti(feti), free(free)
+TotalFeti::FetiFace::FetiFace(const TotalFeti &the_feti, const qp::RowSet &the_free)
+  : feti(the_feti), free(the_free)
 {}
 
 const qp::RowSet &TotalFeti::FetiFace::rows() const

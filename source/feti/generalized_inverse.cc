@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/dense.h>
 #include <snug/feti/generalized_inverse.h>
 
@@ -22,10 +23,10 @@ CsrMatrix coupled_pattern(const SubdomainSystem &system)
 }
 } // namespace
 
-GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &system,
+GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
                                        const std::string     &package,
-                                       RunContext            &context)
-  : system(system), context(context), K_rho(coupled_pattern(system))
+                                       RunContext            &the_context)
+  : system(the_system), context(the_context), K_rho(coupled_pattern(the_system))
 {
   const CsrMatrix &K = system.K;
   // Where each value of K goes in K_rho is the same for all designs: looked up once.
@@ -42,7 +43,7 @@ GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &system,
 void GeneralizedInverse::factorize(const std::string &what)
 {
   const auto        &fixing = system.fixing_dofs;
-  const unsigned int n_fix = fixing.size(), n_modes = system.R.n_columns();
+  const unsigned int n_fix = narrow<unsigned int>(fixing.size()), n_modes = system.R.n_columns();
   qp::MultiVector    R_f_transposed(n_modes, n_fix);
   for (unsigned int i = 0; i < n_fix; ++i)
     for (unsigned int mode = 0; mode < n_modes; ++mode)

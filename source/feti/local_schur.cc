@@ -30,11 +30,11 @@ void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::Mul
 }
 } // namespace
 
-LocalSchur::LocalSchur(const SubdomainSystem &system,
-                       bool                   lumped,
-                       const std::string     &package,
-                       RunContext            &context)
-  : system(system), context(context), lumped(lumped), package(package)
+LocalSchur::LocalSchur(const SubdomainSystem &the_system,
+                       bool                   the_lumped,
+                       const std::string     &the_package,
+                       RunContext            &the_context)
+  : system(the_system), context(the_context), lumped(the_lumped), package(the_package)
 {}
 
 void LocalSchur::choose_boundary(bool with_fixing_dofs)

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/row_gram.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ std::vector<bool> coupled_to_contact(const qp::RowSet                           
 }
 } // namespace
 
-RowGram::RowGram(const RowLayout &layout) : layout(layout)
+RowGram::RowGram(const RowLayout &the_layout) : layout(the_layout)
 {
   const auto                                                   &start    = layout.entry_start();
   const auto                                                   &unknowns = layout.entry_unknowns();
@@ -80,7 +81,7 @@ RowGram::RowGram(const RowLayout &layout) : layout(layout)
           columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
           pattern.push_back(columns);
         }
-      group->matrix = CsrMatrix::from_rows(pattern, group->rows.size());
+      group->matrix = CsrMatrix::from_rows(pattern, narrow<unsigned int>(group->rows.size()));
     }
   // CHOLMOD whatever the package of the stiffness: these matrices are small.
   if (!fixed.rows.empty())
@@ -118,7 +119,7 @@ std::vector<double> RowGram::diagonal() const
 /// x <- A^-1 x on the rows of the group; the others are not touched.
 void RowGram::Group::solve(const SparseFactor &factor, qp::MultiVector &x) const
 {
-  qp::MultiVector b(rows.size(), x.n_columns()), y = b;
+  qp::MultiVector b(narrow<unsigned int>(rows.size()), x.n_columns()), y = b;
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     for (unsigned int i = 0; i < rows.size(); ++i)
       b(i, k) = x(rows[i], k);
@@ -128,7 +129,8 @@ void RowGram::Group::solve(const SparseFactor &factor, qp::MultiVector &x) const
       x(rows[i], k) = y(i, k);
 }
 
-RowGram::Factor::Factor(const RowGram &gram, const qp::RowSet &free) : gram(gram), free(free)
+RowGram::Factor::Factor(const RowGram &the_gram, const qp::RowSet &the_free)
+  : gram(the_gram), free(the_free)
 {
   const auto &rows = gram.contact.rows;
   if (rows.empty())

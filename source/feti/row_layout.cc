@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/row_layout.h>
 
 #include <algorithm>
@@ -18,9 +19,9 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
     {
       // The last rank that begins at or before the row; ranks without rows begin where the next one
       // does.
-      const unsigned int rank =
+      const auto rank = narrow<PetscInt>(
         std::upper_bound(first_row_of_rank.begin(), first_row_of_rank.end(), rows[leaf]) -
-        first_row_of_rank.begin() - 1;
+        first_row_of_rank.begin() - 1);
       remote[leaf].rank  = rank;
       remote[leaf].index = rows[leaf] - first_row_of_rank[rank];
     }
@@ -28,8 +29,8 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
   check(PetscSFCreate(comm, forest.put()));
   // Gathered entries come in the order of the ranks, not in that of the arrival of messages.
   check(PetscSFSetRankOrder(forest, PETSC_TRUE));
-  check(PetscSFSetGraph(forest, n_owned, rows.size(), nullptr, PETSC_OWN_POINTER, remote.data(),
-                        PETSC_COPY_VALUES));
+  check(PetscSFSetGraph(forest, n_owned, narrow<PetscInt>(rows.size()), nullptr, PETSC_OWN_POINTER,
+                        remote.data(), PETSC_COPY_VALUES));
   check(PetscSFSetUp(forest));
   return forest;
 }
@@ -82,7 +83,7 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   int n_ranks;
   MPI_Comm_size(comm, &n_ranks);
   std::vector<unsigned int> first(n_ranks + 1, 0);
-  const unsigned int        n = bounded.size();
+  const unsigned int        n = narrow<unsigned int>(bounded.size());
   MPI_Allgather(&n, 1, MPI_UNSIGNED, first.data() + 1, 1, MPI_UNSIGNED, comm);
   std::partial_sum(first.begin(), first.end(), first.begin());
 
@@ -127,7 +128,8 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
 /// A row that this rank does not touch gives the number of another one.
 unsigned int RowLayout::local_row(unsigned int global_row) const
 {
-  return std::lower_bound(local_rows.begin(), local_rows.end(), global_row) - local_rows.begin();
+  return narrow<unsigned int>(std::lower_bound(local_rows.begin(), local_rows.end(), global_row) -
+                              local_rows.begin());
 }
 
 qp::MultiVector RowLayout::to_local(const qp::MultiVector &owned) const

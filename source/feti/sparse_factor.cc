@@ -32,7 +32,8 @@ void keep_to_one_thread()
 }
 } // namespace
 
-SparseFactor::SparseFactor(const CsrMatrix &matrix, const std::string &package) : matrix(matrix)
+SparseFactor::SparseFactor(const CsrMatrix &the_matrix, const std::string &package)
+  : matrix(the_matrix)
 {
   prefer_nested_dissection();
   keep_to_one_thread();

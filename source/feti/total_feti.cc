@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/total_feti.h>
 
 #include <algorithm>
@@ -37,17 +38,17 @@ void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::
 }
 } // namespace
 
-TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &systems,
-                     const RowLayout                    &layout,
+TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
+                     const RowLayout                    &the_layout,
                      const SubdomainTable               &table,
-                     const FetiParameters               &parameters,
+                     const FetiParameters               &the_parameters,
                      RunContext                         &context)
-  : systems(systems)
-  , layout(layout)
-  , parameters(parameters)
+  : systems(the_systems)
+  , layout(the_layout)
+  , parameters(the_parameters)
   , run(context)
-  , coarse(layout, table)
-  , gram(layout)
+  , coarse(the_layout, table)
+  , gram(the_layout)
 {
   for (const SubdomainSystem &system : systems)
     {

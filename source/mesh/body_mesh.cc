@@ -1,3 +1,4 @@
+#include <snug/base/deal_ii_compat.h>
 #include <snug/base/run_context.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/mesh/cell_graph.h>
@@ -11,8 +12,6 @@
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_tools.h>
-
-#include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +85,7 @@ template <int dim>
 void BodyMesh<dim>::Data::number_nodes()
 {
   nodes.distribute_dofs(fe);
-  dealii::DoFTools::extract_locally_relevant_dofs(nodes, relevant);
+  relevant = dealii::DoFTools::extract_locally_relevant_dofs(nodes);
   relevant.compress();
   const auto ends =
     dealii::Utilities::MPI::all_gather(comm,
@@ -130,7 +129,7 @@ void BodyMesh<dim>::Data::collect_nodes()
 template <int dim>
 void BodyMesh<dim>::Data::collect_hanging()
 {
-  dealii::AffineConstraints<double> constraints(relevant);
+  auto constraints = deal_ii_compat::constraints(nodes.locally_owned_dofs(), relevant);
   dealii::DoFTools::make_hanging_node_constraints(nodes, constraints);
   constraints.close();
   // above all indices, as is_hanging() expects

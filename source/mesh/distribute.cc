@@ -1,3 +1,4 @@
+#include <snug/base/deal_ii_compat.h>
 #include <snug/mesh/distribute.h>
 
 #include <deal.II/base/mpi.h>
@@ -48,7 +49,7 @@ bool has_one_level(unsigned int body, const Refined<dim> &refined)
         levels[0] = std::max(levels[0], cell->level());
         levels[1] = std::max(levels[1], -cell->level());
       }
-  MPI_Allreduce(MPI_IN_PLACE, levels, 2, MPI_INT, MPI_MAX, refined.get_communicator());
+  MPI_Allreduce(MPI_IN_PLACE, levels, 2, MPI_INT, MPI_MAX, deal_ii_compat::communicator(refined));
   return levels[0] == -levels[1];
 }
 
@@ -60,7 +61,7 @@ CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
                       const Refined<dim>                &refined)
 {
   CellSet<dim> set;
-  set.communicator = refined.get_communicator();
+  set.communicator = deal_ii_compat::communicator(refined);
   set.size         = geometry.extent();
   dealii::Point<dim> centre;
   for (unsigned int d = 0; d < dim; ++d)
@@ -173,7 +174,8 @@ received_parts(const dealii::parallel::fullydistributed::Triangulation<dim> &res
                const std::map<unsigned int, std::vector<CellPart>>          &sent)
 {
   std::map<dealii::CellId::binary_type, unsigned int> part_of_cell;
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(result.get_communicator(), sent))
+  for (const auto &message :
+       dealii::Utilities::MPI::some_to_some(deal_ii_compat::communicator(result), sent))
     for (const auto &cell : message.second)
       part_of_cell.insert(cell);
   std::vector<unsigned int> parts;
@@ -238,7 +240,7 @@ std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
   const Parts parts = decide_parts(sets, parameters, cells_by_size);
   const auto  ranks =
     ranks_of_parts(parts.cells,
-                   dealii::Utilities::MPI::n_mpi_processes(refined.get_communicator()));
+                   dealii::Utilities::MPI::n_mpi_processes(deal_ii_compat::communicator(refined)));
   // cell sets have the owned cells of a body in the order of this loop
   std::vector<unsigned int>                          next(geometries.size(), 0);
   dealii::LinearAlgebra::distributed::Vector<double> rank_of_cell(

@@ -1,3 +1,4 @@
+#include <snug/base/deal_ii_compat.h>
 #include <snug/base/run_context.h>
 #include <snug/geometry/formula.h>
 #include <snug/mesh/triangulate.h>
@@ -62,7 +63,7 @@ void refine_step(
   const std::function<bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
 {
   // a formula may fail on the rank of one cell only
-  everywhere(triangulation.get_communicator(), [&]() {
+  everywhere(deal_ii_compat::communicator(triangulation), [&]() {
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned() && wanted(cell->material_id(), cell->id(), cell->level()))
         cell->set_refine_flag();

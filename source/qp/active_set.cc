@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/qp/active_set.h>
 #include <snug/qp/kkt.h>
 #include <snug/qp/pcpg.h>
@@ -25,16 +26,16 @@ const unsigned int allowed_stalls = 3;
 class ActiveSetRun
 {
 public:
-  ActiveSetRun(const DualProblem      &problem,
-               const SolverParameters &parameters,
-               const ActiveSetOptions &options)
-    : problem(problem)
-    , context(problem.context())
-    , parameters(parameters)
-    , options(options)
-    , history(options)
+  ActiveSetRun(const DualProblem      &the_problem,
+               const SolverParameters &the_parameters,
+               const ActiveSetOptions &the_options)
+    : problem(the_problem)
+    , context(the_problem.context())
+    , parameters(the_parameters)
+    , options(the_options)
+    , history(the_options)
     , f_mults_before(context.work.f_mults)
-    , inner_tolerance(options.forcing)
+    , inner_tolerance(the_options.forcing)
   {}
 
   /// False if the set does not settle: go on with another solver from
@@ -167,7 +168,7 @@ void ActiveSetRun::solve_on_set()
   // change. After a cycle was met the signs of small entries decide, so it may go further down.
   const double least = (care == SetHistory::none ? 0.5 : 0.005) * parameters.relative_tolerance;
   const auto   inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
-                                     parameters.max_iterations - f_mults());
+                                     narrow<unsigned int>(parameters.max_iterations - f_mults()));
   recurrences += inner.iterations;
   solved = inner.converged;
   // w of the rows off the set, which decides who enters, needs the rigid amplitudes of this set.
@@ -320,8 +321,8 @@ DualSolution ActiveSetRun::solution() const
 }
 } // namespace
 
-ActiveSet::ActiveSet(const SolverParameters &parameters, const ActiveSetOptions &options)
-  : parameters(parameters), options(options)
+ActiveSet::ActiveSet(const SolverParameters &the_parameters, const ActiveSetOptions &the_options)
+  : parameters(the_parameters), options(the_options)
 {}
 
 DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start) const
@@ -332,7 +333,8 @@ DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start
   problem.context().out() << "The active set " << run.reason() << " after " << run.f_mults()
                           << " F-mults; going on with SMALSE-M." << std::endl;
   SolverParameters remaining = parameters;
-  remaining.max_iterations -= std::min<unsigned long>(run.f_mults(), remaining.max_iterations);
+  remaining.max_iterations -=
+    narrow<unsigned int>(std::min<unsigned long>(run.f_mults(), remaining.max_iterations));
   const unsigned long spent  = run.f_mults();
   DualSolution        result = Smalse(remaining).solve(problem, run.start());
   result.f_mults += spent;

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/qp/direction_basis.h>
 
 #include <algorithm>
@@ -73,7 +74,7 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
   for (unsigned int i = 0; i < rows.size(); ++i)
     if (rows[i] && is_nonzero(P, i))
       mine.push_back(i);
-  unsigned int count = mine.size(), first = 0, total = 0;
+  unsigned int count = narrow<unsigned int>(mine.size()), first = 0, total = 0;
   MPI_Exscan(&count, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
   MPI_Allreduce(&count, &total, 1, MPI_UNSIGNED, MPI_SUM, comm);
   // As many conditions as directions leave nothing in general: spare the work.

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/qp/independent_columns.h>
 
 #include <algorithm>
@@ -54,9 +55,10 @@ leading_columns(const MultiVector &S, const double distance, const double part)
   std::vector<unsigned int> taken;
   do
     {
-      const unsigned int pivot = std::max_element(squares.begin(), squares.end()) - squares.begin();
-      const double       root  = std::sqrt(squares[pivot]);
-      MultiVector        column(k);
+      const auto pivot =
+        narrow<unsigned int>(std::max_element(squares.begin(), squares.end()) - squares.begin());
+      const double root = std::sqrt(squares[pivot]);
+      MultiVector  column(k);
       for (unsigned int j = 0; j < k; ++j)
         {
           double rest = S(j, pivot);

@@ -17,19 +17,19 @@ double step_length(const Mprgp::Sizes &sizes)
 }
 } // namespace
 
-Mprgp::Mprgp(const DualProblem  &problem,
-             const EqualityPart &equality,
-             const Sizes        &sizes,
-             const MultiVector  &lambda)
-  : problem(problem)
-  , equality(equality)
-  , sizes(sizes)
-  , comm(problem.context().communicator())
-  , lambda(lambda)
-  , r(equality.residual)
-  , Qx(problem.n_owned())
-  , q(problem.n_owned())
-  , g(problem.n_owned())
+Mprgp::Mprgp(const DualProblem  &the_problem,
+             const EqualityPart &the_equality,
+             const Sizes        &the_sizes,
+             const MultiVector  &the_lambda)
+  : problem(the_problem)
+  , equality(the_equality)
+  , sizes(the_sizes)
+  , comm(the_problem.context().communicator())
+  , lambda(the_lambda)
+  , r(the_equality.residual)
+  , Qx(the_problem.n_owned())
+  , q(the_problem.n_owned())
+  , g(the_problem.n_owned())
 {
   bool other = false;
   for (unsigned int i = 0; i < problem.n_owned(); ++i)

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/qp/multi_vector.h>
 
 #include <deal.II/base/exceptions.h>
@@ -82,7 +83,8 @@ std::vector<double> norms(const MultiVector &X, MPI_Comm comm)
   for (unsigned int j = 0; j < X.n_columns(); ++j)
     for (unsigned int i = 0; i < X.n_rows(); ++i)
       squares[j] += X(i, j) * X(i, j);
-  MPI_Allreduce(MPI_IN_PLACE, squares.data(), squares.size(), MPI_DOUBLE, MPI_SUM, comm);
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), narrow<int>(squares.size()), MPI_DOUBLE, MPI_SUM,
+                comm);
   for (double &square : squares)
     square = std::sqrt(square);
   return squares;

@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/qp/nnls.h>
 
 #include <deal.II/base/exceptions.h>
@@ -41,13 +42,13 @@ double norm_of(const double *x, unsigned int n)
 class NonNegativeLeastSquares
 {
 public:
-  NonNegativeLeastSquares(const MultiVector &A, const MultiVector &b)
-    : A(A)
-    , b(b)
-    , lengths(A.n_columns())
-    , x(A.n_columns())
-    , residual(b)
-    , refused(A.n_columns(), false)
+  NonNegativeLeastSquares(const MultiVector &the_A, const MultiVector &the_b)
+    : A(the_A)
+    , b(the_b)
+    , lengths(the_A.n_columns())
+    , x(the_A.n_columns())
+    , residual(the_b)
+    , refused(the_A.n_columns(), false)
   {
     for (unsigned int j = 0; j < A.n_columns(); ++j)
       lengths[j] = norm_of(A.column(j), A.n_rows());

@@ -75,8 +75,11 @@ private:
 };
 } // namespace
 
-Pcpg::Pcpg(const DualProblem &problem, const Face &face, DirectionBasis known)
-  : problem(problem), face(face), comm(problem.context().communicator()), basis(std::move(known))
+Pcpg::Pcpg(const DualProblem &the_problem, const Face &the_face, DirectionBasis known)
+  : problem(the_problem)
+  , face(the_face)
+  , comm(the_problem.context().communicator())
+  , basis(std::move(known))
 {
   if (basis.P.n_columns() == 0)
     basis = {MultiVector(problem.n_owned(), 0), MultiVector(problem.n_owned(), 0)};

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/qp/row_set.h>
 
 #include <algorithm>
@@ -36,7 +37,7 @@ bool any(bool mine, MPI_Comm comm)
 
 std::uint64_t fingerprint(const RowSet &rows, MPI_Comm comm)
 {
-  const long long first = first_row(rows.size(), comm);
+  const long long first = first_row(narrow<unsigned int>(rows.size()), comm);
   std::uint64_t   sum   = 0;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i])
@@ -49,7 +50,7 @@ std::uint64_t fingerprint(const RowSet &rows, MPI_Comm comm)
 
 RowSet with_one_change(const RowSet &from, const RowSet &to, MPI_Comm comm)
 {
-  const long long first = first_row(from.size(), comm);
+  const long long first = first_row(narrow<unsigned int>(from.size()), comm);
   long long       last  = -1;
   for (std::size_t i = 0; i < from.size(); ++i)
     if (from[i] != to[i])
@@ -74,14 +75,14 @@ RowSet complement(const RowSet &rows)
 RowSet loaded_rows(const RowSet &bounded, const MultiVector &lambda)
 {
   RowSet rows(bounded.size(), 1);
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  for (unsigned int i = 0; i < rows.size(); ++i)
     rows[i] = !bounded[i] || lambda(i) > 0.;
   return rows;
 }
 
 bool has_negative(const RowSet &bounded, const MultiVector &lambda)
 {
-  for (std::size_t i = 0; i < bounded.size(); ++i)
+  for (unsigned int i = 0; i < bounded.size(); ++i)
     if (bounded[i] && lambda(i) < 0.)
       return true;
   return false;

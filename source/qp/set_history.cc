@@ -3,7 +3,7 @@
 #include <sstream>
 
 namespace snug::qp {
-SetHistory::SetHistory(const ActiveSetOptions &options) : options(options) {}
+SetHistory::SetHistory(const ActiveSetOptions &the_options) : options(the_options) {}
 
 SetHistory::Care SetHistory::enter(const std::uint64_t set, const double kkt_residual)
 {

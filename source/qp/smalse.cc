@@ -54,10 +54,10 @@ double operator_norm(const DualProblem &problem, const Face &all, MultiVector v)
 class SmalseRun
 {
 public:
-  SmalseRun(const DualProblem &problem, const SolverParameters &parameters)
-    : problem(problem)
-    , context(problem.context())
-    , parameters(parameters)
+  SmalseRun(const DualProblem &the_problem, const SolverParameters &the_parameters)
+    : problem(the_problem)
+    , context(the_problem.context())
+    , parameters(the_parameters)
     , f_mults_before(context.work.f_mults)
   {}
 
@@ -186,7 +186,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
 }
 } // namespace
 
-Smalse::Smalse(const SolverParameters &parameters) : parameters(parameters) {}
+Smalse::Smalse(const SolverParameters &the_parameters) : parameters(the_parameters) {}
 
 DualSolution Smalse::solve(const DualProblem &problem, const WarmStart &start) const
 {

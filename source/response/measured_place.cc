@@ -126,7 +126,8 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
   const auto            &mesh = solver.mesh();
   const MPI_Comm         comm = solver.context().communicator();
   dealii::Tensor<1, dim> x;
-  std::copy(parameters.point.begin(), parameters.point.end(), x.begin_raw());
+  for (unsigned int c = 0; c < dim; ++c)
+    x[c] = parameters.point[c];
   std::vector<CellWeights>  found;
   std::vector<unsigned int> holds(mesh.n_bodies(), 0);
   const auto                look = [&](unsigned int s, unsigned int i) {

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """The lint checks find what they are for: each on a small tree of its own."""
 
+import json
 import pathlib
 import stat
 import tempfile
 import unittest
 
+import compile as compiling
 import formatting
 import layout
 import links
@@ -151,6 +153,37 @@ class Format(Tree):
         self.expect(formatting.check(self.root))
         self.write("source/b.cc", "int a;\nint  b;\n")
         self.expect(formatting.check(self.root), "source/b.cc:2: ")
+
+
+class Alone(Tree):
+    """Two sources that compile one after the other but not alone."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("include/snug/base/a.h", "#include <vector>\n")
+        self.write("include/snug/base/b.h", "inline std::vector<int> b;\n")
+        self.write("source/base/a.cc", "#include <snug/base/a.h>\n")
+        self.write("source/base/c.cc", "#include <snug/base/a.h>\n"
+                   "#include <snug/base/b.h>\nint c()\n{ int d = 1; }\n")
+        name = str(self.write("build/unity_0.cxx", '#include "a.cc"\n'))
+        command = (f"ccache g++ -Wall -I{self.root}/include"
+                   f" -o source/CMakeFiles/snug_base.dir/unity_0.o -c {name}")
+        self.write("build/compile_commands.json", json.dumps(
+            [{"directory": str(self.root / "build"), "file": name,
+              "command": command}]))
+
+    def found(self, files=None):
+        commands = compiling.alone(self.root, self.root / "build", files)
+        return [said.partition("\n")[0] for said in compiling.check(commands)]
+
+    def test_a_warning_and_a_header_that_needs_another_are_found(self):
+        of_source, of_header = self.found()
+        self.assertIn("source/base/c.cc: In function", of_source)
+        self.assertIn("include/snug/base/b.h:1:", of_header)
+
+    def test_only_the_files_asked_for_are_compiled(self):
+        self.assertEqual(self.found({self.root / "source/base/a.cc"}), [])
+        self.assertEqual(len(self.found({self.root / "include/snug/base/b.h"})), 1)
 
 
 class Words(Tree):

@@ -94,7 +94,10 @@ private:
 
   static std::vector<double> to_list(const dealii::Tensor<1, dim> &v)
   {
-    return std::vector<double>(v.begin_raw(), v.end_raw());
+    std::vector<double> list(dim);
+    for (unsigned int c = 0; c < dim; ++c)
+      list[c] = v[c];
+    return list;
   }
 
   state::Model<dim> moved_model(const Motion<dim> &motion) const

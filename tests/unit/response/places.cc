@@ -73,11 +73,11 @@ void check_displacements(unsigned int degree)
   at_point.body      = "foundation";
   at_point.component = "y";
   dealii::Tensor<1, dim> x;
+  at_point.point.resize(dim);
   for (const double first : {0., 0.123, 0.5, 0.987, 1.})
     {
       for (unsigned int d = 0; d < dim; ++d)
-        x[d] = d == 0 ? first : 0.31 + 0.23 * d;
-      at_point.point.assign(x.begin_raw(), x.end_raw());
+        at_point.point[d] = x[d] = d == 0 ? first : 0.31 + 0.23 * d;
       EXPECT_NEAR(value(problem, state, at_point), linear(x)[1], 1e-12);
     }
 

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Compile without linking, to find what the build does not show.
+
+compile.py alone: every source compiles by itself, as without unity builds, and
+every header, where no source includes it first. compile.py tidy: clang-tidy with
+the checks of .clang-tidy finds nothing. Prints what the compilers say; exit
+status 1 if they find something."""
+
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+from files import lines, text_files
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OF_MODULE = re.compile(r"/snug_(\w+)\.dir/")
+INCLUDE = re.compile(r"\s*#\s*include\s*[<\"]([^>\"]+)")
+
+
+def entries(build):
+    """(module, compilation database entry) of all objects of the modules."""
+    database = json.loads((build / "compile_commands.json").read_text())
+    for entry in database:
+        module = OF_MODULE.search(entry["command"])
+        if module:
+            yield module.group(1), entry
+
+
+def flags(entry):
+    """Its compiler with options, without input and output."""
+    words = shlex.split(entry["command"])
+    drop = words.index("-o")
+    return [word for word in words[:drop] + words[drop + 2:]
+            if word not in ("-c", entry["file"]) and not word.endswith("ccache")]
+
+
+def module_of(root, path):
+    parts = path.relative_to(root).parts
+    return parts[2 if parts[0] == "include" else 1]
+
+
+def first_include(path):
+    found = (INCLUDE.match(line) for _, line in lines(path))
+    return next((include.group(1) for include in found if include), None)
+
+
+def lone_files(root):
+    """All sources, and the headers that are no source's first include: those
+    are compiled alone with it."""
+    sources = list(text_files(root, ("source",), (".cc",)))
+    first = {first_include(path) for path in sources}
+    return sources + [path for path in text_files(root, ("include",), (".h",))
+                      if str(path.relative_to(root / "include")) not in first]
+
+
+def run(command):
+    """What a compiler says, if it is not content."""
+    done = subprocess.run(command, text=True, check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    said = done.stdout + done.stderr
+    return said.strip() if done.returncode or "warning:" in said else ""
+
+
+def alone(root, build, files):
+    """Commands that compile each file by itself."""
+    of_module = {module: flags(entry) for module, entry in entries(build)}
+    return [of_module[module_of(root, path)] +
+            ["-fsyntax-only", "-x", "c++", str(path)]
+            for path in lone_files(root) if files is None or path in files]
+
+
+def tidy(root, build, files):
+    """Commands for the objects of the build, whose unity sources read the
+    headers of deal.II once for several files. clang does not know all of gcc's
+    options and warnings: only those that find headers remain."""
+    folder = build / "lint"
+    folder.mkdir(exist_ok=True)
+    chosen, database = [], []
+    for _, entry in entries(build):
+        of_object = pathlib.Path(entry["file"])
+        text = of_object.read_text() + str(of_object)
+        if files is None or any(str(path) in text for path in files):
+            chosen.append(str(of_object))
+        words = flags(entry)
+        kept = [word for before, word in zip([""] + words, words)
+                if word[:2] in ("-I", "-D") or word == "-isystem" or
+                before == "-isystem"]
+        database.append({"directory": entry["directory"], "file": str(of_object),
+                         "arguments": ["clang++", "-std=c++17", *kept, "-c",
+                                       str(of_object)]})
+    (folder / "compile_commands.json").write_text(json.dumps(database))
+    return [["clang-tidy", "--quiet", f"--config-file={root / '.clang-tidy'}",
+             "-p", str(folder), name] for name in chosen]
+
+
+def check(commands, jobs=1):
+    """What is found, file by file."""
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        yield from filter(None, pool.map(run, commands))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("check", choices=("alone", "tidy"))
+    parser.add_argument("files", nargs="*", type=pathlib.Path)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--every", type=int, default=1,
+                        help="a sample: only every so many of all files")
+    options = parser.parse_args()
+    files = {path.resolve() for path in options.files} if options.files else None
+    make = {"alone": alone, "tidy": tidy}[options.check]
+    commands = make(ROOT, options.build.resolve(), files)[::options.every]
+    n_found = 0
+    for said in check(commands, options.jobs):
+        n_found += 1
+        print(said, flush=True)
+    print(f"{options.check}: {len(commands)} files compiled, {n_found} to mend")
+    return 1 if n_found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
