@@ -26,7 +26,7 @@ def error(value, answer):
     if isinstance(answer, Below):
         return 0. if value < answer else math.inf
     found, known = (x if isinstance(x, list) else [x] for x in (value, answer))
-    if len(found) != len(known):
+    if len(found) != len(known) or not all(map(math.isfinite, found)):
         return math.inf
     return max(abs(a - b) for a, b in zip(found, known)) / max(map(abs, known))
 
