@@ -11,6 +11,7 @@ import formatting
 import layout
 import links
 import modules
+import options
 import program
 import size
 import words
@@ -22,6 +23,7 @@ CHECKS = {
     "size": lambda root, snug: size.check(root),
     "words": lambda root, snug: words.check(root),
     "links": lambda root, snug: links.check(root),
+    "options": lambda root, snug: options.check(root),
     "scenes": program.check_scenes,
     "parameters": program.check_parameters,
 }
@@ -33,9 +35,9 @@ def main():
     parser.add_argument("check", choices=CHECKS)
     parser.add_argument("--root", type=pathlib.Path, default=here.parents[2])
     parser.add_argument("--program", default="build/snug")
-    options = parser.parse_args()
-    messages = CHECKS[options.check](options.root.resolve(), options.program)
-    print("\n".join(messages) or f"{options.check}: nothing to mend")
+    given = parser.parse_args()
+    messages = CHECKS[given.check](given.root.resolve(), given.program)
+    print("\n".join(messages) or f"{given.check}: nothing to mend")
     return 1 if messages else 0
 
 

@@ -12,6 +12,7 @@ import formatting
 import layout
 import links
 import modules
+import options
 import program
 import size
 import words
@@ -203,6 +204,38 @@ class Links(Tree):
     def test_a_link_starts_from_its_own_file(self):
         self.write("doc/a.md", "[a](architecture.md) [b](doc/architecture.md)\n")
         self.expect(links.check(self.root), "doc/a.md:1: no file 'doc/")
+
+
+class Options(Tree):
+    HEAD = "| entry | default | allowed | meaning |\n|---|---|---|---|\n"
+    BODY = ("## subsection Body NAME\n" + HEAD +
+            "| `Mesh` | `box` | one of box, ring, disc | m |\n"
+            "| `Scale` | `1` | a number | s |\n")
+
+    def setUp(self):
+        super().setUp()
+        self.write(options.REFERENCE, "## Outside of subsections\n" + self.HEAD +
+                   "| `Scale` |  | text | s |\n" + self.BODY)
+        self.write("prm/a.prm", "set Scale = 1\nsubsection Body a b\n"
+                   "  set Mesh = ring # set Scale = 1\nend\n")
+
+    def test_what_scenes_and_pages_show_passes(self):
+        self.write("doc/gallery/a.md", "`--set \"Body {b}/Mesh=disc\"`\n")
+        self.write("contrib/run", "'Body b/Scale=2'\n")
+        self.expect(options.check(self.root))
+
+    def test_what_nothing_shows_is_found(self):
+        self.write("doc/gallery/a.md", "Body b/Mesh=discs, Bodies b/Scale=2\n")
+        self.expect(options.check(self.root),
+                    options.REFERENCE + ":8: 'Body/Mesh=disc'",
+                    options.REFERENCE + ":9: 'Body/Scale'")
+
+    def test_a_section_ends(self):
+        self.write("prm/a.prm", "subsection Body a\n  set Mesh = disc\nend\n"
+                   "subsection Solver\n  set Scale = 1\nend\nset Scale = 2\n")
+        self.expect(options.check(self.root),
+                    options.REFERENCE + ":8: 'Body/Mesh=ring'",
+                    options.REFERENCE + ":9: 'Body/Scale'")
 
 
 class Program(Tree):

@@ -176,7 +176,18 @@ def mesh_scene(runner, title, entries):
 
 
 def check_unsolved(runner, scene):
-    """Only a design that meets its constraints ends with 0."""
+    """Only a design that meets its constraints, and a state its tolerance, ends with
+    0."""
+    runner.expect_error("too few F-mults",
+                        [scene, "--set", "Solver/Maximum F-mults=3"],
+                        ["in 3 F-mults", "allow more"], 3)
+    plane = ("0, 0, 2", "0, 0, -1")
+    runner.expect_error("the same obstacle twice", [runner.write("twice", {
+        "Obstacles": "a, b", "Contact/Pairs":
+        ", ".join([runner.entry("Pairs"), "upper.top: a", "upper.top: b"]),
+        **{f"Obstacle {name}/{entry}": value for name in "ab"
+           for entry, value in zip(("Point", "Normal"), plane)}})],
+        ["two contact rows the same"], 3)
     settings = ["Task=optimize", "Optimization/Maximum evaluations=1",
                 "Optimization/Constraints=volume: = 1.5 initial"]
     run = [scene, *(word for entry in settings for word in ("--set", entry))]

@@ -1,0 +1,334 @@
+"""The small scenes of tests/scenes with known answers, and what their options must do.
+
+A check runs a scene with some entries and measures it, where it says so beside the
+same scene with others. A measure returns quantities as (name, value, answer)."""
+
+import base64
+import collections
+import math
+import re
+import struct
+import zlib
+
+from gallery_runs import solve
+
+
+class Below(float):
+    """An answer that is a bound: the value must be smaller."""
+
+
+Check = collections.namedtuple("Check", "scene entries measure allowed beside",
+                               defaults=[1e-8, None])
+
+
+def error(value, answer):
+    """Relative, of lists to their largest number; of a bound that holds zero."""
+    if isinstance(answer, Below):
+        return 0. if value < answer else math.inf
+    found, known = (x if isinstance(x, list) else [x] for x in (value, answer))
+    if len(found) != len(known) or not all(map(math.isfinite, found)):
+        return math.inf
+    return max(abs(a - b) for a, b in zip(found, known)) / max(map(abs, known))
+
+
+def at(result, path):
+    """What stands in the summary at "state.energy"."""
+    value = result.summary
+    for key in path.split("."):
+        value = value[int(key)] if isinstance(value, list) else value[key]
+    return value
+
+
+def same(*paths, less=(), more=()):
+    """Equal to the scene beside; some numbers are less, or more."""
+    return lambda result, beside: [
+        *((path, at(result, path), at(beside, path)) for path in paths),
+        *((path, at(result, path), Below(at(beside, path))) for path in less),
+        *((path + " beside", at(beside, path), Below(at(result, path)))
+          for path in more)]
+
+
+def guided_modulus(E, nu):
+    """Stress over strain along an axis, without strain across it."""
+    return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+
+
+def moment(result, _):
+    """M L^2 / 2EI at the tip and the work M^2 L / EI of a beam of length 5."""
+    stiffness = 1000 * 2 * 1**3 / 12
+    return [("tip", result.state["responses"]["tip"], 25 / (2 * stiffness)),
+            ("work", result.state["compliance"], 5 / stiffness),
+            ("cells", result.summary["mesh"]["cells"], 20)]
+
+
+def two_materials(result, _):
+    """Per thickness: int N^2 / 2M over the bar's length, whose height is 10."""
+    soft, hard = guided_modulus(10, .4), guided_modulus(210000, .3)
+    core, coat = 1.2e-9 * 9810 * 10, 7.85e-9 * 9810 * 10  # stresses by weight
+    hanging = (10 * (4 * coat**2 + 2 * coat * core + core**2 / 3) / soft +
+               20 * 4 * coat**2 / 3 / hard)
+    pulled = .1**2 * (10 / soft + 20 / hard)
+    return [(case["name"], case["state"]["strain_energy"], 10 * energy / 2)
+            for case, energy in zip(result.summary["load_cases"], (hanging, pulled))]
+
+
+def mesh_regions(result, _):
+    """Stress 0.3 over an area of 1 m^2; a soft part of 1 m, a stiff one of 2 m."""
+    short = .3 * (1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))
+    return [("force", -result.state["contact_force"][0], .3e6),
+            ("end", -result.state["responses"]["end"], short)]
+
+
+def named_boundaries(result, _):
+    """Pressure 1 shortens the height 0.5."""
+    return [("least p", min(result.pressures()), 1.),
+            ("largest p", max(result.pressures()), 1.),
+            ("top", -result.state["responses"]["top"], .5 / 1000)]
+
+
+def mean_pressure(result, pair):
+    points = [p for p in result.points if p["pair"] == pair]
+    return (math.fsum(p["force"] for p in points) /
+            math.fsum(p["area"] for p in points))
+
+
+def lame_cylinder(result, _):
+    """Of radius 1, a rod 0.002 too thick; a tube up to radius 2 on a pin 0.001 too
+    thick; plane strain."""
+    E, nu = 1000, .3
+    return [("p on the rod", mean_pressure(result, 0),
+             .002 * E / ((1 + nu) * (1 - 2 * nu))),
+            ("p in the tube", mean_pressure(result, 1),
+             .001 * E * 3 / ((1 + nu) * (1 - 2 * nu + 4)))]
+
+
+def lame_sphere(result, _):
+    """A ball 0.002 too large for its rigid cavity, one 0.001 too large for the elastic
+    shell around it; all radii are 1, the shell's outer one is 2."""
+    E, nu = 1000, .3
+    shell = ((1 - 2 * nu) + (1 + nu) * 2**3 / 2) / (E * (2**3 - 1))
+    return [("p in the cavity", mean_pressure(result, 0), .002 * E / (1 - 2 * nu)),
+            ("p in the shell", mean_pressure(result, 1),
+             .001 / ((1 - 2 * nu) / E + shell))]
+
+
+def pair_entries(result, _):
+    """The upper pair has the 4^2 nodes of the coarser face, the lower the 5^2 of the
+    finer one."""
+    return [(f"{which.__name__} p on {name}", which(result.pressures(pair)), 1.)
+            for pair, name in ((0, "the upper"), (1, "the lower"))
+            for which in (min, max)] + [
+        (f"rows of {pair['name']}", pair["rows"], rows)
+        for pair, rows in zip(result.state["pairs"], (16, 25))]
+
+
+def rows_of_disc(floor, lid):
+    """80 nodes on the rim; what comes down on the floor but not from the lid is the
+    weight of the polygon."""
+    def measure(result, _):
+        pairs = result.state["pairs"]
+        return [("rows of the floor", pairs[0]["rows"], floor),
+                ("rows of the lid", pairs[1]["rows"], lid),
+                ("weight", result.state["contact_force"][1],
+                 40 * math.sin(math.pi / 40))]
+    return measure
+
+
+def responses(result, _):
+    """Of pressure 5 on the box 2 x 1 x 1."""
+    answers = {"potential": -.025, "work": .05, "strain": .025, "space": 2,
+               "weight": 2 * 7.85e-9, "end": .003, "side": .0015, "sunk": -.005,
+               "stress": 5, "force": 10, "area": 2, "norm": 5 * 2**.25, "peak": 5,
+               "variance": Below(1e-12)}
+    return [(name, result.state["responses"][name], answer)
+            for name, answer in answers.items()]
+
+
+def by_method(result):
+    return {row["method"]: row for row in result.summary["gradient"]["methods"]}
+
+
+def scaling_law(accuracy):
+    """A force bends large and small bodies in 2D alike: growing in length makes good
+    what growing in height changes."""
+    def measure(result, _):
+        methods = by_method(result)
+        rows = [(name, *methods[name]["values"]) for name in methods]
+        return [(f"{name}, relative", abs(a / b + 1), Below(accuracy.get(name, 1e-8)))
+                for name, a, b in rows]
+    return measure
+
+
+def array(picture, name, width):
+    """The rows of a field of a .vtu file: Float32, blocks packed by zlib."""
+    text = re.search(rf'{name}[^>]*>\s*([^\s<]+)', picture).group(1)
+    head = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
+    # lengths: of the list, a block, the last block, and each packed one
+    size = 4 * (3 + head)
+    packed = struct.unpack(f"<{3 + head}I", base64.b64decode(text)[:size])[3:]
+    data, body = b"", base64.b64decode(text[4 * math.ceil(size / 3):])
+    for length in packed:
+        data, body = data + zlib.decompress(body[:length]), body[length:]
+    return list(struct.iter_unpack(f"<{width}f", data))
+
+
+def shape_gradient(result, _):
+    """Against fields of the design variables, (x, 0) and (0, y - 0.5): each node once,
+    though cells share it."""
+    of_nodes = dict(zip(array(result.picture, "<Points>\\s*<DataArray", 3),
+                        array(result.picture, 'Name="shape_gradient"', 3)))
+    values = result.summary["gradient"]["values"]
+    return [("by length", sum(x[0] * g[0] for x, g in of_nodes.items()), values[0]),
+            ("by height", sum((x[1] - .5) * g[1] for x, g in of_nodes.items()),
+             values[1])]
+
+
+def one_method(result, beside):
+    """Only the method that is asked for, which finds what the other does."""
+    found, other = (of.summary["gradient"] for of in (result, beside))
+    return [("methods", len(found["methods"]), 1),
+            (f"{found['method']} against {other['method']}", found["values"],
+             other["values"])]
+
+
+def mirror_images(result, beside):
+    """Of two variables the first moves the points on both sides of the middle."""
+    outer, middle = at(result, "optimization.design")
+    return [("design", [outer, middle, outer], at(beside, "optimization.design"))]
+
+
+def two_bars(result, _):
+    """Sum of F^2 L / EA is least for areas as the forces: (1 + 2)^2 2 / (1000 2)."""
+    found = result.summary["optimization"]
+    return [("compliance", found["objective_final"], 9e-3),
+            ("height of the weak bar", 1 + found["design"][0], 2 / 3),
+            ("height of the strong bar", 1 + found["design"][1], 4 / 3)]
+
+
+def stops_by(reason):
+    """Earlier than the scene beside, and for that reason."""
+    def measure(result, beside):
+        found = result.summary["optimization"]
+        return [(f"stops by {reason}", float(found["stop_reason"] == reason), 1.),
+                ("evaluations", found["evaluations"],
+                 Below(beside.summary["optimization"]["evaluations"]))]
+    return measure
+
+
+def loose_constraint(result, beside):
+    """Above the volume 4, but not by more than 1e-2 of it; so the bars are stiffer."""
+    found = result.summary["optimization"]
+    start = beside.summary["optimization"]["constraint_violation"]
+    return [("violation", found["constraint_violation"], Below(1e-2)),
+            ("violation of the sharp one", start, Below(found["constraint_violation"])),
+            ("compliance", found["objective_final"], Below(9e-3))]
+
+
+BAR_STOPS = {"gradient tolerance": "Optimization/Gradient tolerance=0.1",
+             "objective tolerance": "Optimization/Objective tolerance=1e-2",
+             "design tolerance": "Optimization/Design tolerance=0.1",
+             "maximum evaluations": "Optimization/Maximum evaluations=4"}
+STATE = ("state.energy", "state.max_pressure", "state.contact_force")
+F_MULTS = ("state.f_mults",)
+GRADIENT = "gradient.values"
+# adjoint, direct, semi-analytic, finite differences; the error of the last two
+SEMI, OVERALL = ((f"gradient.methods.{i}.values",) for i in (2, 3))
+SEMI_ERROR, OVERALL_ERROR = ((f"gradient.methods.{i}.displacement_difference",)
+                             for i in (2, 3))
+ENERGY = ["Gradient/Compare=false", "Optimization/Objective=potential energy"]
+
+CHECKS = [
+    Check("moment", [], moment),
+    Check("two-materials", [], two_materials),
+    Check("mesh-regions", [], mesh_regions),
+    Check("named-boundaries", [], named_boundaries),
+    Check("lame-cylinder", [], lame_cylinder, 3e-3),
+    Check("lame-cylinder", ["Obstacle pin/Shape=cylinder", "Obstacle pin/Formula="],
+          same("state.max_pressure", "state.pairs.1.force.0"), 1e-6, []),
+    Check("lame-sphere", [], lame_sphere, 2e-2),
+    Check("pair-entries", [], pair_entries, 1e-6),
+    Check("search", [], rows_of_disc(17, 11), 1e-6),
+    Check("search", ["Pair disc.outer: lid/Search distance=0"], rows_of_disc(17, 27),
+          1e-6),
+    Check("responses", [], responses, 1e-6),
+    Check("solver-entries", ["Solver/Factorization=MUMPS"],
+          same(*STATE, *F_MULTS), 1e-6, []),
+    Check("solver-entries", ["Solver/Preconditioner=lumped"],
+          same(*STATE, more=F_MULTS), 1e-5, []),
+    Check("solver-entries", ["Solver/Preconditioner=none"],
+          same(*STATE, more=F_MULTS), 1e-5, ["Solver/Preconditioner=lumped"]),
+    Check("solver-entries", ["Solver/Scaling=multiplicity"],
+          same(*STATE, more=F_MULTS), 1e-5, []),
+    Check("solver-entries", ["Solver/Method=SMALSE-M"],
+          same(*STATE, more=F_MULTS), 1e-5, []),
+    Check("gradient-entries", [], scaling_law({"semi-analytic": 1e-5})),
+    Check("gradient-entries", [], shape_gradient, 1e-5),
+    Check("gradient-entries", ["Gradient/Derivatives=forward differences"],
+          same(*SEMI, more=SEMI_ERROR), 1e-2, []),
+    Check("gradient-entries", ["Gradient/Derivatives=refined forward differences"],
+          same(*SEMI, less=SEMI_ERROR), 1e-2,
+          ["Gradient/Derivatives=forward differences"]),
+    Check("gradient-entries", ["Gradient/Derivatives=refined central differences"],
+          same(*SEMI, less=SEMI_ERROR), 1e-5, []),
+    Check("gradient-entries", ["Gradient/Semi-analytic step=1e-3"],
+          same(*SEMI, more=SEMI_ERROR), 1e-3, []),
+    Check("gradient-entries", ["Gradient/Differences=central"],
+          same(*OVERALL, more=OVERALL_ERROR), 1e-5, []),
+    Check("gradient-entries", ["Gradient/Differences=forward"],
+          same(*OVERALL, more=OVERALL_ERROR), 1e-2, ["Gradient/Differences=central"]),
+    Check("gradient-entries", ["Gradient/Differences=backward"],
+          same(*OVERALL, more=OVERALL_ERROR), 1e-2, ["Gradient/Differences=central"]),
+    Check("gradient-entries", ["Gradient/Step=1e-2"],
+          same(*OVERALL, more=OVERALL_ERROR), 1e-5, []),
+    Check("gradient-entries", [*ENERGY, "Gradient/Method=energy"], one_method, 1e-8,
+          ENERGY),
+    Check("gradient-entries", [*ENERGY, "Gradient/Method=finite differences"],
+          one_method, 1e-8, ENERGY),
+    Check("spline-box", ["Gradient/Method=direct"], one_method, 1e-8, []),
+    Check("spline-box", [], same(GRADIENT), 1e-8,
+          ["Shape/Basis=Bezier box", "Shape/Degree=3"]),
+    Check("spline-box", ["Gradient/Method=direct", "Gradient/Solves=recycled"],
+          same(GRADIENT), 1e-6, ["Gradient/Method=direct"]),
+    Check("elastic-interior", [], same("optimization.objective_final"), 1e-4,
+          ["Shape/Interior=linear blending"]),
+    Check("elastic-interior", [],
+          same("optimization.objective_final",
+               less=("work.assembled_subdomains", "work.numeric_factorizations")),
+          1e-4, ["Shape/Reach=0"]),
+    Check("tied-points", [], mirror_images, 1e-4, ["Shape/Symmetry="]),
+    Check("tied-points", [], same("optimization.design"), 1e-8, ["Shape/Fixed=0, 4"]),
+    Check("tied-points", [], same(more=("optimization.objective_final",)), 0.,
+          ["Shape/Fixed="]),
+    Check("tied-points", [], same("optimization.design"), 5e-3, ["Shape/Initial=0"]),
+    Check("two-bars", [], two_bars, 1e-6),
+    Check("two-bars", ["Optimization/Algorithm=MMA"], two_bars, 1e-4),
+    Check("two-bars", ["Optimization/Algorithm=CCSAQ"], two_bars, 1e-4),
+    Check("two-bars", ["Optimization/Algorithm=AUGLAG"], two_bars, 1e-4),
+    *(Check("two-bars", [entry], stops_by(reason), 0., [])
+      for reason, entry in BAR_STOPS.items()),
+    Check("two-bars", ["Optimization/Algorithm=AUGLAG",
+                       "Optimization/Constraint tolerance=1e-2"], loose_constraint, 0.,
+          ["Optimization/Algorithm=AUGLAG"]),
+]
+
+
+def text_of(value):
+    """A number, or the largest of several."""
+    if isinstance(value, list):
+        return f"{max(value, key=abs):.6g} of {len(value)}"
+    return ("< " if isinstance(value, Below) else "") + f"{value:.6g}"
+
+
+def run(failures):
+    """Print the table of all checks; what is wrong goes to failures as lines."""
+    print("| scene | with | quantity | found | answer | error |\n" + "|---" * 6 + "|")
+    for check in CHECKS:
+        scene, given = f"tests/scenes/{check.scene}.prm", "; ".join(check.entries)
+        beside = solve(scene, *check.beside) if check.beside is not None else None
+        for name, value, answer in check.measure(solve(scene, *check.entries), beside):
+            off = error(value, answer)
+            print(f"| {check.scene} | {given} | {name} | {text_of(value)} "
+                  f"| {text_of(answer)} | {off:.1e} |", flush=True)
+            if not off <= check.allowed:
+                failures.append(f"{check.scene}, {given}: {name} is {value} instead of "
+                                f"{text_of(answer)}")
