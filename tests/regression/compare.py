@@ -2,7 +2,7 @@
 """Compare a summary.json with accepted numbers: compare.py SUMMARY REFERENCE.
 
 Physical quantities must agree on every number of ranks, and so must what the solver
-spent, for subdomains do not depend on it (where there are at least as many as ranks).
+spent where the reference tells, for subdomains do not depend on it.
 The reference is a flat list of values, with own tolerances where a quantity is
 less sharp than RTOL (an optimized design: the stopping tolerance):
 
