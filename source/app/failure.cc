@@ -1,12 +1,8 @@
 #include <snug/app/failure.h>
 #include <snug/base/errors.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <chrono>
 #include <iostream>
-#include <new>
-#include <sstream>
 #include <thread>
 
 namespace snug::app {
@@ -47,22 +43,6 @@ int exit_status(const std::exception &error)
   if (dynamic_cast<const InputError *>(&error) != nullptr)
     return 2;
   return dynamic_cast<const SolveError *>(&error) != nullptr ? 3 : 1;
-}
-
-std::string one_line(const std::exception &error)
-{
-  std::ostringstream text;
-  if (const auto *banner = dynamic_cast<const dealii::ExceptionBase *>(&error))
-    banner->print_info(text);
-  else if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
-    text << "out of memory";
-  else
-    text << error.what();
-  std::istringstream words(text.str());
-  std::string        word, line;
-  while (words >> word)
-    line += (line.empty() ? "" : " ") + word;
-  return line;
 }
 
 int guarded(MPI_Comm communicator, const std::function<int()> &work, const double patience)

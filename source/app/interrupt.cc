@@ -10,6 +10,7 @@ volatile std::sig_atomic_t signal_received = 0;
 void note_signal(int number)
 {
   signal_received = number;
+  std::signal(number, SIG_DFL); // who asks twice does not want to wait
 }
 } // namespace
 

@@ -1,15 +1,18 @@
 #include <snug/app/command_line.h>
 #include <snug/app/failure.h>
 #include <snug/app/study.h>
+#include <snug/base/errors.h>
+#include <snug/base/petsc_handle.h>
 #include <snug/base/version.h>
 #include <snug/scene/read_scene.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <petscsys.h>
+#include <petscblaslapack.h>
 
 #include <cstdlib>
 #include <iostream>
+#include <new>
 
 namespace {
 using namespace snug;
@@ -41,8 +44,20 @@ bool answer(const app::Options &options, std::ostream &out)
   return true;
 }
 
+/// OpenBLAS takes its buffer at the first call that needs one, and tries for ever where there
+/// is no memory: have it at once, if there is some.
+void reserve_blas_buffer()
+{
+  const std::size_t more_than_it_takes = std::size_t(256) << 20;
+  ::                operator delete(::operator new(more_than_it_takes));
+  PetscBLASInt      n   = 1, info;
+  double            one = 1.;
+  LAPACKpotrf_("L", &n, &one, &n, &info);
+}
+
 int run(const app::Options &options)
 {
+  reserve_blas_buffer();
   RunContext         context(MPI_COMM_WORLD, std::cout);
   const scene::Scene scene = scene::read_scene(
     {options.file, scene::read_text(options.file, MPI_COMM_WORLD), options.sets, options.output,
@@ -72,14 +87,13 @@ int main(int argc, char *argv[])
   catch (const std::exception &error)
     {
       if (is_first_process())
-        std::cerr << "snug: " << app::one_line(error) << std::endl;
+        std::cerr << "snug: " << one_line(error) << std::endl;
       return app::exit_status(error);
     }
   // PETSc would take our options for its own and print its own help.
   int                                      no_options = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_options, argv, 1);
-  // Errors arrive as exceptions of petsc::check() and are printed by us.
-  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
+  petsc::return_errors();
   PetscPopSignalHandler();
   return app::guarded(MPI_COMM_WORLD, [&options]() { return run(options); });
 }

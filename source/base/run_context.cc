@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <new>
 #include <streambuf>
 
 namespace snug {
@@ -93,63 +94,78 @@ Work RunContext::total_work() const
   return total;
 }
 
-namespace internal {
-int kind_of_current_exception(std::string &message)
+namespace {
+/// Kinds of errors that stay the same on their way to the other ranks.
+enum Kind : int
 {
+  none,
+  input,
+  solve,
+  tangled,
+  memory,
+  other
+};
+
+Kind kind_of(const std::exception &error)
+{
+  if (dynamic_cast<const InputError *>(&error) != nullptr)
+    return input;
+  if (dynamic_cast<const TangledMesh *>(&error) != nullptr)
+    return tangled;
+  if (dynamic_cast<const SolveError *>(&error) != nullptr)
+    return solve;
+  return is_out_of_memory(error) ? memory : other;
+}
+
+[[noreturn]] void throw_again(int kind, const std::string &message)
+{
+  switch (kind)
+    {
+      case input:
+        throw InputError(message);
+      case solve:
+        throw SolveError(message);
+      case tangled:
+        throw TangledMesh(message);
+      case memory:
+        throw std::bad_alloc();
+      default:
+        throw std::runtime_error(message);
+    }
+}
+} // namespace
+
+void everywhere(MPI_Comm communicator, const std::function<void()> &work)
+{
+  int         kind = none;
+  std::string message;
   try
     {
-      throw;
-    }
-  catch (const InputError &error)
-    {
-      message = error.what();
-      return 1;
-    }
-  catch (const TangledMesh &error)
-    {
-      message = error.what();
-      return 3;
-    }
-  catch (const SolveError &error)
-    {
-      message = error.what();
-      return 2;
+      work();
     }
   catch (const std::exception &error)
     {
-      message = error.what();
-      return 4;
+      kind = kind_of(error);
+      if (kind != memory) // a message would need some
+        message = one_line(error);
     }
   catch (...)
     {
+      kind    = other;
       message = "unknown error";
-      return 4;
     }
-}
-
-void rethrow_together(MPI_Comm comm, int kind, const std::string &message)
-{
   int rank, size;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  const int mine    = kind == 0 ? size : rank;
+  MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &size);
+  const int mine    = kind == none ? size : rank;
   int       failing = size;
-  MPI_Allreduce(&mine, &failing, 1, MPI_INT, MPI_MIN, comm);
+  MPI_Allreduce(&mine, &failing, 1, MPI_INT, MPI_MIN, communicator);
   if (failing == size)
     return;
-  MPI_Bcast(&kind, 1, MPI_INT, failing, comm);
-  int length = narrow<int>(message.size());
-  MPI_Bcast(&length, 1, MPI_INT, failing, comm);
-  std::string text = message;
-  text.resize(length);
-  MPI_Bcast(&text[0], length, MPI_CHAR, failing, comm);
-  if (kind == 1)
-    throw InputError(text);
-  if (kind == 2)
-    throw SolveError(text);
-  if (kind == 3)
-    throw TangledMesh(text);
-  throw std::runtime_error(text);
+  int head[2] = {kind, narrow<int>(message.size())};
+  MPI_Bcast(head, 2, MPI_INT, failing, communicator);
+  message.resize(head[1]);
+  MPI_Bcast(&message[0], head[1], MPI_CHAR, failing, communicator);
+  throw_again(head[0], message);
 }
-} // namespace internal
 } // namespace snug

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <cmath>
+#include <new>
 
 namespace snug::feti {
 namespace {
@@ -27,6 +28,12 @@ void keep_to_one_thread()
     reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
   if (set_max_active_levels != nullptr)
     set_max_active_levels(0);
+}
+
+[[noreturn]] void throw_not_definite(const std::string &what)
+{
+  throw SolveError(what + " is not positive definite: look for degenerate cells, unconnected "
+                          "parts and extreme material constants");
 }
 } // namespace
 
@@ -63,23 +70,29 @@ SparseFactor::SparseFactor(const CsrMatrix &the_matrix, const std::string &packa
 
 void SparseFactor::factorize(const std::string &what)
 {
+  if (matrix.n_rows == 0) // CHOLMOD takes no empty matrix
+    return;
   // The values were changed behind PETSc's back: an assembly tells it that they are others.
   petsc::check(MatAssemblyBegin(wrapped, MAT_FINAL_ASSEMBLY));
   petsc::check(MatAssemblyEnd(wrapped, MAT_FINAL_ASSEMBLY));
   MatFactorInfo info;
   petsc::check(MatFactorInfoInitialize(&info));
-  if (matrix.n_rows > 0 && std::isnormal(matrix.diagonal(0)))
+  if (std::isnormal(matrix.diagonal(0)))
     // The exponent of one entry is enough: any power of two of about the right size will do, and to
     // divide and multiply by it is exact.
     unit = std::ldexp(1., std::ilogb(matrix.diagonal(0)));
   petsc::check(MatScale(wrapped, 1. / unit));
-  // Not by petsc::check(): the error is the user's, whose message comes below, once the values are
-  // what they were before.
-  const bool failed = MatCholeskyFactorNumeric(factor, wrapped, &info) != 0;
+  // Not by petsc::check() at once: first the values become what they were before.
+  const PetscErrorCode error = MatCholeskyFactorNumeric(factor, wrapped, &info);
   petsc::check(MatScale(wrapped, unit));
-  if (failed)
-    throw SolveError(what + " is not positive definite: look for "
-                            "degenerate cells and unconnected parts");
+  if (error == PETSC_ERR_MAT_CH_ZRPVT)
+    throw_not_definite(what);
+  petsc::check(error);
+  // MUMPS returns no error for what it keeps here
+  MatFactorError kept;
+  petsc::check(MatFactorGetError(factor, &kept));
+  if (kept == MAT_FACTOR_OUTMEMORY)
+    throw std::bad_alloc();
   check(what);
 }
 
@@ -116,9 +129,8 @@ void SparseFactor::check(const std::string &what) const
   // b is the diagonal, about; a solution of this size has lost all but
   // five digits: the matrix is singular up to round-off
   const double singular_size = 1e11;
-  if (matrix.n_rows > 0 && !(energy > 0. && size < singular_size))
-    throw SolveError(what + " is not positive definite: look for "
-                            "degenerate cells and unconnected parts");
+  if (!(energy > 0. && size < singular_size))
+    throw_not_definite(what);
 }
 
 void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const

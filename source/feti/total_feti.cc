@@ -7,9 +7,10 @@
 namespace snug::feti {
 namespace {
 /// What messages of failed factorizations call the matrix.
-std::string name_of_subdomain(unsigned int id)
+std::string name_of_subdomain(const SubdomainTable &table, unsigned int id)
 {
-  return "the stiffness of subdomain " + std::to_string(id);
+  return "the stiffness of subdomain " + std::to_string(id) + " of body " +
+         table.body_names[table.body[id]];
 }
 
 /// y += B x
@@ -69,7 +70,7 @@ void TotalFeti::update(const std::vector<bool> &changed)
     for (unsigned int s = 0; s < systems.size(); ++s)
       if (changed[s])
         {
-          const auto name = name_of_subdomain(coarse.subdomains().first + s);
+          const auto name = name_of_subdomain(coarse.subdomains(), coarse.subdomains().first + s);
           inverses[s]->factorize(name);
           if (!schur.empty())
             schur[s]->factorize(name);

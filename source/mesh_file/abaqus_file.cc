@@ -195,8 +195,12 @@ private:
     if (found == element_index.end())
       throw error_at_line(at, "set '" + name + "' has the element " + std::to_string(number) +
                                 ", which is not there");
+    auto &groups = mesh.elements[found->second].groups;
+    // a set that is added to itself would double with every line
+    if (std::find(groups.begin(), groups.end(), name) != groups.end())
+      return;
     sets[upper_case(name)].push_back(number);
-    mesh.elements[found->second].groups.push_back(name);
+    groups.push_back(name);
   }
 
   /// Either first, last and increment (GENERATE), or any list of elements and other sets.

@@ -2,6 +2,7 @@
 #include <snug/mesh_file/mesh_text.h>
 
 #include <array>
+#include <limits>
 #include <tuple>
 
 namespace snug::mesh_file {
@@ -60,6 +61,8 @@ public:
 private:
   using Entity = std::pair<unsigned int, int>; ///< dimension, tag
 
+  static constexpr int largest = std::numeric_limits<int>::max();
+
   MeshText                                                      in;
   unsigned int                                                  version = 0;
   bool                                                          binary  = false;
@@ -89,7 +92,21 @@ private:
       return in.raw<T>(what);
     if (std::is_floating_point<T>::value)
       return in.number(what);
-    return static_cast<T>(in.whole(what));
+    const auto number = in.whole(what);
+    if (number > static_cast<unsigned long>(largest))
+      in.fail(what + " is too large: " + std::to_string(number));
+    return static_cast<T>(number);
+  }
+
+  /// Tags may be negative: the sign of a group or a boundary is its orientation.
+  int tag(const std::string &what)
+  {
+    if (binary)
+      return in.raw<int>(what);
+    const double number = in.number(what);
+    if (!(std::abs(number) <= largest))
+      in.fail(what + " is too large: " + std::to_string(number));
+    return static_cast<int>(number);
   }
 
   void read_format()
@@ -147,14 +164,6 @@ private:
       value<double>(what);
   }
 
-  /// Tags may be negative: the sign of a group or a boundary is its orientation.
-  int tag(const std::string &what)
-  {
-    if (binary)
-      return in.raw<int>(what);
-    return static_cast<int>(in.number(what));
-  }
-
   /// Since version 4 elements know their entity, and the entity its groups. Points have 3
   /// coordinates, the others a box of 6; then come groups and, but for points, the tags of the
   /// entities that bound it.
@@ -170,7 +179,7 @@ private:
           skip_values(dim == 0 ? 3 : 6, "the box of an entity");
           const auto groups = count("the number of physical groups");
           for (unsigned long g = 0; g < groups; ++g)
-            physical[{dim, own}].push_back(std::abs(tag("a physical group")));
+            physical[{dim, own}].push_back(std::abs(long(tag("a physical group"))));
           if (dim == 0)
             continue;
           const auto bounding = count("the number of its boundaries");

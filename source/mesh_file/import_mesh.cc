@@ -4,6 +4,7 @@
 #include <snug/mesh_file/element_split.h>
 #include <snug/mesh_file/file_cells.h>
 #include <snug/mesh_file/import_mesh.h>
+#include <snug/mesh_file/mesh_text.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -313,9 +314,9 @@ import_mesh(const std::string                  &text,
   catch (const InputError &error)
     {
       // What already names an entry (Mesh regions, Curved faces) stays; the rest is of the file.
-      const std::string message = error.what();
+      const std::string message = printable(error.what());
       if (message.rfind("entry '", 0) == 0)
-        throw;
+        throw InputError(message);
       throw bad_entry("Mesh file", parameters.file, message);
     }
 }

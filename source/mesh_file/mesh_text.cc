@@ -8,18 +8,6 @@
 #include <cstdlib>
 
 namespace snug::mesh_file {
-namespace {
-/// What of a word can be shown in a message: the file may be binary, and a word of it huge.
-std::string shown(const std::string &word)
-{
-  std::string text = word.substr(0, 40);
-  for (char &c : text)
-    if (std::isprint(static_cast<unsigned char>(c)) == 0)
-      c = '?';
-  return text;
-}
-} // namespace
-
 MeshText::MeshText(const std::string &text) : text(text) {}
 
 unsigned long MeshText::line() const
@@ -105,6 +93,17 @@ InputError error_at_line(const unsigned long line, const std::string &message)
   return InputError((line == 0 ? "" : "line " + std::to_string(line) + ": ") + message);
 }
 
+std::string printable(std::string text)
+{
+  const std::size_t longest = 300;
+  if (text.size() > longest)
+    text.replace(longest / 2, text.size() - longest, " ... ");
+  for (char &c : text)
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0)
+      c = '?';
+  return text;
+}
+
 std::vector<std::string> comma_list(const std::string &line)
 {
   return dealii::Utilities::split_string_list(line);
@@ -116,7 +115,7 @@ double to_number(const std::string &word, const unsigned long line)
   const double value = std::strtod(word.c_str(), &end);
   // strtod would take "nan" and "inf", and stop at a letter without an error
   if (word.empty() || *end != '\0' || !std::isfinite(value))
-    throw error_at_line(line, "'" + shown(word) + "' is no number");
+    throw error_at_line(line, "'" + word + "' is no number");
   return value;
 }
 
@@ -127,7 +126,7 @@ unsigned long to_whole(const std::string &word, const unsigned long line)
                     std::all_of(word.begin(), word.end(),
                                 [](const unsigned char c) { return std::isdigit(c) != 0; });
   if (!good)
-    throw error_at_line(line, "'" + shown(word) + "' is no whole number");
+    throw error_at_line(line, "'" + word + "' is no whole number");
   return std::stoul(word);
 }
 } // namespace snug::mesh_file

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace snug::mesh_file {
@@ -54,6 +55,9 @@ public:
     if (types.size() != nodes.size())
       in.fail("there are " + std::to_string(nodes.size()) + " cells and " +
               std::to_string(types.size()) + " cell types");
+    if (!groups.empty() && groups.size() != nodes.size())
+      in.fail("there are " + std::to_string(nodes.size()) + " cells and " +
+              std::to_string(groups.size()) + " numbers of theirs");
     make_elements();
     return mesh;
   }
@@ -79,6 +83,8 @@ private:
       std::reverse(own.begin(), own.end());
     T value;
     std::memcpy(&value, own.data(), sizeof(T));
+    if (!std::isfinite(static_cast<double>(value)))
+      in.fail(what + " is no number");
     return value;
   }
 

@@ -5,14 +5,10 @@
 
 #include <exception>
 #include <functional>
-#include <string>
 
 namespace snug::app {
 /// 2 for InputError, 3 for SolveError, else 1.
 int exit_status(const std::exception &error);
-
-/// The message in one line, without deal.II's banner and stack.
-std::string one_line(const std::exception &error);
 
 /**
  * Run @p work and turn what it throws into an exit status and one line

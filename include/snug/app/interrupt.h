@@ -4,7 +4,7 @@
 #include <mpi.h>
 
 namespace snug::app {
-/// From now on SIGTERM and SIGINT only set a flag.
+/// From now on the first SIGTERM or SIGINT only sets a flag; the next one ends the process.
 void catch_interrupts();
 
 /// @throws Interrupted on all ranks if any rank got a signal. Collective.

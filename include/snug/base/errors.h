@@ -34,6 +34,12 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// Whether @p error says that memory ran out, in the words of C++ or deal.II.
+bool is_out_of_memory(const std::exception &error);
+
+/// The message in one line, without deal.II's banner and stack.
+std::string one_line(const std::exception &error);
+
 /// Input error of a parameter: "<entry> = <value>: <what is allowed>".
 inline InputError
 bad_entry(const std::string &entry, const std::string &value, const std::string &allowed)

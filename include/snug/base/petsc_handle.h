@@ -8,7 +8,11 @@
 #include <utility>
 
 namespace snug::petsc {
-/// @throws std::runtime_error naming the PETSc error if @p error != 0.
+/// From now on errors of PETSc are only returned, for check(); nothing is printed.
+void return_errors();
+
+/// @throws std::bad_alloc if memory ran out (known after return_errors()), else
+/// std::runtime_error naming the PETSc error, if @p error != 0.
 void check(PetscErrorCode error);
 
 /**

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <string>
@@ -88,32 +89,11 @@ private:
 /**
  * Run @p work on this rank and make failure collective: if any rank throws,
  * every rank throws the same kind of error with the message of the lowest
- * failing rank. Collective on @p communicator; @p work must not be.
+ * failing rank. InputError, SolveError, TangledMesh and bad_alloc (any error
+ * that is_out_of_memory()) stay what they are, all else becomes a
+ * runtime_error. Collective on @p communicator; @p work must not be.
  */
-template <typename Function>
-void everywhere(MPI_Comm communicator, const Function &work);
-
-namespace internal {
-/// kind: 0 none, 1 InputError, 2 SolveError, 3 TangledMesh, 4 other.
-void rethrow_together(MPI_Comm comm, int kind, const std::string &message);
-int  kind_of_current_exception(std::string &message);
-} // namespace internal
-
-template <typename Function>
-void everywhere(MPI_Comm communicator, const Function &work)
-{
-  int         kind = 0;
-  std::string message;
-  try
-    {
-      work();
-    }
-  catch (...)
-    {
-      kind = internal::kind_of_current_exception(message);
-    }
-  internal::rethrow_together(communicator, kind, message);
-}
+void everywhere(MPI_Comm communicator, const std::function<void()> &work);
 } // namespace snug
 
 #endif

@@ -3,8 +3,10 @@
 
 #include <snug/base/errors.h>
 
+#include <cmath>
 #include <cstring>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace snug::mesh_file {
@@ -37,7 +39,7 @@ public:
   /// A whole number, 0 or larger.
   unsigned long whole(const std::string &what);
 
-  /// A value as it lies in memory.
+  /// A value as it lies in memory; reals must be finite.
   template <typename T>
   T raw(const std::string &what);
 
@@ -59,6 +61,9 @@ private:
 /// "line 17: message", or only the message if there is no line.
 InputError error_at_line(unsigned long line, const std::string &message);
 
+/// @p text as a message may show it: the file may be binary, and a word of it huge.
+std::string printable(std::string text);
+
 /// Trimmed parts of a line between commas.
 std::vector<std::string> comma_list(const std::string &line);
 
@@ -74,6 +79,9 @@ T MeshText::raw(const std::string &what)
     fail_at_end(what);
   std::memcpy(&value, text.data() + place, sizeof(T));
   place += sizeof(T);
+  if constexpr (std::is_floating_point_v<T>)
+    if (!std::isfinite(value))
+      fail(what + " is no number");
   return value;
 }
 } // namespace snug::mesh_file

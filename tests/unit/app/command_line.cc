@@ -2,8 +2,6 @@
 #include <snug/app/failure.h>
 #include <snug/base/errors.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -73,12 +71,6 @@ TEST(Failure, StatusFollowsTheKindOfError)
   EXPECT_EQ(app::exit_status(SolveError("")), 3);
   EXPECT_EQ(app::exit_status(TangledMesh("")), 3);
   EXPECT_EQ(app::exit_status(std::bad_alloc()), 1);
-}
-
-TEST(Failure, MessagesAreOneLine)
-{
-  EXPECT_EQ(app::one_line(SolveError("two\nlines  ")), "two lines");
-  EXPECT_EQ(app::one_line(dealii::ExcMessage("deal.II says so")), "deal.II says so");
 }
 
 TEST(Failure, ErrorsOfAllRanksBecomeAStatus)

@@ -1,5 +1,4 @@
 #include <snug/mesh/body_mesh.h>
-#include <snug/mesh_file/import_mesh.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -9,53 +8,16 @@
 #include <deal.II/fe/fe_tools.h>
 
 #include <gtest/gtest.h>
+#include <unit/mesh_file/sample_files.h>
 
-#include <fstream>
 #include <set>
 #include <sstream>
 
 using namespace snug;
+using namespace snug::test;
 using dealii::Point;
 
 namespace {
-std::string contents(const std::string &name)
-{
-  std::ifstream      in(SNUG_MESHES + name, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-geometry::BodyMeshParameters file_body()
-{
-  geometry::BodyMeshParameters parameters;
-  parameters.source = "file";
-  parameters.file   = "the.mesh";
-  return parameters;
-}
-
-/// Numbers of VTK and UCD files.
-geometry::BodyMeshParameters numbered_body()
-{
-  auto parameters             = file_body();
-  parameters.boundary_numbers = {{"2", "bottom"}, {"3", "top"}};
-  return parameters;
-}
-
-std::string
-complaint(const std::string &text, const geometry::BodyMeshParameters &parameters, unsigned int dim)
-{
-  try
-    {
-      mesh_file::import_mesh(text, parameters, dim);
-    }
-  catch (const InputError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
 /// @p text with @p from, which must be there, replaced.
 std::string replaced(std::string text, const std::string &from, const std::string &to)
 {
@@ -115,29 +77,6 @@ void expect_block(const std::string           &text,
     }
 }
 
-struct Row
-{
-  std::string                  file;
-  geometry::BodyMeshParameters parameters;
-  unsigned int                 dim, n_cells;
-};
-
-const std::vector<Row> &files()
-{
-  // Tetrahedra give 4 cells each; a quadrilateral beside triangles 4,
-  // these 3.
-  static const std::vector<Row> rows = {{"block-2.msh", file_body(), 3, 2},
-                                        {"block-4.msh", file_body(), 3, 2},
-                                        {"tets-2-binary.msh", file_body(), 3, 48},
-                                        {"tets-4-binary.msh", file_body(), 3, 48},
-                                        {"block.inp", file_body(), 3, 2},
-                                        {"block.vtk", numbered_body(), 3, 2},
-                                        {"block-binary.vtk", numbered_body(), 3, 2},
-                                        {"block-5-binary.vtk", numbered_body(), 3, 2},
-                                        {"block.ucd", numbered_body(), 3, 2},
-                                        {"square.msh", file_body(), 2, 10}};
-  return rows;
-}
 } // namespace
 
 TEST(MeshFiles, AllFormatsGiveTheSameBlock)

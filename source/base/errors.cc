@@ -1,0 +1,30 @@
+#include <snug/base/errors.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <new>
+#include <sstream>
+
+namespace snug {
+bool is_out_of_memory(const std::exception &error)
+{
+  return dynamic_cast<const std::bad_alloc *>(&error) != nullptr ||
+         dynamic_cast<const dealii::StandardExceptions::ExcOutOfMemory *>(&error) != nullptr;
+}
+
+std::string one_line(const std::exception &error)
+{
+  std::ostringstream text;
+  if (is_out_of_memory(error))
+    text << "out of memory: take a coarser mesh, or spread the ranks over more machines";
+  else if (const auto *banner = dynamic_cast<const dealii::ExceptionBase *>(&error))
+    banner->print_info(text);
+  else
+    text << error.what();
+  std::istringstream words(text.str());
+  std::string        word, line;
+  while (words >> word)
+    line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+} // namespace snug

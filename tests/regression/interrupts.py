@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""SIGTERM and SIGINT end a run soon: interrupts.py SNUG SCENE [--ranks N].
+
+An optimization goes on to the end of its evaluation, writes the results of its best
+design and ends with status 0, whichever rank got the signal; a second signal ends it at
+once. States and sensitivities end at once. The ranks get the signal, not their launcher,
+which has its own idea of signals: Open MPI kills what does not end within a second.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+SECONDS = 60  # much more than an evaluation, on a busy machine
+
+
+def descendants(process):
+    yield process
+    for child in pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split():
+        yield from descendants(int(child))
+
+
+def ranks_of(process, program):
+    """Process ids of the ranks: what runs the program, below a launcher or by itself."""
+    return [rank for rank in descendants(process)
+            if os.path.realpath(f"/proc/{rank}/exe") == program]
+
+
+def catches(process, number):
+    """Whether a process has a handler for a signal."""
+    try:
+        status = pathlib.Path(f"/proc/{process}/status").read_text()
+    except OSError:
+        return False
+    return int(re.search(r"SigCgt:\s*(\w+)", status).group(1), 16) >> (number - 1) & 1 == 1
+
+
+def objectives(output):
+    """Those of the evaluations in the journal; a last one may not be whole yet."""
+    try:
+        lines = (output / "journal.txt").read_text().splitlines()
+    except OSError:
+        return []
+    values = [float.fromhex(line.split()[1]) for line in lines if line.startswith("objective ")]
+    return values[:sum(line.startswith("end ") for line in lines)]
+
+
+class Check:
+    def __init__(self, options, folder):
+        self.options = options
+        self.folder = pathlib.Path(folder)
+        self.failed = 0
+
+    def start(self, name, *entries):
+        launcher = ([self.options.mpiexec, "-q", "-np", str(self.options.ranks)]
+                    if self.options.ranks > 1 else [])
+        output = self.folder / name
+        command = [*launcher, self.options.program, self.options.scene, "--output", str(output)]
+        for entry in entries:
+            command += ["--set", entry]
+        return output, subprocess.Popen(command, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.PIPE, text=True)
+
+    def wait_until(self, process, condition):
+        while process.poll() is None and not condition():
+            time.sleep(0.002)
+
+    def verdict(self, name, process, status, *problems):
+        """Wait for the end; whether it is the expected one."""
+        begin = time.monotonic()
+        try:
+            said = process.communicate(timeout=SECONDS)[1]
+        except subprocess.TimeoutExpired:
+            process.kill()
+            said = process.communicate()[1] + f"no end within {SECONDS} s"
+        good = process.returncode == status
+        print(f"{'good' if good else 'WRONG'} {name}: status {process.returncode} "
+              f"{time.monotonic() - begin:.1f} s after the signal")
+        if not good:
+            print(said)
+        self.failed += not good
+        return good
+
+    def killed(self, number):
+        """The exit status of a run that ends by a signal, as launcher or shell have it."""
+        return -number if self.options.ranks == 1 else 128 + number
+
+    def ends_at_once(self, task, number):
+        output, process = self.start(f"{task}-{number}", f"Task={task}")
+        self.wait_until(process, (output / "parameters.prm").exists)
+        if process.poll() is None:
+            os.kill(ranks_of(process.pid, self.options.program)[-1], number)
+        self.verdict(f"{task}, signal {number}", process, self.killed(number))
+
+    def keeps_the_best(self, number, which):
+        output, process = self.start(f"best-{number}")
+        # all of the scene's designs keep the volume, and the best one so far is not the last
+        self.wait_until(process, lambda: len(objectives(output)) >= 4)
+        if process.poll() is None:
+            os.kill(ranks_of(process.pid, self.options.program)[which], number)
+        if not self.verdict(f"optimize, signal {number}", process, 0):
+            return
+        summary = json.loads((output / "summary.json").read_text())["optimization"]
+        done = objectives(output)
+        found = [name for name, wrong in {
+            "it did not stop by the signal": summary["stop_reason"] != "interrupted",
+            "its design is not the best": summary["objective_final"] != min(done),
+            "no pictures": not (output / "solution.pvd").exists()}.items() if wrong]
+        self.failed += len(found)
+        for problem in found:
+            print(f"WRONG {problem}: {summary}, evaluations {done}")
+
+    def second_signal(self, number):
+        # finer, so that what follows the first one lasts until the second
+        output, process = self.start("twice", "Body punch/Refinements=1",
+                                     "Body foundation/Refinements=1")
+        self.wait_until(process, lambda: objectives(output))
+        for _ in range(2):
+            if process.poll() is None:
+                process.send_signal(number)
+            self.wait_until(process, lambda: not catches(process.pid, number))
+        self.verdict(f"two signals {number}", process, -number)
+        self.failed += (output / "summary.json").exists()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("scene")
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--mpiexec", default="mpiexec")
+    options = parser.parse_args()
+    options.program = os.path.realpath(options.program)
+    with tempfile.TemporaryDirectory() as folder:
+        check = Check(options, folder)
+        check.ends_at_once("state", signal.SIGTERM)
+        check.ends_at_once("sensitivity", signal.SIGINT)
+        check.keeps_the_best(signal.SIGTERM, 0)
+        check.keeps_the_best(signal.SIGINT, -1)
+        if options.ranks == 1:
+            check.second_signal(signal.SIGTERM)
+    return 1 if check.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

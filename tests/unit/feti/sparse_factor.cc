@@ -1,0 +1,171 @@
+#include <snug/base/errors.h>
+#include <snug/base/petsc_handle.h>
+#include <snug/feti/sparse_factor.h>
+
+#include <gtest/gtest.h>
+#include <unit/feti/torn_truss.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+using namespace snug;
+using namespace snug::test;
+
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// As the program has them: PETSc's default handler would print.
+class Factors : public ::testing::TestWithParam<std::string>
+{
+protected:
+  Factors() { petsc::return_errors(); }
+  ~Factors() override { PetscPopErrorHandler(); }
+};
+
+/// A truss on springs: positive definite, all diagonal entries near 2.
+feti::CsrMatrix truss_on_springs()
+{
+  auto K = truss_system(Block(0, {0, 0}, {4, 3}), {2., 1.}).K;
+  for (unsigned int i = 0; i < K.n_rows; ++i)
+    K.values[K.position(i, i)] += 1.;
+  return K;
+}
+
+/// What factorizing "the punch" complains of.
+std::string complaint(feti::SparseFactor &factor)
+{
+  try
+    {
+      factor.factorize("the punch");
+    }
+  catch (const SolveError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+/// It names the matrix and what to try.
+void expect_clear(const std::string &message)
+{
+  EXPECT_NE(message.find("the punch"), std::string::npos) << message;
+  EXPECT_NE(message.find("look for degenerate cells"), std::string::npos) << message;
+}
+
+/// The factor inverts its matrix.
+void expect_inverse(const feti::CsrMatrix &A, const feti::SparseFactor &factor)
+{
+  for (const unsigned int n_columns : {1, 2})
+    {
+      qp::MultiVector x(A.n_rows, n_columns), b(A.n_rows, n_columns), y(A.n_rows, n_columns);
+      for (unsigned int i = 0; i < A.n_rows; ++i)
+        for (unsigned int k = 0; k < n_columns; ++k)
+          x(i, k) = std::sin(1. + i + 2. * k);
+      A.multiply_add(1., x, b);
+      factor.solve(b, y);
+      for (unsigned int i = 0; i < A.n_rows; ++i)
+        for (unsigned int k = 0; k < n_columns; ++k)
+          EXPECT_NEAR(y(i, k), x(i, k), 1e-10);
+    }
+}
+
+TEST_P(Factors, SingularMatricesAreErrors)
+{
+  // a floating body, a node without cells, and nothing at all
+  auto floating = truss_system(Block(1, {1, 0, 2}, {3, 3, 5}), {2., 1., 3.}).K;
+  auto loose    = truss_on_springs();
+  for (PetscInt p = loose.row_start[3]; p < loose.row_start[4]; ++p)
+    {
+      loose.values[p]                                   = 0.;
+      loose.values[loose.position(loose.columns[p], 3)] = 0.;
+    }
+  auto zero = truss_on_springs();
+  std::fill(zero.values.begin(), zero.values.end(), 0.);
+  for (const auto *matrix : {&floating, &loose, &zero})
+    {
+      feti::SparseFactor factor(*matrix, GetParam());
+      expect_clear(complaint(factor));
+    }
+}
+
+TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
+{
+  auto               K    = truss_on_springs();
+  const auto         good = K.values;
+  feti::SparseFactor factor(K, GetParam());
+  // an off-diagonal entry and its mirror image
+  const unsigned int other =
+    K.columns[K.row_start[3]] == 3 ? K.columns[K.row_start[3] + 1] : K.columns[K.row_start[3]];
+  for (const double bad : {-1e4, -1e-4, 0., nan, -nan, double(INFINITY), -double(INFINITY)})
+    for (const unsigned int column : {3u, other})
+      {
+        if (column == other && std::isfinite(bad))
+          continue; // is positive definite still, or nearly
+        K.values[K.position(3, column)] = bad;
+        K.values[K.position(column, 3)] = bad;
+        SCOPED_TRACE(bad);
+        expect_clear(complaint(factor));
+        K.values = good;
+        ASSERT_EQ(complaint(factor), "");
+        expect_inverse(K, factor);
+      }
+  // all diagonal entries negative
+  for (double &value : K.values)
+    value *= -1.;
+  expect_clear(complaint(factor));
+}
+
+TEST_P(Factors, UnitsAreNoErrors)
+{
+  auto       K    = truss_on_springs();
+  const auto good = K.values;
+  for (const double unit : {1e-290, 1e-30, 1., 1e30, 1e280})
+    {
+      for (std::size_t p = 0; p < good.size(); ++p)
+        K.values[p] = unit * good[p];
+      feti::SparseFactor factor(K, GetParam());
+      ASSERT_EQ(complaint(factor), "") << unit;
+      expect_inverse(K, factor);
+    }
+}
+
+TEST_P(Factors, AnEmptyMatrixHasAnEmptyInverse)
+{
+  const auto         empty = feti::CsrMatrix::from_rows({}, 0);
+  feti::SparseFactor factor(empty, GetParam());
+  EXPECT_EQ(complaint(factor), "");
+  expect_inverse(empty, factor);
+}
+
+TEST_P(Factors, OneBadSubdomainIsAnErrorOnAllRanks)
+{
+  feti::FetiParameters parameters;
+  parameters.factorization = GetParam();
+  TornTruss  truss(false, false);
+  const auto good = truss.systems;
+  for (unsigned int s = 0; s < truss.systems.size(); ++s)
+    for (const double bad : {-1e6, nan})
+      {
+        truss.systems              = good;
+        auto &K                    = truss.systems[s].K;
+        K.values[K.position(7, 7)] = bad;
+        std::string       message  = "no error";
+        const std::string begin = "the stiffness of subdomain " + std::to_string(s) + " of body " +
+                                  (s < 4 ? "foundation" : "punch");
+        try
+          {
+            truss.make(parameters);
+          }
+        catch (const SolveError &error)
+          {
+            message = error.what();
+          }
+        EXPECT_NE(message.find(begin), std::string::npos) << message;
+        EXPECT_NE(message.find("look for degenerate cells"), std::string::npos) << message;
+      }
+  truss.systems = good;
+  EXPECT_NO_THROW(truss.make(parameters));
+}
+
+INSTANTIATE_TEST_SUITE_P(SparseFactor, Factors, ::testing::Values("CHOLMOD", "MUMPS"));
+} // namespace
