@@ -9,19 +9,6 @@ BodyIntegral<dim>::BodyIntegral(const ResponseParameters &parameters, const Weig
   : body(parameters.body), weight(weight)
 {}
 
-template <int dim>
-std::vector<std::string> BodyIntegral<dim>::entries() const
-{
-  return {"Body"};
-}
-
-/// A volume constraint can be evaluated, and differentiated, where no state was solved.
-template <int dim>
-bool BodyIntegral<dim>::needs_solution() const
-{
-  return false;
-}
-
 /// Density is a constant of the region: it goes with the cell and has no derivative.
 template <int dim>
 double BodyIntegral<dim>::weight_of(const elasticity::Material &material) const

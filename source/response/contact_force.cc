@@ -36,12 +36,6 @@ ContactForce<dim>::ContactForce(const ResponseParameters &parameters) : paramete
 {}
 
 template <int dim>
-std::vector<std::string> ContactForce<dim>::entries() const
-{
-  return {"Pair", "Component"};
-}
-
-template <int dim>
 void ContactForce<dim>::check(const state::StateSolver<dim> &solver) const
 {
   // Both throw for names that do not exist.

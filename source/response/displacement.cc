@@ -108,12 +108,6 @@ template <int dim>
 Displacement<dim>::Displacement(const ResponseParameters &parameters) : parameters(parameters)
 {}
 
-template <int dim>
-std::vector<std::string> Displacement<dim>::entries() const
-{
-  return {"Body", "Face", "Point", "Component"};
-}
-
 /// A point has no normal: only faces take the component normal.
 template <int dim>
 void Displacement<dim>::check(const state::StateSolver<dim> &solver) const

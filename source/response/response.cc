@@ -8,24 +8,6 @@
 
 namespace snug::response {
 template <int dim>
-std::vector<std::string> Response<dim>::entries() const
-{
-  return {};
-}
-
-template <int dim>
-bool Response<dim>::needs_solution() const
-{
-  return true;
-}
-
-template <int dim>
-bool Response<dim>::stationary() const
-{
-  return false;
-}
-
-template <int dim>
 void Response<dim>::check(const state::StateSolver<dim> &) const
 {}
 

@@ -13,12 +13,6 @@ VonMisesNorm<dim>::VonMisesNorm(const ResponseParameters &parameters)
 {}
 
 template <int dim>
-std::vector<std::string> VonMisesNorm<dim>::entries() const
-{
-  return {"Body", "Exponent"};
-}
-
-template <int dim>
 typename VonMisesNorm<dim>::Integrals
 VonMisesNorm<dim>::integrals(const state::StateSolver<dim>  &solver,
                              const state::ContactState<dim> &state) const

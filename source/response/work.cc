@@ -9,12 +9,6 @@ Work<dim>::Work(double State::*value, double stiffness, double load)
 
 /// 1/2 u'Ku - f'u: dJ/du = Ku - f = -B'lambda.
 template <int dim>
-bool Work<dim>::stationary() const
-{
-  return stiffness == 1. && load == -1.;
-}
-
-template <int dim>
 double Work<dim>::value(const state::StateSolver<dim> &, const State &state) const
 {
   // As described by the state: the energy is the dual value, more exact than one made from u.
@@ -29,12 +23,14 @@ Partials<dim> Work<dim>::partials(const state::StateSolver<dim> &solver, const S
   result.positions.resize(solver.mesh().n_local_nodes());
   // Assembled again, as the solver holds the loads of the case solved last.
   const auto f = solver.loads(state.positions, state.load_case);
+  // collective: every rank asks, also one without subdomains
+  const auto *feti = stiffness != 0. ? &solver.feti(state) : nullptr;
   for (unsigned int s = 0; s < state.u.size(); ++s)
     {
       result.u.emplace_back(state.u[s].n_rows());
       result.u.back().add(load, f[s]);
       if (stiffness != 0.)
-        solver.feti().subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
+        feti->subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
     }
   if (stiffness != 0.)
     // d/dX (u'Ku) at fixed u; w = u here

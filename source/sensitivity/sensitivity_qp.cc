@@ -92,63 +92,9 @@ qp::MultiVector SensitivityQp::extended(const qp::MultiVector &x) const
   return all;
 }
 
-RunContext &SensitivityQp::context() const
-{
-  return feti.context();
-}
-
-unsigned int SensitivityQp::n_owned() const
-{
-  return row.size();
-}
-
-const qp::RowSet &SensitivityQp::bounded() const
-{
-  return is_weak;
-}
-
-const qp::MultiVector &SensitivityQp::d() const
-{
-  return dual_load;
-}
-
-const qp::MultiVector &SensitivityQp::e() const
-{
-  return rigid_load;
-}
-
-const std::vector<double> &SensitivityQp::diagonal() const
-{
-  return F_diagonal;
-}
-
-qp::MultiVector SensitivityQp::apply(const qp::MultiVector &x) const
-{
-  return restricted(feti.apply(extended(x)));
-}
-
-qp::MultiVector SensitivityQp::apply_G(const qp::MultiVector &x) const
-{
-  return feti.apply_G(extended(x));
-}
-
-qp::MultiVector SensitivityQp::apply_Gt(const qp::MultiVector &alpha) const
-{
-  return restricted(feti.apply_Gt(alpha));
-}
-
-double SensitivityQp::feasibility_scale(const qp::MultiVector &mu) const
-{
-  return feti.feasibility_scale(rigid_load, extended(mu));
-}
-
 std::unique_ptr<qp::Face> SensitivityQp::face(const qp::RowSet &free) const
 {
   return std::make_unique<PartOfFace>(*this, free);
 }
 
-std::string SensitivityQp::escaping_body() const
-{
-  return "";
-}
 } // namespace snug::sensitivity

@@ -66,6 +66,18 @@ typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(unsigned int i) const
 }
 
 template <int dim>
+typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
+                                              const ShapeBasis<dim>     &basis,
+                                              const std::vector<double> &design)
+{
+  auto       x = mesh.reference_positions();
+  const auto v = basis.apply(design);
+  for (unsigned int node = 0; node < x.size(); ++node)
+    x[node] += v[node];
+  return x;
+}
+
+template <int dim>
 const ChoiceTable<MakeShape<dim>> &shape_basis_table()
 {
   // Degree 0 of spline_net() stands for Bernstein polynomials.
@@ -100,8 +112,13 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
   return table;
 }
 
-template class ShapeBasis<2>;
-template class ShapeBasis<3>;
-template const ChoiceTable<MakeShape<2>> &shape_basis_table<2>();
-template const ChoiceTable<MakeShape<3>> &shape_basis_table<3>();
+#define SNUG_INSTANTIATE(dim)                                                         \
+  template class ShapeBasis<dim>;                                                     \
+  template mesh::BodyMesh<dim>::Field         positions(const mesh::BodyMesh<dim> &,  \
+                                                        const ShapeBasis<dim> &,      \
+                                                        const std::vector<double> &); \
+  template const ChoiceTable<MakeShape<dim>> &shape_basis_table<dim>();
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::shape

@@ -63,12 +63,6 @@ void Assembler<dim>::build_pattern()
 
 /// Hanging nodes have none: Subdomain::nodes holds their masters instead.
 template <int dim>
-unsigned int Assembler<dim>::n_dofs() const
-{
-  return dim * subdomain.nodes.size();
-}
-
-template <int dim>
 feti::CsrMatrix Assembler<dim>::sparsity() const
 {
   std::vector<std::vector<PetscInt>> rows;
@@ -194,18 +188,6 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
 }
 
 template <int dim>
-const std::vector<unsigned int> &Assembler<dim>::cells() const
-{
-  return subdomain.cells;
-}
-
-template <int dim>
-const std::vector<unsigned int> &Assembler<dim>::loaded_faces() const
-{
-  return faces;
-}
-
-template <int dim>
 typename Assembler<dim>::Nodes Assembler<dim>::cell_field(unsigned int i, const Field &field) const
 {
   Nodes result;
@@ -221,36 +203,6 @@ typename Assembler<dim>::Nodes Assembler<dim>::face_field(unsigned int i, const 
   for (const unsigned int node : mesh.boundary_faces()[faces[i]].nodes)
     result.push_back(field[node]);
   return result;
-}
-
-template <int dim>
-typename Assembler<dim>::Nodes Assembler<dim>::cell_values(unsigned int i, const double *u) const
-{
-  return cell_reach[i].values(u);
-}
-
-template <int dim>
-void Assembler<dim>::add_cell_vector(unsigned int i, double factor, const Nodes &r, double *u) const
-{
-  cell_reach[i].add(factor, r, u);
-}
-
-template <int dim>
-typename Assembler<dim>::Nodes Assembler<dim>::face_values(unsigned int i, const double *u) const
-{
-  return face_reach[i].values(u);
-}
-
-template <int dim>
-void Assembler<dim>::add_face_vector(unsigned int i, double factor, const Nodes &r, double *u) const
-{
-  face_reach[i].add(factor, r, u);
-}
-
-template <int dim>
-const BodyLoads<dim> &Assembler<dim>::loads(unsigned int load_case) const
-{
-  return model.load_cases[load_case].bodies[subdomain.body];
 }
 
 template <int dim>
@@ -312,12 +264,6 @@ bool Assembler<dim>::has_resultants() const
 
 /// Of the load case, whatever its values: formulas are not looked into.
 template <int dim>
-bool Assembler<dim>::has_body_force(unsigned int load_case) const
-{
-  return loads(load_case).body_force || loads(load_case).gravity.norm() > 0.;
-}
-
-template <int dim>
 typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
                                                           unsigned int load_case) const
 {
@@ -331,18 +277,6 @@ typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
   for (unsigned int q = 0; q < b.size(); ++q)
     b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));
   return b;
-}
-
-template <int dim>
-const elasticity::Material &Assembler<dim>::material(unsigned int i) const
-{
-  return model.bodies[subdomain.body].material(mesh.cells()[subdomain.cells[i]]);
-}
-
-template <int dim>
-const elasticity::Element<dim> &Assembler<dim>::element() const
-{
-  return the_element;
 }
 
 template class Assembler<2>;

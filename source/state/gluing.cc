@@ -42,36 +42,6 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>      &mesh,
     owned_contact.push_back(row.source == Source::contact ? row.index : n_contact_rows());
 }
 
-template <int dim>
-const feti::RowLayout &Gluing<dim>::layout() const
-{
-  return *rows.layout;
-}
-
-template <int dim>
-unsigned int Gluing<dim>::n_rows() const
-{
-  return rows.n_global;
-}
-
-template <int dim>
-unsigned int Gluing<dim>::n_contact_rows() const
-{
-  return rows.scales.size();
-}
-
-template <int dim>
-const std::vector<double> &Gluing<dim>::contact_scales() const
-{
-  return rows.scales;
-}
-
-template <int dim>
-const std::vector<unsigned int> &Gluing<dim>::contact_of_row() const
-{
-  return owned_contact;
-}
-
 /// scale_rows() sets the scale of such rows to zero.
 template <int dim>
 std::vector<unsigned int> Gluing<dim>::vanished_rows() const

@@ -46,12 +46,6 @@ NodeReach<dim>::NodeReach(const mesh::BodyMesh<dim>       &mesh,
 }
 
 template <int dim>
-const std::vector<unsigned int> &NodeReach<dim>::slots() const
-{
-  return reached;
-}
-
-template <int dim>
 typename NodeReach<dim>::Nodes NodeReach<dim>::values(const double *u) const
 {
   Nodes              result(n_nodes);

@@ -19,9 +19,10 @@ public:
 
   BodyIntegral(const ResponseParameters &parameters, Weight weight);
 
-  std::vector<std::string> entries() const override;
+  std::vector<std::string> entries() const override { return {"Body"}; }
 
-  bool needs_solution() const override;
+  /// A volume constraint can be evaluated where no state was solved.
+  bool needs_solution() const override { return false; }
 
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override;

@@ -15,7 +15,7 @@ class ContactForce : public Response<dim>
 public:
   explicit ContactForce(const ResponseParameters &parameters);
 
-  std::vector<std::string> entries() const override;
+  std::vector<std::string> entries() const override { return {"Pair", "Component"}; }
 
   void check(const state::StateSolver<dim> &solver) const override;
 

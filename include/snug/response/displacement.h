@@ -17,7 +17,10 @@ class Displacement : public Response<dim>
 public:
   explicit Displacement(const ResponseParameters &parameters);
 
-  std::vector<std::string> entries() const override;
+  std::vector<std::string> entries() const override
+  {
+    return {"Body", "Face", "Point", "Component"};
+  }
 
   void check(const state::StateSolver<dim> &solver) const override;
 

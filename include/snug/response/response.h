@@ -38,18 +38,18 @@ public:
   virtual ~Response() = default;
 
   /// The entries of its subsection that it reads.
-  virtual std::vector<std::string> entries() const;
+  virtual std::vector<std::string> entries() const { return {}; }
 
   /// Whether J depends on the solution at all, or on the geometry alone:
   /// then only the positions of a state are read.
-  virtual bool needs_solution() const;
+  virtual bool needs_solution() const { return true; }
 
   /**
    * Whether u makes J stationary among the displacements that the rows of
    * contact and supports allow, with multipliers lambda: dJ/du = -B'lambda
    * and dJ/dforce = 0. Then dJ/dalpha needs no solve.
    */
-  virtual bool stationary() const;
+  virtual bool stationary() const { return false; }
 
   /// Throw an InputError unless the scene has what is measured.
   /// Collective.

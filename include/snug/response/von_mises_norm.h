@@ -16,7 +16,7 @@ class VonMisesNorm : public Response<dim>
 public:
   explicit VonMisesNorm(const ResponseParameters &parameters);
 
-  std::vector<std::string> entries() const override;
+  std::vector<std::string> entries() const override { return {"Body", "Exponent"}; }
 
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override;

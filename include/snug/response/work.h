@@ -18,7 +18,7 @@ public:
   /// @p value: where a state holds J; s and l.
   Work(double State::*value, double stiffness, double load);
 
-  bool stationary() const override;
+  bool stationary() const override { return stiffness == 1. && load == -1.; }
 
   double value(const state::StateSolver<dim> &solver, const State &state) const override;
 

@@ -34,19 +34,31 @@ public:
   /// The reverse, with zeros at the rows that are absent.
   qp::MultiVector extended(const qp::MultiVector &x) const;
 
-  RunContext                &context() const override;
-  unsigned int               n_owned() const override;
-  const qp::RowSet          &bounded() const override;
-  const qp::MultiVector     &d() const override;
-  const qp::MultiVector     &e() const override;
-  const std::vector<double> &diagonal() const override;
-  qp::MultiVector            apply(const qp::MultiVector &x) const override;
-  qp::MultiVector            apply_G(const qp::MultiVector &x) const override;
-  qp::MultiVector            apply_Gt(const qp::MultiVector &alpha) const override;
-  double                     feasibility_scale(const qp::MultiVector &mu) const override;
-  std::unique_ptr<qp::Face>  face(const qp::RowSet &free) const override;
+  RunContext                &context() const override { return feti.context(); }
+  unsigned int               n_owned() const override { return row.size(); }
+  const qp::RowSet          &bounded() const override { return is_weak; }
+  const qp::MultiVector     &d() const override { return dual_load; }
+  const qp::MultiVector     &e() const override { return rigid_load; }
+  const std::vector<double> &diagonal() const override { return F_diagonal; }
+  qp::MultiVector            apply(const qp::MultiVector &x) const override
+  {
+    return restricted(feti.apply(extended(x)));
+  }
+  qp::MultiVector apply_G(const qp::MultiVector &x) const override
+  {
+    return feti.apply_G(extended(x));
+  }
+  qp::MultiVector apply_Gt(const qp::MultiVector &alpha) const override
+  {
+    return restricted(feti.apply_Gt(alpha));
+  }
+  double feasibility_scale(const qp::MultiVector &mu) const override
+  {
+    return feti.feasibility_scale(rigid_load, extended(mu));
+  }
+  std::unique_ptr<qp::Face> face(const qp::RowSet &free) const override;
   /// Never names one: the state is an equilibrium.
-  std::string escaping_body() const override;
+  std::string escaping_body() const override { return ""; }
 
 private:
   class PartOfFace;

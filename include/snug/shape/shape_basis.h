@@ -46,6 +46,13 @@ public:
   Field column(unsigned int i) const;
 };
 
+/// Node positions of a design: reference + V alpha, never moved step by
+/// step. Collective.
+template <int dim>
+typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
+                                              const ShapeBasis<dim>     &basis,
+                                              const std::vector<double> &design);
+
 /// A basis made from the entries of one subsection.
 template <int dim>
 class Shape : public ShapeBasis<dim>

@@ -27,7 +27,7 @@ public:
             const elasticity::Element<dim>  &element,
             const elasticity::FaceLoad<dim> &face_load);
 
-  unsigned int n_dofs() const;
+  unsigned int n_dofs() const { return dim * subdomain.nodes.size(); }
 
   /// Pattern of K.
   feti::CsrMatrix sparsity() const;
@@ -56,20 +56,26 @@ public:
   std::vector<unsigned int> fixing_dofs(const Field &positions) const;
 
   /// Subdomain cells and loaded boundary faces as (mesh index).
-  const std::vector<unsigned int> &cells() const;
-  const std::vector<unsigned int> &loaded_faces() const;
+  const std::vector<unsigned int> &cells() const { return subdomain.cells; }
+  const std::vector<unsigned int> &loaded_faces() const { return faces; }
 
   /// Values of a nodal field at the nodes of cell i of cells().
   Nodes cell_field(unsigned int i, const Field &field) const;
   /// Values of the subdomain vector u at the nodes of cell i.
-  Nodes cell_values(unsigned int i, const double *u) const;
+  Nodes cell_values(unsigned int i, const double *u) const { return cell_reach[i].values(u); }
   /// u += factor * T' r for cell i.
-  void add_cell_vector(unsigned int i, double factor, const Nodes &r, double *u) const;
+  void add_cell_vector(unsigned int i, double factor, const Nodes &r, double *u) const
+  {
+    cell_reach[i].add(factor, r, u);
+  }
 
   /// The same for loaded face i of loaded_faces().
   Nodes face_field(unsigned int i, const Field &field) const;
-  Nodes face_values(unsigned int i, const double *u) const;
-  void  add_face_vector(unsigned int i, double factor, const Nodes &r, double *u) const;
+  Nodes face_values(unsigned int i, const double *u) const { return face_reach[i].values(u); }
+  void  add_face_vector(unsigned int i, double factor, const Nodes &r, double *u) const
+  {
+    face_reach[i].add(factor, r, u);
+  }
   /// Its loads in a load case.
   elasticity::FaceLoadValues<dim>
   face_load_values(unsigned int i, unsigned int load_case, const Tractions &tractions) const;
@@ -79,16 +85,25 @@ public:
   /// Whether loads change in this subdomain when the rest of a face moves.
   bool has_resultants() const;
 
-  bool has_body_force(unsigned int load_case) const;
+  bool has_body_force(unsigned int load_case) const
+  {
+    return loads(load_case).body_force || loads(load_case).gravity.norm() > 0.;
+  }
   /// Body force at the Gauss points of cell i of cells(), with gravity.
   Nodes body_force(unsigned int i, unsigned int load_case) const;
   /// Material of cell i of cells().
-  const elasticity::Material     &material(unsigned int i) const;
-  const elasticity::Element<dim> &element() const;
+  const elasticity::Material &material(unsigned int i) const
+  {
+    return model.bodies[subdomain.body].material(mesh.cells()[subdomain.cells[i]]);
+  }
+  const elasticity::Element<dim> &element() const { return the_element; }
 
 private:
-  void                     build_pattern();
-  const BodyLoads<dim>    &loads(unsigned int load_case) const;
+  void                  build_pattern();
+  const BodyLoads<dim> &loads(unsigned int load_case) const
+  {
+    return model.load_cases[load_case].bodies[subdomain.body];
+  }
   const BoundaryLoad<dim> *boundary_load(unsigned int i, unsigned int load_case) const;
 
   const mesh::BodyMesh<dim>             &mesh;

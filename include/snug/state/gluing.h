@@ -30,14 +30,14 @@ public:
          const supports::HeldNodes<dim> &held,
          const RowCoefficients<dim>     &reference);
 
-  const feti::RowLayout &layout() const;
+  const feti::RowLayout &layout() const { return *rows.layout; }
 
   /// Global dual rows, contact rows among them, of all ranks.
-  unsigned int n_rows() const;
-  unsigned int n_contact_rows() const;
+  unsigned int n_rows() const { return rows.n_global; }
+  unsigned int n_contact_rows() const { return rows.scales.size(); }
 
   /// nr of each contact row: physical force = lambda / nr.
-  const std::vector<double> &contact_scales() const;
+  const std::vector<double> &contact_scales() const { return rows.scales; }
 
   /// B of subdomain @p s of this rank.
   void fill_B(unsigned int s, const RowCoefficients<dim> &rows, std::vector<feti::BEntry> &B) const;
@@ -77,7 +77,7 @@ public:
                                              const RowCoefficients<dim> &rows) const;
 
   /// Owned row -> contact row, or n_contact_rows().
-  const std::vector<unsigned int> &contact_of_row() const;
+  const std::vector<unsigned int> &contact_of_row() const { return owned_contact; }
 
 private:
   using Source = typename GluingRows<dim>::Source;

@@ -20,7 +20,7 @@ public:
             const std::vector<unsigned int> &nodes);
 
   /// Subdomain nodes reached; in the order of the nodes if none hangs.
-  const std::vector<unsigned int> &slots() const;
+  const std::vector<unsigned int> &slots() const { return reached; }
 
   /// Values at the nodes, T u.
   Nodes values(const double *u) const;
