@@ -199,7 +199,7 @@ void StateProblem<dim>::set_geometry(const Field &positions)
     return;
   // what throws from here on leaves matrices of no geometry
   geometry.positions.clear();
-  set_load_case.reset();
+  loaded_case.reset();
   scaled_jacobians = jacobians;
   jacobians.push_back(1.); // of a rank without cells
   geometry.least_scaled_jacobian =
@@ -217,14 +217,14 @@ template <int dim>
 const Geometry<dim> &StateProblem<dim>::set(const Field &positions, const unsigned int load_case)
 {
   set_geometry(positions);
-  if (set_load_case == load_case)
+  if (loaded_case == load_case)
     return geometry;
-  set_load_case.reset();
+  loaded_case.reset();
   check_vanished_rows(load_case);
   for (unsigned int s = 0; s < systems.size(); ++s)
     systems[s].f = loads[load_case][s];
   feti->set_loads(gluing->right_hand_side(geometry.rows, load_case));
-  set_load_case = load_case;
+  loaded_case = load_case;
   return geometry;
 }
 

@@ -81,7 +81,7 @@ private:
   std::vector<double>       scaled_jacobians; ///< least, per subdomain
   /// of the matrices in systems and feti; no positions: none
   Geometry<dim>               geometry;
-  std::optional<unsigned int> set_load_case; ///< of feti's loads
+  std::optional<unsigned int> loaded_case; ///< of feti's loads
   /// f per load case and subdomain
   std::vector<std::vector<std::vector<double>>> loads;
 };
