@@ -1,6 +1,7 @@
 #include <snug/app/sensitivity.h>
 #include <snug/sensitivity/methods.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
@@ -36,20 +37,20 @@ void print_table(std::ostream &out, const std::vector<io::Summary::GradientRow> 
 } // namespace
 
 template <int dim>
-Sensitivity<dim>::Sensitivity(Workshop<dim>                               &workshop,
-                              const std::vector<state::ContactState<dim>> &states)
-  : workshop(workshop), states(states)
+Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
+                              Results<dim>      &results,
+                              const States      &states)
+  : problem(problem), results(results), states(states)
 {
   choose_method();
-  unsigned int weak_contacts = 0;
-  for (const auto &state : states)
-    weak_contacts += state.weak_contacts;
-  bool one_sided = weak_contacts > 0 && sensitivity::needs_solve(*workshop.objective);
+  bool one_sided = sensitivity::needs_solve(*problem.objective) &&
+                   std::any_of(states.begin(), states.end(),
+                               [](const auto &state) { return state.weak_contacts > 0; });
   if (one_sided)
-    workshop.warn({one_sided_warning(weak_contacts)});
+    results.warn_of_weak_contacts(states);
   for (const Method &method : methods())
     {
-      // differences leave the solver at another design
+      // before differences, which leave the solver at another design
       if (method.is_difference && one_sided)
         {
           add_one_sided();
@@ -62,27 +63,31 @@ Sensitivity<dim>::Sensitivity(Workshop<dim>                               &works
   for (const auto &row : gradient.methods)
     if (row.method == chosen)
       static_cast<io::Summary::GradientRow &>(gradient) = row;
-  print_table(workshop.context.out(), gradient.methods);
+  print_table(problem.context.out(), gradient.methods);
 }
 
 template <int dim>
 void Sensitivity<dim>::choose_method()
 {
-  chosen = workshop.scene.gradient.method;
-  if (chosen != "auto")
+  chosen = problem.scene.gradient.method;
+  // adjoint and direct solve nothing for what depends on the geometry alone
+  const bool needs_no_solve =
+    !problem.objective->needs_solution() && (chosen == "adjoint" || chosen == "direct");
+  if (chosen != "auto" && !needs_no_solve)
     return;
   const auto choice =
-    sensitivity::cheapest_methods<dim>({workshop.objective.get()}, workshop.basis->n_variables())
+    sensitivity::cheapest_methods<dim>({problem.objective.get()}, problem.shapes->n_variables())
       .front();
   chosen          = choice.method;
   gradient.reason = choice.reason;
-  workshop.context.out() << "auto takes " << chosen << ": " << choice.reason << std::endl;
+  problem.context.out() << problem.scene.gradient.method << " takes " << chosen << ": "
+                        << choice.reason << std::endl;
 }
 
 template <int dim>
 std::vector<typename Sensitivity<dim>::Method> Sensitivity<dim>::methods() const
 {
-  const auto &given = workshop.scene.gradient;
+  const auto &given = problem.scene.gradient;
   const auto  named = [&](const std::string &name, const std::string &method,
                          const std::string &derivatives) {
     Method result{name, given, method == "finite differences"};
@@ -92,7 +97,7 @@ std::vector<typename Sensitivity<dim>::Method> Sensitivity<dim>::methods() const
   };
   if (!given.compare)
     return {named(chosen, chosen, given.derivatives)};
-  const auto         &response = *workshop.objective;
+  const auto         &response = *problem.objective;
   std::vector<Method> list;
   if (!sensitivity::needs_solve(response))
     list.push_back(named("energy", "energy", "exact"));
@@ -111,9 +116,11 @@ std::vector<typename Sensitivity<dim>::Method> Sensitivity<dim>::methods() const
 template <int dim>
 void Sensitivity<dim>::add(const Method &method)
 {
-  workshop.context.progress("gradient by " + method.name + " ...");
-  const auto  result = workshop.gradients(states, {}, workshop.basis->start(), method.parameters);
-  const auto &of_objective = result.of_response.front();
+  problem.context.progress("gradient by " + method.name + " ...");
+  const auto result = sensitivity::combined_gradients(
+    problem.load_cases(states, problem.shapes->start(), method.parameters), *problem.objective,
+    problem.combined_objective(states).factors, {});
+  const auto              &of_objective = result.of_response.front();
   io::Summary::GradientRow row;
   row.method                 = method.name;
   row.f_mults                = result.f_mults;
@@ -137,12 +144,14 @@ void Sensitivity<dim>::add(const Method &method)
 template <int dim>
 void Sensitivity<dim>::add_one_sided()
 {
-  const double             start  = workshop.context.seconds();
-  const unsigned long      before = workshop.context.work.f_mults;
-  const auto               found  = workshop.one_sided_gradients(states, workshop.basis->start());
+  const double        start  = problem.context.seconds();
+  const unsigned long before = problem.context.work.f_mults;
+  const auto          found  = sensitivity::combined_one_sided_gradients(
+              problem.load_cases(states, problem.shapes->start(), problem.scene.gradient), *problem.objective,
+              problem.combined_objective(states).factors);
   io::Summary::GradientRow row; // each is half of the work
-  row.f_mults = (workshop.context.work.f_mults - before) / 2;
-  row.seconds = (workshop.context.seconds() - start) / 2;
+  row.f_mults = (problem.context.work.f_mults - before) / 2;
+  row.seconds = (problem.context.seconds() - start) / 2;
   row.method  = "one-sided, up";
   row.values  = found.increasing;
   gradient.methods.push_back(row);
@@ -154,8 +163,8 @@ void Sensitivity<dim>::add_one_sided()
 template <int dim>
 double Sensitivity<dim>::displacement_difference(const std::vector<Field> &derivatives) const
 {
-  const auto        &mesh    = *workshop.mesh;
-  const unsigned int rank    = workshop.context.rank();
+  const auto        &mesh    = *problem.mesh;
+  const unsigned int rank    = problem.context.rank();
   double             sums[2] = {0., 0.};
   for (unsigned int j = 0; j < reference.size(); ++j)
     for (unsigned int node = 0; node < reference[j].size(); ++node)
@@ -165,7 +174,7 @@ double Sensitivity<dim>::displacement_difference(const std::vector<Field> &deriv
           sums[0] += (derivatives[j][node] - expected).norm_square();
           sums[1] += expected.norm_square();
         }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, workshop.context.communicator());
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, problem.context.communicator());
   return std::sqrt(sums[0] / sums[1]);
 }
 

@@ -40,61 +40,61 @@ void print_state(std::ostream &out, const state::ContactState<dim> &state)
 }
 
 template <int dim>
-std::vector<state::ContactState<dim>> solve_start(Workshop<dim> &workshop)
+typename ShapeProblem<dim>::States solve_start(ShapeProblem<dim> &problem, Results<dim> &results)
 {
-  workshop.context.progress("solving the contact problem ...");
-  auto states = workshop.solve(workshop.basis->start());
+  auto &out = problem.context.out();
+  problem.context.progress("solving the contact problem ...");
+  auto states = problem.solve(problem.shapes->start());
   for (auto &state : states)
     {
-      if (workshop.scene.report_linear_reference)
-        state.linear_f_mults = workshop.solver->linear_f_mults(state);
+      if (problem.scene.report_linear_reference)
+        state.linear_f_mults = problem.solver->linear_f_mults(state);
       if (states.size() > 1)
-        workshop.context.out() << "load case " << workshop.scene.load_cases[state.load_case].name
-                               << ": ";
-      print_state(workshop.context.out(), state);
-      for (const auto &[name, value] : workshop.response_values(state))
-        workshop.context.out() << name << ' ' << value << std::endl;
-      workshop.warn(state);
+        out << "load case " << problem.scene.load_cases[state.load_case].name << ": ";
+      print_state(out, state);
+      for (const auto &[name, value] : results.response_values(state))
+        out << name << ' ' << value << std::endl;
     }
+  results.warn(states);
   return states;
 }
 
 template <int dim>
-void run_state(Workshop<dim> &workshop)
+void run_state(ShapeProblem<dim> &problem, Results<dim> &results)
 {
-  const auto states = solve_start(workshop);
-  workshop.draw(0., states);
-  io::Summary summary;
-  summary.task = "state";
-  workshop.summarize_states({}, states, summary);
-  workshop.write_summary(summary);
+  results.add_last(0., solve_start(problem, results));
+  results.write_summary();
 }
 
 template <int dim>
-void run_sensitivity(Workshop<dim> &workshop)
+void run_sensitivity(ShapeProblem<dim> &problem, Results<dim> &results)
 {
-  const auto  states = solve_start(workshop);
-  io::Summary summary;
-  summary.task = "sensitivity";
-  workshop.summarize_states({}, states, summary);
-  const Sensitivity<dim> sensitivity(workshop, states);
-  workshop.draw(0., states, sensitivity.shape_gradient);
-  summary.gradient = sensitivity.gradient;
-  workshop.write_summary(summary);
+  const auto             states = solve_start(problem, results);
+  const Sensitivity<dim> sensitivity(problem, results, states);
+  results.add_last(0., states, sensitivity.shape_gradient);
+  results.summary.gradient = sensitivity.gradient;
+  results.write_summary();
+}
+
+/// That of the scene and, if there are several, those of load cases.
+std::vector<std::string> output_directories(const scene::Scene &scene)
+{
+  std::vector<std::string> directories = {scene.output_directory};
+  if (scene.load_cases.size() > 1)
+    for (const auto &load_case : scene.load_cases)
+      directories.push_back(scene.output_directory + "/" + load_case.name);
+  return directories;
 }
 
 void prepare_output(const RunContext &context, const scene::Scene &scene)
 {
-  const std::string &directory = scene.output_directory;
-  io::make_output_directory(context, directory);
-  if (scene.load_cases.size() > 1)
-    for (const auto &load_case : scene.load_cases)
-      io::make_output_directory(context, directory + "/" + load_case.name);
+  for (const auto &directory : output_directories(scene))
+    io::make_output_directory(context, directory);
   everywhere(context.communicator(), [&]() {
     std::ostringstream text;
     scene::print(scene, text);
     if (context.rank() == 0)
-      io::write_text_file(directory + "/parameters.prm", text.str());
+      io::write_text_file(scene.output_directory + "/parameters.prm", text.str());
   });
 }
 
@@ -112,12 +112,12 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   auto mesh = timed_mesh<dim>(context, scene);
   print_import_notes(scene, context.out());
   print(take_inventory(scene, *mesh), context.out());
-  const Workshop<dim> workshop(context, scene, std::move(mesh));
-  const auto          positions = workshop.positions(workshop.basis->start());
+  const ShapeProblem<dim> problem(context, scene, std::move(mesh));
+  const auto              positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.
-  for (unsigned int c = 0; c < workshop.n_load_cases(); ++c)
+  for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
     made_of(scene, [&]() {
-      everywhere(context.communicator(), [&]() { workshop.solver->loads(positions, c); });
+      everywhere(context.communicator(), [&]() { problem.solver->loads(positions, c); });
     });
 }
 
@@ -125,20 +125,24 @@ template <int dim>
 void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
 {
   prepare_output(context, scene);
-  Workshop<dim> workshop(context, scene, timed_mesh<dim>(context, scene));
-  workshop.print_header();
+  ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
+  if (!options.restart)
+    io::remove_results(context, output_directories(scene));
+  Results<dim> results(problem);
+  results.summary.task = scene::to_text(scene.task);
+  results.print_header();
   std::string complaint;
   switch (scene.task)
     {
       case scene::Task::state:
-        run_state(workshop);
+        run_state(problem, results);
         break;
       case scene::Task::sensitivity:
-        run_sensitivity(workshop);
+        run_sensitivity(problem, results);
         break;
       case scene::Task::optimize:
         catch_interrupts();
-        complaint = Optimize<dim>(workshop, options.restart).run();
+        complaint = optimize(problem, results, options.restart);
         break;
     }
   context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"

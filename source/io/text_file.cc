@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <stdexcept>
 
 namespace snug::io {
@@ -60,6 +61,25 @@ void make_output_directory(const RunContext &context, const std::string &path)
     if (error)
       throw bad_entry("Output directory", path,
                       "must be a directory this program may write in (" + error.message() + ")");
+  });
+}
+
+void remove_results(const RunContext &context, const std::vector<std::string> &directories)
+{
+  static const std::regex ours(
+    "(solution|contact)\\.pvd|solution-\\d{4,}(\\.\\d{4,}\\.vtu|\\.pvtu)|"
+    "contact-\\d{4,}\\.(vtu|csv)|history\\.csv|summary\\.json|"
+    "surface\\.(stl|csv)|control-points\\.csv|journal\\.txt|"
+    "warm-start\\.\\d+\\.[01]");
+  everywhere(context.communicator(), [&] {
+    if (context.rank() != 0)
+      return;
+    std::error_code ignored; // a file that stays does no harm
+    for (const auto &directory : directories)
+      for (const auto &entry : std::filesystem::directory_iterator(directory, ignored))
+        if (entry.is_regular_file(ignored) &&
+            std::regex_match(entry.path().filename().string(), ours))
+          std::filesystem::remove(entry.path(), ignored);
   });
 }
 } // namespace snug::io

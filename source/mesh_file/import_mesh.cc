@@ -283,6 +283,15 @@ private:
   }
 };
 
+/// FNV-1a of 64 bits, the same on every machine, unlike std::hash.
+std::uint64_t fnv_hash(const std::string &text)
+{
+  std::uint64_t hash = 14695981039346656037u;
+  for (const unsigned char c : text)
+    hash = (hash ^ c) * 1099511628211u;
+  return hash;
+}
+
 template <int dim>
 std::shared_ptr<const geometry::BlockMesh<dim>>
 make_blocks(const MeshFile                     &file,
@@ -305,6 +314,7 @@ import_mesh(const std::string                  &text,
     {
       const MeshFile file   = read_mesh_file(text);
       auto           result = std::make_shared<geometry::ImportedMesh>();
+      result->text_hash     = fnv_hash(text);
       if (dim == 2)
         result->flat = make_blocks<2>(file, parameters, result->notes);
       else

@@ -27,17 +27,15 @@ Evaluation replay(const JournalRecord &record)
   return record.evaluation;
 }
 
-/// A file's text; empty if there is none.
-std::string read_file(const std::string &path)
+/// Whether there is a file that can be read, and then its bytes.
+bool read_file(const std::string &path, std::string &text)
 {
-  if (!std::filesystem::exists(path))
-    return "";
   std::ifstream      in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in)
-    throw InputError("cannot read " + path);
-  return text.str();
+  std::ostringstream bytes;
+  if (in && in.peek() != std::ifstream::traits_type::eof())
+    bytes << in.rdbuf();
+  text = bytes.str();
+  return in.is_open() && !in.bad();
 }
 
 void broadcast(std::string &text, const MPI_Comm communicator)
@@ -52,8 +50,7 @@ void broadcast(std::string &text, const MPI_Comm communicator)
 }
 } // namespace
 
-Journal::Journal(const JournalSettings &settings, const Evaluate &evaluate)
-  : settings(settings), evaluate_live(evaluate)
+Journal::Journal(const JournalSettings &settings) : settings(settings)
 {
   MPI_Comm_rank(settings.communicator, &rank);
   MPI_Comm_size(settings.communicator, &n_ranks);
@@ -61,11 +58,6 @@ Journal::Journal(const JournalSettings &settings, const Evaluate &evaluate)
     read();
   if (header_end == 0)
     begin();
-}
-
-std::string Journal::path() const
-{
-  return settings.directory + "/journal.txt";
 }
 
 std::string Journal::warm_start_path(const unsigned int index) const
@@ -80,22 +72,12 @@ void Journal::say(const std::string &line) const
     settings.log(line);
 }
 
-unsigned int Journal::n_replayed() const
-{
-  return replayed;
-}
-
-unsigned int Journal::n_records() const
-{
-  return is_live ? next : recorded.size();
-}
-
 void Journal::read()
 {
   std::string text;
   everywhere(settings.communicator, [&] {
-    if (rank == 0)
-      text = read_file(path());
+    if (rank == 0 && std::filesystem::exists(path()) && !read_file(path(), text))
+      throw InputError("cannot read " + path());
   });
   broadcast(text, settings.communicator);
   auto contents = parse_journal(text, settings.fingerprint, path());
@@ -124,14 +106,6 @@ void Journal::begin()
   is_live = true;
 }
 
-/// The record is exhausted: go on from its state, behind its last record.
-void Journal::resume()
-{
-  cut();
-  load_warm_start();
-  is_live = true;
-}
-
 /// Cut the file behind record next - 1 and append from there.
 void Journal::cut()
 {
@@ -154,87 +128,99 @@ void Journal::forget_warm_start()
     std::filesystem::remove(warm_start_path(index), ignored);
 }
 
-void Journal::load_warm_start()
+/// The memory of the problem under way, as it was behind its last record.
+void Journal::load_warm_start(const DesignProblem &problem)
 {
-  if (next == 0 || !settings.load_warm_start)
+  if (next == first || !problem.remember)
     return;
-  const unsigned int index  = next - 1;
-  const int          before = recorded[index].n_ranks;
+  const int before = recorded[next - 1].n_ranks;
   if (before != n_ranks)
     {
       say("restart: written on " + std::to_string(before) + " ranks, continued on " +
           std::to_string(n_ranks) + ": the solver starts cold, results agree to its tolerance");
       return;
     }
-  const int here = std::filesystem::exists(warm_start_path(index));
-  int       everyone;
-  MPI_Allreduce(&here, &everyone, 1, MPI_INT, MPI_MIN, settings.communicator);
-  if (!everyone)
-    {
-      say("restart: no warm-start data: the solver starts cold, results "
-          "agree to its tolerance");
-      return;
-    }
-  everywhere(settings.communicator,
-             [&] { settings.load_warm_start(index, warm_start_path(index)); });
+  // all ranks or none: a solver that starts warm on some finds another path
+  std::string bytes;
+  int         good = read_file(warm_start_path(next - 1), bytes) && problem.remember(bytes);
+  MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, settings.communicator);
+  if (good)
+    return;
+  problem.remember("");
+  say("restart: no warm-start data that fit: the solver starts cold, results agree to its "
+      "tolerance");
 }
 
-Evaluation Journal::evaluate(const std::vector<double> &x)
+DesignProblem Journal::journaled(const DesignProblem &problem)
 {
-  if (!is_live && next < recorded.size() && bitwise_equal(recorded[next].x, x))
+  first           = next;
+  auto result     = problem;
+  result.evaluate = [this, problem](const std::vector<double> &x) { return evaluate(problem, x); };
+  return result;
+}
+
+Evaluation Journal::evaluate(const DesignProblem &problem, const std::vector<double> &x)
+{
+  const bool is_recorded = !is_live && next < recorded.size();
+  if (is_recorded && bitwise_equal(recorded[next].x, x))
     {
       ++replayed;
       return replay(recorded[next++]);
     }
-  if (!is_live && next < recorded.size())
+  if (is_recorded)
     {
       say("restart: evaluation " + std::to_string(next) +
           " asks for another design than the one recorded: the record is "
           "cut there, the solver starts cold");
       forget_warm_start();
-      cut();
-      is_live = true;
     }
   if (!is_live)
-    resume();
-
+    {
+      cut();
+      if (!is_recorded)
+        load_warm_start(problem);
+      is_live = true;
+    }
   JournalRecord record;
   record.x       = x;
   record.n_ranks = n_ranks;
+  return evaluate_live(problem, record);
+}
+
+/// Evaluate and record, failures too.
+Evaluation Journal::evaluate_live(const DesignProblem &problem, JournalRecord &record)
+{
   try
     {
-      record.evaluation = evaluate_live(x);
-    }
-  catch (const TangledMesh &error)
-    {
-      record.outcome = JournalRecord::Outcome::tangled;
-      record.message = error.what();
-      store(record);
-      throw;
+      record.evaluation = problem.evaluate(record.x);
     }
   catch (const SolveError &error)
     {
-      record.outcome = JournalRecord::Outcome::unsolved;
+      const bool is_tangled = dynamic_cast<const TangledMesh *>(&error) != nullptr;
+      record.outcome =
+        is_tangled ? JournalRecord::Outcome::tangled : JournalRecord::Outcome::unsolved;
       record.message = error.what();
-      store(record);
+      store(problem, record);
       throw;
     }
-  store(record);
+  store(problem, record);
   return record.evaluation;
 }
 
 /// Append; warm-start data first. Both steps end on all ranks together, so
 /// no rank overwrites data of a record that may still be the last one.
-void Journal::store(JournalRecord &record)
+void Journal::store(const DesignProblem &problem, const JournalRecord &record)
 {
-  if (settings.save_warm_start)
+  if (problem.memory)
     everywhere(settings.communicator, [&] {
+      // renamed when whole: a kill while writing leaves the older one
       const std::string final_path = warm_start_path(next);
       const std::string temporary  = final_path + ".new";
-      settings.save_warm_start(next, temporary);
+      const bool        written =
+        bool(std::ofstream(temporary, std::ios::binary) << problem.memory() << std::flush);
       std::error_code error;
       std::filesystem::rename(temporary, final_path, error);
-      if (error)
+      if (!written || error)
         throw InputError("cannot write " + final_path);
     });
   everywhere(settings.communicator, [&] {

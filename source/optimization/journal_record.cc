@@ -98,8 +98,13 @@ bool parse_line(const std::string &line, JournalRecord &record)
     value.constraints = numbers;
   else if (name == "jacobian")
     value.jacobian.push_back(numbers);
-  else if (name == "notes")
-    value.notes = numbers;
+  else if (name == "notes" && numbers.size() == 4)
+    {
+      value.active_contacts       = numbers[0];
+      value.f_mults               = numbers[1];
+      value.seconds               = numbers[2];
+      value.least_scaled_jacobian = numbers[3];
+    }
   else
     return false;
   return true;
@@ -183,14 +188,14 @@ std::string journal_text(const JournalRecord &record, const unsigned int index)
                 numbers_line("constraints", value.constraints);
         for (const auto &row : value.jacobian)
           text += numbers_line("jacobian", row);
-        text += numbers_line("notes", value.notes);
+        text += numbers_line("notes", {double(value.active_contacts), double(value.f_mults),
+                                       value.seconds, value.least_scaled_jacobian});
         break;
       case JournalRecord::Outcome::tangled:
         text += "tangled " + single_line(record.message) + '\n';
         break;
       case JournalRecord::Outcome::unsolved:
         text += "unsolved " + single_line(record.message) + '\n';
-        break;
     }
   return text + "end " + number + '\n';
 }
@@ -211,7 +216,6 @@ parse_journal(const std::string &text, const std::string &fingerprint, const std
   if (text.empty())
     return contents;
   contents.header_end = parse_header(reader, fingerprint, file);
-  contents.end        = contents.header_end;
   if (contents.header_end == 0)
     return contents;
   for (unsigned int index = 0; reader.position < text.size(); ++index)
@@ -223,7 +227,6 @@ parse_journal(const std::string &text, const std::string &fingerprint, const std
         throw InputError(file + ": record " + std::to_string(index) + " is damaged");
       if (reading != Reading::complete)
         break;
-      contents.end = record.end;
       contents.records.push_back(record);
     }
   return contents;

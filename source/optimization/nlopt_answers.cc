@@ -68,7 +68,9 @@ double NloptAnswers::objective(const double *values, double *gradient)
   return point->evaluation.objective / problem.objective_scale();
 }
 
-/// Values and derivatives of the constraints of one relation.
+/// Values and derivatives of the constraints of one relation. NLopt asks for
+/// them and for the objective one by one at the same design; the problem
+/// remembers its last designs and evaluates each once.
 void NloptAnswers::constraints(const Relation relation,
                                double        *values,
                                const double  *y,

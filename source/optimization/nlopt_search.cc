@@ -70,16 +70,16 @@ OptimizationResult Search::run()
   try
     {
       progress.report();
+      if (!centre.empty())
+        do
+          descend();
+        while (begins_again());
+      return progress.finish(answers->end, answers->failure);
     }
   catch (const Interrupted &)
     {
-      return progress.result(End::interrupted, "");
+      return progress.finish(End::interrupted, "");
     }
-  if (!centre.empty())
-    do
-      descend();
-    while (begins_again());
-  return progress.result(answers->end, answers->failure);
 }
 
 nlopt::opt Search::make_optimizer() const

@@ -15,21 +15,6 @@ Progress::Progress(const ScaledProblem          &problem,
   , best_before(last)
 {}
 
-const Progress::Point &Progress::iterate() const
-{
-  return last;
-}
-
-unsigned int Progress::n_iterations() const
-{
-  return iterations;
-}
-
-bool Progress::is_feasible(const ScaledProblem::Point &point) const
-{
-  return point.violation <= parameters.constraint_tolerance;
-}
-
 bool Progress::is_better(const ScaledProblem::Point &a, const ScaledProblem::Point &b) const
 {
   if (is_feasible(a) && is_feasible(b))
@@ -39,8 +24,10 @@ bool Progress::is_better(const ScaledProblem::Point &a, const ScaledProblem::Poi
 
 void Progress::consider(const Point &point)
 {
-  if (is_better(*point, *best))
-    best = point;
+  if (!is_better(*point, *best))
+    return;
+  best             = point;
+  best_is_accepted = false;
 }
 
 End Progress::accept(const Point &point, const bool full)
@@ -49,6 +36,7 @@ End Progress::accept(const Point &point, const bool full)
     return End::none;
   const auto previous = last;
   last                = point;
+  best_is_accepted    = best_is_accepted || best->x == last->x;
   ++iterations;
   report();
 
@@ -123,10 +111,12 @@ std::string Progress::stop_reason(const End end, const std::string &failure) con
   return "";
 }
 
-OptimizationResult Progress::result(const End end, const std::string &failure) const
+OptimizationResult Progress::finish(const End end, const std::string &failure)
 {
-  const bool  by_tolerance = end == End::gradient || end == End::objective || end == End::design;
-  const auto &point        = by_tolerance ? last : best;
+  const bool by_tolerance = end == End::gradient || end == End::objective || end == End::design;
+  if (!by_tolerance && !best_is_accepted)
+    accept(best, true);
+  const auto        &point = by_tolerance ? last : best;
   OptimizationResult result;
   result.x                    = point->x;
   result.evaluation           = point->evaluation;

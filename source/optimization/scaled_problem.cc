@@ -114,11 +114,6 @@ std::vector<double> ScaledProblem::design(const std::vector<double> &y) const
   return x;
 }
 
-bool ScaledProblem::is_known(const std::vector<double> &y) const
-{
-  return find(y) != nullptr;
-}
-
 std::shared_ptr<const ScaledProblem::Point> ScaledProblem::find(const std::vector<double> &y) const
 {
   for (const auto &point : recent)
@@ -203,35 +198,5 @@ double ScaledProblem::projected_gradient(const Point &point) const
     else if (c[j] >= -at_limit)
       forces.push_back({A[j], true});
   return projected_gradient_norm(g, forces, places) / size;
-}
-
-const std::vector<Relation> &ScaledProblem::relations() const
-{
-  return constraint_relations;
-}
-
-const std::vector<double> &ScaledProblem::lower() const
-{
-  return y_lower;
-}
-
-const std::vector<double> &ScaledProblem::upper() const
-{
-  return y_upper;
-}
-
-double ScaledProblem::objective_scale() const
-{
-  return scale;
-}
-
-const std::shared_ptr<const ScaledProblem::Point> &ScaledProblem::start() const
-{
-  return start_point;
-}
-
-unsigned int ScaledProblem::n_evaluations() const
-{
-  return evaluations;
 }
 } // namespace snug::optimization

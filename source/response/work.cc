@@ -22,19 +22,20 @@ public:
     return state.*member;
   }
 
-  /// K is that of the geometry set last, which has to be the state's.
   Partials<dim> partials(const state::StateSolver<dim> &solver, const State &state) const override
   {
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_local_nodes());
     // Assembled again, as the solver holds the loads of the case solved last.
     const auto f = solver.loads(state.positions, state.load_case);
+    // Collective: every rank asks, also one without subdomains.
+    const auto *feti = stiffness != 0. ? &solver.feti(state) : nullptr;
     for (unsigned int s = 0; s < state.u.size(); ++s)
       {
         result.u.emplace_back(state.u[s].n_rows());
         result.u.back().add(load, f[s]);
         if (stiffness != 0.)
-          solver.feti().subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
+          feti->subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
       }
     if (stiffness != 0.)
       // d/dX (u'Ku) at fixed u; w = u here

@@ -203,25 +203,18 @@ void add_row_derivatives(const std::vector<feti::BEntry> &B_derivative,
 
 const ChoiceTable<DataScheme()> &derivatives_table()
 {
+  const auto scheme = [](const char *stencil, bool refined) {
+    return [=]() { return DataScheme{stencil, refined}; };
+  };
   static const ChoiceTable<DataScheme()> table = {
-    {"exact", "differentiated by hand", []() { return DataScheme(); }},
-    {"forward differences", "of element quantities (semi-analytic)",
-     []() {
-       return DataScheme{"forward", false};
-     }},
-    {"central differences", "the same from both sides",
-     []() {
-       return DataScheme{"central", false};
-     }},
+    {"exact", "differentiated by hand", scheme("", false)},
+    {"forward differences", "of element quantities (semi-analytic)", scheme("forward", false)},
+    {"central differences", "the same from both sides", scheme("central", false)},
     {"refined forward differences",
      "forward ones that take the rigid motion of each element exactly, for "
      "slender bodies",
-     []() {
-       return DataScheme{"forward", true};
-     }},
-    {"refined central differences", "the same from both sides", []() {
-       return DataScheme{"central", true};
-     }}};
+     scheme("forward", true)},
+    {"refined central differences", "the same from both sides", scheme("central", true)}};
   return table;
 }
 

@@ -2,18 +2,6 @@
 #include <snug/sensitivity/methods.h>
 
 namespace snug::sensitivity {
-template <int dim>
-typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim>    &mesh,
-                                              const shape::ShapeBasis<dim> &basis,
-                                              const std::vector<double>    &design)
-{
-  auto       x = mesh.reference_positions();
-  const auto v = basis.apply(design);
-  for (unsigned int node = 0; node < x.size(); ++node)
-    x[node] += v[node];
-  return x;
-}
-
 namespace {
 /// What is differenced, at one design.
 template <int dim>
@@ -38,8 +26,9 @@ Values<dim> values_at(const GradientProblem<dim> &problem,
                       const std::vector<double>  &design)
 {
   // cold start: a warm one would stop at once and hide u'
-  const auto state = problem.solver.solve(positions(problem.solver.mesh(), problem.basis, design),
-                                          qp::WarmStart(), problem.state.load_case);
+  const auto state =
+    problem.solver.solve(shape::positions(problem.solver.mesh(), problem.basis, design),
+                         qp::WarmStart(), problem.state.load_case);
   return Values<dim>(problem, responses, state);
 }
 } // namespace
@@ -77,13 +66,6 @@ Gradients<dim> difference_gradients(const GradientProblem<dim> &problem,
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                            \
-  template mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &,             \
-                                                const shape::ShapeBasis<dim> &,          \
-                                                const std::vector<double> &);            \
-  template Gradients<dim>             difference_gradients(const GradientProblem<dim> &, \
-                                                           const Responses<dim> &);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template Gradients<2> difference_gradients(const GradientProblem<2> &, const Responses<2> &);
+template Gradients<3> difference_gradients(const GradientProblem<3> &, const Responses<3> &);
 } // namespace snug::sensitivity

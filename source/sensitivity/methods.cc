@@ -12,8 +12,8 @@ namespace {
 template <int dim>
 TangentSystem tangent_system(const GradientProblem<dim> &problem)
 {
-  return TangentSystem(problem.solver.feti(), strong_rows(problem.solver, problem.state),
-                       problem.solver.model().solver,
+  return TangentSystem(problem.solver.feti(problem.state),
+                       strong_rows(problem.solver, problem.state), problem.solver.model().solver,
                        problem.parameters.solves == "block" ? Solves::block : Solves::recycled,
                        problem.state.dual.directions);
 }
@@ -51,7 +51,7 @@ KktVectors state_partials(const GradientProblem<dim>       &problem,
   const auto  &scales     = solver.gluing().contact_scales();
   KktVectors   result;
   unsigned int k = partials.size();
-  result.dual    = qp::MultiVector(solver.feti().n_owned(), k);
+  result.dual    = qp::MultiVector(problem.state.dual.lambda.n_rows(), k);
   for (const auto &u : problem.state.u)
     result.primal.emplace_back(u.n_rows(), k);
   for (unsigned int j = 0; j < k; ++j)
@@ -101,7 +101,7 @@ Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
       if (response->stationary() && !exact)
         {
           KktVectors adjoint; // w = 0, eta = -lambda
-          adjoint.dual = qp::MultiVector(problem.solver.feti().n_owned());
+          adjoint.dual = qp::MultiVector(problem.state.dual.lambda.n_rows());
           adjoint.dual.add(-1., problem.state.dual.lambda);
           add_row(products(adjoint, residual_derivatives(problem),
                            problem.solver.context().communicator()),

@@ -25,7 +25,7 @@ void append_negative(qp::MultiVector &x)
 template <int dim>
 qp::RowSet weak_rows(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state)
 {
-  qp::RowSet  rows       = solver.feti().bounded();
+  qp::RowSet  rows       = solver.feti(state).bounded();
   const auto &of_contact = solver.gluing().contact_of_row();
   for (unsigned int i = 0; i < rows.size(); ++i)
     rows[i] = rows[i] && state.contact[of_contact[i]].weak;
@@ -60,7 +60,7 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
                                    const state::ContactState<dim> &state,
                                    const KktVectors               &data)
 {
-  const auto &feti       = solver.feti();
+  const auto &feti       = solver.feti(state);
   const auto &parameters = solver.model().solver;
   const auto  strong     = strong_rows(solver, state);
   const auto  weak       = weak_rows(solver, state);

@@ -39,7 +39,7 @@ const double strong_part = 1e-6;
 template <int dim>
 void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
 {
-  const auto &feti = solver.feti();
+  const auto &feti = solver.feti(state);
   const auto  f    = feti.loads();
   const auto  Kf   = feti.apply_inverse(f);
   // u'Ku, f'u, f'K^+f and lambda'(d + residual)
@@ -69,7 +69,7 @@ void describe_contact(const StateSolver<dim>     &solver,
                       const RowCoefficients<dim> &rows,
                       ContactState<dim>          &state)
 {
-  const auto &feti  = solver.feti();
+  const auto &feti  = solver.feti(state);
   auto        slack = feti.g();
   // g - B u, the gap that is left, in the units of the scaled rows
   slack.add(-1., feti.multiply_B(state.u));

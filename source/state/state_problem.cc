@@ -104,7 +104,7 @@ void StateProblem<dim>::glue(const Field &positions)
   feti = std::make_unique<feti::TotalFeti>(systems, gluing->layout(),
                                            subdomain_table(mesh, tearing, model.body_names),
                                            model.feti, context);
-  last_positions.clear();
+  geometry.positions.clear();
 }
 
 template <int dim>
@@ -118,23 +118,27 @@ void StateProblem<dim>::pair(const Field &positions)
 template <int dim>
 std::vector<bool> StateProblem<dim>::moved_subdomains(const Field &positions) const
 {
-  std::vector<bool> moved(systems.size(), last_positions.empty());
-  if (last_positions.empty())
+  std::vector<bool> moved(systems.size(), geometry.positions.empty());
+  if (geometry.positions.empty())
     return moved;
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (const unsigned int cell : tearing.subdomains[s].cells)
       for (const unsigned int node : mesh.cells()[cell].nodes)
-        if (positions[node] != last_positions[node])
+        if (positions[node] != geometry.positions[node])
           moved[s] = true;
   return moved;
 }
 
+/// The least scaled Jacobian of each subdomain. Those known are left as
+/// they are: a later subdomain may be tangled, and the geometry not taken.
 template <int dim>
-void StateProblem<dim>::check_quality(const Field &positions, const std::vector<bool> &moved)
+std::vector<double> StateProblem<dim>::checked_jacobians(const Field             &positions,
+                                                         const std::vector<bool> &moved)
 {
   if (mesh.idealization().is_axisymmetric())
     check_axis(mesh, positions, boxes);
-  scaled_jacobians.resize(systems.size());
+  auto result = scaled_jacobians;
+  result.resize(systems.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     if (moved[s])
       {
@@ -150,8 +154,9 @@ void StateProblem<dim>::check_quality(const Field &positions, const std::vector<
             if (!found.empty())
               throw TangledMesh(found + "; tighten the bounds of the shape");
           }
-        scaled_jacobians[s] = jacobian;
+        result[s] = jacobian;
       }
+  return result;
 }
 
 template <int dim>
@@ -184,38 +189,43 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
 
 /// Matrices, rows and factorizations of a geometry, and all loads.
 template <int dim>
-void StateProblem<dim>::update(const Field &positions, const std::vector<bool> &moved)
+void StateProblem<dim>::set_geometry(const Field &positions)
 {
-  last_rows = rows(positions);
-  last_positions.clear();
+  const auto          moved = moved_subdomains(positions);
+  std::vector<double> jacobians;
+  everywhere(context.communicator(), [&]() { jacobians = checked_jacobians(positions, moved); });
+  const int any_moved = std::find(moved.begin(), moved.end(), true) != moved.end();
+  if (dealii::Utilities::MPI::max(any_moved, context.communicator()) == 0)
+    return;
+  // what throws from here on leaves matrices of no geometry
+  geometry.positions.clear();
+  loaded_case.reset();
+  scaled_jacobians = jacobians;
+  jacobians.push_back(1.); // of a rank without cells
+  geometry.least_scaled_jacobian =
+    dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
+                                context.communicator());
+  geometry.rows = rows(positions);
   assemble(positions, moved);
   for (unsigned int s = 0; s < systems.size(); ++s)
-    gluing->fill_B(s, last_rows, systems[s].B);
+    gluing->fill_B(s, geometry.rows, systems[s].B);
   feti->update(moved);
-  last_positions = positions;
+  geometry.positions = positions;
 }
 
 template <int dim>
-void StateProblem<dim>::set_load_case(unsigned int load_case)
+const Geometry<dim> &StateProblem<dim>::set(const Field &positions, const unsigned int load_case)
 {
+  set_geometry(positions);
+  if (loaded_case == load_case)
+    return geometry;
+  loaded_case.reset();
   check_vanished_rows(load_case);
   for (unsigned int s = 0; s < systems.size(); ++s)
     systems[s].f = loads[load_case][s];
-  feti->set_loads(gluing->right_hand_side(last_rows, load_case));
-}
-
-template <int dim>
-void StateProblem<dim>::set_geometry(const Field &positions)
-{
-  const auto moved = moved_subdomains(positions);
-  everywhere(context.communicator(), [&]() { check_quality(positions, moved); });
-  least_scaled_jacobian = dealii::Utilities::MPI::min(
-    scaled_jacobians.empty() ? 1.
-                             : *std::min_element(scaled_jacobians.begin(), scaled_jacobians.end()),
-    context.communicator());
-  const int any_moved = std::find(moved.begin(), moved.end(), true) != moved.end();
-  if (dealii::Utilities::MPI::max(any_moved, context.communicator()) != 0)
-    update(positions, moved);
+  feti->set_loads(gluing->right_hand_side(geometry.rows, load_case));
+  loaded_case = load_case;
+  return geometry;
 }
 
 template <int dim>
@@ -231,11 +241,11 @@ void StateProblem<dim>::check_vanished_rows(unsigned int load_case) const
   for (const auto &box : boxes)
     length = std::max(length, box.length);
   for (const unsigned int i : gluing->vanished_rows())
-    if (gluing->gap(i, last_rows, load_case) < -1e-10 * length)
+    if (gluing->gap(i, geometry.rows, load_case) < -1e-10 * length)
       {
         std::ostringstream text;
         text << "no equilibrium: contact row " << i << " overlaps by "
-             << -gluing->gap(i, last_rows, load_case)
+             << -gluing->gap(i, geometry.rows, load_case)
              << " between nodes that are held in its direction";
         throw SolveError(text.str());
       }

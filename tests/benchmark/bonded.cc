@@ -35,9 +35,9 @@ std::vector<unsigned int> glue(const state::StateSolver<dim> &solver)
 }
 } // namespace
 
-Bonded::Bonded(const state::StateSolver<dim> &solver)
+Bonded::Bonded(const state::StateSolver<dim> &solver, const feti::TotalFeti &dual)
 {
-  assemble(solver, number_unknowns(solver));
+  assemble(solver, dual, number_unknowns(solver));
   analyse();
 }
 
@@ -69,9 +69,10 @@ std::vector<unsigned int> Bonded::number_unknowns(const state::StateSolver<dim> 
 }
 
 void Bonded::assemble(const state::StateSolver<dim>   &solver,
+                      const feti::TotalFeti           &dual,
                       const std::vector<unsigned int> &unknown)
 {
-  const auto                            &systems = solver.feti().subdomains();
+  const auto                            &systems = dual.subdomains();
   std::vector<std::vector<unsigned int>> maps;
   for (const auto &subdomain : solver.tearing().subdomains)
     {

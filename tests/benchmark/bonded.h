@@ -8,14 +8,14 @@ namespace snug::benchmark {
 /**
  * The bodies of a state problem as one untorn linear problem: slave nodes
  * glued to the master nodes they touch, supported unknowns eliminated. K
- * and f are sums over the subdomains of the solver's last state, so that
+ * and f are sums over the subdomains of the solver's dual problem, so that
  * both sides solve with the same numbers. One rank, no hanging nodes.
  */
 class Bonded
 {
 public:
   /// @throws InputError if slave and master nodes do not match.
-  explicit Bonded(const state::StateSolver<3> &solver);
+  Bonded(const state::StateSolver<3> &solver, const feti::TotalFeti &dual);
 
   unsigned int n_unknowns() const { return K.n_rows; }
 
@@ -30,8 +30,10 @@ public:
 
 private:
   std::vector<unsigned int> number_unknowns(const state::StateSolver<3> &solver);
-  void assemble(const state::StateSolver<3> &solver, const std::vector<unsigned int> &unknown);
-  void analyse();
+  void                      assemble(const state::StateSolver<3>     &solver,
+                                     const feti::TotalFeti           &dual,
+                                     const std::vector<unsigned int> &unknown);
+  void                      analyse();
 
   feti::CsrMatrix K;
   qp::MultiVector f, u;

@@ -82,9 +82,9 @@ public:
     , tearing(mesh::tear(mesh))
     , solver(mesh, tearing, app::build_model(scene, mesh), mesh.reference_positions(), context)
   {
-    solver.solve(mesh.reference_positions(), qp::WarmStart());
-    torn   = std::make_unique<Torn>(solver, context);
-    bonded = std::make_unique<Bonded>(solver);
+    const auto &dual = solver.feti(solver.solve(mesh.reference_positions(), qp::WarmStart()));
+    torn             = std::make_unique<Torn>(solver, dual, context);
+    bonded           = std::make_unique<Bonded>(solver, dual);
   }
 
   Times run(unsigned int repeats)

@@ -21,12 +21,13 @@ feti::SubdomainTable subdomain_table(const state::StateSolver<3> &solver)
 const double margin = 0.25;
 } // namespace
 
-Torn::Torn(const state::StateSolver<3> &solver, RunContext &context)
+Torn::Torn(const state::StateSolver<3> &solver, const feti::TotalFeti &dual, RunContext &context)
   : solver(solver)
+  , dual(dual)
   , context(context)
   , all(solver.tearing().subdomains.size(), true)
   , none(all.size(), false)
-  , feti(solver.feti().subdomains(),
+  , feti(dual.subdomains(),
          solver.gluing().layout(),
          subdomain_table(solver),
          solver.model().feti,
@@ -36,7 +37,7 @@ Torn::Torn(const state::StateSolver<3> &solver, RunContext &context)
 void Torn::factorize()
 {
   feti.update(all);
-  feti.set_loads(solver.feti().g());
+  feti.set_loads(dual.g());
 }
 
 void Torn::solve()
@@ -113,7 +114,7 @@ std::vector<Stage> Torn::stages(const Seconds &whole)
   const Seconds fresh        = median_time(repeats, make_face) - project;
   const Seconds coarse       = median_time(repeats, [&]() {
     feti.update(none);
-    feti.set_loads(solver.feti().g());
+    feti.set_loads(dual.g());
   });
 
   std::vector<Stage> stages = {factorization_of_inverses(),

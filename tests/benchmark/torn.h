@@ -25,9 +25,8 @@ struct Stage
 class Torn
 {
 public:
-  /// Both must outlive this object; the solver has solved a state. One
-  /// rank.
-  Torn(const state::StateSolver<3> &solver, RunContext &context);
+  /// All must outlive this object; @p dual is the solver's. One rank.
+  Torn(const state::StateSolver<3> &solver, const feti::TotalFeti &dual, RunContext &context);
 
   /// Numeric factorizations, coarse space, d.
   void factorize();
@@ -47,6 +46,7 @@ private:
   Stage factorization_of_interiors() const;
 
   const state::StateSolver<3> &solver;
+  const feti::TotalFeti       &dual; ///< whose systems and gaps are taken
   RunContext                  &context;
   std::vector<bool>            all, none;
   feti::TotalFeti              feti;

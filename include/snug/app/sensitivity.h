@@ -1,7 +1,7 @@
 #ifndef snug_app_sensitivity_h
 #define snug_app_sensitivity_h
 
-#include <snug/app/workshop.h>
+#include <snug/app/results.h>
 
 namespace snug::app {
 /**
@@ -14,17 +14,18 @@ template <int dim>
 class Sensitivity
 {
 public:
+  using Field  = typename ShapeProblem<dim>::Field;
+  using States = typename ShapeProblem<dim>::States;
+
   /// Collective. @throws SolveError.
-  Sensitivity(Workshop<dim> &workshop, const std::vector<state::ContactState<dim>> &states);
+  Sensitivity(ShapeProblem<dim> &problem, Results<dim> &results, const States &states);
 
   /// For the summary.
   io::Summary::Gradient gradient;
   /// Of the method that was asked for, if asked for: this rank's share.
-  std::optional<typename Workshop<dim>::Field> shape_gradient;
+  std::optional<Field> shape_gradient;
 
 private:
-  using Field = typename Workshop<dim>::Field;
-
   /// A column of the table.
   struct Method
   {
@@ -39,9 +40,10 @@ private:
   void                add_one_sided();
   double              displacement_difference(const std::vector<Field> &derivatives) const;
 
-  Workshop<dim>                               &workshop;
-  const std::vector<state::ContactState<dim>> &states;
-  std::string                                  chosen; ///< never "auto"
+  ShapeProblem<dim> &problem;
+  Results<dim>      &results;
+  const States      &states;
+  std::string        chosen; ///< never "auto"
   /// u'_j by the direct method, of one load case after the other
   std::vector<Field> reference;
 };

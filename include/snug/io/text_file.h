@@ -4,6 +4,7 @@
 #include <snug/base/run_context.h>
 
 #include <string>
+#include <vector>
 
 namespace snug::io {
 /**
@@ -24,6 +25,13 @@ std::string padded(unsigned int number, unsigned int digits);
  * in it. Collective. @throws InputError if that fails.
  */
 void make_output_directory(const RunContext &context, const std::string &path);
+
+/**
+ * Remove what earlier runs left in @p directories: the files of the names
+ * this program gives to results, journals and warm starts, and no others.
+ * Pictures of another run would stand beside this one's. Collective.
+ */
+void remove_results(const RunContext &context, const std::vector<std::string> &directories);
 } // namespace snug::io
 
 #endif

@@ -2,6 +2,7 @@
 #define snug_optimization_design_problem_h
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace snug::optimization {
@@ -12,8 +13,13 @@ struct Evaluation
   std::vector<double>              gradient;    ///< n
   std::vector<double>              constraints; ///< m values c(x)
   std::vector<std::vector<double>> jacobian;    ///< m rows of n
-  /// active contacts, F-mults, seconds: carried into history, not used
-  std::vector<double> notes;
+  /// @name For the history; no optimizer looks at them
+  /// @{
+  unsigned int  active_contacts       = 0;
+  unsigned long f_mults               = 0;
+  double        least_scaled_jacobian = 0.; ///< of all cells
+  double        seconds               = 0.; ///< since the run began
+  /// @}
 };
 
 /// What a constraint demands.
@@ -29,6 +35,12 @@ struct DesignProblem
   std::vector<double> lower, upper, start;
   /// throws TangledMesh for designs without a value
   std::function<Evaluation(const std::vector<double> &)> evaluate;
+  /// What this rank takes along from one evaluation to the next (the warm
+  /// start of a solver), as at least one byte. Both or none; not collective.
+  std::function<std::string()> memory;
+  /// Take it along again. @return false, with all forgotten, if the bytes
+  /// are not whole or not of this problem, as no bytes are.
+  std::function<bool(const std::string &)> remember;
   /// of each constraint; empty: all are equalities
   std::vector<Relation> relations;
   /// |c| is measured relative to these

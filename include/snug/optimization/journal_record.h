@@ -39,7 +39,6 @@ struct JournalContents
 {
   std::size_t                header_end = 0; ///< bytes; 0: no whole header
   std::vector<JournalRecord> records;        ///< the complete ones
-  std::size_t                end = 0;        ///< byte behind the last of them
 };
 
 /**

@@ -59,19 +59,24 @@ public:
   bool has_gained() const;
 
   /// The design accepted last.
-  const Point &iterate() const;
+  const Point &iterate() const { return last; }
 
   /// Designs accepted after the start.
-  unsigned int n_iterations() const;
+  unsigned int n_iterations() const { return iterations; }
 
   /// The result of a search that ended by @p end: the best design, or the
   /// last one if a tolerance ended it (an earlier one may be lower only by
-  /// using up the constraints' tolerance). @p failure says why the design
-  /// of End::no_value has none.
-  OptimizationResult result(End end, const std::string &failure) const;
+  /// using up the constraints' tolerance). A best design that was never
+  /// accepted, as one of a line search cut short, is accepted now, so that
+  /// the result is one of the designs reported. @p failure says why the
+  /// design of End::no_value has none.
+  OptimizationResult finish(End end, const std::string &failure);
 
   /// Whether a design meets the constraints to their tolerance.
-  bool is_feasible(const ScaledProblem::Point &point) const;
+  bool is_feasible(const ScaledProblem::Point &point) const
+  {
+    return point.violation <= parameters.constraint_tolerance;
+  }
 
   /// Whether @p a is lower than @p b, where both are feasible, or else
   /// violates less.
@@ -85,6 +90,7 @@ private:
   const Hooks                  &hooks;
   Point                         last;
   Point                         best; ///< lowest feasible or least violating
+  bool                          best_is_accepted = true;
   Point                         best_before;
   unsigned int                  iterations = 0;
   bool                          was_close  = false;

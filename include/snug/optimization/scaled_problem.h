@@ -46,7 +46,7 @@ public:
   std::shared_ptr<const Point> at(const std::vector<double> &y);
 
   /// Whether at() would answer without an evaluation.
-  bool is_known(const std::vector<double> &y) const;
+  bool is_known(const std::vector<double> &y) const { return find(y) != nullptr; }
 
   /// w_i df/dx_i / F.
   std::vector<double> gradient(const Evaluation &evaluation) const;
@@ -61,18 +61,13 @@ public:
   double projected_gradient(const Point &point) const;
 
   /// Of each constraint.
-  const std::vector<Relation> &relations() const;
-
-  const std::vector<double> &lower() const;
-
-  const std::vector<double> &upper() const;
-
-  double objective_scale() const;
-
-  const std::shared_ptr<const Point> &start() const;
-
+  const std::vector<Relation>        &relations() const { return constraint_relations; }
+  const std::vector<double>          &lower() const { return y_lower; }
+  const std::vector<double>          &upper() const { return y_upper; }
+  double                              objective_scale() const { return scale; }
+  const std::shared_ptr<const Point> &start() const { return start_point; }
   /// Calls of the problem's evaluate(), also those that threw.
-  unsigned int n_evaluations() const;
+  unsigned int n_evaluations() const { return evaluations; }
 
 private:
   std::shared_ptr<const Point> find(const std::vector<double> &y) const;

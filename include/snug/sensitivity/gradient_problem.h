@@ -16,7 +16,7 @@ struct GradientProblem
   const shape::ShapeBasis<dim>   &basis;
   const state::ContactState<dim> &state; ///< at design
   const std::vector<double>      &design;
-  const std::vector<double>      &bound_widths; ///< per variable
+  const std::vector<double>       bound_widths; ///< per variable
   const GradientParameters       &parameters;
 };
 
@@ -50,12 +50,6 @@ struct Gradients
   unsigned long                                    numeric_factorizations = 0;
   double                                           seconds                = 0.; ///< wall
 };
-
-/// Node positions of a design: reference + V alpha.
-template <int dim>
-typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim>    &mesh,
-                                              const shape::ShapeBasis<dim> &basis,
-                                              const std::vector<double>    &design);
 } // namespace snug::sensitivity
 
 #endif

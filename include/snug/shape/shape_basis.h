@@ -75,6 +75,13 @@ private:
   mutable unsigned int n_nodes = 0;
 };
 
+/// Node positions of a design: reference + V alpha, never moved step by
+/// step. Collective.
+template <int dim>
+typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
+                                              const ShapeBasis<dim>     &basis,
+                                              const std::vector<double> &design);
+
 /**
  * A basis made from the entries of one subsection: V = H E C M with the
  * modes M. Of modes of a face, C makes its hanging nodes follow and E its

@@ -70,9 +70,10 @@ struct ContactState
   using Field = typename mesh::BodyMesh<dim>::Field;
 
   unsigned int                load_case = 0;
-  Field                       positions;    ///< [length]
-  Field                       displacement; ///< [length]
-  feti::PrimalVectors         u;            ///< per subdomain
+  unsigned int                pairing   = 0; ///< how often contact was paired anew before
+  Field                       positions;     ///< [length]
+  Field                       displacement;  ///< [length]
+  feti::PrimalVectors         u;             ///< per subdomain
   qp::DualSolution            dual;
   std::vector<ContactPoint>   contact;
   std::vector<PairState<dim>> pairs;
@@ -89,8 +90,9 @@ struct ContactState
   /// least of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), the
   /// distance from a weakly active contact; infinite without contacts
   double        degeneracy_distance = std::numeric_limits<double>::infinity();
-  unsigned long f_mults             = 0; ///< of the contact solve
-  unsigned long linear_f_mults      = 0; ///< 0: not asked for
+  double        solved_to           = 0.; ///< relative KKT residual asked of the solver
+  unsigned long f_mults             = 0;  ///< of the contact solve
+  unsigned long linear_f_mults      = 0;  ///< 0: not asked for
   Certificate   certificate;
   Assumptions   assumptions;
 };

@@ -8,13 +8,22 @@
 #include <snug/state/gluing.h>
 
 #include <memory>
+#include <optional>
 
 namespace snug::state {
+/// A geometry and what its matrices were made with.
+template <int dim>
+struct Geometry
+{
+  typename mesh::BodyMesh<dim>::Field positions;
+  RowCoefficients<dim>                rows;                       ///< what B is made of
+  double                              least_scaled_jacobian = 1.; ///< of all cells
+};
+
 /**
- * The state problem of Total FETI at a geometry and in a load case.
- * Topology, pairing, gluing and symbolic factorizations are made once, at
- * the geometry given to the constructor. The members below are its parts,
- * to be read.
+ * The state problem of Total FETI. Topology, pairing, gluing and symbolic
+ * factorizations are made once, at the geometry given to the constructor;
+ * set() makes the numbers. The members below are its parts, to be read.
  */
 template <int dim>
 class StateProblem
@@ -29,18 +38,18 @@ public:
                const Field               &positions,
                RunContext                &context);
 
-  /// Pair contact anew at @p positions; the geometry must be set again.
+  /// Pair contact anew at @p positions; feti has no numbers until set().
   /// Collective.
   void pair(const Field &positions);
 
-  /// Matrices, rows and loads at @p positions: only subdomains whose nodes
-  /// moved are assembled and factorized. Collective. @throws TangledMesh.
-  void set_geometry(const Field &positions);
-
-  /// Bring the loads and the right-hand side of a load case to feti; the
-  /// geometry must be set. Collective.
-  /// @throws SolveError where held displacements press bodies into another.
-  void set_load_case(unsigned int load_case);
+  /**
+   * Give feti the matrices, the rows and, of a load case, the loads at
+   * @p positions. Only subdomains whose nodes moved since the last call are
+   * assembled and factorized. @return valid until the next call. Collective.
+   * @throws TangledMesh; SolveError where held displacements press bodies
+   *   into another.
+   */
+  const Geometry<dim> &set(const Field &positions, unsigned int load_case);
 
   /// What the rows of B are made of at @p positions. Collective.
   RowCoefficients<dim> rows(const Field &positions) const;
@@ -59,20 +68,20 @@ public:
   std::vector<std::unique_ptr<Assembler<dim>>> assemblers;
   std::vector<feti::SubdomainSystem>           systems;
   std::unique_ptr<feti::TotalFeti>             feti;
-  RowCoefficients<dim>                         last_rows; ///< at the geometry set last
-  double                                       least_scaled_jacobian = 1.; ///< of all cells there
 
 private:
-  void              glue(const Field &positions);
-  std::vector<bool> moved_subdomains(const Field &positions) const;
-  void              check_quality(const Field &positions, const std::vector<bool> &moved);
-  void              assemble(const Field &positions, const std::vector<bool> &moved);
-  void              update(const Field &positions, const std::vector<bool> &moved);
-  void              check_vanished_rows(unsigned int load_case) const;
+  void                glue(const Field &positions);
+  std::vector<bool>   moved_subdomains(const Field &positions) const;
+  std::vector<double> checked_jacobians(const Field &positions, const std::vector<bool> &moved);
+  void                assemble(const Field &positions, const std::vector<bool> &moved);
+  void                set_geometry(const Field &positions);
+  void                check_vanished_rows(unsigned int load_case) const;
 
   std::vector<BodyBox<dim>> boxes;
   std::vector<double>       scaled_jacobians; ///< least, per subdomain
-  Field                     last_positions;
+  /// of the matrices in systems and feti; no positions: none
+  Geometry<dim>               geometry;
+  std::optional<unsigned int> loaded_case; ///< of feti's loads
   /// f per load case and subdomain
   std::vector<std::vector<std::vector<double>>> loads;
 };

@@ -4,11 +4,9 @@
 #include <snug/state/contact_state.h>
 #include <snug/state/state_problem.h>
 
-#include <memory>
-
 namespace snug::state {
 /// The bridge from bodies at a geometry to Total FETI (StateProblem) and
-/// back.
+/// back: a geometry and a load case give a state.
 template <int dim>
 class StateSolver
 {
@@ -22,10 +20,9 @@ public:
               const Model<dim>          &model,
               const Field               &positions,
               RunContext                &context);
-  ~StateSolver();
 
-  /// Pair contact anew at @p positions; contact rows and warm starts of
-  /// before are no longer valid. Collective. @throws InputError.
+  /// Pair contact anew at @p positions; contact rows, states and warm starts
+  /// of before are no longer valid. Collective. @throws InputError.
   void pair(const Field &positions);
 
   /**
@@ -37,37 +34,47 @@ public:
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
-  /// F-mults of one linear TFETI solve on the active set of @p state,
-  /// the last one solved, from zero at the same tolerance. Collective.
+  /**
+   * The dual problem of @p state, of the present pairing: its matrices and
+   * loads are made again where the solver has been at another geometry or
+   * load case since. Valid until the solver goes elsewhere. Collective.
+   */
+  const feti::TotalFeti &feti(const ContactState<dim> &state) const;
+
+  /// F-mults of one linear TFETI solve on the active set of @p state, from
+  /// zero at the same tolerance. Collective.
   unsigned long linear_f_mults(const ContactState<dim> &state) const;
 
-  /// Volume of one body at @p positions [length^3]. Collective.
-  double volume(unsigned int body, const Field &positions) const;
-
-  const mesh::BodyMesh<dim>      &mesh() const;
-  const mesh::Tearing            &tearing() const;
-  const Model<dim>               &model() const;
-  const mesh::Surface<dim>       &surface() const;
-  const contact::Contact<dim>    &contact() const;
-  const supports::HeldNodes<dim> &held() const;
+  const mesh::BodyMesh<dim>      &mesh() const { return problem->mesh; }
+  const mesh::Tearing            &tearing() const { return problem->tearing; }
+  const Model<dim>               &model() const { return problem->model; }
+  const mesh::Surface<dim>       &surface() const { return problem->surface; }
+  const contact::Contact<dim>    &contact() const { return *problem->contact; }
+  const supports::HeldNodes<dim> &held() const { return *problem->held; }
   /// What the rows of B are made of at @p positions. Collective.
-  RowCoefficients<dim> rows(const Field &positions) const;
+  RowCoefficients<dim> rows(const Field &positions) const { return problem->rows(positions); }
   /// Its derivative along @p velocity, exact. Collective.
   RowCoefficients<dim>       row_derivatives(const Field &positions, const Field &velocity) const;
-  const ResultantLoads<dim> &resultants() const;
+  const ResultantLoads<dim> &resultants() const { return problem->resultants; }
   /// f of a load case at @p positions. Collective.
   feti::PrimalVectors              loads(const Field &positions, unsigned int load_case) const;
-  const elasticity::FaceLoad<dim> &face_load() const;
+  const elasticity::FaceLoad<dim> &face_load() const { return problem->face_load; }
   /// Assemblers of this rank's subdomains.
-  const std::vector<std::unique_ptr<Assembler<dim>>> &assemblers() const;
-  /// The dual problem of the last geometry and load case solved.
-  const feti::TotalFeti &feti() const;
-  const Gluing<dim>     &gluing() const;
-  RunContext            &context() const;
+  const std::vector<std::unique_ptr<Assembler<dim>>> &assemblers() const
+  {
+    return problem->assemblers;
+  }
+  const Gluing<dim> &gluing() const { return *problem->gluing; }
+  /// Rigid body modes of all subdomains.
+  unsigned int n_kernel() const { return problem->feti->n_kernel(); }
+  RunContext  &context() const { return problem->context; }
 
 private:
-  struct Data;
-  std::unique_ptr<Data> data;
+  void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
+
+  /// Its matrices are a cache: states depend on positions alone.
+  std::unique_ptr<StateProblem<dim>> problem;
+  unsigned int                       n_pairings = 0;
 };
 } // namespace snug::state
 

@@ -1,4 +1,4 @@
-#include <snug/app/workshop.h>
+#include <snug/app/shape_problem.h>
 #include <snug/scene/read_scene.h>
 #include <snug/sensitivity/methods.h>
 
@@ -103,26 +103,26 @@ public:
 
   SceneGradients(const scene::Scene &scene)
     : context(MPI_COMM_WORLD, log)
-    , workshop(context, scene, app::build_mesh<dim>(scene, context.communicator()))
+    , problem(context, scene, app::build_mesh<dim>(scene, context.communicator()))
     , generator(7)
-    , design(workshop.basis->start())
+    , design(problem.shapes->start())
   {
     const auto step = random_step();
     for (unsigned int i = 0; i < design.size(); ++i)
       design[i] += design_step * step[i];
-    volume = workshop.make_response("volume");
+    volume = problem.make_response("volume");
     measured.push_back({volume.get(), 0});
-    for (unsigned int c = 0; c < workshop.n_load_cases(); ++c)
-      for (const auto &response : workshop.responses)
+    for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+      for (const auto &response : problem.responses)
         measured.push_back({response.get(), c});
   }
 
   void check(const std::string &contact_method)
   {
     ASSERT_GT(design.size(), 0u);
-    for (const auto &pair : workshop.solver->contact().pairs())
+    for (const auto &pair : problem.solver->contact().pairs())
       ASSERT_EQ(pair.parameters.method, contact_method);
-    const auto states = workshop.solve(design);
+    const auto states = problem.solve(design);
     for (const auto &state : states)
       {
         ASSERT_TRUE(state.active_contacts > 0 || state.contact.empty());
@@ -139,7 +139,7 @@ public:
         check_same(adjoint[i], direct[i]);
         check_slope(adjoint[i], step, expected[i], difference_tolerance);
       }
-    if (!sensitivity::needs_solve(*workshop.objective))
+    if (!sensitivity::needs_solve(*problem.objective))
       check_slope(gradients(states, "energy", false)[0], step, expected[0], energy_tolerance);
   }
 
@@ -156,7 +156,7 @@ private:
 
   double width(const unsigned int i) const
   {
-    return workshop.basis->upper_bounds()[i] - workshop.basis->lower_bounds()[i];
+    return problem.shapes->upper_bounds()[i] - problem.shapes->lower_bounds()[i];
   }
 
   /// By variables that are relative to the widths of their bounds.
@@ -165,9 +165,12 @@ private:
   {
     sensitivity::GradientParameters parameters;
     parameters.method = method;
-    using Measured    = typename app::Workshop<dim>::Measured;
+    using Measured    = sensitivity::Measured<dim>;
     const auto found =
-      workshop.gradients(states, all ? measured : std::vector<Measured>(), design, parameters);
+      sensitivity::combined_gradients(problem.load_cases(states, design, parameters),
+                                      *problem.objective,
+                                      problem.combined_objective(states).factors,
+                                      all ? measured : std::vector<Measured>());
     std::vector<std::vector<double>> result;
     for (const auto &gradient : found.of_response)
       {
@@ -180,9 +183,9 @@ private:
 
   std::vector<double> values(const States &states)
   {
-    std::vector<double> result = {workshop.combined_objective(states).value};
+    std::vector<double> result = {problem.combined_objective(states).value};
     for (const auto &[response, load_case] : measured)
-      result.push_back(response->value(*workshop.solver, states[load_case]));
+      result.push_back(response->value(*problem.solver, states[load_case]));
     return result;
   }
 
@@ -212,7 +215,7 @@ private:
         auto moved = design;
         for (unsigned int i = 0; i < moved.size(); ++i)
           moved[i] += place[k] * difference_step * step[i];
-        const auto there = workshop.solve(moved);
+        const auto there = problem.solve(moved);
         EXPECT_EQ(strong(there), strong(states));
         const auto found = values(there);
         for (unsigned int i = 0; i < found.size(); ++i)
@@ -248,13 +251,13 @@ private:
                 tolerance * norm(gradient) * norm(direction) + expected.round_off);
   }
 
-  std::ostringstream                                 log;
-  RunContext                                         context;
-  app::Workshop<dim>                                 workshop;
-  std::mt19937                                       generator;
-  std::vector<double>                                design;
-  std::unique_ptr<response::Response<dim>>           volume;
-  std::vector<typename app::Workshop<dim>::Measured> measured;
+  std::ostringstream                       log;
+  RunContext                               context;
+  app::ShapeProblem<dim>                   problem;
+  std::mt19937                             generator;
+  std::vector<double>                      design;
+  std::unique_ptr<response::Response<dim>> volume;
+  std::vector<sensitivity::Measured<dim>>  measured;
 };
 
 class EveryScene : public testing::TestWithParam<Case>

@@ -58,8 +58,8 @@ public:
   state::ContactState<dim> solve(const std::vector<double> &design)
   {
     // cold: a warm start would stop at once and hide the derivative
-    return problem.solver.solve(sensitivity::positions(problem.mesh, *basis, design),
-                                qp::WarmStart(), load_case);
+    return problem.solver.solve(shape::positions(problem.mesh, *basis, design), qp::WarmStart(),
+                                load_case);
   }
 
   Values<dim> values(const std::vector<double> &design)

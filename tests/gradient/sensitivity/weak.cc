@@ -135,7 +135,7 @@ TEST_F(Weak, QuadraticProgramGivesEveryOneSidedDerivative)
   const auto right = data(list);
   const auto both  = sensitivity::directional_derivatives(scene.problem.solver, state, right);
   const auto strong =
-    sensitivity::TangentSystem(scene.problem.solver.feti(),
+    sensitivity::TangentSystem(scene.problem.solver.feti(state),
                                sensitivity::strong_rows(scene.problem.solver, state),
                                scene.problem.model.solver, sensitivity::Solves::block,
                                state.dual.directions)

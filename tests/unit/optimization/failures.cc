@@ -5,6 +5,7 @@
 
 #include "problems.h"
 
+#include <algorithm>
 #include <limits>
 
 using namespace snug;
@@ -79,6 +80,25 @@ TEST(SlsqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
         EXPECT_EQ(text.find("violates") != std::string::npos, violation > 1.);
       }
   EXPECT_EQ(complaint(minimize(rosenbrock_on_circle(), tight()), tight()), "");
+}
+
+/// Wherever the evaluations run out, also within a line search.
+TEST(SlsqpFailures, TheDesignFoundIsAlwaysOneOfTheIterations)
+{
+  for (unsigned int n = 1; n < 25; ++n)
+    {
+      auto parameters                = tight();
+      parameters.maximum_evaluations = n;
+      std::vector<std::vector<double>> designs;
+      Hooks                            hooks;
+      hooks.on_iteration = [&](const Iteration &iteration) {
+        EXPECT_EQ(iteration.number, designs.size());
+        designs.push_back(iteration.x);
+      };
+      const auto result = minimize(rosenbrock_on_circle(), parameters, hooks);
+      EXPECT_EQ(result.iterations + 1, designs.size());
+      EXPECT_EQ(std::count(designs.begin(), designs.end(), result.x), 1) << n;
+    }
 }
 
 TEST(SlsqpFailures, AStartWithoutValueIsTheCallersError)

@@ -15,7 +15,10 @@ void expect_same_bits(const Evaluation &a, const Evaluation &b)
   EXPECT_TRUE(same_bits({a.objective}, {b.objective}));
   EXPECT_TRUE(same_bits(a.gradient, b.gradient));
   EXPECT_TRUE(same_bits(a.constraints, b.constraints));
-  EXPECT_TRUE(same_bits(a.notes, b.notes));
+  EXPECT_EQ(a.active_contacts, b.active_contacts);
+  EXPECT_EQ(a.f_mults, b.f_mults);
+  EXPECT_TRUE(
+    same_bits({a.least_scaled_jacobian, a.seconds}, {b.least_scaled_jacobian, b.seconds}));
   ASSERT_EQ(a.jacobian.size(), b.jacobian.size());
   for (unsigned int j = 0; j < a.jacobian.size(); ++j)
     EXPECT_TRUE(same_bits(a.jacobian[j], b.jacobian[j]));
@@ -73,7 +76,7 @@ TEST(Journal, KilledAnywhereTheRestartTakesTheSamePathBitForBit)
   const std::string text = folder.text();
 
   using Where = WarmProblem::Where;
-  for (const Where where : {Where::evaluating, Where::before_saving, Where::after_saving})
+  for (const Where where : {Where::evaluating, Where::saving})
     for (unsigned int kill = 0; kill < whole.n_live; ++kill)
       {
         WarmProblem first(folder.path);
@@ -137,20 +140,24 @@ TEST(Journal, ASolveErrorIsReplayedAsOneAndOthersAreNotRecorded)
       throw SolveError("no equilibrium");
     throw Interrupted("SIGTERM");
   };
+  DesignProblem problem;
+  problem.evaluate = evaluate;
   JournalSettings settings;
   settings.directory    = folder.path;
   settings.communicator = MPI_COMM_WORLD;
   {
-    Journal journal(settings, evaluate);
-    EXPECT_THROW(journal.evaluate({1.}), SolveError);
-    EXPECT_THROW(journal.evaluate({-1.}), Interrupted);
+    Journal    journal(settings);
+    const auto journaled = journal.journaled(problem);
+    EXPECT_THROW(journaled.evaluate({1.}), SolveError);
+    EXPECT_THROW(journaled.evaluate({-1.}), Interrupted);
   }
   settings.restart = true;
-  Journal journal(settings, evaluate);
+  Journal    journal(settings);
+  const auto journaled = journal.journaled(problem);
   EXPECT_EQ(journal.n_records(), 1u);
   try
     {
-      journal.evaluate({1.});
+      journaled.evaluate({1.});
       FAIL();
     }
   catch (const TangledMesh &)
@@ -170,11 +177,11 @@ TEST(Journal, AnotherDesignCutsTheRecordAndStartsCold)
   WarmProblem first(folder.path);
   first.run();
   WarmProblem second(folder.path, true);
-  const auto  evaluate = [&](const std::vector<double> &x) { return second.live(x); };
   {
-    Journal journal(second.settings, evaluate);
-    journal.evaluate({0.1, 0.9});
-    journal.evaluate({0.2, 0.8});
+    Journal    journal(second.settings);
+    const auto journaled = journal.journaled(second.problem);
+    journaled.evaluate({0.1, 0.9});
+    journaled.evaluate({0.2, 0.8});
     EXPECT_EQ(journal.n_replayed(), 1u);
     EXPECT_EQ(journal.n_records(), 2u);
   }
@@ -192,9 +199,11 @@ TEST(Journal, CutAndKilledBeforeTheNextRecordItHasNoStaleWarmStart)
   run_until_killed(first, WarmProblem::Where::evaluating, 3);
   const auto cut_and_die = [&] {
     WarmProblem second(folder.path, true);
-    Journal     journal(second.settings, [](const auto &) -> Evaluation { throw Killed(); });
-    journal.evaluate({0.1, 0.9});
-    EXPECT_THROW(journal.evaluate({0.2, 0.8}), Killed);
+    Journal     journal(second.settings);
+    second.problem.evaluate = [](const auto &) -> Evaluation { throw Killed(); };
+    const auto journaled    = journal.journaled(second.problem);
+    journaled.evaluate({0.1, 0.9});
+    EXPECT_THROW(journaled.evaluate({0.2, 0.8}), Killed);
     return second.n_loads;
   };
   EXPECT_EQ(cut_and_die(), 0u);
@@ -257,6 +266,44 @@ TEST(Journal, StartsColdTogetherIfOneRankLostItsData)
   EXPECT_NO_THROW(second.run());
   EXPECT_EQ(second.n_loads, 0u);
   EXPECT_NE(second.log.find("no warm-start data"), std::string::npos);
+}
+
+TEST(Journal, StartsColdTogetherIfTheDataOfOneRankAreCutShort)
+{
+  const int         loser = n_all_ranks() - 1;
+  const std::string name  = "/warm-start." + std::to_string(loser) + ".1";
+  for (const unsigned int kept : {0, 3})
+    {
+      Folder      folder;
+      WarmProblem first(folder.path);
+      run_until_killed(first, WarmProblem::Where::evaluating, 6);
+      if (this_rank() == loser)
+        std::filesystem::resize_file(folder.path + name, kept);
+      WarmProblem second(folder.path, true);
+      EXPECT_NO_THROW(second.run());
+      EXPECT_TRUE(second.began_cold);
+      EXPECT_NE(second.log.find("no warm-start data"), std::string::npos);
+    }
+}
+
+/// A second problem on the same journal, as after pairing contact anew:
+/// the memory of the first one is not for it.
+TEST(Journal, ProblemsThatFollowOneAnotherHaveTheirOwnMemory)
+{
+  Folder folder;
+  {
+    WarmProblem first(folder.path);
+    Journal     journal(first.settings);
+    journal.journaled(first.problem).evaluate({0.1, 0.9});
+  }
+  WarmProblem again(folder.path, true);
+  Journal     journal(again.settings);
+  journal.journaled(again.problem).evaluate({0.1, 0.9});
+  EXPECT_EQ(journal.n_replayed(), 1u);
+  WarmProblem next(folder.path);
+  journal.journaled(next.problem).evaluate({0.1, 0.9});
+  EXPECT_EQ(next.n_loads, 0u);
+  EXPECT_EQ(journal.n_records(), 2u);
 }
 
 TEST(Journal, SaysWhereItCannotWrite)

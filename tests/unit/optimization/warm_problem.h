@@ -87,32 +87,31 @@ public:
   {
     nowhere,
     evaluating,
-    before_saving,
-    after_saving
+    saving
   };
 
   explicit WarmProblem(const std::string &directory, bool restart = false)
-    : problem(with_hole(rosenbrock_on_circle(), 0.6, 10.))
+    : problem(with_hole(rosenbrock_on_circle(), 0.6, 10.)), inner(problem.evaluate)
   {
-    settings.directory       = directory;
-    settings.fingerprint     = "variables = 2\nobjective = energy";
-    settings.restart         = restart;
-    settings.communicator    = MPI_COMM_WORLD;
-    settings.save_warm_start = [this](unsigned int index, const std::string &path) {
-      die(Where::before_saving, index);
-      std::ofstream(path) << std::hexfloat << memory + this_rank() << ' ' << index;
-      die(Where::after_saving, index);
+    settings.directory    = directory;
+    settings.fingerprint  = "variables = 2\nobjective = energy";
+    settings.restart      = restart;
+    settings.communicator = MPI_COMM_WORLD;
+    settings.log          = [this](const std::string &line) { log += line + '\n'; };
+    problem.evaluate      = [this](const std::vector<double> &x) { return live(x); };
+    problem.memory        = [this]() {
+      die(Where::saving, live_before + n_live - 1);
+      std::ostringstream bytes;
+      bytes << std::hexfloat << memory + this_rank() << '.';
+      return bytes.str();
     };
-    settings.load_warm_start = [this](unsigned int index, const std::string &path) {
-      ++n_loads;
-      std::ifstream in(path);
-      std::string   number;
-      unsigned int  written = 1000;
-      in >> number >> written;
-      memory = std::strtod(number.c_str(), nullptr) - this_rank();
-      EXPECT_EQ(written, index);
+    problem.remember = [this](const std::string &bytes) {
+      const bool whole = !bytes.empty() && bytes.back() == '.';
+      memory           = whole ? std::strtod(bytes.c_str(), nullptr) - this_rank() : 0.;
+      began_cold       = !whole;
+      n_loads += whole;
+      return whole;
     };
-    settings.log = [this](const std::string &line) { log += line + '\n'; };
   }
 
   snug::optimization::Evaluation live(const std::vector<double> &x)
@@ -121,36 +120,36 @@ public:
     ++n_live;
     // exact in binary: saved as memory + rank
     memory     = std::floor(memory / 2. + 1000. * x[0] + 100. * x[1]);
-    auto value = problem.evaluate(x);
+    auto value = inner(x);
     value.objective += 1e-9 * std::sin(memory);
-    value.notes = {memory, 0.1 * x[0]};
+    value.f_mults = memory * memory;
+    value.seconds = 0.1 * x[0];
     return value;
   }
 
   snug::optimization::OptimizationResult run()
   {
-    snug::optimization::Journal journal(settings,
-                                        [this](const std::vector<double> &x) { return live(x); });
-    live_before                                 = journal.n_records();
-    snug::optimization::DesignProblem journaled = problem;
-    journaled.evaluate = [&](const std::vector<double> &x) { return journal.evaluate(x); };
+    snug::optimization::Journal journal(settings);
+    live_before = journal.n_records();
     snug::optimization::Hooks hooks;
     hooks.on_iteration = [this](const snug::optimization::Iteration &iteration) {
       path.push_back(iteration);
     };
     snug::optimization::OptimizationParameters parameters;
     parameters.maximum_evaluations = 40;
-    const auto result              = minimize(journaled, parameters, hooks);
+    const auto result              = minimize(journal.journaled(problem), parameters, hooks);
     n_replayed                     = journal.n_replayed();
     return result;
   }
 
   snug::optimization::JournalSettings        settings;
+  snug::optimization::DesignProblem          problem;
   std::string                                log;
   std::vector<snug::optimization::Iteration> path;
   unsigned int                               n_live = 0, n_loads = 0, n_replayed = 0;
-  Where                                      where = Where::nowhere;
-  unsigned int                               when  = 0;
+  bool                                       began_cold = false;
+  Where                                      where      = Where::nowhere;
+  unsigned int                               when       = 0;
 
 private:
   void die(Where place, unsigned int index) const
@@ -159,9 +158,9 @@ private:
       throw Killed();
   }
 
-  snug::optimization::DesignProblem problem;
-  double                            memory      = 0.;
-  unsigned int                      live_before = 0;
+  decltype(snug::optimization::DesignProblem::evaluate) inner;
+  double                                                memory      = 0.;
+  unsigned int                                          live_before = 0;
 };
 
 inline bool same_bits(const std::vector<double> &a, const std::vector<double> &b)

@@ -144,7 +144,7 @@ TEST_F(Methods, ShapeGradientsHaveTheGradientAsProductsWithTheBasis)
 TEST_F(Methods, PositionsOfADesignAreReferencePlusBasis)
 {
   // the test's own Bernstein heights against the module's
-  const auto x        = sensitivity::positions(problem.mesh, *basis, problem.scene.design);
+  const auto x        = shape::positions(problem.mesh, *basis, problem.scene.design);
   const auto expected = problem.positions(problem.scene.design);
   for (unsigned int node = 0; node < x.size(); ++node)
     EXPECT_LT((x[node] - expected[node]).norm(), 1e-15);

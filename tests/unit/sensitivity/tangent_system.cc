@@ -28,7 +28,7 @@ void expect_optimal(const TestScene<dim> &scene, sensitivity::Solves solves)
 {
   Problem<dim> problem(scene);
   const auto   state = problem.solve();
-  const auto  &feti  = problem.solver.feti();
+  const auto  &feti  = problem.solver.feti(state);
   const auto   V     = column_velocities(problem);
   const auto   data =
     sensitivity::data_derivatives(problem.solver, state, V, sensitivity::GradientParameters());
@@ -95,8 +95,8 @@ TEST(TangentSystem, ColumnsDoNotDependOnTheirCompany)
                                                   sensitivity::GradientParameters());
   for (const auto solves : {sensitivity::Solves::block, sensitivity::Solves::recycled})
     {
-      const sensitivity::TangentSystem system(problem.solver.feti(), rows, problem.model.solver,
-                                              solves, state.dual.directions);
+      const sensitivity::TangentSystem system(problem.solver.feti(state), rows,
+                                              problem.model.solver, solves, state.dual.directions);
       const auto                       all = system.solve(data);
       for (const unsigned int j : {0, 5})
         {

@@ -1,3 +1,5 @@
+#include <snug/base/errors.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
@@ -77,5 +79,45 @@ TEST(Work, LinearReferenceCountsItsOwnMults)
   EXPECT_EQ(problem.context.work.f_mults - before, linear);
   EXPECT_GT(linear, 0u);
   EXPECT_LT(linear, state.f_mults);
+}
+
+/// What belongs to a state is found at its geometry and in its load case,
+/// wherever the solver has been since.
+TEST(Work, AStateIsFoundAgainAfterAnother)
+{
+  auto scene = two_blocks<3>(4, 4, 3.);
+  set_design(scene, 3, 0.02);
+  Problem<3> problem(scene);
+  const auto state  = problem.solve();
+  const auto linear = problem.solver.linear_f_mults(state);
+  const auto d      = problem.solver.feti(state).d();
+  auto       design = scene.design;
+  for (double &height : design)
+    height -= 0.2; // another contact zone
+  const auto other = problem.solve(design);
+  EXPECT_NE(other.energy, state.energy);
+  EXPECT_EQ(problem.solver.linear_f_mults(state), linear);
+  const auto &again = problem.solver.feti(state).d();
+  for (unsigned int i = 0; i < d.n_rows(); ++i)
+    ASSERT_EQ(d(i), again(i));
+}
+
+/// A geometry that is not taken changes nothing, though its first
+/// subdomains were looked at.
+TEST(Work, ATangledMeshLeavesTheScaledJacobiansOfTheLastGeometry)
+{
+  const auto   scene = two_blocks<2>(4, 4, 3.);
+  Problem<2>   problem(scene);
+  const auto   x        = problem.positions(scene.design);
+  const double expected = problem.solver.solve(x, qp::WarmStart()).least_scaled_jacobian;
+  // sheared in the first body, folded in the last one
+  auto tangled = x;
+  for (unsigned int node = 0; node < x.size(); ++node)
+    if (problem.mesh.body_of_node(node) == 0)
+      tangled[node][0] += 2. * x[node][1];
+    else
+      tangled[node] *= -1. + 2. * x[node][0];
+  EXPECT_THROW(problem.solver.solve(tangled, qp::WarmStart()), TangledMesh);
+  EXPECT_EQ(problem.solver.solve(x, qp::WarmStart()).least_scaled_jacobian, expected);
 }
 } // namespace

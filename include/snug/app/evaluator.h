@@ -1,0 +1,71 @@
+#ifndef snug_app_evaluator_h
+#define snug_app_evaluator_h
+
+#include <snug/app/shape_problem.h>
+#include <snug/optimization/design_problem.h>
+#include <snug/optimization/limit.h>
+
+namespace snug::app {
+/**
+ * The optimization problem of a scene: its objective and its constraints
+ * with their gradients as functions of the design. What it remembers of
+ * the design before, where its solver starts, changes values within the
+ * solver's tolerance only.
+ */
+template <int dim>
+class Evaluator
+{
+public:
+  using Design = typename ShapeProblem<dim>::Design;
+  using States = typename ShapeProblem<dim>::States;
+
+  /// Solves the first design if a limit or the scale of 'worst' is relative
+  /// to it. Collective.
+  explicit Evaluator(ShapeProblem<dim> &problem);
+
+  /// Collective. @throws TangledMesh, SolveError.
+  optimization::Evaluation evaluate(const Design &design);
+
+  /// The problem of an optimizer that begins at @p start; refers to this.
+  optimization::DesignProblem design_problem(const Design &start);
+
+  /// Pair contact anew at @p design, which ends all states of before.
+  /// Collective.
+  void pair(const Design &design);
+
+  /// States of the first design, cold if they have to be solved; not to be
+  /// asked for after pair(). Collective.
+  const States &first_states();
+
+  /// @name Of the last design evaluated; empty before
+  /// @{
+  Design                      design;
+  States                      states;
+  sensitivity::Gradients<dim> gradients; ///< of the objective, then of the constraints
+  /// @}
+
+private:
+  struct Constraint
+  {
+    std::unique_ptr<response::Response<dim>> response;
+    unsigned int                             load_case;
+    double                                   target;
+    optimization::Limit::Side                side;
+
+    /// c = sign (J - target), c = 0 or c <= 0.
+    double sign() const { return side == optimization::Limit::Side::at_least ? -1. : 1.; }
+  };
+
+  Constraint  make_constraint(const std::string &name, const std::string &limit);
+  std::string memory() const;
+  bool        remember(const std::string &bytes);
+
+  ShapeProblem<dim>                      &problem;
+  std::vector<Constraint>                 constraints;
+  std::vector<sensitivity::Measured<dim>> measured;    ///< of the constraints
+  std::vector<qp::WarmStart>              warm_starts; ///< per load case; empty: cold
+  States                                  of_first;
+};
+} // namespace snug::app
+
+#endif

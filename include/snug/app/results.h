@@ -1,0 +1,87 @@
+#ifndef snug_app_results_h
+#define snug_app_results_h
+
+#include <snug/app/shape_problem.h>
+#include <snug/io/contact_output.h>
+#include <snug/io/fields.h>
+#include <snug/io/summary.h>
+
+namespace snug::app {
+/**
+ * What a run leaves in the output directory and says in the log beside its
+ * states: pictures, summary, the final shape and warnings. It watches a
+ * shape problem and changes nothing there.
+ */
+template <int dim>
+class Results
+{
+public:
+  using Field  = typename ShapeProblem<dim>::Field;
+  using States = typename ShapeProblem<dim>::States;
+
+  explicit Results(const ShapeProblem<dim> &problem);
+
+  /// Print what was read. Collective.
+  void print_header();
+
+  /// Print lines as warnings and keep them for the summary, once.
+  void warn(const std::vector<std::string> &lines);
+
+  /// Warn where the model is doubtful at @p states.
+  void warn(const States &states);
+
+  /// Warn where derivatives at @p states are one-sided; @p more ends the line.
+  void warn_of_weak_contacts(const States &states, const std::string &more = "");
+
+  /// Draw a design, unless the picture of this time is there already.
+  /// Collective.
+  void draw(double time, const States &states, const std::optional<Field> &shape_gradient);
+
+  /// Draw and summarize the first of several designs, with the shape
+  /// gradient (this rank's share) if there is one. Collective.
+  void add_first(const States &states, const std::optional<Field> &shape_gradient);
+
+  /// States of the first design as summarized; empty before add_first().
+  const std::vector<io::Summary::State> &first() const { return first_states; }
+
+  /// The same of the last design or only one. Collective.
+  void add_last(double time, const States &states, const std::optional<Field> &shape_gradient = {});
+
+  /// The optimized surface and the control points. Collective.
+  void export_shape(const std::vector<double> &design);
+
+  /// Name and value of each response of the scene. Collective.
+  std::vector<std::pair<std::string, double>>
+  response_values(const state::ContactState<dim> &state) const;
+
+  /// Fill in program, mesh, work and times and write summary.json.
+  /// Collective.
+  void write_summary();
+
+  /// File @p name of the output directory.
+  std::string path(const std::string &name) const
+  {
+    return problem.scene.output_directory + "/" + name;
+  }
+
+  io::Summary summary; ///< its task, gradient and optimization are the task's
+
+private:
+  io::Summary::State summarize(const state::ContactState<dim> &state) const;
+
+  /// Writers of one load case.
+  struct Pictures
+  {
+    io::FieldOutput<dim>   fields;
+    io::ContactOutput<dim> contact;
+  };
+
+  const ShapeProblem<dim>        &problem;
+  std::vector<Pictures>           pictures;   ///< per load case
+  double                          drawn = 0.; ///< the time drawn last
+  std::vector<std::string>        warnings;
+  std::vector<io::Summary::State> first_states; ///< per load case
+};
+} // namespace snug::app
+
+#endif

@@ -1,0 +1,73 @@
+#ifndef snug_app_shape_problem_h
+#define snug_app_shape_problem_h
+
+#include <snug/app/build_model.h>
+#include <snug/optimization/combination.h>
+#include <snug/sensitivity/combined_gradients.h>
+#include <snug/shape/shapes.h>
+
+#include <memory>
+
+namespace snug::app {
+/**
+ * The shape problem of a scene, whatever its task: elastic bodies in
+ * contact, in all load cases, whose shape depends on a design, and the
+ * responses measured there. It leaves no files.
+ */
+template <int dim>
+class ShapeProblem
+{
+public:
+  using Field  = typename mesh::BodyMesh<dim>::Field;
+  using Design = std::vector<double>;
+  /// Of one design in all load cases.
+  using States = std::vector<state::ContactState<dim>>;
+
+  /// Makes all but the mesh. Collective. @throws InputError naming the file.
+  ShapeProblem(RunContext                          &context,
+               const scene::Scene                  &scene,
+               std::unique_ptr<mesh::BodyMesh<dim>> mesh);
+
+  /// Node positions of a design. Collective.
+  Field positions(const Design &design) const { return shape::positions(*mesh, *shapes, design); }
+
+  unsigned int n_load_cases() const { return solver->model().load_cases.size(); }
+
+  /// The states of a design, each from its start; no starts: cold.
+  /// Collective. @throws SolveError.
+  States solve(const Design &design, const std::vector<qp::WarmStart> &starts = {});
+
+  /// The objective, combined of its values in @p states. The scale of
+  /// 'worst' is that of the first states combined. Collective.
+  optimization::Combined combined_objective(const States &states);
+
+  /// The response called @p name. Collective. @throws InputError if the
+  /// scene has nothing it could measure.
+  std::unique_ptr<response::Response<dim>> make_response(const std::string &name) const;
+
+  /// What combined_gradients() differentiates at; all arguments must
+  /// outlive the result.
+  sensitivity::LoadCases<dim> load_cases(const States                          &states,
+                                         const Design                          &design,
+                                         const sensitivity::GradientParameters &parameters) const;
+
+  /// How far a design moved slave nodes off the points they are paired
+  /// with, in faces. Collective.
+  double drift(const Design &design) const;
+
+  RunContext                              &context;
+  const scene::Scene                      &scene;
+  std::unique_ptr<mesh::BodyMesh<dim>>     mesh;
+  mesh::Tearing                            tearing;
+  std::unique_ptr<shape::Shapes<dim>>      shapes;
+  std::unique_ptr<state::StateSolver<dim>> solver;
+  std::unique_ptr<response::Response<dim>> objective;
+  /// those of the scene, in its order
+  std::vector<std::unique_ptr<response::Response<dim>>> responses;
+
+private:
+  double objective_scale = 0.; ///< 0: not known yet
+};
+} // namespace snug::app
+
+#endif

@@ -1,0 +1,41 @@
+#ifndef snug_sensitivity_combined_gradients_h
+#define snug_sensitivity_combined_gradients_h
+
+#include <snug/sensitivity/gradient.h>
+#include <snug/sensitivity/one_sided.h>
+
+namespace snug::sensitivity {
+/// The states of one design in all load cases.
+template <int dim>
+using LoadCases = std::vector<GradientProblem<dim>>;
+
+/// A response of one load case.
+template <int dim>
+struct Measured
+{
+  const response::Response<dim> *response;
+  unsigned int                   load_case;
+};
+
+/**
+ * The gradient of a combined objective J(J_1, .., J_n), where J_c is the
+ * value of @p objective in load case c,
+ * @f[ J' = \sum_c \frac{\partial J}{\partial J_c} J_c', @f]
+ * and after it those of @p others, each in its own load case. @p factors
+ * are dJ/dJ_c. Displacements of the load cases follow one another.
+ * Collective. @throws as gradients().
+ */
+template <int dim>
+Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
+                                  const response::Response<dim>    &objective,
+                                  const std::vector<double>        &factors,
+                                  const std::vector<Measured<dim>> &others);
+
+/// The one-sided derivatives of the same J. Collective. @throws SolveError.
+template <int dim>
+OneSided combined_one_sided_gradients(const LoadCases<dim>          &load_cases,
+                                      const response::Response<dim> &objective,
+                                      const std::vector<double>     &factors);
+} // namespace snug::sensitivity
+
+#endif

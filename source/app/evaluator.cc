@@ -1,0 +1,150 @@
+#include <snug/app/evaluator.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace snug::app {
+template <int dim>
+Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem) : problem(problem)
+{
+  for (const auto &[name, limit] : problem.scene.optimization.constraints)
+    constraints.push_back(make_constraint(name, limit));
+  for (const Constraint &constraint : constraints)
+    measured.push_back({constraint.response.get(), constraint.load_case});
+  // its scale is that of the first design, whatever a journal replays
+  if (problem.scene.optimization.combine == "worst" && problem.n_load_cases() > 1)
+    problem.combined_objective(first_states());
+}
+
+template <int dim>
+const typename Evaluator<dim>::States &Evaluator<dim>::first_states()
+{
+  if (of_first.empty())
+    of_first = problem.solve(problem.shapes->start());
+  return of_first;
+}
+
+template <int dim>
+typename Evaluator<dim>::Constraint Evaluator<dim>::make_constraint(const std::string &name,
+                                                                    const std::string &limit)
+{
+  const auto of    = scene::constraint_name(problem.scene, name);
+  const auto bound = optimization::read_limit(limit);
+  Constraint constraint{problem.make_response(of.response), of.load_case.value_or(0), bound.value,
+                        bound.side};
+  if (!bound.of_initial)
+    return constraint;
+  state::ContactState<dim> geometry; // without a solution
+  geometry.positions  = problem.positions(problem.shapes->start());
+  const bool of_state = constraint.response->needs_solution();
+  constraint.target *=
+    constraint.response->value(*problem.solver,
+                               of_state ? first_states()[constraint.load_case] : geometry);
+  return constraint;
+}
+
+template <int dim>
+optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
+{
+  states = problem.solve(at, warm_starts);
+  design = at;
+  warm_starts.clear();
+  for (const auto &state : states)
+    warm_starts.push_back({state.dual.lambda, state.dual.active});
+
+  auto parameters = problem.scene.gradient;
+  if (parameters.method == "energy") // not for every constraint
+    parameters.method = "auto";
+  const auto objective = problem.combined_objective(states);
+  gradients = sensitivity::combined_gradients(problem.load_cases(states, design, parameters),
+                                              *problem.objective, objective.factors, measured);
+
+  optimization::Evaluation evaluation;
+  evaluation.objective = objective.value;
+  evaluation.gradient  = gradients.of_response.front().values;
+  for (unsigned int i = 0; i < constraints.size(); ++i)
+    {
+      const Constraint &constraint = constraints[i];
+      const double J = constraint.response->value(*problem.solver, states[constraint.load_case]);
+      evaluation.constraints.push_back(constraint.sign() * (J - constraint.target));
+      evaluation.jacobian.push_back(gradients.of_response[1 + i].values);
+      for (double &entry : evaluation.jacobian.back())
+        entry *= constraint.sign();
+    }
+  evaluation.f_mults = gradients.f_mults;
+  for (const auto &state : states)
+    {
+      evaluation.active_contacts += state.active_contacts;
+      evaluation.f_mults += state.f_mults;
+    }
+  evaluation.least_scaled_jacobian = states.front().least_scaled_jacobian;
+  evaluation.seconds               = problem.context.seconds();
+  return evaluation;
+}
+
+template <int dim>
+optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
+{
+  optimization::DesignProblem result;
+  result.lower    = problem.shapes->lower_bounds();
+  result.upper    = problem.shapes->upper_bounds();
+  result.start    = start;
+  result.evaluate = [this](const Design &x) { return evaluate(x); };
+  result.memory   = [this]() { return memory(); };
+  result.remember = [this](const std::string &bytes) { return remember(bytes); };
+  for (const Constraint &constraint : constraints)
+    {
+      result.constraint_scales.push_back(constraint.target == 0. ? 1.
+                                                                 : std::abs(constraint.target));
+      result.relations.push_back(constraint.side == optimization::Limit::Side::equal
+                                   ? optimization::Relation::equal
+                                   : optimization::Relation::at_most);
+    }
+  return result;
+}
+
+template <int dim>
+void Evaluator<dim>::pair(const Design &at)
+{
+  problem.solver->pair(problem.positions(at));
+  states.clear();
+  warm_starts.clear();
+}
+
+/// Whether there are starts, and of each load case lambda and the active set
+/// on the rows of this rank.
+template <int dim>
+std::string Evaluator<dim>::memory() const
+{
+  std::string bytes(1, char(warm_starts.empty() ? 0 : 1));
+  for (const auto &start : warm_starts)
+    {
+      bytes.append(reinterpret_cast<const char *>(start.lambda.column(0)),
+                   start.lambda.n_rows() * sizeof(double));
+      bytes.append(reinterpret_cast<const char *>(start.active.data()), start.active.size());
+    }
+  return bytes;
+}
+
+template <int dim>
+bool Evaluator<dim>::remember(const std::string &bytes)
+{
+  warm_starts.clear();
+  const unsigned int n       = problem.solver->gluing().layout().n_owned();
+  const unsigned int n_cases = bytes.empty() || bytes[0] == 0 ? 0 : problem.n_load_cases();
+  const std::size_t  size    = n * (sizeof(double) + 1);
+  if (bytes.size() != 1 + n_cases * size)
+    return false;
+  for (unsigned int c = 0; c < n_cases; ++c)
+    {
+      const char *of_case = bytes.data() + 1 + c * size;
+      warm_starts.push_back({qp::MultiVector(n), qp::RowSet(n)});
+      std::memcpy(warm_starts.back().lambda.column(0), of_case, n * sizeof(double));
+      std::memcpy(warm_starts.back().active.data(), of_case + n * sizeof(double), n);
+    }
+  return true;
+}
+
+template class Evaluator<2>;
+template class Evaluator<3>;
+} // namespace snug::app

@@ -1,0 +1,191 @@
+#include <snug/app/inventory.h>
+#include <snug/app/results.h>
+#include <snug/io/shape_export.h>
+#include <snug/state/assumptions.h>
+
+#include <algorithm>
+#include <ostream>
+
+namespace snug::app {
+template <int dim>
+Results<dim>::Results(const ShapeProblem<dim> &problem) : problem(problem)
+{
+  const auto &solver  = *problem.solver;
+  const auto &contact = solver.contact();
+  for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+    {
+      const std::string directory = problem.n_load_cases() == 1
+                                      ? problem.scene.output_directory
+                                      : path(problem.scene.load_cases[c].name);
+      pictures.push_back({{*problem.mesh, problem.tearing, solver.model().bodies, directory},
+                          {{*problem.mesh, solver.surface(), contact.pairs(), contact.places(),
+                            contact.shared_nodes()},
+                           directory}});
+    }
+}
+
+template <int dim>
+void Results<dim>::print_header()
+{
+  const auto &solver = *problem.solver;
+  const auto  info   = io::program_info(problem.context);
+  auto       &out    = problem.context.out();
+  out << "Snug " << info.version << ", deal.II " << info.dealii << ", PETSc " << info.petsc
+      << ", BLAS " << info.blas << '\n';
+  if (!io::blas_warning(info).empty())
+    out << "warning: " << io::blas_warning(info) << '\n';
+  out << problem.scene.bodies.size() << " bodies, " << problem.mesh->n_global_cells() << " cells, "
+      << dim * problem.mesh->n_global_free_nodes() << " unknowns, " << problem.tearing.n_global
+      << " subdomains, " << solver.gluing().n_contact_rows() << " contact rows of "
+      << solver.gluing().n_rows() << " dual rows, " << problem.shapes->n_variables()
+      << " design variables, " << problem.context.n_ranks() << " ranks" << std::endl;
+  print_import_notes(problem.scene, out);
+  const auto               &pairs = solver.contact().pairs();
+  std::vector<unsigned int> rows(pairs.size(), 0);
+  for (const auto &place : solver.contact().places())
+    ++rows[place.pair];
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    out << "contact " << pairs[p].name() << ", "
+        << (pairs[p].obstacle ? "obstacle" : pairs[p].parameters.method) << ", " << rows[p]
+        << " rows" << std::endl;
+  warn(state::overlap_warnings(pairs, solver.contact().overlaps()));
+}
+
+template <int dim>
+void Results<dim>::warn(const std::vector<std::string> &lines)
+{
+  for (const std::string &line : lines)
+    if (std::find(warnings.begin(), warnings.end(), line) == warnings.end())
+      {
+        warnings.push_back(line);
+        problem.context.out() << "warning: " << line << std::endl;
+      }
+}
+
+template <int dim>
+void Results<dim>::warn(const States &states)
+{
+  for (const auto &state : states)
+    warn(state::warnings(state.assumptions));
+}
+
+template <int dim>
+void Results<dim>::warn_of_weak_contacts(const States &states, const std::string &more)
+{
+  unsigned int weak_contacts = 0;
+  for (const auto &state : states)
+    weak_contacts += state.weak_contacts;
+  warn({std::to_string(weak_contacts) +
+        " contacts are weakly active (neither force nor gap): what depends on the displacement "
+        "has only one-sided derivatives" +
+        more});
+}
+
+template <int dim>
+void Results<dim>::draw(const double                time,
+                        const States               &states,
+                        const std::optional<Field> &gradient)
+{
+  const RunContext::Timer timer(problem.context, "output");
+  // the last design may be one that was asked for already
+  if (time > 0. && time == drawn)
+    return;
+  drawn = time;
+  for (unsigned int c = 0; c < states.size(); ++c)
+    {
+      pictures[c].fields.write(time, states[c], gradient ? &*gradient : nullptr);
+      pictures[c].contact.write(time, states[c]);
+    }
+}
+
+template <int dim>
+std::vector<std::pair<std::string, double>>
+Results<dim>::response_values(const state::ContactState<dim> &state) const
+{
+  std::vector<std::pair<std::string, double>> result;
+  for (unsigned int i = 0; i < problem.responses.size(); ++i)
+    result.emplace_back(problem.scene.responses[i].name,
+                        problem.responses[i]->value(*problem.solver, state));
+  return result;
+}
+
+template <int dim>
+io::Summary::State Results<dim>::summarize(const state::ContactState<dim> &state) const
+{
+  auto result      = io::summarize(state);
+  result.responses = response_values(state);
+  return result;
+}
+
+template <int dim>
+void Results<dim>::add_first(const States &states, const std::optional<Field> &shape_gradient)
+{
+  draw(0., states, shape_gradient);
+  // a pairing anew ends what else there is to know of them
+  for (const auto &state : states)
+    first_states.push_back(summarize(state));
+}
+
+template <int dim>
+void Results<dim>::add_last(const double                time,
+                            const States               &states,
+                            const std::optional<Field> &shape_gradient)
+{
+  draw(time, states, shape_gradient);
+  summary.state = summarize(states.front());
+  if (!first_states.empty())
+    summary.initial_state = first_states.front();
+  if (states.size() == 1)
+    return;
+  for (unsigned int c = 0; c < states.size(); ++c)
+    {
+      io::Summary::LoadCase load_case;
+      load_case.name   = problem.scene.load_cases[c].name;
+      load_case.weight = problem.scene.load_cases[c].weight;
+      load_case.state  = summarize(states[c]);
+      if (!first_states.empty())
+        load_case.initial_state = first_states[c];
+      summary.load_cases.push_back(load_case);
+    }
+}
+
+template <int dim>
+void Results<dim>::export_shape(const std::vector<double> &design)
+{
+  if (problem.shapes->n_variables() == 0)
+    return;
+  const RunContext::Timer  timer(problem.context, "output");
+  const mesh::Surface<dim> faces(*problem.mesh, problem.shapes->faces());
+  const auto               at_faces = faces.gather(problem.positions(design));
+  const auto               points   = problem.shapes->control_points(design);
+  everywhere(problem.context.communicator(), [&]() {
+    if (problem.context.rank() != 0)
+      return;
+    io::write_surface(path("surface"), faces, at_faces);
+    io::write_control_points(path("control-points.csv"), points);
+  });
+}
+
+template <int dim>
+void Results<dim>::write_summary()
+{
+  const auto &context           = problem.context;
+  summary.program               = io::program_info(context);
+  summary.mesh                  = io::summarize(*problem.mesh, problem.tearing);
+  summary.mesh.dual_rows        = problem.solver->gluing().n_rows();
+  summary.mesh.contact_rows     = problem.solver->gluing().n_contact_rows();
+  summary.mesh.kernel_dimension = problem.solver->n_kernel();
+  summary.work                  = context.total_work();
+  summary.times                 = io::collect_times(context);
+  if (!io::blas_warning(summary.program).empty())
+    summary.warnings.push_back(io::blas_warning(summary.program));
+  summary.warnings.insert(summary.warnings.end(), warnings.begin(), warnings.end());
+  everywhere(context.communicator(), [&]() {
+    if (context.rank() == 0)
+      summary.write(path("summary.json"));
+  });
+}
+
+template class Results<2>;
+template class Results<3>;
+} // namespace snug::app

@@ -1,0 +1,105 @@
+#include <snug/app/inventory.h>
+#include <snug/app/shape_problem.h>
+#include <snug/state/assumptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::app {
+template <int dim>
+ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
+                                const scene::Scene                  &scene,
+                                std::unique_ptr<mesh::BodyMesh<dim>> the_mesh)
+  : context(context), scene(scene), mesh(std::move(the_mesh))
+{
+  {
+    const RunContext::Timer timer(context, "setup");
+    check_distances(scene, *mesh);
+    tearing = mesh::tear(*mesh);
+    shape::BodyNames names;
+    for (const auto &body : scene.bodies)
+      names.names.push_back(body.name);
+    shapes = made_of(scene, [&]() {
+      return std::make_unique<shape::Shapes<dim>>(*mesh, names, scene.shapes);
+    });
+  }
+  // contact is paired where the optimization starts, not at the reference
+  solver = made_of(scene, [&]() {
+    return std::make_unique<state::StateSolver<dim>>(*mesh, tearing, build_model(scene, *mesh),
+                                                     positions(shapes->start()), context);
+  });
+  made_of(scene, [&]() {
+    state::check_overlaps(solver->contact().pairs(), solver->contact().overlaps());
+  });
+  objective = make_response(scene.optimization.objective);
+  for (const auto &response : scene.responses)
+    responses.push_back(make_response(response.name));
+}
+
+template <int dim>
+std::unique_ptr<response::Response<dim>>
+ShapeProblem<dim>::make_response(const std::string &name) const
+{
+  auto response = response::make_response<dim>(*scene::response_called(scene, name));
+  made_of(scene, [&]() { response->check(*solver); });
+  return response;
+}
+
+template <int dim>
+typename ShapeProblem<dim>::States
+ShapeProblem<dim>::solve(const Design &design, const std::vector<qp::WarmStart> &starts)
+{
+  States     states;
+  const auto x = positions(design);
+  for (unsigned int c = 0; c < n_load_cases(); ++c)
+    states.push_back(made_of(scene, [&]() {
+      return solver->solve(x, starts.empty() ? qp::WarmStart() : starts[c], c);
+    }));
+  return states;
+}
+
+template <int dim>
+optimization::Combined ShapeProblem<dim>::combined_objective(const States &states)
+{
+  std::vector<double> values, weights;
+  double              largest = 0.;
+  for (const auto &state : states)
+    {
+      values.push_back(objective->value(*solver, state));
+      weights.push_back(scene.load_cases.empty() ? 1. : scene.load_cases[state.load_case].weight);
+      largest = std::max(largest, std::abs(weights.back() * values.back()));
+    }
+  if (objective_scale == 0.)
+    objective_scale = largest;
+  return choose(optimization::combination_table(), scene.optimization.combine)
+    .make(values, weights, objective_scale);
+}
+
+template <int dim>
+sensitivity::LoadCases<dim>
+ShapeProblem<dim>::load_cases(const States                          &states,
+                              const Design                          &design,
+                              const sensitivity::GradientParameters &parameters) const
+{
+  std::vector<double> widths;
+  for (unsigned int i = 0; i < shapes->n_variables(); ++i)
+    widths.push_back(shapes->upper_bounds()[i] - shapes->lower_bounds()[i]);
+  sensitivity::LoadCases<dim> result;
+  for (const auto &state : states)
+    result.push_back({*solver, *shapes, state, design, widths, parameters});
+  return result;
+}
+
+template <int dim>
+double ShapeProblem<dim>::drift(const Design &design) const
+{
+  const auto x       = solver->surface().gather(positions(design));
+  double     largest = 0.;
+  for (const double drift : solver->contact().drifts(x, solver->contact().rows(x)))
+    largest = std::max(largest, drift);
+  return largest;
+}
+
+template class ShapeProblem<2>;
+template class ShapeProblem<3>;
+} // namespace snug::app

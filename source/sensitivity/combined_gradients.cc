@@ -1,0 +1,89 @@
+#include <snug/sensitivity/combined_gradients.h>
+
+namespace snug::sensitivity {
+namespace {
+void add(const double factor, const std::vector<double> &values, std::vector<double> &sum)
+{
+  sum.resize(values.size(), 0.);
+  for (unsigned int j = 0; j < values.size(); ++j)
+    sum[j] += factor * values[j];
+}
+
+/// sum += factor * gradient, begun with an empty sum.
+template <int dim>
+void add(const double factor, const Gradient<dim> &gradient, Gradient<dim> &sum)
+{
+  const bool begins = sum.method.empty();
+  sum.method        = gradient.method;
+  sum.reason        = gradient.reason;
+  sum.differentiable &= gradient.differentiable;
+  add(factor, gradient.values, sum.values);
+  if (!gradient.shape)
+    return;
+  if (begins)
+    sum.shape.emplace(gradient.shape->size());
+  for (unsigned int node = 0; node < gradient.shape->size(); ++node)
+    (*sum.shape)[node] += factor * (*gradient.shape)[node];
+}
+} // namespace
+
+template <int dim>
+Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
+                                  const response::Response<dim>    &objective,
+                                  const std::vector<double>        &factors,
+                                  const std::vector<Measured<dim>> &others)
+{
+  Gradients<dim> result;
+  result.of_response.resize(1 + others.size());
+  for (unsigned int c = 0; c < load_cases.size(); ++c)
+    {
+      // the objective and all others of a load case share one block solve
+      Responses<dim>            responses = {&objective};
+      std::vector<unsigned int> places;
+      for (unsigned int i = 0; i < others.size(); ++i)
+        if (others[i].load_case == c)
+          {
+            responses.push_back(others[i].response);
+            places.push_back(1 + i);
+          }
+      auto of_case = gradients(load_cases[c], responses);
+      add(factors[c], of_case.of_response[0], result.of_response[0]);
+      for (unsigned int i = 0; i < places.size(); ++i)
+        result.of_response[places[i]] = of_case.of_response[1 + i];
+      for (auto &field : of_case.displacement)
+        result.displacement.push_back(std::move(field));
+      result.f_mults += of_case.f_mults;
+      result.numeric_factorizations += of_case.numeric_factorizations;
+      result.seconds += of_case.seconds;
+    }
+  return result;
+}
+
+template <int dim>
+OneSided combined_one_sided_gradients(const LoadCases<dim>          &load_cases,
+                                      const response::Response<dim> &objective,
+                                      const std::vector<double>     &factors)
+{
+  const RunContext::Timer timer(load_cases.front().solver.context(), "gradient");
+  OneSided                result;
+  for (unsigned int c = 0; c < load_cases.size(); ++c)
+    {
+      const auto of_case = one_sided_gradients(load_cases[c], {&objective}).front();
+      add(factors[c], of_case.increasing, result.increasing);
+      add(factors[c], of_case.decreasing, result.decreasing);
+    }
+  return result;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                           \
+  template Gradients<dim> combined_gradients(const LoadCases<dim> &,                    \
+                                             const response::Response<dim> &,           \
+                                             const std::vector<double> &,               \
+                                             const std::vector<Measured<dim>> &);       \
+  template OneSided       combined_one_sided_gradients(const LoadCases<dim> &,          \
+                                                       const response::Response<dim> &, \
+                                                       const std::vector<double> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::sensitivity
