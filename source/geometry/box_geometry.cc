@@ -26,8 +26,6 @@ public:
     return result;
   }
 
-  bool has_frame() const override { return true; }
-
   dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override;
 
   dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const override;
@@ -93,12 +91,8 @@ void BoxGeometry<dim>::set_spacing(const BodyMeshParameters &parameters)
 template <int dim>
 void BoxGeometry<dim>::add_curved_face(const std::string &face, const std::string &value)
 {
-  const auto &names = this->boundary_names();
-  const auto  found = std::find(names.begin(), names.end(), face);
-  if (found == names.end())
-    throw bad_entry("Curved faces", face + ": " + value, "the faces are " + joined(names));
   FlatFace<dim> flat;
-  flat.boundary = found - names.begin();
+  flat.boundary = curved_boundary(this->boundary_names(), face, value);
   flat.name     = face;
   for (unsigned int d = 0; d < dim; ++d)
     {

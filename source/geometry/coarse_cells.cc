@@ -19,12 +19,6 @@ CoarseCells<dim>::CoarseCells(const dealii::Triangulation<dim, dim> &triangulati
 }
 
 template <int dim>
-unsigned int CoarseCells<dim>::coarse_cell(const dealii::CellId &cell) const
-{
-  return index_of_id[cell.get_coarse_cell_id()];
-}
-
-template <int dim>
 MeshPoint<dim> CoarseCells<dim>::point(const dealii::CellId     &cell,
                                        const dealii::Point<dim> &unit) const
 {

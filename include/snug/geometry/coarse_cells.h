@@ -27,7 +27,10 @@ public:
   explicit CoarseCells(const dealii::Triangulation<dim, dim> &triangulation);
 
   /// Index of the coarse cell of @p cell among those of its body.
-  unsigned int coarse_cell(const dealii::CellId &cell) const;
+  unsigned int coarse_cell(const dealii::CellId &cell) const
+  {
+    return index_of_id[cell.get_coarse_cell_id()];
+  }
 
   /// The point at coordinates @p unit of @p cell.
   MeshPoint<dim> point(const dealii::CellId &cell, const dealii::Point<dim> &unit) const;

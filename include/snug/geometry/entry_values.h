@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,6 +20,34 @@ std::string joined(const std::vector<Number> &values)
   for (std::size_t i = 0; i < values.size(); ++i)
     text << (i == 0 ? "" : ", ") << values[i];
   return text.str();
+}
+
+/// The words of @p text between blanks.
+inline std::vector<std::string> words(const std::string &text)
+{
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// 0, 1, 2 of the axes called x, y, z; 3 of other names.
+inline unsigned int axis_called(const std::string &name)
+{
+  return name.size() == 1 ? std::min<std::size_t>(3, std::string("xyz").find(name)) : 3;
+}
+
+/// Index of @p name in @p names; their number if it is none of them.
+inline unsigned int index_of(const std::vector<std::string> &names, const std::string &name)
+{
+  return std::find(names.begin(), names.end(), name) - names.begin();
+}
+
+/// Index of @p name in @p names, to which it is added if need be.
+inline unsigned int index_in(std::vector<std::string> &names, const std::string &name)
+{
+  const unsigned int index = index_of(names, name);
+  if (index == names.size())
+    names.push_back(name);
+  return index;
 }
 
 /// One number per axis of the entry, @p otherwise where it is empty.

@@ -2,8 +2,7 @@
 #define snug_geometry_grid_geometry_h
 
 #include <snug/geometry/body_geometry.h>
-
-#include <array>
+#include <snug/geometry/cell_numbering.h>
 
 namespace snug::geometry {
 /**
@@ -23,15 +22,19 @@ public:
 
   typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override;
 
-  double n_coarse_cells() const override;
+  double n_coarse_cells() const override { return product(cells); }
 
-  const std::vector<std::string> &boundary_names() const override;
+  const std::vector<std::string> &boundary_names() const override { return names; }
 
-  dealii::Point<dim> position(const MeshPoint<dim> &point) const override;
+  /// Computed at every node anew, so that refined cells keep spacing and curvature.
+  dealii::Point<dim> position(const MeshPoint<dim> &point) const override
+  {
+    return grid_position(logical(point));
+  }
 
   dealii::Point<dim> logical(const MeshPoint<dim> &point) const override;
 
-  bool has_grid() const override;
+  bool has_grid() const override { return true; }
 
   /// Reference position at logical coordinates.
   virtual dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const = 0;
