@@ -1,11 +1,6 @@
 #include <snug/mesh/idealization.h>
 
 namespace snug::mesh {
-Idealization Idealization::natural(const unsigned int dim)
-{
-  return {dim == 2 ? Kind::plane_strain : Kind::solid};
-}
-
 /// The dimension of the kernel of a floating subdomain's stiffness matrix.
 unsigned int Idealization::n_rigid_motions() const
 {

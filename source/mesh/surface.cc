@@ -128,37 +128,6 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
 }
 
 template <int dim>
-const Idealization &Surface<dim>::idealization() const
-{
-  return mesh.idealization();
-}
-
-template <int dim>
-const std::vector<typename Surface<dim>::Face> &Surface<dim>::faces() const
-{
-  return surface_faces;
-}
-
-template <int dim>
-unsigned int Surface<dim>::n_nodes() const
-{
-  return global_nodes.size();
-}
-
-template <int dim>
-unsigned int Surface<dim>::global_node(unsigned int surface_node) const
-{
-  return global_nodes[surface_node];
-}
-
-template <int dim>
-const std::vector<std::pair<unsigned int, double>> &
-Surface<dim>::masters(unsigned int surface_node) const
-{
-  return node_masters[surface_node];
-}
-
-template <int dim>
 typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
 {
   AssertDimension(field.size(), mesh.n_local_nodes());

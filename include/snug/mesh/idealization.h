@@ -28,7 +28,10 @@ struct Idealization
   double thickness = 1.; ///< of plane sections [length]
 
   /// Solid in 3D, plane strain of unit thickness in 2D.
-  static Idealization natural(unsigned int dim);
+  static Idealization natural(unsigned int dim)
+  {
+    return {dim == 2 ? Kind::plane_strain : Kind::solid};
+  }
 
   bool is_axisymmetric() const { return kind == Kind::axisymmetric; }
 

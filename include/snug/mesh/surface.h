@@ -26,12 +26,15 @@ public:
           const std::vector<std::pair<unsigned int, unsigned int>> &boundaries);
 
   /// What the mesh stands for.
-  const Idealization      &idealization() const;
-  const std::vector<Face> &faces() const;
-  unsigned int             n_nodes() const;
-  unsigned int             global_node(unsigned int surface_node) const;
+  const Idealization      &idealization() const { return mesh.idealization(); }
+  const std::vector<Face> &faces() const { return surface_faces; }
+  unsigned int             n_nodes() const { return global_nodes.size(); }
+  unsigned int global_node(unsigned int surface_node) const { return global_nodes[surface_node]; }
   /// Masters (surface nodes, weights) of a hanging node; else empty.
-  const std::vector<std::pair<unsigned int, double>> &masters(unsigned int surface_node) const;
+  const std::vector<std::pair<unsigned int, double>> &masters(unsigned int surface_node) const
+  {
+    return node_masters[surface_node];
+  }
 
   /// Values of a nodal field at the surface nodes. Collective.
   Field gather(const typename BodyMesh<dim>::Field &field) const;
