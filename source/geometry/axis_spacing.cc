@@ -33,8 +33,6 @@ double growth(unsigned int k, double sum)
 }
 } // namespace
 
-AxisSpacing::AxisSpacing(unsigned int n_cells) : n(n_cells) {}
-
 AxisSpacing AxisSpacing::graded(unsigned int n_cells, double ratio)
 {
   AxisSpacing spacing(n_cells);

@@ -1,34 +1,11 @@
 #include <snug/geometry/block_geometry.h>
 
 #include <deal.II/base/array_view.h>
-#include <deal.II/base/geometry_info.h>
 
 #include <deal.II/grid/manifold.h>
 
-#include <algorithm>
-
 namespace snug::geometry {
 namespace {
-using Vertices = std::vector<unsigned int>;
-
-/// The key of a face or an edge, whose vertices blocks list in different orders.
-Vertices sorted(Vertices vertices)
-{
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-/// Face 2d + s is the side s of axis d, its vertices in deal.II's order (first tangent fastest).
-template <int dim>
-Vertices face_of(const Vertices &block, unsigned int face)
-{
-  using Info = dealii::GeometryInfo<dim>;
-  Vertices result(Info::vertices_per_face);
-  for (unsigned int v = 0; v < result.size(); ++v)
-    result[v] = block[Info::face_to_cell_vertices(face, v)];
-  return result;
-}
-
 /// From the lower to the upper end in the coordinates of the block.
 template <int dim>
 Vertices edge_of(const Vertices &block, unsigned int edge)
@@ -46,19 +23,6 @@ std::vector<double> weights(const dealii::Point<dim> &u)
   for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
     result.push_back(dealii::GeometryInfo<dim>::d_linear_shape_function(u, v));
   return result;
-}
-
-/// Multi-index of cell @p cell in a grid, the first axis fastest.
-template <int dim>
-std::array<unsigned int, dim> multi_index(unsigned int cell, const std::array<unsigned int, dim> &n)
-{
-  std::array<unsigned int, dim> index;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      index[d] = cell % n[d];
-      cell /= n[d];
-    }
-  return index;
 }
 
 /// A point of the grids of blocks: vertices of its block and their
@@ -97,7 +61,8 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
 {
   using Info = dealii::GeometryInfo<dim>;
   // Edges of curved faces are kept by themselves: blocks that have only such an edge must follow
-  // it too, or gaps would open. An edge of two curved faces lies on the one that comes first.
+  // it too, or gaps would open. An edge of two curved faces lies on the one that comes first,
+  // and the other face bends to it, see face_position().
   for (const Vertices &block : mesh->blocks)
     for (const unsigned int f : Info::face_indices())
       {
@@ -126,15 +91,6 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
 }
 
 template <int dim>
-unsigned int BlockGeometry<dim>::cells_per_block() const
-{
-  unsigned int n = 1;
-  for (const unsigned int cells : mesh->cells)
-    n *= cells;
-  return n;
-}
-
-template <int dim>
 typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
 {
   using Info = dealii::GeometryInfo<dim>;
@@ -144,7 +100,7 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
   for (unsigned int b = 0; b < mesh->blocks.size(); ++b)
     for (unsigned int c = 0; c < cells_per_block(); ++c)
       {
-        const auto index = multi_index<dim>(c, n);
+        const auto index = multi_index(c, n);
         Vertices   cell(Info::vertices_per_cell);
         for (unsigned int v = 0; v < cell.size(); ++v)
           {
@@ -177,23 +133,20 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
 }
 
 template <int dim>
-double BlockGeometry<dim>::n_coarse_cells() const
-{
-  // double: products of large entries must not overflow before their check
-  double n = mesh->blocks.size();
-  for (const unsigned int along : mesh->cells)
-    n *= along;
-  return n;
-}
-
-template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) const
 {
-  const auto index = multi_index<dim>(point.cell % cells_per_block(), mesh->cells);
+  const auto index = multi_index(point.cell % cells_per_block(), mesh->cells);
   Point      u;
   for (unsigned int d = 0; d < dim; ++d)
     u[d] = (index[d] + point.unit[d]) / mesh->cells[d];
   return block_position(point.cell / cells_per_block(), u);
+}
+
+template <int dim>
+dealii::Point<dim> BlockGeometry<dim>::logical(const MeshPoint<dim> &point) const
+{
+  // Blocks have no common axes, so these are positions in units of the body's diagonal.
+  return Point((position(point) - lower) / lower.distance(upper));
 }
 
 template <int dim>
@@ -226,16 +179,20 @@ dealii::Point<dim> BlockGeometry<dim>::face_position(const Vertices         &ver
                                                      const dealii::Point<2> &u) const
 {
   const auto found = curved.find(sorted(vertices));
-  if (found != curved.end())
-    return interpolated(vertices, weights<2>(u), found->second);
-  // Each vertex is counted by two edges, so it is taken away once (Coons patch).
-  Point result = -1. * interpolated(vertices, weights<2>(u), nullptr);
+  Manifold  *own   = found == curved.end() ? nullptr : found->second;
+  // Of a flat face, each vertex is counted by two edges, so it is taken away once (Coons patch).
+  Point result = (own == nullptr ? -1. : 1.) * interpolated(vertices, weights<2>(u), own);
   for (unsigned int e = 0; e < 4; ++e)
     {
       // edges 0 and 1 of a face run along its second tangent, 2 and 3 along the first
       const unsigned int normal = e / 2;
-      const double       w      = e % 2 == 1 ? u[normal] : 1. - u[normal];
-      result += w * edge_position(edge_of<2>(vertices, e), u[1 - normal]);
+      const double       w = e % 2 == 1 ? u[normal] : 1. - u[normal], t = u[1 - normal];
+      const Vertices     edge = edge_of<2>(vertices, e);
+      if (own == nullptr)
+        result += w * edge_position(edge, t);
+      else if (curved.at(sorted(edge)) != own)
+        // another boundary's edge: blocks that have only the edge follow it there
+        result += w * (edge_position(edge, t) - interpolated(edge, {1. - t, t}, own));
     }
   return result;
 }

@@ -1,12 +1,11 @@
 #include <snug/geometry/block_mesh.h>
+#include <snug/geometry/cell_numbering.h>
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/geometry_info.h>
 
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
-#include <algorithm>
 #include <set>
 
 namespace snug::geometry {
@@ -49,8 +48,7 @@ void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name)
       Face key;
       for (const unsigned int v : face.first)
         key.push_back(image[v]);
-      std::sort(key.begin(), key.end());
-      mesh.boundaries[key] = face.second;
+      mesh.boundaries[sorted(key)] = face.second;
     }
 }
 

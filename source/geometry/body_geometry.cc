@@ -6,14 +6,6 @@
 #include <deal.II/base/exceptions.h>
 
 namespace snug::geometry {
-/// One region, unless a mesh file or formulas say more.
-template <int dim>
-unsigned int BodyGeometry<dim>::region(unsigned int) const
-{
-  return 0;
-}
-
-/// Bodies of blocks have none, so the partition "auto" leaves them to METIS.
 template <int dim>
 dealii::Point<dim> BodyGeometry<dim>::box_fraction(const dealii::Point<dim> &) const
 {
@@ -93,12 +85,12 @@ std::unique_ptr<BodyGeometry<dim>> make_geometry(const BodyMeshParameters &param
 template <int dim>
 unsigned int boundary_index(const BodyGeometry<dim> &geometry, const std::string &name)
 {
-  const auto &names = geometry.boundary_names();
-  const auto  found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
+  const auto        &names = geometry.boundary_names();
+  const unsigned int index = index_of(names, name);
+  if (index == names.size())
     // without the entry, which callers know
     throw InputError("'" + name + "' is no face; the faces are " + to_text(names));
-  return found - names.begin();
+  return index;
 }
 
 template class BodyGeometry<2>;

@@ -49,8 +49,6 @@ public:
     return result;
   }
 
-  bool has_frame() const override { return true; }
-
   dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
   {
     dealii::Point<dim> fraction;
@@ -112,12 +110,8 @@ private:
 
   void add_curved_face(const std::string &face, const std::string &value)
   {
-    const auto &names = this->boundary_names();
-    const auto  found = std::find(names.begin(), names.end(), face);
-    if (found == names.end())
-      throw bad_entry("Curved faces", face + ": " + value, "the faces are " + to_text(names));
     FlatFace<dim> flat;
-    flat.boundary = found - names.begin();
+    flat.boundary = curved_boundary(this->boundary_names(), face, value);
     flat.name     = face;
     for (unsigned int d = 0; d < dim; ++d)
       {

@@ -1,23 +1,20 @@
-#include <snug/base/errors.h>
 #include <snug/geometry/curved_face.h>
-
-#include <cmath>
-#include <sstream>
-#include <vector>
+#include <snug/geometry/entry_values.h>
 
 namespace snug::geometry {
 namespace {
 const std::string curved_entry = "Curved faces";
-
-std::vector<std::string> words(const std::string &text)
-{
-  std::istringstream       stream(text);
-  std::vector<std::string> result;
-  for (std::string word; stream >> word;)
-    result.push_back(word);
-  return result;
-}
 } // namespace
+
+unsigned int curved_boundary(const std::vector<std::string> &names,
+                             const std::string              &name,
+                             const std::string              &value)
+{
+  const unsigned int index = index_of(names, name);
+  if (index == names.size())
+    throw bad_entry(curved_entry, name + ": " + value, "the faces are " + to_text(names));
+  return index;
+}
 
 template <int dim>
 CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value) : flat(flat)
@@ -41,7 +38,7 @@ CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value)
 template <int dim>
 void CurvedFace<dim>::set_axis(const std::string &axis, const std::string &value)
 {
-  const auto index = axis.size() == 1 ? std::string("xyz").find(axis) : std::string::npos;
+  const unsigned int index = axis_called(axis);
   // In 2D the axis z is no coordinate, so that squared_distance() drops none.
   const bool tangent = dim == 2 ? index == 2 : index < 3 && index != flat.boundary / 2;
   if (!tangent)

@@ -1,15 +1,10 @@
-#include <snug/base/errors.h>
+#include <snug/geometry/entry_values.h>
 #include <snug/geometry/fitted_surface.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <deal.II/grid/manifold_lib.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
-
-#include <cmath>
-#include <sstream>
 
 namespace snug::geometry {
 namespace {
@@ -18,18 +13,14 @@ namespace {
 template <int dim>
 unsigned int read_axis(const std::string &boundary, const std::string &value)
 {
-  const auto words = dealii::Utilities::split_string_list(value, ' ');
-  if (words.size() == 1 && words[0] == "sphere")
+  const auto word = words(value);
+  if (word.size() == 1 && word[0] == "sphere")
     return dim;
-  const auto axis = words.size() == 2 && words[0] == "cylinder" && words[1].size() == 1
-                      ? std::string("xyz").find(words[1])
-                      : std::string::npos;
-  if (axis == std::string::npos || (dim == 2 && axis != 2))
+  const unsigned int axis = word.size() == 2 && word[0] == "cylinder" ? axis_called(word[1]) : 3;
+  if (axis == 3 || (dim == 2 && axis != 2))
     throw bad_entry("Curved faces", boundary + ": " + value,
-                    dim == 2 ? "of a mesh file must be 'sphere' or "
-                               "'cylinder z'"
-                             : "of a mesh file must be 'sphere' or "
-                               "'cylinder AXIS'");
+                    std::string("of a mesh file must be 'sphere' or 'cylinder ") +
+                      (dim == 2 ? "z'" : "AXIS'"));
   return axis;
 }
 } // namespace

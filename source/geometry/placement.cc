@@ -38,11 +38,11 @@ dealii::Tensor<2, dim> rotation(const BodyMeshParameters &parameters)
     whole[d][d] = 1.;
   for (const auto &turn : parameters.rotate)
     {
-      const auto         axis = std::string("xyz").find(turn.first);
+      const unsigned int axis = axis_called(turn.first);
       std::istringstream text(turn.second);
       double             degrees = 0.;
-      if (turn.first.size() != 1 || axis == std::string::npos || (dim == 2 && axis != 2) ||
-          !(text >> degrees) || !(text >> std::ws).eof() || !std::isfinite(degrees))
+      if (axis == 3 || (dim == 2 && axis != 2) || !(text >> degrees) || !(text >> std::ws).eof() ||
+          !std::isfinite(degrees))
         throw bad_entry(rotate_entry, turn.first + ": " + turn.second,
                         dim == 2 ? "must be 'z: degrees'"
                                  : "must be 'axis: degrees, ...', axes "

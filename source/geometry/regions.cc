@@ -3,8 +3,6 @@
 #include <snug/geometry/regions.h>
 #include <snug/geometry/wrapped_geometry.h>
 
-#include <algorithm>
-
 namespace snug::geometry {
 namespace {
 const std::string formulas_entry = "Region formulas";
@@ -20,7 +18,7 @@ public:
   {
     for (const auto &[name, formula] : parameters.region_formulas)
       {
-        const auto index = index_of(name);
+        const unsigned int index = index_in(names, name);
         for (const auto &other : formulas)
           if (other.first == index)
             throw bad_entry(formulas_entry, name,
@@ -34,11 +32,8 @@ public:
 
   unsigned int region(unsigned int coarse_cell) const override
   {
-    MeshPoint<dim> centre{coarse_cell, {}};
-    for (unsigned int d = 0; d < dim; ++d)
-      centre.unit[d] = 0.5;
     // Of coarse cells, so that refinement does not change the materials.
-    const auto position = this->position(centre);
+    const auto position = this->position({coarse_cell, unit_centre<dim>()});
     for (const auto &[index, formula] : formulas)
       if (formula.value(position) > 0.)
         return index;
@@ -48,16 +43,6 @@ public:
 private:
   std::vector<std::string>                           names;
   std::vector<std::pair<unsigned int, Formula<dim>>> formulas;
-
-  /// Index of the region called @p name, a new one if there is none.
-  unsigned int index_of(const std::string &name)
-  {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end())
-      return found - names.begin();
-    names.push_back(name);
-    return names.size() - 1;
-  }
 };
 } // namespace
 

@@ -70,9 +70,6 @@ public:
     return result;
   }
 
-  // a half has the angle pi, a full ring 2 pi
-  bool has_frame() const override { return angle < 1.5 * dealii::numbers::PI; }
-
   dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
   {
     return logical;

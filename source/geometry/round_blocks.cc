@@ -3,7 +3,7 @@
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/round_body.h>
 
-#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/exceptions.h>
 
 #include <deal.II/grid/manifold_lib.h>
 
@@ -16,28 +16,20 @@ void set_boundary(BlockMesh<dim> &mesh,
                   unsigned int    face,
                   unsigned int    boundary)
 {
-  using Info = dealii::GeometryInfo<dim>;
-  typename BlockMesh<dim>::Face key;
-  for (unsigned int v = 0; v < Info::vertices_per_face; ++v)
-    key.push_back(mesh.blocks[block][Info::face_to_cell_vertices(face, v)]);
-  std::sort(key.begin(), key.end());
-  mesh.boundaries[key] = boundary;
+  mesh.boundaries[sorted(face_of<dim>(mesh.blocks[block], face))] = boundary;
 }
 
 /// Boundary of the faces in the planes x_d = 0: @p first + d.
 template <int dim>
 void set_cut_planes(BlockMesh<dim> &mesh, unsigned int first)
 {
-  using Info = dealii::GeometryInfo<dim>;
   for (unsigned int b = 0; b < mesh.blocks.size(); ++b)
-    for (const unsigned int f : Info::face_indices())
+    for (const unsigned int f : dealii::GeometryInfo<dim>::face_indices())
       for (unsigned int d = 0; d < dim; ++d)
         {
-          bool in_plane = true;
-          for (unsigned int v = 0; v < Info::vertices_per_face; ++v)
-            in_plane =
-              in_plane && mesh.vertices[mesh.blocks[b][Info::face_to_cell_vertices(f, v)]][d] == 0.;
-          if (in_plane)
+          const auto face = face_of<dim>(mesh.blocks[b], f);
+          if (std::all_of(face.begin(), face.end(),
+                          [&](const unsigned int v) { return mesh.vertices[v][d] == 0.; }))
             set_boundary(mesh, b, f, first + d);
         }
 }
@@ -117,7 +109,7 @@ BlockMesh<2> disc_mesh(const BodyMeshParameters &parameters, unsigned int n_cell
   if (parts == 1)
     mirror(mesh, 1, "bottom");
   remove_unused_boundaries(mesh);
-  order_consistently(mesh);
+  AssertThrow(order_consistently(mesh), dealii::ExcInternalError());
   return mesh;
 }
 
@@ -177,7 +169,7 @@ BlockMesh<3> sphere_mesh(const BodyMeshParameters &parameters)
   set_cut_planes(mesh, 1);
   finish(mesh, parameters.radius);
   mirror_octant(mesh, parts);
-  order_consistently(mesh);
+  AssertThrow(order_consistently(mesh), dealii::ExcInternalError());
   return mesh;
 }
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_map>
 
 namespace snug::mesh {
 template <int dim>
-std::vector<std::pair<unsigned int, unsigned int>>
-owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
+CellPairs owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
 {
   std::vector<unsigned int> number(triangulation.n_active_cells());
   unsigned int              n_owned = 0;
@@ -17,7 +17,7 @@ owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
       // of owned cells only: ghost and artificial ones are active, too
       number[cell->active_cell_index()] = n_owned++;
   // Across a hanging face only the finer cell has an active neighbour there.
-  std::vector<std::pair<unsigned int, unsigned int>> pairs;
+  CellPairs pairs;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
       for (const unsigned int f : cell->face_indices())
@@ -26,11 +26,28 @@ owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
           {
             const unsigned int a = number[cell->active_cell_index()];
             const unsigned int b = number[cell->neighbor(f)->active_cell_index()];
-            pairs.emplace_back(std::min(a, b), std::max(a, b));
+            pairs.push_back({{std::min(a, b), std::max(a, b)}});
           }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
+}
+
+CellGraph cell_graph(const std::vector<unsigned int> &cells, const CellPairs &pairs)
+{
+  std::unordered_map<unsigned int, unsigned int> place;
+  for (unsigned int i = 0; i < cells.size(); ++i)
+    place[cells[i]] = i;
+  CellGraph graph(cells.size());
+  for (const auto &pair : pairs)
+    {
+      const auto a = place.find(pair[0]), b = place.find(pair[1]);
+      if (a == place.end() || b == place.end())
+        continue;
+      graph[a->second].push_back(b->second);
+      graph[b->second].push_back(a->second);
+    }
+  return graph;
 }
 
 /// Seeds ascend, so pieces are numbered by their first cells, however the parts were numbered.
@@ -61,10 +78,10 @@ unsigned int split_into_pieces(const CellGraph &graph, std::vector<unsigned int>
   return n_pieces;
 }
 
-unsigned int merge_slivers(const CellGraph           &graph,
-                           std::vector<unsigned int> &part,
-                           unsigned int               n_parts,
-                           double                     cells_each)
+void merge_slivers(const CellGraph           &graph,
+                   std::vector<unsigned int> &part,
+                   unsigned int               n_parts,
+                   double                     cells_each)
 {
   for (unsigned int sliver = 0; sliver < n_parts; ++sliver)
     {
@@ -91,11 +108,9 @@ unsigned int merge_slivers(const CellGraph           &graph,
           p = best->first;
     }
   // numbers of the parts given away are free; number anew without gaps
-  return split_into_pieces(graph, part);
+  split_into_pieces(graph, part);
 }
 
-template std::vector<std::pair<unsigned int, unsigned int>>
-owned_neighbours(const dealii::Triangulation<2, 2> &);
-template std::vector<std::pair<unsigned int, unsigned int>>
-owned_neighbours(const dealii::Triangulation<3, 3> &);
+template CellPairs owned_neighbours(const dealii::Triangulation<2, 2> &);
+template CellPairs owned_neighbours(const dealii::Triangulation<3, 3> &);
 } // namespace snug::mesh

@@ -63,14 +63,12 @@ CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
   CellSet<dim> set;
   set.communicator = deal_ii_compat::communicator(refined);
   set.size         = geometry.extent();
-  dealii::Point<dim> centre;
-  for (unsigned int d = 0; d < dim; ++d)
-    centre[d] = 0.5;
   for (const auto &cell : refined.active_cell_iterators())
     if (cell->is_locally_owned() && cell->material_id() == body)
       {
         const unsigned int number = cell->global_active_cell_index();
-        set.centres.push_back(geometry.logical(coarse.point(cell->id(), centre)));
+        set.centres.push_back(
+          geometry.logical(coarse.point(cell->id(), geometry::unit_centre<dim>())));
         set.numbers.push_back(number);
         set.keys.push_back(key<dim>(cell));
         for (const unsigned int f : cell->face_indices())

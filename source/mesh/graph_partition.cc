@@ -1,4 +1,3 @@
-#include <snug/mesh/cell_graph.h>
 #include <snug/mesh/partition.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,12 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
 namespace snug::mesh {
 namespace {
-using Pairs = std::vector<std::array<unsigned int, 2>>;
-
 /// All ranks' entries, rank after rank; nothing on other ranks.
 template <typename T>
 std::vector<T> on_rank_0(MPI_Comm communicator, const std::vector<T> &values)
@@ -59,25 +55,6 @@ std::vector<unsigned int> sorted_order(const std::vector<Key> &keys)
   return order;
 }
 
-/// Graph of the cells in the order @p order.
-/// On rank 0, where all numbers are known.
-CellGraph cell_graph(const std::vector<unsigned int> &order,
-                     const std::vector<unsigned int> &numbers,
-                     const Pairs                     &neighbours)
-{
-  std::unordered_map<unsigned int, unsigned int> place;
-  for (unsigned int i = 0; i < order.size(); ++i)
-    place[numbers[order[i]]] = i;
-  CellGraph graph(order.size());
-  for (const auto &pair : neighbours)
-    {
-      const unsigned int a = place.at(pair[0]), b = place.at(pair[1]);
-      graph[a].push_back(b);
-      graph[b].push_back(a);
-    }
-  return graph;
-}
-
 /// Connected parts without slivers.
 std::vector<unsigned int> parts_of_graph(const CellGraph &graph, double cells_each)
 {
@@ -102,8 +79,11 @@ Partition graph_partition(const CellSet<dim> &set, double cells_each)
   if (rank == 0)
     {
       // The gathered order depends on the number of ranks, that by keys does not.
-      const auto order        = sorted_order(keys);
-      const auto sorted_parts = parts_of_graph(cell_graph(order, numbers, neighbours), cells_each);
+      const auto                order = sorted_order(keys);
+      std::vector<unsigned int> cells;
+      for (const unsigned int i : order)
+        cells.push_back(numbers[i]);
+      const auto sorted_parts = parts_of_graph(cell_graph(cells, neighbours), cells_each);
       for (unsigned int i = 0; i < order.size(); ++i)
         parts[order[i]] = sorted_parts[i];
     }

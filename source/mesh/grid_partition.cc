@@ -99,7 +99,7 @@ std::vector<double> cuts(const Histogram &bins, unsigned int n)
   for (unsigned int k = 1; k < n; ++k)
     {
       const double wanted = k * all / n, slab = all / n;
-      double       below = 0., best = all, best_rating = 1e300;
+      double       below = 0., best = bins.lower, best_rating = 1e300;
       for (unsigned int bin = 0; bin < bins.counts.size(); ++bin)
         {
           below += bins.counts[bin];

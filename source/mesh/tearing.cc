@@ -1,34 +1,11 @@
-#include <snug/mesh/cell_graph.h>
 #include <snug/mesh/tearing.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <map>
 
 namespace snug::mesh {
 namespace {
-/// Graph of @p cells, by their places in the list.
-template <int dim>
-CellGraph cell_graph(const BodyMesh<dim> &mesh, const std::vector<unsigned int> &cells)
-{
-  std::map<unsigned int, unsigned int> position;
-  for (unsigned int i = 0; i < cells.size(); ++i)
-    position[cells[i]] = i;
-  CellGraph graph(cells.size());
-  for (const auto &pair : mesh.cell_neighbours())
-    {
-      const auto a = position.find(pair.first);
-      const auto b = position.find(pair.second);
-      // the mesh lists pairs of all bodies
-      if (a == position.end() || b == position.end())
-        continue;
-      graph[a->second].push_back(b->second);
-      graph[b->second].push_back(a->second);
-    }
-  return graph;
-}
-
 /// Nodes whose unknowns the cells act on: masters instead of hanging nodes.
 template <int dim>
 std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
@@ -64,7 +41,8 @@ Tearing tear(const BodyMesh<dim> &mesh)
             cells.push_back(cell);
             part.push_back(mesh.cells()[cell].part);
           }
-      const unsigned int     n_parts = split_into_pieces(cell_graph(mesh, cells), part);
+      const unsigned int n_parts =
+        split_into_pieces(cell_graph(cells, mesh.cell_neighbours()), part);
       std::vector<Subdomain> pieces(n_parts);
       for (unsigned int i = 0; i < cells.size(); ++i)
         pieces[part[i]].cells.push_back(cells[i]);

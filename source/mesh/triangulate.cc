@@ -1,11 +1,10 @@
 #include <snug/base/deal_ii_compat.h>
 #include <snug/base/run_context.h>
+#include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/formula.h>
 #include <snug/mesh/triangulate.h>
 
 #include <deal.II/grid/tria_description.h>
-
-#include <algorithm>
 
 namespace snug::mesh {
 /// Every rank has the whole coarse mesh, as p4est needs it. Bodies share no vertices, even where
@@ -37,8 +36,7 @@ void create_coarse_mesh(const Geometries<dim>                             &geome
           std::vector<unsigned int> key = face.first;
           for (unsigned int &vertex : key)
             vertex += offset;
-          std::sort(key.begin(), key.end());
-          boundary[key] = face.second;
+          boundary[geometry::sorted(key)] = face.second;
         }
     }
   triangulation.create_triangulation(vertices, coarse_cells, dealii::SubCellData());
@@ -49,9 +47,8 @@ void create_coarse_mesh(const Geometries<dim>                             &geome
           std::vector<unsigned int> key;
           for (const unsigned int v : cell->face(f)->vertex_indices())
             key.push_back(cell->face(f)->vertex_index(v));
-          std::sort(key.begin(), key.end());
           // at() throws if a geometry has left a side without a boundary
-          cell->face(f)->set_boundary_id(boundary.at(key));
+          cell->face(f)->set_boundary_id(boundary.at(geometry::sorted(key)));
         }
 }
 
@@ -90,9 +87,6 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
         local ? std::make_unique<geometry::Formula<dim>>("Refine where", body.refine_where)
               : nullptr);
     }
-  dealii::Point<dim> centre;
-  for (unsigned int d = 0; d < dim; ++d)
-    centre[d] = 0.5;
   // Bodies share one triangulation, so all steps are common; a body that has enough levels sits
   // the others out.
   for (unsigned int step = 0; step < global_steps; ++step)
@@ -105,7 +99,8 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
                                         unsigned int level) {
       // p4est keeps neighbours within one level and so may refine more than what is wanted
       return formulas[body] && level < bodies[body].refinements + bodies[body].local_refinements &&
-             formulas[body]->value(geometries[body]->position(coarse.point(cell, centre))) > 0.;
+             formulas[body]->value(
+               geometries[body]->position(coarse.point(cell, geometry::unit_centre<dim>()))) > 0.;
     });
 }
 

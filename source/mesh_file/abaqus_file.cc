@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 namespace snug::mesh_file {
 namespace {
@@ -15,17 +16,10 @@ std::string upper_case(std::string text)
   return text;
 }
 
-/// Shape and number of nodes of an element type such as C3D8R.
-struct AbaqusType
-{
-  ElementShape shape;
-  unsigned int n_nodes;
-};
-
 /// The type @p name, in upper case, is a family, a number of nodes and letters for variants of
 /// the formulation (R, H, I, M, T), which do not matter here. What 6 or 8 nodes mean depends on
 /// the family: C3D6 is a prism, CPS6 a triangle.
-AbaqusType abaqus_type(const std::string &name, unsigned long line)
+ElementType abaqus_type(const std::string &name, unsigned long line)
 {
   using S                                      = ElementShape;
   static const std::map<unsigned int, S> solid = {{4, S::tetrahedron},  {5, S::pyramid},
@@ -51,8 +45,10 @@ AbaqusType abaqus_type(const std::string &name, unsigned long line)
   for (const auto &family : families)
     if (name.rfind(family.first, 0) == 0)
       {
-        const unsigned int n     = std::atoi(name.c_str() + family.first.size());
-        const auto         found = family.second->find(n);
+        // SAX1 and SAX2 are called by their order, the others by their number of nodes
+        const unsigned int n =
+          std::atoi(name.c_str() + family.first.size()) + (family.first == "SAX" ? 1 : 0);
+        const auto found = family.second->find(n);
         if (found != family.second->end())
           return {found->second, n};
       }
@@ -111,13 +107,14 @@ private:
   unsigned long                                     at = 0; ///< line that is read
   std::string                                       keyword;
   std::map<std::string, std::string>                options; ///< of the keyword
-  AbaqusType                                        type{ElementShape::line, 0};
+  ElementType                                       type{ElementShape::line, 0};
   std::vector<std::string>                          pending; ///< an element over several lines
   unsigned int                                      n_parts = 0;
   MeshFile                                          mesh;
   PointNumbers                                      numbers;
   std::map<unsigned long, unsigned int>             element_index;
-  std::map<std::string, std::vector<unsigned long>> sets;
+  std::map<std::string, std::set<unsigned long>> sets;
+  std::map<std::string, std::string>                groups; ///< as they are written first
 
   void begin_keyword(const std::string &line)
   {
@@ -136,8 +133,29 @@ private:
     // parts; without reading that, numbers of two parts would clash.
     if (keyword == "*PART" && ++n_parts > 1)
       throw error_at_line(at, "the file has more than one part");
+    refuse_generation();
     if (keyword == "*ELEMENT")
       type = abaqus_type(upper_case(options["TYPE"]), at);
+  }
+
+  /// What places or makes nodes and elements is not read, and must not be passed over: the mesh
+  /// would be another one.
+  void refuse_generation() const
+  {
+    static const std::set<std::string> others = {"*NGEN",  "*NFILL",  "*NCOPY",   "*NMAP",
+                                                 "*ELGEN", "*ELCOPY", "*INCLUDE", "*SYSTEM"};
+    const bool                         data   = keyword == "*NODE" || keyword == "*ELEMENT";
+    const auto                         found  = options.find("SYSTEM");
+    if (keyword == "*NODE" && found != options.end() && upper_case(found->second) != "R")
+      refuse("*NODE with SYSTEM = " + found->second);
+    if (others.count(keyword) > 0 || (data && options.count("INPUT") > 0))
+      refuse(keyword + (data ? " with INPUT" : ""));
+  }
+
+  [[noreturn]] void refuse(const std::string &what) const
+  {
+    throw error_at_line(at, what + " is not read; save all nodes and elements in one file, the "
+                                   "nodes at their places in Cartesian coordinates");
   }
 
   /// Data of keywords that are not listed here (materials, steps, node sets) are skipped.
@@ -151,6 +169,8 @@ private:
       read_set(words);
     else if (keyword == "*SURFACE")
       read_surface(words);
+    else if (keyword == "*INSTANCE")
+      refuse("*INSTANCE that moves its part");
     else if (keyword.empty())
       throw error_at_line(at, "a keyword is expected, not '" + line + "'");
   }
@@ -178,9 +198,10 @@ private:
     if (!element_index.emplace(number, mesh.elements.size()).second)
       throw error_at_line(at, name + " occurs twice");
     MeshFile::Element element{type.shape, {}, {}, number, at};
-    // Abaqus lists the corners first, then the nodes on edges.
+    // Abaqus lists the corners first, then the nodes on edges, but of lines the middle second.
+    const unsigned int step = type.shape == ElementShape::line ? type.n_nodes - 1 : 1;
     for (unsigned int i = 0; i < n_corners(type.shape); ++i)
-      element.corners.push_back(numbers.index(to_whole(pending[i + 1], at), name, at));
+      element.corners.push_back(numbers.index(to_whole(pending[1 + i * step], at), name, at));
     mesh.corners_only = mesh.corners_only || type.n_nodes > n_corners(type.shape);
     mesh.elements.push_back(element);
     pending.clear();
@@ -188,19 +209,19 @@ private:
       add_to_set(options["ELSET"], number);
   }
 
-  /// Sets are found in any case of letters; the group has the name as it is written.
+  /// Sets are found in any case of letters; the group has the name as it is written first.
+  /// Abaqus/CAE makes sets for its own use, such as _Surf-1_S2 of faces of a surface, which are no
+  /// groups but would be regions.
   void add_to_set(const std::string &name, unsigned long number)
   {
     const auto found = element_index.find(number);
     if (found == element_index.end())
       throw error_at_line(at, "set '" + name + "' has the element " + std::to_string(number) +
                                 ", which is not there");
-    auto &groups = mesh.elements[found->second].groups;
+    const std::string key = upper_case(name);
     // a set that is added to itself would double with every line
-    if (std::find(groups.begin(), groups.end(), name) != groups.end())
-      return;
-    sets[upper_case(name)].push_back(number);
-    groups.push_back(name);
+    if (sets[key].insert(number).second && name[0] != '_')
+      mesh.elements[found->second].groups.push_back(groups.emplace(key, name).first->second);
   }
 
   /// Either first, last and increment (GENERATE), or any list of elements and other sets.
@@ -227,7 +248,7 @@ private:
   {
     const auto found = sets.find(upper_case(word));
     if (found != sets.end())
-      return found->second;
+      return {found->second.begin(), found->second.end()};
     return {to_whole(word, at)};
   }
 

@@ -75,8 +75,6 @@ std::vector<unsigned int> cell_vertices(const MeshFile::Element &element)
   return vertices;
 }
 
-ElementSplit::ElementSplit(std::vector<dealii::Point<3>> &points) : points(points) {}
-
 unsigned int ElementSplit::middle(std::vector<unsigned int> corners)
 {
   // Neighbours number a common edge or face in different orders, but must get the same point.

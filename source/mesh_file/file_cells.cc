@@ -50,19 +50,16 @@ void check_regions(const std::vector<std::string> &regions, const std::set<std::
                    "; it has " + (held.empty() ? "only points" : held));
 }
 
-/// All elements of a flat mesh must have the same z.
-void check_plane(const MeshFile &file)
+/// All cells of a flat mesh must have the same z; what is in other regions, or lone points, need
+/// not lie in their plane.
+void check_plane(const std::vector<Element> &cells, const std::vector<dealii::Point<3>> &points)
 {
-  const auto &points = file.points;
-  for (const auto &element : file.elements)
-    if (dimension(element.shape) > 2)
-      throw element_error(element, "is a solid, but Dimension = 2");
-  for (const auto &element : file.elements)
-    for (const unsigned int corner : element.corners)
+  for (const auto &cell : cells)
+    for (const unsigned int corner : cell.corners)
       // Exact: programs write the z of a plane mesh as the same text for all nodes.
-      if (points[corner][2] != points[file.elements[0].corners[0]][2])
-        throw element_error(element, "leaves the plane of the others, its z is " +
-                                       std::to_string(points[corner][2]));
+      if (points[corner][2] != points[cells[0].corners[0]][2])
+        throw element_error(cell, "leaves the plane of the others, its z is " +
+                                    std::to_string(points[corner][2]));
 }
 
 /// 1 if the element is convex and right-handed at all corners, -1 if
@@ -156,8 +153,11 @@ std::vector<MeshFile::Element> body_cells(const MeshFile                 &file,
   check_regions(regions, known);
   if (cells.empty())
     throw_without_cells(file, dim);
+  for (const auto &element : file.elements)
+    if (dimension(element.shape) > dim && is_wanted(element, regions))
+      throw element_error(element, "is a solid, but Dimension = 2");
   if (dim == 2)
-    check_plane(file);
+    check_plane(cells, file.points);
   turn_mirrored<dim>(cells, file.points, notes);
   if (file.corners_only)
     notes.push_back("middle nodes of quadratic elements left out");

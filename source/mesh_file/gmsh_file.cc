@@ -7,19 +7,12 @@
 
 namespace snug::mesh_file {
 namespace {
-/// Shape and number of nodes of Gmsh's element types.
-struct GmshType
-{
-  ElementShape shape;
-  unsigned int n_nodes;
-};
-
 /// By Gmsh's number. Elements of both orders begin with their corners, in the order of
 /// ElementShape.
-const std::map<unsigned long, GmshType> &gmsh_types()
+const std::map<unsigned long, ElementType> &gmsh_types()
 {
-  using S                                              = ElementShape;
-  static const std::map<unsigned long, GmshType> types = {
+  using S                                                 = ElementShape;
+  static const std::map<unsigned long, ElementType> types = {
     {1, {S::line, 2}},           {2, {S::triangle, 3}},      {3, {S::quadrilateral, 4}},
     {4, {S::tetrahedron, 4}},    {5, {S::hexahedron, 8}},    {6, {S::prism, 6}},
     {7, {S::pyramid, 5}},        {8, {S::line, 3}},          {9, {S::triangle, 6}},
@@ -229,7 +222,7 @@ private:
       }
   }
 
-  const GmshType &type(unsigned long number) const
+  const ElementType &type(unsigned long number) const
   {
     const auto found = gmsh_types().find(number);
     if (found == gmsh_types().end())
@@ -252,7 +245,7 @@ private:
 
   /// Read the nodes of an element and keep it.
   template <typename Node>
-  void read_element(const GmshType                   &type,
+  void read_element(const ElementType                &type,
                     unsigned long                     number,
                     const std::vector<unsigned long> &groups,
                     const Node                       &read_node)
@@ -274,7 +267,7 @@ private:
 
   /// Text: lines "number type n_tags tags nodes". Binary: blocks with the header (type, number of
   /// elements, n_tags) and (number, tags, nodes) for each. The first tag is the physical group, 0
-  /// for none, the second the entity; partitions may follow.
+  /// for none, the second the entity; partitions may follow, ghost ones with a minus sign.
   void read_elements_2()
   {
     const auto n = in.whole("the number of elements");
@@ -285,9 +278,9 @@ private:
         unsigned long number = 0;
         if (!binary)
           number = in.whole("an element");
-        const GmshType &own  = type(value<int>("the type of an element"));
-        const auto      many = binary ? value<int>("a number") : 1;
-        const auto      tags = value<int>("the number of tags");
+        const ElementType &own  = type(value<int>("the type of an element"));
+        const auto         many = binary ? value<int>("a number") : 1;
+        const auto         tags = value<int>("the number of tags");
         for (int i = 0; i < many; ++i, ++done)
           {
             if (binary)
@@ -295,8 +288,8 @@ private:
             unsigned long first = 0;
             for (int t = 0; t < tags; ++t)
               {
-                const int tag = value<int>("a tag of an element");
-                first         = t == 0 ? tag : first;
+                const int own_tag = tag("a tag of an element");
+                first             = t == 0 ? std::abs(own_tag) : first;
               }
             read_element(own, number, {first},
                          [&](const std::string &what) { return value<int>(what); });
@@ -315,7 +308,7 @@ private:
       {
         const unsigned int dim     = value<int>("the dimension of an entity");
         const int          own_tag = tag("the number of an entity");
-        const GmshType    &own     = type(value<int>("the type of elements"));
+        const ElementType &own     = type(value<int>("the type of elements"));
         const auto         n       = count("the number of elements");
         for (unsigned long i = 0; i < n; ++i)
           read_element(own, count("an element"), physical[{dim, own_tag}],

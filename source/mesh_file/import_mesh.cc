@@ -1,4 +1,5 @@
-#include <snug/base/errors.h>
+#include <snug/geometry/cell_numbering.h>
+#include <snug/geometry/curved_face.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/fitted_surface.h>
 #include <snug/mesh_file/element_split.h>
@@ -6,21 +7,14 @@
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/mesh_file/mesh_text.h>
 
-#include <deal.II/base/geometry_info.h>
-
 #include <set>
 
 namespace snug::mesh_file {
 namespace {
 using Element = MeshFile::Element;
 using Corners = std::vector<unsigned int>;
-
-/// Faces are told apart by their corners, in whatever order an element has them.
-Corners sorted(Corners corners)
-{
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
+using geometry::index_in;
+using geometry::sorted;
 
 /// Makes the blocks of one body of the elements of a file.
 template <int dim>
@@ -77,16 +71,6 @@ private:
     return {cell_vertices(element)};
   }
 
-  /// Index of @p name in @p names, to which it is added.
-  static unsigned int index_in(std::vector<std::string> &names, const std::string &name)
-  {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end())
-      return found - names.begin();
-    names.push_back(name);
-    return names.size() - 1;
-  }
-
   /// The group that says what region a cell belongs to.
   /// One that has a material decides; else the last group of the cell.
   std::string region_of(const Element &cell) const
@@ -130,22 +114,13 @@ private:
                       (dim == 3 ? " hexahedra" : " quadrilaterals"));
   }
 
-  Corners face(unsigned int block, unsigned int f) const
-  {
-    using Info = dealii::GeometryInfo<dim>;
-    Corners result;
-    for (unsigned int v = 0; v < Info::vertices_per_face; ++v)
-      result.push_back(mesh.blocks[block][Info::face_to_cell_vertices(f, v)]);
-    return sorted(result);
-  }
-
   void collect_faces()
   {
     const unsigned int parts_each = mesh.blocks.size() / cells.size(); // for the message only
     for (unsigned int b = 0; b < mesh.blocks.size(); ++b)
       for (const unsigned int f : dealii::GeometryInfo<dim>::face_indices())
         // Cells that occur twice in the file are found here, too.
-        if (++n_cells_of_face[face(b, f)] > 2)
+        if (++n_cells_of_face[sorted(geometry::face_of<dim>(mesh.blocks[b], f))] > 2)
           throw element_error(cells[std::min<std::size_t>(b / parts_each, cells.size() - 1)],
                               "or one near it shares a face with two "
                               "others");
@@ -207,16 +182,6 @@ private:
     return result;
   }
 
-  unsigned int curved_boundary(const std::string &name, const std::string &value) const
-  {
-    const auto &names = mesh.boundary_names;
-    const auto  found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      throw bad_entry("Curved faces", name + ": " + value,
-                      "there is no boundary '" + name + "', they are " + to_text(names));
-    return found - names.begin();
-  }
-
   std::set<unsigned int> corners_of(unsigned int boundary) const
   {
     std::set<unsigned int> corners;
@@ -233,7 +198,8 @@ private:
     std::vector<std::pair<unsigned int, geometry::FittedSurface<dim>>> surfaces;
     for (const auto &entry : parameters.curved_faces)
       {
-        const unsigned int              boundary = curved_boundary(entry.first, entry.second);
+        const unsigned int boundary =
+          geometry::curved_boundary(mesh.boundary_names, entry.first, entry.second);
         std::vector<dealii::Point<dim>> known;
         for (const unsigned int corner : corners_of(boundary))
           // Points behind those of the file are middles of chords, which lie off the surface.

@@ -8,18 +8,6 @@
 #include <cstdlib>
 
 namespace snug::mesh_file {
-MeshText::MeshText(const std::string &text) : text(text) {}
-
-unsigned long MeshText::line() const
-{
-  return binary ? 0 : line_number;
-}
-
-void MeshText::be_binary()
-{
-  binary = true;
-}
-
 void MeshText::advance(const std::size_t to)
 {
   // Lines are only counted forward, so that reading the whole text costs one pass.

@@ -8,19 +8,12 @@
 
 namespace snug::mesh_file {
 namespace {
-/// Shape and number of nodes of a cell type of VTK.
-struct VtkType
-{
-  ElementShape shape;
-  unsigned int n_nodes;
-};
-
 /// By number, as in vtkCellType.h: linear types up to 14, quadratic ones from 21 on, which begin
 /// with their corners. Pixels and voxels (8, 11) are cells of images and are not read.
-const std::map<unsigned long, VtkType> &vtk_types()
+const std::map<unsigned long, ElementType> &vtk_types()
 {
-  using S                                             = ElementShape;
-  static const std::map<unsigned long, VtkType> types = {
+  using S                                                 = ElementShape;
+  static const std::map<unsigned long, ElementType> types = {
     {1, {S::vertex, 1}},        {3, {S::line, 2}},           {5, {S::triangle, 3}},
     {9, {S::quadrilateral, 4}}, {10, {S::tetrahedron, 4}},   {12, {S::hexahedron, 8}},
     {13, {S::prism, 6}},        {14, {S::pyramid, 5}},       {21, {S::line, 3}},
@@ -64,7 +57,8 @@ public:
 
 private:
   MeshText                                in;
-  bool                                    binary = false;
+  bool                                    binary       = false;
+  bool                                    in_cell_data = false; ///< not in that of points
   std::vector<std::vector<unsigned long>> nodes;
   std::vector<unsigned long>              lines, types;
   std::vector<std::string>                groups;
@@ -116,14 +110,16 @@ private:
     // Sections that are not read (METADATA, FIELD, POINT_DATA) are passed line by line, as if
     // each began with an unknown keyword.
     const std::string keyword = in.word("a keyword");
+    if (keyword == "CELL_DATA" || keyword == "POINT_DATA")
+      in_cell_data = keyword == "CELL_DATA";
     if (keyword == "DATASET" && in.word("the kind of data") != "UNSTRUCTURED_GRID")
       in.fail("the data are no UNSTRUCTURED_GRID");
-    const unsigned long n = keyword == "POINTS" || keyword == "CELLS" || keyword == "CELL_TYPES"
-                              ? in.whole("a number behind " + keyword)
-                              : 0;
-    const bool          named_data = keyword == "SCALARS" && is_group(in.word("a name"));
-    const std::string   rest       = in.rest_of_line();
-    const std::string   type       = rest.substr(0, rest.find(' '));
+    const unsigned long n  = keyword == "POINTS" || keyword == "CELLS" || keyword == "CELL_TYPES"
+                               ? in.whole("a number behind " + keyword)
+                               : 0;
+    const bool named_data  = keyword == "SCALARS" && in_cell_data && is_group(in.word("a name"));
+    const std::string rest = in.rest_of_line();
+    const std::string type = rest.substr(0, rest.find(' '));
     if (keyword == "POINTS")
       read_points(n, type);
     else if (keyword == "CELLS")

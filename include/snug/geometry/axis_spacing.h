@@ -20,7 +20,7 @@ class AxisSpacing
 {
 public:
   /// Equal sizes.
-  explicit AxisSpacing(unsigned int n_cells = 1);
+  explicit AxisSpacing(unsigned int n_cells = 1) : n(n_cells) {}
 
   /// Sizes in geometric progression, @p ratio > 0; at least two cells
   /// unless it is 1.

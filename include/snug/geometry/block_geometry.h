@@ -3,6 +3,7 @@
 
 #include <snug/geometry/block_mesh.h>
 #include <snug/geometry/body_geometry.h>
+#include <snug/geometry/cell_numbering.h>
 
 namespace snug::geometry {
 /**
@@ -11,7 +12,8 @@ namespace snug::geometry {
  * 1973), in 3D
  * @f[ x(u) = \sum_{f} w_f S_f - \sum_{e} w_e C_e + \sum_v w_v x_v, @f]
  * w products of u_d or 1 - u_d over the axes normal to face f, edge e and
- * vertex v. Faces S and edges C of curved boundaries lie on them.
+ * vertex v. Faces S and edges C of curved boundaries lie on them; where two
+ * boundaries meet, C lies on one, and the face S of the other blends to it.
  */
 template <int dim>
 class BlockGeometry : public BodyGeometry<dim>
@@ -21,15 +23,15 @@ public:
 
   typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override;
 
-  double n_coarse_cells() const override;
+  double n_coarse_cells() const override { return mesh->blocks.size() * product(mesh->cells); }
 
   const std::vector<std::string> &boundary_names() const override { return mesh->boundary_names; }
 
   std::vector<std::string> region_names() const override { return mesh->region_names; }
 
+  /// Coarse cells are numbered block after block.
   unsigned int region(unsigned int coarse_cell) const override
   {
-    // coarse cells are numbered block after block, see coarse_mesh()
     return mesh->regions[coarse_cell / cells_per_block()];
   }
 
@@ -53,7 +55,7 @@ private:
   std::vector<bool>                               is_curved;    ///< per block
   Point                                           lower, upper; ///< of the vertices
 
-  unsigned int cells_per_block() const;
+  unsigned int cells_per_block() const { return product(mesh->cells); }
   Point        block_position(unsigned int block, const Point &u) const;
   Point        edge_position(const std::vector<unsigned int> &vertices, double t) const;
   Point face_position(const std::vector<unsigned int> &vertices, const dealii::Point<2> &u) const;

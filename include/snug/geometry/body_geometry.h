@@ -104,6 +104,16 @@ struct MeshPoint
   dealii::Point<dim> unit;
 };
 
+/// The centre of a cell in its own coordinates.
+template <int dim>
+dealii::Point<dim> unit_centre()
+{
+  dealii::Point<dim> centre;
+  for (unsigned int d = 0; d < dim; ++d)
+    centre[d] = 0.5;
+  return centre;
+}
+
 /**
  * The reference geometry of one body: a coarse mesh and the map from its
  * cells to positions, which is evaluated anew on every mesh, so that
@@ -111,8 +121,8 @@ struct MeshPoint
  *
  * Some bodies have a grid: their coarse cells lie in layers along the axes
  * of logical coordinates in [0,1]^dim, and boundary 2d + s is the side s of
- * axis d. Some of these also have a frame, a map from [0,1]^dim to
- * positions.
+ * axis d. Some of these, all but full rings, also have a frame, a map from
+ * [0,1]^dim to positions.
  */
 template <int dim>
 class BodyGeometry
@@ -142,7 +152,7 @@ public:
   virtual std::vector<std::string> region_names() const { return {"body"}; }
 
   /// Index of the region of a cell of the coarse mesh.
-  virtual unsigned int region(unsigned int coarse_cell) const;
+  virtual unsigned int region(unsigned int /*coarse_cell*/) const { return 0; }
 
   /// Reference position. @throws InputError where a formula is not finite.
   virtual dealii::Point<dim> position(const MeshPoint<dim> &point) const = 0;
@@ -154,8 +164,8 @@ public:
   /// Lengths along the logical axes; only their ratios matter.
   virtual dealii::Tensor<1, dim> extent() const = 0;
 
+  /// Bodies of blocks have none, so the partition "auto" leaves them to METIS.
   virtual bool has_grid() const { return false; }
-  virtual bool has_frame() const { return false; }
 
   /**
    * Fraction in [0,1]^dim of the body's frame at @p logical. For face

@@ -5,8 +5,15 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace snug::geometry {
+/// Index among the boundaries @p names of the one in the entry "Curved faces = name: value".
+/// @throws InputError naming the entry.
+unsigned int curved_boundary(const std::vector<std::string> &names,
+                             const std::string              &name,
+                             const std::string              &value);
+
 /// The face 2d+s of a box before it is curved.
 template <int dim>
 struct FlatFace

@@ -2,8 +2,7 @@
 #define snug_geometry_grid_geometry_h
 
 #include <snug/geometry/body_geometry.h>
-
-#include <array>
+#include <snug/geometry/cell_numbering.h>
 
 namespace snug::geometry {
 /**
@@ -23,13 +22,13 @@ public:
 
   typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override;
 
-  double n_coarse_cells() const override;
+  double n_coarse_cells() const override { return product(cells); }
 
   const std::vector<std::string> &boundary_names() const override { return names; }
 
+  /// Computed at every node anew, so that refined cells keep spacing and curvature.
   dealii::Point<dim> position(const MeshPoint<dim> &point) const override
   {
-    // at every node anew, so that refined cells keep spacing and curvature
     return grid_position(logical(point));
   }
 

@@ -34,8 +34,6 @@ public:
 
   bool has_grid() const override { return body->has_grid(); }
 
-  bool has_frame() const override { return body->has_frame(); }
-
   Point box_fraction(const Point &logical) const override { return body->box_fraction(logical); }
 
   Point box_position(const Point &fraction) const override { return body->box_position(fraction); }

@@ -5,6 +5,7 @@
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/partition.h>
 
+#include <deal.II/base/index_set.h>
 #include <deal.II/base/tensor.h>
 
 #include <mpi.h>
@@ -63,53 +64,78 @@ public:
            unsigned int                                     degree,
            const Idealization      &idealization = Idealization::natural(dim),
            const TearingParameters &tearing      = TearingParameters());
-  ~BodyMesh();
 
-  MPI_Comm     communicator() const;
-  unsigned int degree() const;
+  MPI_Comm     communicator() const { return comm; }
+  unsigned int degree() const { return fe_degree; }
   /// What the mesh stands for.
-  const Idealization                &idealization() const;
-  unsigned int                       n_bodies() const;
-  const geometry::BodyGeometry<dim> &geometry(unsigned int body) const;
+  const Idealization                &idealization() const { return meaning; }
+  unsigned int                       n_bodies() const { return geometries.size(); }
+  const geometry::BodyGeometry<dim> &geometry(unsigned int body) const { return *geometries[body]; }
 
-  const std::vector<Cell>    &cells() const;
-  const std::vector<Face>    &boundary_faces() const;
-  const std::vector<Hanging> &hanging() const;
+  const std::vector<Cell>    &cells() const { return mesh_cells; }
+  const std::vector<Face>    &boundary_faces() const { return mesh_faces; }
+  const std::vector<Hanging> &hanging() const { return hanging_nodes; }
 
-  unsigned int n_local_nodes() const;
+  unsigned int n_local_nodes() const { return reference.size(); }
   /// Global number of a local node.
-  unsigned int global_node(unsigned int node) const;
+  unsigned int global_node(unsigned int node) const { return relevant.nth_index_in_set(node); }
   /// Local index of a global node; it must be relevant on this rank.
-  unsigned int local_node(unsigned int global) const;
+  unsigned int local_node(unsigned int global) const { return relevant.index_within_set(global); }
   /// Rank that owns a local node.
-  unsigned int owner(unsigned int node) const;
+  unsigned int owner(unsigned int node) const { return owner_of_global(global_node(node)); }
   /// Rank that owns a global node.
   unsigned int owner_of_global(unsigned int global) const;
-  bool         is_hanging(unsigned int node) const;
+  bool is_hanging(unsigned int node) const { return hanging_of_node[node] < hanging_nodes.size(); }
   /// Index into hanging(), only for hanging nodes.
-  unsigned int hanging_index(unsigned int node) const;
-  unsigned int body_of_node(unsigned int node) const;
+  unsigned int hanging_index(unsigned int node) const { return hanging_of_node[node]; }
+  unsigned int body_of_node(unsigned int node) const { return node_body[node]; }
 
-  const std::vector<dealii::Point<dim>> &logical_positions() const;
+  const std::vector<dealii::Point<dim>> &logical_positions() const { return logical; }
   /// Reference positions, hanging nodes interpolated. Of axisymmetric
   /// bodies, nodes on the axis have x = 0 without round-off.
-  const Field &reference_positions() const;
+  const Field &reference_positions() const { return reference; }
   /// field at hanging nodes <- interpolation of their masters
   void interpolate_hanging(Field &field) const;
   /// Transpose: add values at hanging nodes to their masters, then zero.
   void distribute_hanging(Field &field) const;
 
   /// Active cells of all ranks.
-  unsigned long n_global_cells() const;
+  unsigned long n_global_cells() const { return n_cells; }
   /// Nodes without hanging ones, of all ranks.
-  unsigned long n_global_free_nodes() const;
+  unsigned long n_global_free_nodes() const { return n_free_nodes; }
 
   /// Pairs of owned cells (a < b) that share a face or part of one.
-  const std::vector<std::pair<unsigned int, unsigned int>> &cell_neighbours() const;
+  const CellPairs &cell_neighbours() const { return neighbours; }
 
 private:
-  struct Data;
-  std::unique_ptr<Data> data;
+  struct Source;
+
+  MPI_Comm                                                  comm;
+  unsigned int                                              fe_degree;
+  Idealization                                              meaning;
+  std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>> geometries;
+  // Owned and ghost nodes: a local index is the place of a node in this set.
+  dealii::IndexSet          relevant;
+  std::vector<unsigned int> first_node_of_rank; ///< n_ranks + 1
+  // per local node
+  std::vector<unsigned int>       node_body;
+  std::vector<dealii::Point<dim>> logical;
+  Field                           reference;
+  std::vector<unsigned int>       hanging_of_node; ///< or a number above all
+  std::vector<Cell>               mesh_cells;
+  std::vector<Face>               mesh_faces;
+  std::vector<Hanging>            hanging_nodes;
+  CellPairs                       neighbours;
+  unsigned long                   n_cells = 0, n_free_nodes = 0;
+
+  void triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
+                   const TearingParameters                         &tearing,
+                   Source                                          &source);
+  void number_nodes(Source &source);
+  void collect_nodes(const Source &source);
+  void collect_hanging(const Source &source);
+  void collect_cells(const Source &source);
+  void snap_to_axis();
 };
 } // namespace snug::mesh
 

@@ -2,12 +2,12 @@
 #define snug_mesh_partition_h
 
 #include <snug/base/choice.h>
+#include <snug/mesh/cell_graph.h>
 
 #include <deal.II/base/point.h>
 
 #include <mpi.h>
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,12 +41,11 @@ struct CellSet
   std::vector<dealii::Point<dim>> centres; ///< logical
   std::vector<unsigned int>       numbers;
   std::vector<Key>                keys;
-  /// Numbers of cells that share a face or part of one; each pair of the
-  /// body on one rank only.
-  std::vector<std::array<unsigned int, 2>> neighbours;
-  unsigned long                            n_global; ///< cells of the body
-  dealii::Tensor<1, dim>                   size;     ///< along the logical axes
-  bool layered; ///< all cells lie in layers along the logical axes
+  /// by their numbers; each pair of the body on one rank only
+  CellPairs              neighbours;
+  unsigned long          n_global; ///< cells of the body
+  dealii::Tensor<1, dim> size;     ///< along the logical axes
+  bool                   layered;  ///< all cells lie in layers along the logical axes
 };
 
 /// Parts of one body, the same on any number of ranks.

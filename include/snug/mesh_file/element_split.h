@@ -24,7 +24,7 @@ class ElementSplit
 {
 public:
   /// New points go to the end of @p points, which must outlive this object.
-  explicit ElementSplit(std::vector<dealii::Point<3>> &points);
+  explicit ElementSplit(std::vector<dealii::Point<3>> &points) : points(points) {}
 
   /// Vertices of the parts in deal.II's order.
   std::vector<std::vector<unsigned int>> parts(const MeshFile::Element &element);

@@ -12,9 +12,11 @@ namespace snug::mesh_file {
 MeshFile read_gmsh(const std::string &text);
 
 /**
- * Abaqus .inp; groups are the element sets and element surfaces. One part;
- * keywords other than NODE, ELEMENT, ELSET and SURFACE are skipped.
- * Source: Abaqus keywords reference.
+ * Abaqus .inp; groups are the element surfaces and the element sets but for
+ * those Abaqus/CAE makes, whose names begin with _. One part, not moved;
+ * keywords that generate or move nodes or elements are errors, others than
+ * NODE, ELEMENT, ELSET and SURFACE are skipped. Source: Abaqus keywords
+ * reference.
  */
 MeshFile read_abaqus(const std::string &text);
 
@@ -26,6 +28,13 @@ MeshFile read_vtk(const std::string &text);
 /// UCD of AVS in ASCII; groups are the material numbers.
 MeshFile read_ucd(const std::string &text);
 /// @}
+
+/// What the elements of a type of a format are; quadratic ones have more nodes than corners.
+struct ElementType
+{
+  ElementShape shape;
+  unsigned int n_nodes;
+};
 
 /// Points by the numbers a file gives them.
 class PointNumbers

@@ -16,13 +16,13 @@ class MeshText
 {
 public:
   /// @p text must outlive this object.
-  explicit MeshText(const std::string &text);
+  explicit MeshText(const std::string &text) : text(text) {}
 
   /// Number of the line that is read, from 1; 0 if lines mean nothing.
-  unsigned long line() const;
+  unsigned long line() const { return binary ? 0 : line_number; }
 
   /// Lines mean nothing.
-  void be_binary();
+  void be_binary() { binary = true; }
 
   /// Whether nothing but blanks follows, which are skipped.
   bool at_end();

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <unit/mesh_file/sample_files.h>
+#include <unit/mesh_file/files.h>
 
 #include <algorithm>
 #include <cmath>

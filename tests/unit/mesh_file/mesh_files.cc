@@ -1,83 +1,10 @@
-#include <snug/mesh/body_mesh.h>
+#include "files.h"
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/quadrature_lib.h>
-
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_tools.h>
-
-#include <gtest/gtest.h>
-#include <unit/mesh_file/sample_files.h>
-
-#include <set>
-#include <sstream>
 
 using namespace snug;
 using namespace snug::test;
 using dealii::Point;
-
-namespace {
-/// @p text with @p from, which must be there, replaced.
-std::string replaced(std::string text, const std::string &from, const std::string &to)
-{
-  const auto place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from;
-  return text.replace(place, from.size(), to);
-}
-
-template <int dim>
-double file_volume(const mesh::BodyMesh<dim> &mesh)
-{
-  const dealii::QGauss<dim> gauss(3);
-  const dealii::FE_Q<dim>   fe(mesh.degree());
-  const auto order = dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(mesh.degree());
-  double     sum   = 0.;
-  for (const auto &cell : mesh.cells())
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-      {
-        dealii::Tensor<2, dim> F;
-        for (unsigned int k = 0; k < cell.nodes.size(); ++k)
-          F += dealii::outer_product(mesh.reference_positions()[cell.nodes[k]],
-                                     fe.shape_grad(order[k], gauss.point(q)));
-        EXPECT_GT(dealii::determinant(F), 0.);
-        sum += dealii::determinant(F) * gauss.weight(q);
-      }
-  return dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
-}
-
-/// The body fills [0,2] x [0,1]^(dim-1); its faces bottom and top are where
-/// the last coordinate is 0 and 1, free ones elsewhere.
-template <int dim>
-void expect_block(const std::string           &text,
-                  geometry::BodyMeshParameters parameters,
-                  unsigned int                 n_cells)
-{
-  parameters.imported = mesh_file::import_mesh(text, parameters, dim);
-  for (const unsigned int degree : {1, 2})
-    {
-      const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, {parameters}, degree);
-      EXPECT_EQ(mesh.n_global_cells(), n_cells);
-      EXPECT_NEAR(file_volume(mesh), 2., 1e-12);
-      const auto &names = mesh.geometry(0).boundary_names();
-      EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
-                (std::set<std::string>{"bottom", "top", "free"}));
-      for (const auto &face : mesh.boundary_faces())
-        {
-          double least = 1., largest = 0.;
-          for (const unsigned int node : face.nodes)
-            {
-              const double z = mesh.reference_positions()[node][dim - 1];
-              least          = std::min(least, z);
-              largest        = std::max(largest, z);
-            }
-          const std::string expected = largest == 0. ? "bottom" : least == 1. ? "top" : "free";
-          EXPECT_EQ(names[face.boundary], expected);
-        }
-    }
-}
-
-} // namespace
 
 TEST(MeshFiles, AllFormatsGiveTheSameBlock)
 {
@@ -254,6 +181,63 @@ TEST(MeshFiles, CurvedBoundariesStayOnTheirCircles)
   body.boundary_numbers = {{"1", "round"}, {"2", "round"}};
   body.curved_faces     = {{"round", "sphere"}};
   EXPECT_NE(complaint(text.str(), body, 2).find("does not fit"), std::string::npos);
+}
+
+TEST(MeshFiles, CurvedBoundariesThatMeetLeaveNoGaps)
+{
+  // A ring whose side is a cylinder and whose cap a sphere: in its section, the two meet at the
+  // corner (1, 1) of two quadrilaterals, one of which has only the side, the other only the cap.
+  const unsigned int n                                 = 8;
+  const double       section[6][2]                     = {{0.5, 0.}, {0.8, -0.3},       {1., 0.},
+                                                          {1., 1.},  {0.5, sqrt(1.75)}, {0.2, 0.5}};
+  const std::vector<std::array<unsigned int, 4>> quads = {{{0, 1, 2, 3}}, {{0, 3, 4, 5}}};
+  for (const unsigned int first : {0, 1})
+    {
+      std::ostringstream text;
+      text.precision(17);
+      text << 6 * n << ' ' << 4 * n << " 0 0 0\n";
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int k = 0; k < 6; ++k)
+          {
+            const double phi = 2. * dealii::numbers::PI * i / n;
+            text << 6 * i + k + 1 << ' ' << section[k][0] * std::cos(phi) << ' '
+                 << section[k][0] * std::sin(phi) << ' ' << section[k][1] << '\n';
+          }
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const unsigned int next = 6 * ((i + 1) % n) + 1, own = 6 * i + 1;
+          for (const unsigned int q : {first, 1 - first})
+            {
+              text << 4 * i + q + 1 << " 1 hex";
+              for (const unsigned int at : {own, next})
+                for (const unsigned int k : quads[q])
+                  text << ' ' << at + k;
+              text << '\n'
+                   << 4 * i + q + 3 << ' ' << q + 1 << " quad " << own + q + 2 << ' ' << own + q + 3
+                   << ' ' << next + q + 3 << ' ' << next + q + 2 << '\n';
+            }
+        }
+      auto body             = file_body();
+      body.boundary_numbers = {{"1", "side"}, {"2", "cap"}};
+      body.curved_faces     = {{"side", "cylinder z"}, {"cap", "sphere"}};
+      body.imported         = mesh_file::import_mesh(text.str(), body, 3);
+      const auto geometry   = geometry::make_geometry<3>(body);
+      const auto cells      = geometry->coarse_mesh().cells;
+      using Info            = dealii::GeometryInfo<3>;
+      std::map<std::set<unsigned int>, Point<3>> middles;
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
+          {
+            const unsigned int a = Info::line_to_cell_vertices(e, 0),
+                               b = Info::line_to_cell_vertices(e, 1);
+            const auto x         = geometry->position(
+                      {c, Info::unit_cell_vertex(a) +
+                            (Info::unit_cell_vertex(b) - Info::unit_cell_vertex(a)) / 2.});
+            const auto entry = middles.emplace(std::set<unsigned int>{cells[c][a], cells[c][b]}, x);
+            EXPECT_NEAR(x.distance(entry.first->second), 0., 1e-14) << x;
+          }
+      EXPECT_EQ(middles.size(), n * (6u + 7u));
+    }
 }
 
 TEST(MeshFiles, NamedRegionsGoBeforeOthers)

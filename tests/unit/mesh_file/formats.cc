@@ -1,0 +1,93 @@
+#include "files.h"
+
+using namespace snug;
+using namespace snug::test;
+
+TEST(MeshFormats, AbaqusKeywordsThatMakeOrMoveAMeshAreRefused)
+{
+  const auto        inp  = contents("bar.inp");
+  const std::string node = "*NODE\n";
+  for (const std::string line : {"*NGEN, NSET=a\n", "*ncopy\n", "*ELGEN\n", "*INCLUDE, INPUT=a\n",
+                                 "*SYSTEM\n", "*Node, system=C\n", "*NODE, INPUT=a\n"})
+    {
+      const auto message = complaint(replaced(inp, node, line + node), file_body(), 2);
+      EXPECT_NE(message.find(": line 3: *"), std::string::npos) << line << message;
+      EXPECT_NE(message.find("is not read; save all nodes"), std::string::npos) << line << message;
+    }
+  const std::string instance = "*Instance, name=a, part=b\n";
+  EXPECT_NE(complaint(replaced(inp, node, instance + "1., 0., 0.\n" + node), file_body(), 2)
+              .find("line 4: *INSTANCE that moves its part"),
+            std::string::npos);
+  EXPECT_EQ(complaint(replaced(inp, node, instance + "*NODE, NSET=a, SYSTEM=R\n"), file_body(), 2),
+            "");
+}
+
+TEST(MeshFormats, AxisymmetricShellsOfAbaqusAreCalledByTheirOrder)
+{
+  // lines on the bottom; the middle node of a SAX2 is its second one, not a corner
+  const auto inp  = replaced(contents("bar.inp"), "*ELSET, ELSET=core",
+                             "*ELEMENT, TYPE=SAX1, ELSET=one\n4, 1, 3\n"
+                              "*ELEMENT, TYPE=SAX2, ELSET=two\n5, 5, 2, 7\n*ELSET, ELSET=core");
+  const auto mesh = mesh_file::import_mesh(replaced(inp, "all, S1\n", "2, S1\n"), file_body(), 2);
+  EXPECT_EQ(mesh->flat->boundary_names,
+            (std::vector<std::string>{"one", "two", "left", "right", "sides"}));
+}
+
+TEST(MeshFormats, SetsOfAbaqusAreGroupsInOneSpelling)
+{
+  const auto inp  = contents("bar.inp");
+  auto       text = replaced(inp, "*ELSET, ELSET=all\n", "*ELSET, elset=CORE\n");
+  EXPECT_EQ(mesh_file::import_mesh(replaced(text, "all, S1\nall, S3", "Core, S1\nCORE, S3"),
+                                   file_body(), 2)
+              ->flat->region_names,
+            (std::vector<std::string>{"core", "coat"}));
+  // Abaqus/CAE's own sets are elements of surfaces but no regions
+  text            = replaced(inp, "ELSET=all", "ELSET=_sides_S1, internal");
+  text            = replaced(text, "all, S1\nall, S3", "_sides_S1, S1\n_SIDES_S1, S3");
+  const auto mesh = mesh_file::import_mesh(text, file_body(), 2)->flat;
+  EXPECT_EQ(mesh->region_names, (std::vector<std::string>{"core", "coat"}));
+  EXPECT_EQ(mesh->regions, (std::vector<unsigned int>{0, 1, 1}));
+  EXPECT_EQ(mesh->boundaries.size(), 8u);
+}
+
+TEST(MeshFormats, GhostPartitionsOfGmshHaveNegativeTags)
+{
+  auto text = contents("block-2.msh");
+  // number, type, tags: group, entity, number of partitions, own and ghost partition
+  text = replaced(text, "5 5 2 1 1 1 9", "5 5 5 1 1 2 1 -2 1 9");
+  expect_block<3>(text, file_body(), 2);
+}
+
+TEST(MeshFormats, OnlyTheBodyMustLieInAPlane)
+{
+  auto text = replaced(contents("bar.inp"), "*ELEMENT, TYPE=CPE4\n",
+                       "9, 0, 0, 5\n10, 1, 0, 5\n11, 0, 1, 6\n12, 0, 0, 7\n"
+                       "*ELEMENT, TYPE=S3, ELSET=tool\n9, 9, 10, 11\n"
+                       "*ELEMENT, TYPE=C3D4, ELSET=solid\n10, 9, 10, 11, 12\n"
+                       "*ELEMENT, TYPE=CPE4\n");
+  EXPECT_NE(complaint(text, file_body(), 2).find("is a solid"), std::string::npos);
+  auto body    = file_body();
+  body.regions = {"all"};
+  EXPECT_EQ(complaint(text, body, 2), "");
+  body.regions = {"all", "tool"};
+  EXPECT_NE(complaint(text, body, 2).find("leaves the plane"), std::string::npos);
+  // a lone point, as Gmsh writes those of physical points
+  text = "# vtk DataFile Version 2.0\na point above a square\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+         "POINTS 5 double\n0 0 7\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+         "CELLS 2 7\n1 0\n4 1 2 3 4\nCELL_TYPES 2\n1\n9\n";
+  EXPECT_EQ(complaint(text, file_body(), 2), "");
+}
+
+TEST(MeshFormats, DataOfVtkAreOfTheCellsThereAre)
+{
+  const auto        vtk  = contents("block.vtk");
+  const std::string data = "SCALARS MaterialID";
+  EXPECT_NE(complaint(vtk + "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n3\n", numbered_body(), 3)
+              .find("cells and groups of"),
+            std::string::npos);
+  // numbers of points are not those of cells
+  std::string points = "POINT_DATA 12\nSCALARS MaterialID int 1\nLOOKUP_TABLE default\n";
+  for (unsigned int i = 0; i < 12; ++i)
+    points += "7\n";
+  expect_block<3>(vtk + points, numbered_body(), 2);
+}
