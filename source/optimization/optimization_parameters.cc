@@ -1,5 +1,6 @@
-#include <snug/base/entries.h>
+#include <snug/base/section_check.h>
 #include <snug/optimization/combination.h>
+#include <snug/optimization/limit.h>
 #include <snug/optimization/minimize.h>
 
 namespace snug::optimization {
@@ -28,5 +29,29 @@ void OptimizationParameters::declare(Entries &entries)
               "Stop when all variables change by less, relative to the width of their bounds.");
   entries.add("Constraint tolerance", constraint_tolerance, between(1e-15, 0.1),
               "Allowed error of the constraints, relative to their values.");
+}
+
+void OptimizationParameters::check(const SectionCheck &section) const
+{
+  const auto require = [&](const bool good, const std::string &allowed) {
+    section.require(good, "Constraints", to_text(constraints), allowed);
+  };
+  for (const auto &[name, text] : constraints)
+    {
+      require(name != objective, "'" + name + "' is the objective already");
+      Limit limit;
+      try
+        {
+          limit = read_limit(text);
+        }
+      catch (const std::exception &)
+        {
+          require(false, "the limit of '" + name +
+                           "' must be like '= initial', '<= 120' or '>= 0.9 initial'");
+        }
+      require(limit.side != Limit::Side::equal || takes_equalities(algorithm),
+              "'" + name + "' must have a limit with <= or >=: " + algorithm +
+                " takes no equalities, SLSQP and AUGLAG do");
+    }
 }
 } // namespace snug::optimization

@@ -1,5 +1,3 @@
-#include <snug/optimization/limit.h>
-#include <snug/optimization/minimize.h>
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
 
@@ -62,65 +60,27 @@ bool has_mass(const Scene &scene, const Parameters &response)
   return false;
 }
 
-/// The response that @p value, the entry @p path, calls @p name.
-Parameters require_response(const Scene       &scene,
-                            const Origins     &origins,
-                            const std::string &path,
-                            const std::string &value,
-                            const std::string &name)
+/// The response that a part of the @p value of an entry calls @p name.
+Parameters require_response(const Scene        &scene,
+                            const SectionCheck &section,
+                            const std::string  &entry,
+                            const std::string  &value,
+                            const std::string  &name)
 {
   const auto known    = response_names(scene);
   const auto response = response_called(scene, name);
-  if (!response)
-    throw origins.error(path, value,
-                        "'" + name + "' is no response, there are " + to_text(known) +
-                          did_you_mean(name, known));
-  if (response->name.empty() && response->reads("Point"))
-    throw origins.error(path, value,
-                        "'" + name +
-                          "' needs a subsection Response with 'Point' "
-                          "or 'Face', and a name in 'Responses'");
-  if (response->reads("Pair") && scene.contact.pairs.empty())
-    throw origins.error(path, value, "'" + name + "' has no contact to measure in the scene");
-  if (response->quantity == "mass" && !has_mass(scene, *response))
-    throw origins.error(path, value, "'" + name + "' is zero: what it measures has no 'Density'");
+  section.require(response.has_value(), entry, value,
+                  "'" + name + "' is no response, there are " + to_text(known) +
+                    did_you_mean(name, known));
+  section.require(!response->name.empty() || !response->reads("Point"), entry, value,
+                  "'" + name +
+                    "' needs a subsection Response with 'Point' or 'Face', and a name "
+                    "in 'Responses'");
+  section.require(!response->reads("Pair") || !scene.contact.pairs.empty(), entry, value,
+                  "'" + name + "' has no contact to measure in the scene");
+  section.require(response->quantity != "mass" || has_mass(scene, *response), entry, value,
+                  "'" + name + "' is zero: what it measures has no 'Density'");
   return *response;
-}
-
-void check_constraint(const Scene       &scene,
-                      const Origins     &origins,
-                      const std::string &name,
-                      const std::string &text)
-{
-  const auto       &optimization = scene.optimization;
-  const std::string path         = "Optimization/Constraints";
-  const std::string value        = to_text(optimization.constraints);
-  const auto        of           = constraint_name(scene, name);
-  const auto        parameters   = require_response(scene, origins, path, value, of.response);
-  if (name == optimization.objective)
-    throw origins.error(path, value, "'" + name + "' is the objective already");
-  if (scene.load_cases.size() > 1 && !of.load_case &&
-      response::make_response<3>(parameters)->needs_solution())
-    throw origins.error(path, value,
-                        "'" + name + "' must name its load case: '" +
-                          scene.load_cases.front().name + "." + name + "'");
-  optimization::Limit limit;
-  try
-    {
-      limit = optimization::read_limit(text);
-    }
-  catch (const std::exception &)
-    {
-      throw origins.error(path, value,
-                          "the limit of '" + name +
-                            "' must be like '= initial', '<= 120' or "
-                            "'>= 0.9 initial'");
-    }
-  if (limit.side == optimization::Limit::Side::equal &&
-      !optimization::takes_equalities(optimization.algorithm))
-    throw origins.error(path, value,
-                        "'" + name + "' must have a limit with <= or >=: " +
-                          optimization.algorithm + " takes no equalities, SLSQP and AUGLAG do");
 }
 } // namespace
 
@@ -135,9 +95,21 @@ void check_responses(const Scene &scene, const Origins &origins)
       response.check(section);
       check_places(scene, section, response);
     }
-  const auto &objective = scene.optimization.objective;
-  require_response(scene, origins, "Optimization/Objective", objective, objective);
-  for (const auto &[name, limit] : scene.optimization.constraints)
-    check_constraint(scene, origins, name, limit);
+  const SectionCheck section("Optimization", origins, scene.dimension);
+  const auto        &optimization = scene.optimization;
+  const std::string  value        = to_text(optimization.constraints);
+  require_response(scene, section, "Objective", optimization.objective, optimization.objective);
+  for (const auto &[name, limit] : optimization.constraints)
+    {
+      const auto of       = constraint_name(scene, name);
+      const auto response = require_response(scene, section, "Constraints", value, of.response);
+      section.require(scene.load_cases.size() < 2 || of.load_case ||
+                        !response::make_response<3>(response)->needs_solution(),
+                      "Constraints", value,
+                      "'" + name + "' must name its load case: '" +
+                        (scene.load_cases.empty() ? "" : scene.load_cases.front().name) + "." +
+                        name + "'");
+    }
+  optimization.check(section);
 }
 } // namespace snug::scene

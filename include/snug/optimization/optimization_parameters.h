@@ -7,7 +7,8 @@
 
 namespace snug {
 class Entries;
-}
+class SectionCheck;
+} // namespace snug
 
 namespace snug::optimization {
 /// Entries of `subsection Optimization`.
@@ -26,6 +27,8 @@ struct OptimizationParameters
   double       constraint_tolerance = 1e-8; ///< relative to the target
 
   void declare(Entries &entries);
+  /// Constraints have limits that can be read and that the algorithm takes.
+  void check(const SectionCheck &section) const;
 };
 } // namespace snug::optimization
 
