@@ -103,18 +103,18 @@ public:
   }
 
 private:
-  MeshText                                          in;
-  unsigned long                                     at = 0; ///< line that is read
-  std::string                                       keyword;
-  std::map<std::string, std::string>                options; ///< of the keyword
-  ElementType                                       type{ElementShape::line, 0};
-  std::vector<std::string>                          pending; ///< an element over several lines
-  unsigned int                                      n_parts = 0;
-  MeshFile                                          mesh;
-  PointNumbers                                      numbers;
-  std::map<unsigned long, unsigned int>             element_index;
+  MeshText                                       in;
+  unsigned long                                  at = 0; ///< line that is read
+  std::string                                    keyword;
+  std::map<std::string, std::string>             options; ///< of the keyword
+  ElementType                                    type{ElementShape::line, 0};
+  std::vector<std::string>                       pending; ///< an element over several lines
+  unsigned int                                   n_parts = 0;
+  MeshFile                                       mesh;
+  PointNumbers                                   numbers;
+  std::map<unsigned long, unsigned int>          element_index;
   std::map<std::string, std::set<unsigned long>> sets;
-  std::map<std::string, std::string>                groups; ///< as they are written first
+  std::map<std::string, std::string>             groups; ///< as they are written first
 
   void begin_keyword(const std::string &line)
   {
