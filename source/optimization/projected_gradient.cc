@@ -38,16 +38,16 @@ std::vector<double> restricted(const std::vector<double> &v, const std::vector<b
  * the used entries; T_kj follow the entries of t_k. Dependent rows are
  * left out; Gram-Schmidt twice.
  */
-void orthonormalize(const std::vector<Force> &forces,
-                    const std::vector<bool>  &used,
-                    Rows                     &q,
-                    Rows                     &t)
+void orthonormalize(const std::vector<ConstraintGradient> &constraint_gradients,
+                    const std::vector<bool>               &used,
+                    Rows                                  &q,
+                    Rows                                  &t)
 {
-  for (unsigned int j = 0; j < forces.size(); ++j)
+  for (unsigned int j = 0; j < constraint_gradients.size(); ++j)
     {
-      auto v    = restricted(forces[j].gradient, used);
-      auto full = forces[j].gradient;
-      full.resize(v.size() + forces.size(), 0.);
+      auto v    = restricted(constraint_gradients[j].gradient, used);
+      auto full = constraint_gradients[j].gradient;
+      full.resize(v.size() + constraint_gradients.size(), 0.);
       full[v.size() + j] = 1.;
       const double size  = std::sqrt(dot(v, v));
       for (unsigned int pass = 0; pass < 2; ++pass)
@@ -75,14 +75,14 @@ struct Reduced
   std::vector<double> r, mu;
 };
 
-Reduced reduced_gradient(const std::vector<double> &g,
-                         const std::vector<Force>  &forces,
-                         const std::vector<bool>   &used)
+Reduced reduced_gradient(const std::vector<double>             &g,
+                         const std::vector<ConstraintGradient> &constraint_gradients,
+                         const std::vector<bool>               &used)
 {
   Rows q, t;
-  orthonormalize(forces, used, q, t);
+  orthonormalize(constraint_gradients, used, q, t);
   auto all = g;
-  all.resize(g.size() + forces.size(), 0.);
+  all.resize(g.size() + constraint_gradients.size(), 0.);
   for (unsigned int pass = 0; pass < 2; ++pass)
     for (unsigned int k = 0; k < q.size(); ++k)
       add(all, -dot(q[k], all), t[k]);
@@ -91,39 +91,39 @@ Reduced reduced_gradient(const std::vector<double> &g,
 }
 
 /// Whether moving against @p r leaves the objective's descent possible.
-bool counts(const double r, const Place place)
+bool counts(const double r, const BoundState place)
 {
   switch (place)
     {
-      case Place::inside:
+      case BoundState::inside:
         return true;
-      case Place::at_lower:
+      case BoundState::at_lower:
         return r < 0.;
-      case Place::at_upper:
+      case BoundState::at_upper:
         return r > 0.;
-      case Place::fixed:
+      case BoundState::fixed:
         return false;
     }
   return false;
 }
 /// The same with all multipliers free; returns them.
-std::vector<double> minimize_pieces(const std::vector<double> &g,
-                                    const std::vector<Force>  &forces,
-                                    const std::vector<Place>  &places,
-                                    double                    &smallest)
+std::vector<double> minimize_pieces(const std::vector<double>             &g,
+                                    const std::vector<ConstraintGradient> &constraint_gradients,
+                                    const std::vector<BoundState>         &at_bounds,
+                                    double                                &smallest)
 {
   std::vector<bool> used(g.size());
   for (unsigned int i = 0; i < g.size(); ++i)
-    used[i] = places[i] == Place::inside;
+    used[i] = at_bounds[i] == BoundState::inside;
   smallest = std::numeric_limits<double>::max();
   std::vector<double>    mu;
   constexpr unsigned int max_pieces = 50;
   for (unsigned int piece = 0; piece < max_pieces; ++piece)
     {
-      const auto        reduced = reduced_gradient(g, forces, used);
+      const auto        reduced = reduced_gradient(g, constraint_gradients, used);
       std::vector<bool> next(g.size());
       for (unsigned int i = 0; i < g.size(); ++i)
-        next[i] = counts(reduced.r[i], places[i]);
+        next[i] = counts(reduced.r[i], at_bounds[i]);
       const auto   p    = restricted(reduced.r, next);
       const double norm = std::sqrt(dot(p, p));
       if (norm < smallest)
@@ -139,22 +139,23 @@ std::vector<double> minimize_pieces(const std::vector<double> &g,
 }
 } // namespace
 
-double projected_gradient_norm(const std::vector<double> &g,
-                               std::vector<Force>         forces,
-                               const std::vector<Place>  &places)
+double projected_gradient_norm(const std::vector<double>      &g,
+                               std::vector<ConstraintGradient> constraint_gradients,
+                               const std::vector<BoundState>  &at_bounds)
 {
-  AssertDimension(g.size(), places.size());
+  AssertDimension(g.size(), at_bounds.size());
   for (;;)
     {
       double       smallest = 0.;
-      const auto   mu       = minimize_pieces(g, forces, places, smallest);
-      unsigned int worst    = forces.size();
-      for (unsigned int j = 0; j < forces.size(); ++j)
-        if (forces[j].pushes && mu[j] < 0. && (worst == forces.size() || mu[j] < mu[worst]))
+      const auto   mu       = minimize_pieces(g, constraint_gradients, at_bounds, smallest);
+      unsigned int worst    = constraint_gradients.size();
+      for (unsigned int j = 0; j < constraint_gradients.size(); ++j)
+        if (constraint_gradients[j].pushes && mu[j] < 0. &&
+            (worst == constraint_gradients.size() || mu[j] < mu[worst]))
           worst = j;
-      if (worst == forces.size())
+      if (worst == constraint_gradients.size())
         return smallest;
-      forces.erase(forces.begin() + worst);
+      constraint_gradients.erase(constraint_gradients.begin() + worst);
     }
 }
 } // namespace snug::optimization

@@ -177,26 +177,28 @@ std::vector<double> ScaledProblem::constraints(const Evaluation &evaluation) con
 
 double ScaledProblem::projected_gradient(const Point &point) const
 {
-  std::vector<Place> places(width.size(), Place::inside);
+  std::vector<BoundState> at_bounds(width.size(), BoundState::inside);
   for (unsigned int i = 0; i < width.size(); ++i)
     {
       const bool below = point.y[i] <= y_lower[i] + at_bound;
       const bool above = point.y[i] >= y_upper[i] - at_bound;
       if (below || above)
-        places[i] = below && above ? Place::fixed : below ? Place::at_lower : Place::at_upper;
+        at_bounds[i] = below && above ? BoundState::fixed
+                       : below        ? BoundState::at_lower
+                                      : BoundState::at_upper;
     }
   const auto   g    = gradient(point.evaluation);
   const double size = std::max(norm(g), start_gradient_norm);
   if (size == 0.)
     return 0.;
-  const auto         c = constraints(point.evaluation);
-  const auto         A = jacobian(point.evaluation);
-  std::vector<Force> forces;
+  const auto                      c = constraints(point.evaluation);
+  const auto                      A = jacobian(point.evaluation);
+  std::vector<ConstraintGradient> constraint_gradients;
   for (unsigned int j = 0; j < A.size(); ++j)
     if (constraint_relations[j] == Relation::equal)
-      forces.push_back({A[j], false});
+      constraint_gradients.push_back({A[j], false});
     else if (c[j] >= -at_limit)
-      forces.push_back({A[j], true});
-  return projected_gradient_norm(g, forces, places) / size;
+      constraint_gradients.push_back({A[j], true});
+  return projected_gradient_norm(g, constraint_gradients, at_bounds) / size;
 }
 } // namespace snug::optimization

@@ -70,18 +70,18 @@ private:
   SetHistory::Care       care = SetHistory::none;
   const unsigned long    f_mults_before;
 
-  MultiVector           lambda, residual;
-  RowSet                mask;
-  std::unique_ptr<Face> face;
-  std::unique_ptr<Pcpg> krylov; // of the face
-  KktResidual           kkt;
-  double                scale = 0.;
-  double                inner_tolerance;
-  double                last_kkt    = 0.; // on the same set
-  unsigned int          recurrences = 0;  // since d - F lambda
-  unsigned int          outer       = 0;
-  bool                  solved      = true; // on the set
-  unsigned int          stalls      = 0;
+  MultiVector              lambda, residual;
+  RowSet                   mask;
+  std::unique_ptr<FreeSet> free_set;
+  std::unique_ptr<Pcpg>    krylov; // of the face
+  KktResidual              kkt;
+  double                   scale = 0.;
+  double                   inner_tolerance;
+  double                   last_kkt    = 0.; // on the same set
+  unsigned int             recurrences = 0;  // since d - F lambda
+  unsigned int             outer       = 0;
+  bool                     solved      = true; // on the set
+  unsigned int             stalls      = 0;
 };
 
 /// Start of the iteration. Whether the start is warm and has a set is asked on all ranks, as a rank
@@ -110,9 +110,9 @@ void ActiveSetRun::begin(const WarmStart &from)
     {
       lambda   = equality.lambda;
       residual = equality.residual;
-      face     = std::move(equality.face);
+      free_set = std::move(equality.free_set);
     }
-  krylov = std::make_unique<Pcpg>(problem, *face);
+  krylov = std::make_unique<Pcpg>(problem, *free_set);
   history.enter(fingerprint(mask, comm), std::numeric_limits<double>::max());
 }
 
@@ -122,9 +122,9 @@ void ActiveSetRun::balance_load()
   const MPI_Comm comm = context.communicator();
   while (true)
     {
-      face                    = problem.face(mask);
+      free_set                = problem.free_set(mask);
       MultiVector  next       = lambda;
-      const double unbalanced = face->make_feasible(next, problem.e())[0];
+      const double unbalanced = free_set->make_feasible(next, problem.e())[0];
       if (unbalanced <= balance_tolerance *
                           (norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(next)))
         {
@@ -134,7 +134,7 @@ void ActiveSetRun::balance_load()
       // The part of e that the set cannot hold is a rigid motion of some bodies. Contacts that
       // close in it are those that can push back; entries that are rounding of the fastest would
       // let the set grow to all rows.
-      const auto rates   = face->closing_rates(problem.e());
+      const auto rates   = free_set->gap_closing_rates(problem.e());
       double     fastest = rates.empty() ? 0. : *std::max_element(rates.begin(), rates.end());
       MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
       bool grows = false;
@@ -162,7 +162,7 @@ void ActiveSetRun::solve_on_set()
   // The limit counts F-mults, the unit of work that all solvers share, not steps.
   if (f_mults() >= parameters.max_iterations)
     throw not_converged("active set",
-                        kkt_residual(problem, *face, lambda, residual, scale).relative,
+                        kkt_residual(problem, *free_set, lambda, residual, scale).relative,
                         parameters.relative_tolerance, f_mults());
   // Below half of the wanted KKT residual an inner solve would only polish a set that may still
   // change. After a cycle was met the signs of small entries decide, so it may go further down.
@@ -172,7 +172,7 @@ void ActiveSetRun::solve_on_set()
   recurrences += inner.iterations;
   solved = inner.converged;
   // w of the rows off the set, which decides who enters, needs the rigid amplitudes of this set.
-  kkt = kkt_residual(problem, *face, lambda, residual, scale);
+  kkt = kkt_residual(problem, *free_set, lambda, residual, scale);
   ++outer;
   std::ostringstream line;
   line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", " << f_mults()
@@ -201,7 +201,7 @@ bool ActiveSetRun::finished()
   if (drift < 0.1 * parameters.relative_tolerance * scale)
     return true;
   refresh_residual();
-  kkt = kkt_residual(problem, *face, lambda, residual, scale);
+  kkt = kkt_residual(problem, *free_set, lambda, residual, scale);
   return kkt.relative <= parameters.relative_tolerance;
 }
 
@@ -241,7 +241,7 @@ void ActiveSetRun::keep_set()
       krylov.reset();
       balance_load();
       refresh_residual();
-      krylov = std::make_unique<Pcpg>(problem, *face);
+      krylov = std::make_unique<Pcpg>(problem, *free_set);
     }
   last_kkt = kkt.relative;
 }
@@ -275,8 +275,8 @@ bool ActiveSetRun::change_set(const RowSet &next)
       refresh_residual();
     }
   else
-    face = problem.face(mask);
-  krylov   = std::make_unique<Pcpg>(problem, *face, std::move(known));
+    free_set = problem.free_set(mask);
+  krylov   = std::make_unique<Pcpg>(problem, *free_set, std::move(known));
   last_kkt = 0.;
   if (solved)
     stalls = 0;

@@ -22,7 +22,7 @@ double natural_residual(const DualProblem &problem,
 } // namespace
 
 KktResidual kkt_residual(const DualProblem &problem,
-                         const Face        &face,
+                         const FreeSet     &free_set,
                          const MultiVector &lambda,
                          const MultiVector &residual,
                          double             scale)
@@ -32,7 +32,7 @@ KktResidual kkt_residual(const DualProblem &problem,
   kkt.amplitudes = MultiVector(problem.e().n_rows());
   // alpha = -(G_M G_M')^+ G_M (d - F lambda) makes w vanish on the rows of the face as far as rigid
   // motions can do it.
-  kkt.amplitudes.add(-1., face.amplitudes(residual));
+  kkt.amplitudes.add(-1., free_set.amplitudes(residual));
   kkt.w = residual;
   kkt.w.add(1., problem.apply_Gt(kkt.amplitudes));
 
@@ -67,10 +67,10 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
 
   EqualityPart part;
   const RowSet all(problem.n_owned(), 1);
-  part.face   = problem.face(all);
-  part.lambda = MultiVector(problem.n_owned());
+  part.free_set = problem.free_set(all);
+  part.lambda   = MultiVector(problem.n_owned());
   // From zero this gives lambda_Im = G'(GG')^+ e, in the range of Q.
-  part.face->make_feasible(part.lambda, problem.e());
+  part.free_set->make_feasible(part.lambda, problem.e());
 
   MultiVector block = part.lambda;
   block.append(x);
@@ -82,7 +82,7 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
       x(i, j) = problem.d()(i) - F_block(i, 1 + j);
 
   MultiVector both = part.residual;
-  part.face->project(both);
+  part.free_set->project(both);
   both.append(part.residual);
   both.append(x);
   auto sizes = norms(both, problem.context().communicator());

@@ -39,7 +39,7 @@ Mprgp::Mprgp(const DualProblem  &the_problem,
   else
     {
       MultiVector Pr = r;
-      equality.face->project(Pr);
+      equality.free_set->project(Pr);
       g.add(-1., Pr);
     }
   renew_face();
@@ -51,14 +51,14 @@ Mprgp::Mprgp(const DualProblem  &the_problem,
 void Mprgp::recompute()
 {
   MultiVector Px = lambda;
-  equality.face->project(Px);
+  equality.free_set->project(Px);
   Qx = lambda;
   Qx.add(-1., Px);
   Qx.add(-1., equality.lambda);
   r = equality.residual;
   r.add(-1., problem.apply(Px));
   MultiVector Pr = r;
-  equality.face->project(Pr);
+  equality.free_set->project(Pr);
   g = q;
   g.add(sizes.rho, Qx);
   g.add(-1., Pr);
@@ -72,7 +72,7 @@ void Mprgp::renew_face()
   if (any(rows != free || !free_face, comm))
     {
       free      = rows;
-      free_face = problem.face(free);
+      free_face = problem.free_set(free);
     }
   direction = MultiVector(problem.n_owned(), 0);
 }
@@ -98,7 +98,7 @@ double Mprgp::value() const
   MultiVector x = lambda;
   x.add(-1., equality.lambda);
   MultiVector b = equality.residual;
-  equality.face->project(b);
+  equality.free_set->project(b);
   MultiVector sum = g;
   sum.add(1., q);
   sum.add(-1., b);
@@ -144,13 +144,13 @@ Mprgp::Gradient Mprgp::projected_gradient() const
 Mprgp::Image Mprgp::apply(const MultiVector &p) const
 {
   MultiVector Pp = p;
-  equality.face->project(Pp);
+  equality.free_set->project(Pp);
   Image image;
   image.Qp = p;
   image.Qp.add(-1., Pp);
   image.FPp = problem.apply(Pp);
   image.Ap  = image.FPp;
-  equality.face->project(image.Ap);
+  equality.free_set->project(image.Ap);
   image.Ap.add(sizes.rho, image.Qp);
   MultiVector both = image.Ap;
   both.append(g);
@@ -165,9 +165,9 @@ Mprgp::Image Mprgp::apply(const MultiVector &p) const
 MultiVector Mprgp::precondition(const MultiVector &phi) const
 {
   MultiVector Pphi = phi;
-  equality.face->project(Pphi);
+  equality.free_set->project(Pphi);
   MultiVector z = free_face->precondition(Pphi);
-  equality.face->project(z);
+  equality.free_set->project(z);
   // On the range of Q, A is rho Q and its inverse Q / rho. P M_F^-1 P phi has no part there, so
   // that without this term directions could not reduce G_b x.
   z.add(1. / sizes.rho, phi);

@@ -75,9 +75,9 @@ private:
 };
 } // namespace
 
-Pcpg::Pcpg(const DualProblem &the_problem, const Face &the_face, DirectionBasis known)
+Pcpg::Pcpg(const DualProblem &the_problem, const FreeSet &the_face, DirectionBasis known)
   : problem(the_problem)
-  , face(the_face)
+  , free_set(the_face)
   , comm(the_problem.context().communicator())
   , basis(std::move(known))
 {
@@ -113,8 +113,8 @@ std::vector<double> Pcpg::orthogonalise(MultiVector &x) const
 
 MultiVector Pcpg::new_directions(const MultiVector &r, std::vector<double> &removed) const
 {
-  MultiVector Z = face.precondition(r);
-  face.project(Z);
+  MultiVector Z = free_set.precondition(r);
+  free_set.project(Z);
   // Full reorthogonalisation against all earlier directions, not only the last: contact problems
   // have few iterations and F costs far more than the products, while with the short recurrence of
   // CG rounding would cost further F-mults.
@@ -129,7 +129,7 @@ MultiVector Pcpg::new_directions(const MultiVector &r, std::vector<double> &remo
     if (removed[j] > 0.)
       smallest[j] = noise * removed[j] / largest_rayleigh_quotient;
   Z = times(Z, orthonormal_combinations(inner_products(Z, Z, comm), smallest, dependence_cut));
-  face.project(Z);
+  free_set.project(Z);
   orthogonalise(Z);
   removed.assign(Z.n_columns(), 0.);
   return Z;
@@ -197,7 +197,7 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
   while (true)
     {
       MultiVector r = residual;
-      face.project(r);
+      free_set.project(r);
       MultiVector both = r;
       both.append(residual);
       const auto                sizes = norms(both, comm);
@@ -229,12 +229,12 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
 }
 
 PcpgResult pcpg(const DualProblem         &problem,
-                const Face                &face,
+                const FreeSet             &free_set,
                 MultiVector               &lambda,
                 MultiVector               &residual,
                 const std::vector<double> &tolerances,
                 unsigned int               max_iterations)
 {
-  return Pcpg(problem, face).solve(lambda, residual, tolerances, max_iterations);
+  return Pcpg(problem, free_set).solve(lambda, residual, tolerances, max_iterations);
 }
 } // namespace snug::qp

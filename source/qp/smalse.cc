@@ -22,7 +22,7 @@ const unsigned int max_outer         = 1000;
  * P F P, which start from @p b and a pattern of the row number, counted
  * over all ranks.
  */
-double operator_norm(const DualProblem &problem, const Face &all, MultiVector v)
+double operator_norm(const DualProblem &problem, const FreeSet &all, MultiVector v)
 {
   const MPI_Comm      comm  = problem.context().communicator();
   const double        size  = norms(v, comm)[0];
@@ -69,7 +69,7 @@ private:
 
   double residual_here() const
   {
-    return kkt_residual(problem, inner->face(), inner->feasible_lambda(), inner->residual(),
+    return kkt_residual(problem, inner->free_set(), inner->feasible_lambda(), inner->residual(),
                         equality.scale)
       .relative;
   }
@@ -93,7 +93,7 @@ void SmalseRun::begin(const WarmStart &start)
   MultiVector    none(problem.n_owned(), 0);
   equality           = equality_part(problem, none);
   MultiVector b      = equality.residual;
-  sizes.norm         = operator_norm(problem, *equality.face, b);
+  sizes.norm         = operator_norm(problem, *equality.free_set, b);
   sizes.rho          = penalty_factor * sizes.norm;
   const bool  warm   = any(start.lambda.n_rows() > 0, comm);
   MultiVector lambda = warm && start.lambda.n_rows() > 0 ? start.lambda : equality.lambda;
@@ -105,9 +105,9 @@ void SmalseRun::begin(const WarmStart &start)
     return;
   // -g = w at the solution: q = -Q r - G' alpha
   MultiVector q = inner->residual();
-  equality.face->project(q);
+  equality.free_set->project(q);
   q.add(-1., inner->residual());
-  q.add(1., problem.apply_Gt(inner->face().amplitudes(inner->residual())));
+  q.add(1., problem.apply_Gt(inner->free_set().amplitudes(inner->residual())));
   inner->set_multipliers(q);
 }
 
@@ -117,14 +117,14 @@ void SmalseRun::begin(const WarmStart &start)
  */
 bool SmalseRun::certified()
 {
-  const MPI_Comm        comm   = context.communicator();
-  MultiVector           lambda = inner->feasible_lambda();
-  RowSet                rows   = inner->free_rows();
-  std::unique_ptr<Face> face;
+  const MPI_Comm           comm   = context.communicator();
+  MultiVector              lambda = inner->feasible_lambda();
+  RowSet                   rows   = inner->free_rows();
+  std::unique_ptr<FreeSet> free_set;
   do
     {
-      face = problem.face(rows);
-      face->make_feasible(lambda, problem.e());
+      free_set = problem.free_set(rows);
+      free_set->make_feasible(lambda, problem.e());
       clip_rounding(problem.bounded(), lambda, comm);
       for (unsigned int i = 0; i < rows.size(); ++i)
         if (problem.bounded()[i] && lambda(i) < 0.)
@@ -132,7 +132,7 @@ bool SmalseRun::certified()
   } while (any(has_negative(problem.bounded(), lambda), comm));
   MultiVector residual = problem.d();
   residual.add(-1., problem.apply(lambda));
-  const KktResidual kkt = kkt_residual(problem, *face, lambda, residual, equality.scale);
+  const KktResidual kkt = kkt_residual(problem, *free_set, lambda, residual, equality.scale);
   solution.kkt_residual = kkt.relative;
   if (kkt.relative > parameters.relative_tolerance)
     return false;

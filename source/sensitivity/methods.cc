@@ -3,7 +3,7 @@
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/sensitivity/tangent_system.h>
 #include <snug/state/cell_gradients.h>
-#include <snug/state/describe.h>
+#include <snug/state/contact_results.h>
 
 namespace snug::sensitivity {
 using response::Partials;

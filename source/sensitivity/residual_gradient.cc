@@ -1,6 +1,6 @@
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/state/cell_gradients.h>
-#include <snug/state/describe.h>
+#include <snug/state/contact_results.h>
 
 namespace snug::sensitivity {
 namespace {

@@ -2,7 +2,7 @@
 
 namespace snug::sensitivity {
 /// A face of the state's problem, seen from the rows of this one.
-class SensitivityQp::PartOfFace : public qp::Face
+class SensitivityQp::PartOfFace : public qp::FreeSet
 {
 public:
   PartOfFace(const SensitivityQp &problem, const qp::RowSet &free) : problem(problem), free(free)
@@ -10,7 +10,7 @@ public:
     qp::RowSet of_all(problem.feti.n_owned(), 0);
     for (unsigned int i = 0; i < free.size(); ++i)
       of_all[problem.row[i]] = free[i];
-    whole = problem.feti.face(of_all);
+    whole = problem.feti.free_set(of_all);
   }
 
   const qp::RowSet &rows() const override { return free; }
@@ -40,9 +40,9 @@ public:
     return left;
   }
 
-  std::vector<double> closing_rates(const qp::MultiVector &e) const override
+  std::vector<double> gap_closing_rates(const qp::MultiVector &e) const override
   {
-    const auto          of_all = whole->closing_rates(e);
+    const auto          of_all = whole->gap_closing_rates(e);
     std::vector<double> rates;
     for (const unsigned int i : problem.row)
       rates.push_back(of_all[i]);
@@ -50,9 +50,9 @@ public:
   }
 
 private:
-  const SensitivityQp      &problem;
-  const qp::RowSet          free;
-  std::unique_ptr<qp::Face> whole;
+  const SensitivityQp         &problem;
+  const qp::RowSet             free;
+  std::unique_ptr<qp::FreeSet> whole;
 };
 
 SensitivityQp::SensitivityQp(const feti::TotalFeti &feti,

@@ -31,7 +31,7 @@ TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
   : feti(feti)
   , parameters(parameters)
   , solves(solves)
-  , face(feti.face(rows))
+  , free_set(feti.free_set(rows))
   , known(known.off(qp::complement(rows), feti.context().communicator()))
 {}
 
@@ -53,7 +53,7 @@ bool TangentSystem::minimize(qp::MultiVector           &mu,
                              qp::MultiVector           &residual,
                              const std::vector<double> &tolerances) const
 {
-  qp::Pcpg krylov(feti, *face, known);
+  qp::Pcpg krylov(feti, *free_set, known);
   if (solves == Solves::block)
     return krylov.solve(mu, residual, tolerances, parameters.max_iterations).converged;
   qp::MultiVector all_mu(mu.n_rows(), 0), all_residuals(mu.n_rows(), 0);
@@ -91,10 +91,10 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   const auto  load = feti.rigid_part(b);
   KktVectors  result;
   result.dual = qp::MultiVector(feti.n_owned(), right_hand_sides.dual.n_columns());
-  face->make_feasible(result.dual, load);
+  free_set->make_feasible(result.dual, load);
   auto            residual  = start_residual(right_hand_sides, result.dual);
   qp::MultiVector projected = residual;
-  face->project(projected);
+  free_set->project(projected);
   auto       tolerances = qp::norms(projected, feti.context().communicator());
   const auto sizes      = qp::norms(residual, feti.context().communicator());
   for (unsigned int j = 0; j < sizes.size(); ++j)
@@ -103,7 +103,7 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
     throw SolveError("the sensitivities were not solved to the relative "
                      "tolerance; allow a larger 'Solver/Relative "
                      "tolerance' or more 'Solver/Maximum F-mults'");
-  auto amplitudes = face->amplitudes(residual);
+  auto amplitudes = free_set->amplitudes(residual);
   for (unsigned int j = 0; j < amplitudes.n_columns(); ++j)
     for (unsigned int i = 0; i < amplitudes.n_rows(); ++i)
       amplitudes(i, j) *= -1.;

@@ -17,7 +17,7 @@ template <int dim>
 class LogicalFaces
 {
 public:
-  using Place = dealii::Point<dim - 1>;
+  using Tangential = dealii::Point<dim - 1>;
 
   explicit LogicalFaces(const ShapedFace<dim> &face)
     : face(face)
@@ -37,9 +37,9 @@ public:
   }
 
   /// The tangential coordinates of a point of the logical box.
-  Place tangential(const dealii::Tensor<1, dim> &point) const
+  Tangential tangential(const dealii::Tensor<1, dim> &point) const
   {
-    Place        place;
+    Tangential   place;
     unsigned int t = 0;
     for (unsigned int d = 0; d < dim; ++d)
       if (d != normal)
@@ -48,7 +48,7 @@ public:
   }
 
   /// Surface nodes and their weights at @p place.
-  std::vector<std::pair<unsigned int, double>> weights(const Place &place) const
+  std::vector<std::pair<unsigned int, double>> weights(const Tangential &place) const
   {
     unsigned int bin = 0;
     for (unsigned int t = dim - 1; t-- > 0;)
@@ -65,7 +65,7 @@ public:
 private:
   struct Rectangle
   {
-    Place lower, upper;
+    Tangential lower, upper;
   };
 
   static typename mesh::BodyMesh<dim>::Field logical(const mesh::BodyMesh<dim> &mesh)
@@ -80,7 +80,7 @@ private:
     result.lower = result.upper = tangential(positions[nodes[0]]);
     for (const unsigned int node : nodes)
       {
-        const Place place = tangential(positions[node]);
+        const Tangential place = tangential(positions[node]);
         for (unsigned int t = 0; t < dim - 1; ++t)
           {
             result.lower[t] = std::min(result.lower[t], place[t]);
@@ -110,7 +110,7 @@ private:
   }
 
   /// How far @p place is outside of a rectangle.
-  double distance(const unsigned int f, const Place &place) const
+  double distance(const unsigned int f, const Tangential &place) const
   {
     double largest = 0.;
     for (unsigned int t = 0; t < dim - 1; ++t)
@@ -120,12 +120,12 @@ private:
   }
 
   std::vector<std::pair<unsigned int, double>> weights_in(const unsigned int f,
-                                                          const Place       &place) const
+                                                          const Tangential  &place) const
   {
     const auto &nodes = face.surface().faces()[f].nodes;
     const auto &box   = rectangles[f];
-    const auto  xi    = [&](const Place &at) {
-      Place result;
+    const auto  xi    = [&](const Tangential &at) {
+      Tangential result;
       for (unsigned int t = 0; t < dim - 1; ++t)
         result[t] = (at[t] - box.lower[t]) / (box.upper[t] - box.lower[t]);
       return result;
@@ -137,8 +137,8 @@ private:
     // The faces' own coordinates may be turned against the box's.
     for (const unsigned int node : nodes)
       {
-        const Place  own = xi(tangential(positions[node]));
-        unsigned int k   = 0;
+        const Tangential own = xi(tangential(positions[node]));
+        unsigned int     k   = 0;
         for (unsigned int t = dim - 1; t-- > 0;)
           // number of the shape function that is 1 at this node
           k = k * (shape.degree() + 1) + std::lround(own[t] * shape.degree());

@@ -1,5 +1,5 @@
 #include <snug/state/cell_gradients.h>
-#include <snug/state/describe.h>
+#include <snug/state/contact_results.h>
 
 namespace snug::state {
 namespace {

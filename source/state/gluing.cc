@@ -12,9 +12,9 @@ struct HeldDirection
 
 /// Empty derivative frames stand for zero: directions that do not follow the positions.
 template <int dim>
-std::vector<HeldDirection<dim>> held_directions(const supports::HeldFrame<dim> &frame,
-                                                const supports::HeldFrame<dim> &derivative,
-                                                unsigned int                    load_case)
+std::vector<HeldDirection<dim>> held_directions(const supports::ConstraintFrame<dim> &frame,
+                                                const supports::ConstraintFrame<dim> &derivative,
+                                                unsigned int                          load_case)
 {
   std::vector<HeldDirection<dim>> held;
   for (unsigned int k = 0; k < frame.directions.size(); ++k)
@@ -30,11 +30,11 @@ std::vector<HeldDirection<dim>> held_directions(const supports::HeldFrame<dim> &
 } // namespace
 
 template <int dim>
-Gluing<dim>::Gluing(const mesh::BodyMesh<dim>      &mesh,
-                    const mesh::Tearing            &tearing,
-                    const mesh::Surface<dim>       &surface,
-                    const supports::HeldNodes<dim> &held,
-                    const RowCoefficients<dim>     &reference)
+Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
+                    const mesh::Tearing                       &tearing,
+                    const mesh::Surface<dim>                  &surface,
+                    const supports::DirichletConstraints<dim> &held,
+                    const RowCoefficients<dim>                &reference)
   : held(held), rows(mesh, tearing, surface, held, reference)
 {
   for (const auto &row : rows.owned)

@@ -46,11 +46,11 @@ struct GluingRows<dim>::Message
 };
 
 template <int dim>
-GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>      &mesh,
-                            const mesh::Tearing            &tearing,
-                            const mesh::Surface<dim>       &surface,
-                            const supports::HeldNodes<dim> &held,
-                            const RowCoefficients<dim>     &reference)
+GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
+                            const mesh::Tearing                       &tearing,
+                            const mesh::Surface<dim>                  &surface,
+                            const supports::DirichletConstraints<dim> &held,
+                            const RowCoefficients<dim>                &reference)
   : mesh(mesh), surface(surface), held(held)
 {
   // The order matters: scales need the copies of the surface nodes, the numbers of contact rows
@@ -67,9 +67,9 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>      &mesh,
 
 template <int dim>
 dealii::Tensor<1, dim>
-GluingRows<dim>::projected(unsigned int                                 surface_node,
-                           const dealii::Tensor<1, dim>                &coefficient,
-                           const std::vector<supports::HeldFrame<dim>> &frames) const
+GluingRows<dim>::projected(unsigned int                                       surface_node,
+                           const dealii::Tensor<1, dim>                      &coefficient,
+                           const std::vector<supports::ConstraintFrame<dim>> &frames) const
 {
   dealii::Tensor<1, dim> result = coefficient;
   if (held_of_surface[surface_node] < frames.size())

@@ -74,8 +74,8 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   if (mesh.idealization().is_axisymmetric())
     check_radii(mesh, model.body_names);
   everywhere(context.communicator(), [&]() { check_reference(*this); });
-  held = std::make_unique<supports::HeldNodes<dim>>(mesh, model.supports, model.load_cases.size(),
-                                                    positions);
+  held    = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
+                                                               model.load_cases.size(), positions);
   contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
                                                     surface.gather(positions),
                                                     held->directions(surface, positions));

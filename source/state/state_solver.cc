@@ -1,7 +1,7 @@
 #include <snug/base/errors.h>
 #include <snug/qp/pcpg.h>
 #include <snug/state/certificate.h>
-#include <snug/state/describe.h>
+#include <snug/state/contact_results.h>
 #include <snug/state/state_solver.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsi
     const RunContext::Timer timer(context(), "solve");
     solve_to_certificate(start, state);
   }
-  describe(*this, geometry.rows, state);
+  recover_contact_results(*this, geometry.rows, state);
   return state;
 }
 

@@ -63,8 +63,8 @@ public:
   }
   /// The same for another rigid part @p e of the loads, one column.
   double feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const;
-  std::unique_ptr<qp::Face> face(const qp::RowSet &free) const override;
-  std::string               escaping_body() const override;
+  std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
+  std::string                  escaping_body() const override;
 
   /// B v of primal vectors, owned rows. Collective.
   qp::MultiVector multiply_B(const PrimalVectors &v) const;
@@ -95,7 +95,7 @@ public:
   unsigned int n_kernel() const { return coarse.n_kernel(); }
 
 private:
-  class FetiFace;
+  class FetiFreeSet;
 
   void        gather_rows();
   void        weight_rows();

@@ -5,7 +5,7 @@
 
 namespace snug::optimization {
 /// Where a variable stands between its bounds; `fixed` is at both.
-enum class Place
+enum class BoundState
 {
   inside,
   at_lower,
@@ -14,7 +14,7 @@ enum class Place
 };
 
 /// The gradient of a constraint that holds the design.
-struct Force
+struct ConstraintGradient
 {
   std::vector<double> gradient;
   bool                pushes; ///< an inequality: its multiplier is >= 0
@@ -36,9 +36,9 @@ struct Force
  * @param[in] forces rows of A, n entries; they may be linearly dependent.
  * @param[in] places n entries.
  */
-double projected_gradient_norm(const std::vector<double> &g,
-                               std::vector<Force>         forces,
-                               const std::vector<Place>  &places);
+double projected_gradient_norm(const std::vector<double>      &g,
+                               std::vector<ConstraintGradient> constraint_gradients,
+                               const std::vector<BoundState>  &at_bounds);
 } // namespace snug::optimization
 
 #endif

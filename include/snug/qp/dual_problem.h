@@ -22,10 +22,10 @@ using RowSet = std::vector<unsigned char>;
  * @f$G_M@f$ are the columns of G in M. Parts are built when first used.
  * All members are collective; all multi-vectors have n_owned rows.
  */
-class Face
+class FreeSet
 {
 public:
-  virtual ~Face() = default;
+  virtual ~FreeSet() = default;
 
   /// The set M.
   virtual const RowSet &rows() const = 0;
@@ -50,7 +50,7 @@ public:
    * Rates (G'v)_i at which the contacts close under v, the part of
    * @p e - G_M x that M cannot hold; n_owned entries. Positive closes.
    */
-  virtual std::vector<double> closing_rates(const MultiVector &e) const = 0;
+  virtual std::vector<double> gap_closing_rates(const MultiVector &e) const = 0;
 };
 
 /**
@@ -102,7 +102,7 @@ public:
   /// compared with. Collective.
   virtual double feasibility_scale(const MultiVector &lambda) const = 0;
 
-  virtual std::unique_ptr<Face> face(const RowSet &free) const = 0;
+  virtual std::unique_ptr<FreeSet> free_set(const RowSet &free) const = 0;
 
   /**
    * Name and motion of a floating body the contacts cannot hold, or ""

@@ -30,7 +30,7 @@ struct KktResidual
  * Collective, no F-mult.
  */
 KktResidual kkt_residual(const DualProblem &problem,
-                         const Face        &face,
+                         const FreeSet     &free_set,
                          const MultiVector &lambda,
                          const MultiVector &residual,
                          double             scale);
@@ -43,10 +43,10 @@ KktResidual kkt_residual(const DualProblem &problem,
  */
 struct EqualityPart
 {
-  std::unique_ptr<Face> face;     ///< of all rows
-  MultiVector           lambda;   ///< lambda_Im
-  MultiVector           residual; ///< d - F lambda_Im
-  double                scale = 0.;
+  std::unique_ptr<FreeSet> free_set; ///< of all rows
+  MultiVector              lambda;   ///< lambda_Im
+  MultiVector              residual; ///< d - F lambda_Im
+  double                   scale = 0.;
 };
 
 /**

@@ -62,8 +62,8 @@ public:
   /// The augmented Lagrangian at the iterate, without constants.
   double value() const;
 
-  /// Face of the free rows: equality rows and lambda_i > 0.
-  const Face &face() const { return *free_face; }
+  /// FreeSet of the free rows: equality rows and lambda_i > 0.
+  const FreeSet &free_set() const { return *free_face; }
 
   const RowSet &free_rows() const { return free; }
 
@@ -102,13 +102,13 @@ private:
     return inner_products(x, y, comm)(0);
   }
 
-  const DualProblem    &problem;
-  const EqualityPart   &equality;
-  const Sizes           sizes;
-  const MPI_Comm        comm;
-  MultiVector           lambda, r, Qx, q, g, direction;
-  RowSet                free;
-  std::unique_ptr<Face> free_face;
+  const DualProblem       &problem;
+  const EqualityPart      &equality;
+  const Sizes              sizes;
+  const MPI_Comm           comm;
+  MultiVector              lambda, r, Qx, q, g, direction;
+  RowSet                   free;
+  std::unique_ptr<FreeSet> free_face;
 };
 } // namespace snug::qp
 

@@ -38,7 +38,9 @@ class Pcpg
 public:
   /// Problem and face must outlive this object; @p known directions must
   /// lie in the face.
-  Pcpg(const DualProblem &problem, const Face &face, DirectionBasis known = DirectionBasis());
+  Pcpg(const DualProblem &problem,
+       const FreeSet     &free_set,
+       DirectionBasis     known = DirectionBasis());
 
   /**
    * @param[in,out] lambda feasible start, then solution (n_owned x k).
@@ -76,7 +78,7 @@ private:
             MultiVector               &residual);
 
   const DualProblem &problem;
-  const Face        &face;
+  const FreeSet     &free_set;
   MPI_Comm           comm;
   DirectionBasis     basis;
   double             largest_rayleigh_quotient = 0.;
@@ -84,7 +86,7 @@ private:
 
 /// Pcpg with an empty basis; the directions are forgotten. Collective.
 PcpgResult pcpg(const DualProblem         &problem,
-                const Face                &face,
+                const FreeSet             &free_set,
                 MultiVector               &lambda,
                 MultiVector               &residual,
                 const std::vector<double> &tolerances,

@@ -56,7 +56,7 @@ public:
   {
     return feti.feasibility_scale(rigid_load, extended(mu));
   }
-  std::unique_ptr<qp::Face> face(const qp::RowSet &free) const override;
+  std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
   /// Never names one: the state is an equilibrium.
   std::string escaping_body() const override;
 

@@ -57,11 +57,11 @@ private:
                            const std::vector<double> &tolerances) const;
   bool            balanced(const qp::MultiVector &load, const qp::MultiVector &mu) const;
 
-  const feti::TotalFeti          &feti;
-  const qp::SolverParameters      parameters;
-  const Solves                    solves;
-  const std::unique_ptr<qp::Face> face;
-  const qp::DirectionBasis        known;
+  const feti::TotalFeti             &feti;
+  const qp::SolverParameters         parameters;
+  const Solves                       solves;
+  const std::unique_ptr<qp::FreeSet> free_set;
+  const qp::DirectionBasis           known;
 };
 } // namespace snug::sensitivity
 

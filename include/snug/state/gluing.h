@@ -7,7 +7,7 @@ namespace snug::state {
 /**
  * The rows of B. At a node with m copies (one per subdomain that reaches
  * it) m-1 orthonormal (Helmert) rows (1, .., 1, -i, 0, ..)/sqrt(i(i+1))
- * glue each component, and one row per held direction q of HeldNodes,
+ * glue each component, and one row per held direction q of DirichletConstraints,
  * (q, .., q)/sqrt(m) with right-hand side sqrt(m) s, holds what is glued.
  * A contact row spreads its coefficients c evenly over the copies of its
  * nodes, after they were projected off the held directions (their share
@@ -24,11 +24,11 @@ public:
    * @p reference has at the reference geometry (equal on all ranks).
    * @p held must outlive this object. Collective.
    */
-  Gluing(const mesh::BodyMesh<dim>      &mesh,
-         const mesh::Tearing            &tearing,
-         const mesh::Surface<dim>       &surface,
-         const supports::HeldNodes<dim> &held,
-         const RowCoefficients<dim>     &reference);
+  Gluing(const mesh::BodyMesh<dim>                 &mesh,
+         const mesh::Tearing                       &tearing,
+         const mesh::Surface<dim>                  &surface,
+         const supports::DirichletConstraints<dim> &held,
+         const RowCoefficients<dim>                &reference);
 
   const feti::RowLayout &layout() const { return *rows.layout; }
 
@@ -87,9 +87,9 @@ private:
                         const RowCoefficients<dim> &derivative,
                         unsigned int                load_case) const;
 
-  const supports::HeldNodes<dim> &held;
-  GluingRows<dim>                 rows;
-  std::vector<unsigned int>       owned_contact;
+  const supports::DirichletConstraints<dim> &held;
+  GluingRows<dim>                            rows;
+  std::vector<unsigned int>                  owned_contact;
 };
 } // namespace snug::state
 

@@ -5,7 +5,7 @@
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>
-#include <snug/supports/held_nodes.h>
+#include <snug/supports/dirichlet_constraints.h>
 
 #include <map>
 #include <memory>
@@ -16,8 +16,8 @@ namespace snug::state {
 template <int dim>
 struct RowCoefficients
 {
-  std::vector<contact::Row<dim>>        contact;
-  std::vector<supports::HeldFrame<dim>> held; ///< per held node
+  std::vector<contact::Row<dim>>              contact;
+  std::vector<supports::ConstraintFrame<dim>> held; ///< per held node
 };
 
 /**
@@ -54,17 +54,17 @@ public:
   };
 
   /// See Gluing. Collective.
-  GluingRows(const mesh::BodyMesh<dim>      &mesh,
-             const mesh::Tearing            &tearing,
-             const mesh::Surface<dim>       &surface,
-             const supports::HeldNodes<dim> &held,
-             const RowCoefficients<dim>     &reference);
+  GluingRows(const mesh::BodyMesh<dim>                 &mesh,
+             const mesh::Tearing                       &tearing,
+             const mesh::Surface<dim>                  &surface,
+             const supports::DirichletConstraints<dim> &held,
+             const RowCoefficients<dim>                &reference);
 
   /// The part of a coefficient at a surface node that what is held there
   /// leaves.
-  dealii::Tensor<1, dim> projected(unsigned int                                 surface_node,
-                                   const dealii::Tensor<1, dim>                &coefficient,
-                                   const std::vector<supports::HeldFrame<dim>> &frames) const;
+  dealii::Tensor<1, dim> projected(unsigned int                                       surface_node,
+                                   const dealii::Tensor<1, dim>                      &coefficient,
+                                   const std::vector<supports::ConstraintFrame<dim>> &frames) const;
 
   std::unique_ptr<feti::RowLayout> layout;
   std::vector<std::vector<Entry>>  entries; ///< per subdomain
@@ -97,9 +97,9 @@ private:
                                                 std::vector<Message>                 &messages);
   void deliver(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
-  const mesh::BodyMesh<dim>      &mesh;
-  const mesh::Surface<dim>       &surface;
-  const supports::HeldNodes<dim> &held;
+  const mesh::BodyMesh<dim>                 &mesh;
+  const mesh::Surface<dim>                  &surface;
+  const supports::DirichletConstraints<dim> &held;
 };
 } // namespace snug::state
 

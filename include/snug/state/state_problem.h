@@ -54,20 +54,20 @@ public:
   /// What the rows of B are made of at @p positions. Collective.
   RowCoefficients<dim> rows(const Field &positions) const;
 
-  const mesh::BodyMesh<dim>                   &mesh;
-  const mesh::Tearing                         &tearing;
-  const Model<dim>                             model;
-  RunContext                                  &context;
-  std::vector<elasticity::Element<dim>>        elements; ///< per body
-  elasticity::FaceLoad<dim>                    face_load;
-  ResultantLoads<dim>                          resultants;
-  mesh::Surface<dim>                           surface;
-  std::unique_ptr<contact::Contact<dim>>       contact;
-  std::unique_ptr<supports::HeldNodes<dim>>    held;
-  std::unique_ptr<Gluing<dim>>                 gluing;
-  std::vector<std::unique_ptr<Assembler<dim>>> assemblers;
-  std::vector<feti::SubdomainSystem>           systems;
-  std::unique_ptr<feti::TotalFeti>             feti;
+  const mesh::BodyMesh<dim>                           &mesh;
+  const mesh::Tearing                                 &tearing;
+  const Model<dim>                                     model;
+  RunContext                                          &context;
+  std::vector<elasticity::Element<dim>>                elements; ///< per body
+  elasticity::FaceLoad<dim>                            face_load;
+  ResultantLoads<dim>                                  resultants;
+  mesh::Surface<dim>                                   surface;
+  std::unique_ptr<contact::Contact<dim>>               contact;
+  std::unique_ptr<supports::DirichletConstraints<dim>> held;
+  std::unique_ptr<Gluing<dim>>                         gluing;
+  std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
+  std::vector<feti::SubdomainSystem>                   systems;
+  std::unique_ptr<feti::TotalFeti>                     feti;
 
 private:
   void                glue(const Field &positions);

@@ -45,12 +45,12 @@ public:
   /// zero at the same tolerance. Collective.
   unsigned long linear_f_mults(const ContactState<dim> &state) const;
 
-  const mesh::BodyMesh<dim>      &mesh() const { return problem->mesh; }
-  const mesh::Tearing            &tearing() const { return problem->tearing; }
-  const Model<dim>               &model() const { return problem->model; }
-  const mesh::Surface<dim>       &surface() const { return problem->surface; }
-  const contact::Contact<dim>    &contact() const { return *problem->contact; }
-  const supports::HeldNodes<dim> &held() const { return *problem->held; }
+  const mesh::BodyMesh<dim>                 &mesh() const { return problem->mesh; }
+  const mesh::Tearing                       &tearing() const { return problem->tearing; }
+  const Model<dim>                          &model() const { return problem->model; }
+  const mesh::Surface<dim>                  &surface() const { return problem->surface; }
+  const contact::Contact<dim>               &contact() const { return *problem->contact; }
+  const supports::DirichletConstraints<dim> &held() const { return *problem->held; }
   /// What the rows of B are made of at @p positions. Collective.
   RowCoefficients<dim> rows(const Field &positions) const { return problem->rows(positions); }
   /// Its derivative along @p velocity, exact. Collective.

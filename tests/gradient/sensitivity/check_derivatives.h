@@ -1,7 +1,7 @@
 #ifndef snug_tests_gradient_sensitivity_check_derivatives_h
 #define snug_tests_gradient_sensitivity_check_derivatives_h
 
-#include <snug/state/describe.h>
+#include <snug/state/contact_results.h>
 
 #include <gradient/sensitivity/differences.h>
 

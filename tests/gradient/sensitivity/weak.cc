@@ -1,7 +1,7 @@
 #include <snug/sensitivity/data_derivatives.h>
 #include <snug/sensitivity/one_sided.h>
 #include <snug/sensitivity/tangent_system.h>
-#include <snug/state/describe.h>
+#include <snug/state/contact_results.h>
 
 #include <gradient/sensitivity/differences.h>
 

@@ -94,15 +94,15 @@ TEST_P(Trusses, DualOperatorOnTheKernelOfG)
   const auto   feti     = truss.make({});
   const Matrix K_pseudo = pseudo_inverse(truss.K, truss.R);
   const Matrix F        = product(truss.B, product(K_pseudo, transposed(truss.B)));
-  const auto   face     = feti->face(truss.owned(qp::RowSet(truss.n_rows(), 1)));
+  const auto   free_set = feti->free_set(truss.owned(qp::RowSet(truss.n_rows(), 1)));
   auto         x        = truss.owned(random_rows(truss, 3));
-  face->project(x);
+  free_set->project(x);
   const unsigned long before = feti->context().work.f_mults;
   auto                Fx     = feti->apply(x);
   EXPECT_EQ(feti->context().work.f_mults - before, 3u);
-  face->project(Fx);
+  free_set->project(Fx);
   auto expected = truss.owned(times(F, truss.gathered(x)));
-  face->project(expected);
+  free_set->project(expected);
   expect_near(truss.gathered(Fx), truss.gathered(expected), 1e-10);
 }
 
@@ -124,9 +124,9 @@ TEST_P(Trusses, ProjectorOnEveryFace)
   const auto feti = truss.make({});
   for (const auto &mask : masks(truss))
     {
-      const auto face = feti->face(truss.owned(mask));
-      auto       x    = truss.owned(random_rows(truss, 2));
-      face->project(x);
+      const auto free_set = feti->free_set(truss.owned(mask));
+      auto       x        = truss.owned(random_rows(truss, 2));
+      free_set->project(x);
       const auto all = truss.gathered(x);
       for (unsigned int i = 0; i < truss.n_rows(); ++i)
         EXPECT_TRUE(mask[i] || all(i) == 0.);
@@ -134,16 +134,16 @@ TEST_P(Trusses, ProjectorOnEveryFace)
       for (const double norm : qp::norms(Gx, MPI_COMM_SELF))
         EXPECT_LT(norm, 1e-11);
       auto PPx = x;
-      face->project(PPx);
+      free_set->project(PPx);
       expect_near(truss.gathered(PPx), truss.gathered(x), 1e-11);
       // x - P x is in the range of G_M', orthogonal to P y
       auto y    = truss.owned(random_rows(truss, 2));
       auto rest = y;
       for (unsigned int i = 0; i < rest.n_rows(); ++i)
         for (unsigned int k = 0; k < 2; ++k)
-          rest(i, k) *= face->rows()[i];
+          rest(i, k) *= free_set->rows()[i];
       auto Py = rest;
-      face->project(Py);
+      free_set->project(Py);
       rest.add(-1., Py);
       const auto products = qp::inner_products(x, rest, MPI_COMM_WORLD);
       for (unsigned int k = 0; k < 2; ++k)
@@ -158,9 +158,9 @@ TEST_P(Trusses, FeasibilityTellsWhatAFaceCanHold)
   const auto   all  = masks(truss);
   for (unsigned int m = 0; m < all.size(); ++m)
     {
-      const auto      face = feti->face(truss.owned(all[m]));
+      const auto      free_set = feti->free_set(truss.owned(all[m]));
       qp::MultiVector x(feti->n_owned());
-      const double    left = face->make_feasible(x, feti->e())[0];
+      const double    left = free_set->make_feasible(x, feti->e())[0];
       // nothing below, or one contact: the punch falls, or tips if it is not
       // guided (its rollers at one side resist turning)
       const bool held = m == 0 || m == 3 || (m == 2 && !GetParam().first);
@@ -174,7 +174,7 @@ TEST_P(Trusses, FeasibilityTellsWhatAFaceCanHold)
       if (m != 1)
         continue;
       // the falling punch closes all its contacts
-      const auto rates = face->closing_rates(feti->e());
+      const auto rates = free_set->gap_closing_rates(feti->e());
       for (unsigned int i = 0; i < rates.size(); ++i)
         EXPECT_TRUE(!feti->bounded()[i] || rates[i] > 0.);
     }
@@ -223,8 +223,8 @@ TEST_P(Trusses, PreconditionerIsTheFormula)
               for (unsigned int k = 0; k < 2; ++k)
                 y(i, k) *= mask[i];
             const auto expected = times(W, y);
-            const auto face     = feti->face(truss.owned(mask));
-            expect_near(truss.gathered(face->precondition(truss.owned(x))), expected, 1e-10);
+            const auto free_set = feti->free_set(truss.owned(mask));
+            expect_near(truss.gathered(free_set->precondition(truss.owned(x))), expected, 1e-10);
           }
       }
 }
@@ -234,11 +234,11 @@ TEST_P(Trusses, PreconditionerIsSymmetricPositive)
   const auto feti = truss.make({});
   for (const auto &mask : masks(truss))
     {
-      const auto face = feti->face(truss.owned(mask));
-      auto       x    = truss.owned(random_rows(truss, 6));
-      face->project(x);
-      auto z = face->precondition(x);
-      face->project(z);
+      const auto free_set = feti->free_set(truss.owned(mask));
+      auto       x        = truss.owned(random_rows(truss, 6));
+      free_set->project(x);
+      auto z = free_set->precondition(x);
+      free_set->project(z);
       const auto Q = qp::inner_products(x, z, MPI_COMM_WORLD);
       for (unsigned int i = 0; i < 6; ++i)
         {
@@ -264,13 +264,13 @@ TEST_P(Trusses, PackagesAgree)
 TEST_P(Trusses, RecoveryIsInBalance)
 {
   // K u = f - B' lambda for every feasible lambda and any amplitudes
-  const auto      feti   = truss.make({});
-  const auto      face   = feti->face(truss.owned(masks(truss)[0]));
-  auto            lambda = truss.owned(random_rows(truss, 1));
+  const auto      feti     = truss.make({});
+  const auto      free_set = feti->free_set(truss.owned(masks(truss)[0]));
+  auto            lambda   = truss.owned(random_rows(truss, 1));
   qp::MultiVector alpha(feti->n_kernel());
   for (unsigned int i = 0; i < alpha.n_rows(); ++i)
     alpha(i) = std::cos(2. * i);
-  face->make_feasible(lambda, feti->e());
+  free_set->make_feasible(lambda, feti->e());
   const auto u      = feti->recover(feti->loads(), lambda, alpha);
   const auto forces = feti->multiply_Bt(lambda);
   for (unsigned int s = 0; s < u.size(); ++s)

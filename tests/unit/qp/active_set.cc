@@ -16,14 +16,14 @@ namespace {
 unsigned long linear_f_mults(const DenseProblem &problem, const RowSet &active, double tolerance)
 {
   MultiVector  none(problem.n_owned(), 0);
-  const double scale  = equality_part(problem, none).scale;
-  const auto   face   = problem.face(active);
-  const auto   before = problem.context().work.f_mults;
+  const double scale    = equality_part(problem, none).scale;
+  const auto   free_set = problem.free_set(active);
+  const auto   before   = problem.context().work.f_mults;
   MultiVector  lambda(problem.n_owned());
-  face->make_feasible(lambda, problem.e());
+  free_set->make_feasible(lambda, problem.e());
   MultiVector residual = problem.d();
   residual.add(-1., problem.apply(lambda));
-  pcpg(problem, *face, lambda, residual, {tolerance * scale}, 1000);
+  pcpg(problem, *free_set, lambda, residual, {tolerance * scale}, 1000);
   return problem.context().work.f_mults - before;
 }
 

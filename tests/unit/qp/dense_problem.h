@@ -117,7 +117,7 @@ public:
     return dense::largest(data.e) + std::sqrt(square) * norms(lambda, MPI_COMM_WORLD)[0];
   }
 
-  std::unique_ptr<snug::qp::Face> face(const RowSet &free) const override;
+  std::unique_ptr<snug::qp::FreeSet> free_set(const RowSet &free) const override;
 
   std::string escaping_body() const override { return data.escaping; }
 
@@ -133,7 +133,7 @@ private:
   mutable snug::RunContext run;
 };
 
-class DenseFace : public snug::qp::Face
+class DenseFace : public snug::qp::FreeSet
 {
 public:
   using MultiVector = snug::qp::MultiVector;
@@ -183,7 +183,7 @@ public:
     return norms(unbalanced(x, e), MPI_COMM_SELF);
   }
 
-  std::vector<double> closing_rates(const MultiVector &e) const override
+  std::vector<double> gap_closing_rates(const MultiVector &e) const override
   {
     // (I - G G' (G G')^+) e moves the bodies
     MultiVector motion = e;
@@ -214,7 +214,7 @@ private:
   dense::Matrix       G, inverse;
 };
 
-inline std::unique_ptr<snug::qp::Face> DenseProblem::face(const RowSet &free) const
+inline std::unique_ptr<snug::qp::FreeSet> DenseProblem::free_set(const RowSet &free) const
 {
   ++n_faces;
   return std::make_unique<DenseFace>(*this, free);

@@ -20,8 +20,8 @@ KktResidual kkt_at(const DenseProblem &problem, const dense::Matrix &lambda)
     rows[i] = !rows[i] || lambda(i) != 0.;
   auto residual = problem.data.d;
   residual.add(-1., dense::product(problem.data.F, lambda));
-  const auto face = problem.face(problem.slice(rows));
-  return kkt_residual(problem, *face, problem.slice(lambda), problem.slice(residual),
+  const auto free_set = problem.free_set(problem.slice(rows));
+  return kkt_residual(problem, *free_set, problem.slice(lambda), problem.slice(residual),
                       equality.scale);
 }
 } // namespace
@@ -52,7 +52,7 @@ TEST(KktResidual, FollowsItsDefinition)
   lambda(29)      = -0.5; // pulls
   const auto  kkt = kkt_at(problem, lambda);
   const auto  w   = problem.gather(kkt.w);
-  const auto  all = problem.face(problem.slice(RowSet(30, 1)));
+  const auto  all = problem.free_set(problem.slice(RowSet(30, 1)));
   MultiVector lambda_equality(problem.n_owned());
   all->make_feasible(lambda_equality, problem.e());
   MultiVector base = problem.d();

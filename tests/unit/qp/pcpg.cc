@@ -70,14 +70,14 @@ Solved solve_with_pcpg(const DenseProblem  &problem,
                        const dense::Matrix &b,
                        double               tolerance)
 {
-  const auto  face = problem.face(problem.slice(rows));
+  const auto  free_set = problem.free_set(problem.slice(rows));
   MultiVector lambda(problem.n_owned(), b.n_columns());
   MultiVector residual   = problem.slice(b);
   auto        tolerances = norms(residual, MPI_COMM_WORLD);
   for (double &size : tolerances)
     size *= tolerance;
   const auto before = problem.context().work.f_mults;
-  const auto result = pcpg(problem, *face, lambda, residual, tolerances, 500);
+  const auto result = pcpg(problem, *free_set, lambda, residual, tolerances, 500);
   const auto mults  = problem.context().work.f_mults - before;
   // the residual returned belongs to the solution returned
   MultiVector check = problem.slice(b);
@@ -151,11 +151,11 @@ TEST(Pcpg, DependentColumnsCostNothing)
 TEST(Pcpg, ConvergedColumnsLeaveTheBlock)
 {
   const DenseProblem problem(linear_data(40, 3, 7));
-  const auto         face = problem.face(problem.slice(RowSet(40, 1)));
+  const auto         free_set = problem.free_set(problem.slice(RowSet(40, 1)));
   std::mt19937       generator(8);
   MultiVector        lambda(problem.n_owned(), 3);
   MultiVector        residual = problem.slice(dense::random(40, 3, generator));
-  const auto         result   = pcpg(problem, *face, lambda, residual, {1e3, 1e-8, 1e3}, 500);
+  const auto         result   = pcpg(problem, *free_set, lambda, residual, {1e3, 1e-8, 1e3}, 500);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ(problem.context().work.f_mults, result.iterations);
 }
@@ -175,11 +175,11 @@ TEST(Pcpg, EndsAtRoundOff)
 TEST(Pcpg, EndsAfterTheIterationsAllowed)
 {
   const DenseProblem problem(linear_data(40, 3, 11));
-  const auto         face = problem.face(problem.slice(RowSet(40, 1)));
+  const auto         free_set = problem.free_set(problem.slice(RowSet(40, 1)));
   std::mt19937       generator(12);
   MultiVector        lambda(problem.n_owned(), 1);
   MultiVector        residual = problem.slice(dense::random(40, 1, generator));
-  const auto         result   = pcpg(problem, *face, lambda, residual, {1e-8}, 3);
+  const auto         result   = pcpg(problem, *free_set, lambda, residual, {1e-8}, 3);
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.iterations, 3u);
   EXPECT_EQ(problem.context().work.f_mults, 3u);
@@ -188,13 +188,13 @@ TEST(Pcpg, EndsAfterTheIterationsAllowed)
 TEST(Pcpg, ContinuesWithTheSameDirections)
 {
   const DenseProblem problem(linear_data(40, 3, 13));
-  const auto         face = problem.face(problem.slice(RowSet(40, 1)));
+  const auto         free_set = problem.free_set(problem.slice(RowSet(40, 1)));
   std::mt19937       generator(14);
   const auto         b = problem.slice(dense::random(40, 1, generator));
   MultiVector        lambda(problem.n_owned(), 1), residual = b;
-  const auto         whole = pcpg(problem, *face, lambda, residual, {1e-10}, 100);
+  const auto         whole = pcpg(problem, *free_set, lambda, residual, {1e-10}, 100);
   MultiVector        again(problem.n_owned(), 1);
-  Pcpg               solver(problem, *face);
+  Pcpg               solver(problem, *free_set);
   unsigned int       iterations = 0;
   residual                      = b;
   for (const double tolerance : {1e-1, 1e-4, 1e-7, 1e-10})
@@ -214,8 +214,8 @@ TEST(Pcpg, DirectionsOffLeavingRowsServeTheSmallerFace)
       leaving[row] = 1;
       staying[row] = 0;
     }
-  const auto  whole = problem.face(problem.slice(RowSet(40, 1)));
-  const auto  part  = problem.face(problem.slice(staying));
+  const auto  whole = problem.free_set(problem.slice(RowSet(40, 1)));
+  const auto  part  = problem.free_set(problem.slice(staying));
   MultiVector lambda(problem.n_owned(), 1), residual = problem.slice(b);
   Pcpg        on_all_rows(problem, *whole);
   const auto  first = on_all_rows.solve(lambda, residual, {1e-3}, 100);
@@ -250,16 +250,16 @@ TEST(Pcpg, BlocksBeginInKnownDirections)
   const DenseProblem problem(linear_data(40, 3, 21));
   const RowSet       all(40, 1);
   std::mt19937       generator(22);
-  const auto         b    = dense::random(40, 2, generator);
-  const auto         face = problem.face(problem.slice(all));
+  const auto         b        = dense::random(40, 2, generator);
+  const auto         free_set = problem.free_set(problem.slice(all));
   // the first column is solved, the second is new
   MultiVector lambda(problem.n_owned(), 1);
   MultiVector residual = problem.slice(b).columns_from(0, 1);
-  Pcpg        first(problem, *face);
+  Pcpg        first(problem, *free_set);
   first.solve(lambda, residual, {1e-11}, 100);
   MultiVector both(problem.n_owned(), 2);
   residual = problem.slice(b);
-  Pcpg next(problem, *face, first.directions());
+  Pcpg next(problem, *free_set, first.directions());
   EXPECT_TRUE(next.solve(both, residual, {1e-10, 1e-10}, 100).converged);
   EXPECT_LT(dense::distance(problem.gather(both), solve_directly(problem.data, all, b)), 1e-9);
   EXPECT_LE(next.directions().P.n_columns(), 40u);

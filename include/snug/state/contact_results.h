@@ -1,5 +1,5 @@
-#ifndef snug_state_describe_h
-#define snug_state_describe_h
+#ifndef snug_state_contact_results_h
+#define snug_state_contact_results_h
 
 #include <snug/state/state_solver.h>
 
@@ -14,9 +14,9 @@ nodal_values(const StateSolver<dim> &solver, const feti::PrimalVectors &u, unsig
 /// u and dual solution. @p rows are those of its geometry.
 /// Collective.
 template <int dim>
-void describe(const StateSolver<dim>     &solver,
-              const RowCoefficients<dim> &rows,
-              ContactState<dim>          &state);
+void recover_contact_results(const StateSolver<dim>     &solver,
+                             const RowCoefficients<dim> &rows,
+                             ContactState<dim>          &state);
 } // namespace snug::state
 
 #endif

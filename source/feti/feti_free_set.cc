@@ -1,25 +1,25 @@
-#include <snug/feti/feti_face.h>
+#include <snug/feti/feti_free_set.h>
 
 namespace snug::feti {
-TotalFeti::FetiFace::FetiFace(const TotalFeti &the_feti, const qp::RowSet &the_free)
+TotalFeti::FetiFreeSet::FetiFreeSet(const TotalFeti &the_feti, const qp::RowSet &the_free)
   : feti(the_feti), free(the_free)
 {}
 
-const qp::RowSet &TotalFeti::FetiFace::rows() const
+const qp::RowSet &TotalFeti::FetiFreeSet::rows() const
 {
   return free;
 }
 
 /// Made when first asked for: faces of SMALSE-M, say, precondition only and project on another
 /// face. As it is collective, all ranks have to ask at the same time.
-const CoarseProblem &TotalFeti::FetiFace::coarse_problem() const
+const CoarseProblem &TotalFeti::FetiFreeSet::coarse_problem() const
 {
   if (!problem)
     problem = std::make_unique<CoarseProblem>(feti.coarse, free);
   return *problem;
 }
 
-void TotalFeti::FetiFace::restrict(qp::MultiVector &x) const
+void TotalFeti::FetiFreeSet::restrict(qp::MultiVector &x) const
 {
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     for (unsigned int row = 0; row < x.n_rows(); ++row)
@@ -27,13 +27,13 @@ void TotalFeti::FetiFace::restrict(qp::MultiVector &x) const
         x(row, k) = 0.;
 }
 
-qp::MultiVector TotalFeti::FetiFace::amplitudes(const qp::MultiVector &x) const
+qp::MultiVector TotalFeti::FetiFreeSet::amplitudes(const qp::MultiVector &x) const
 {
   feti.run.work.coarse_solves += x.n_columns();
   return coarse_problem().solve(feti.coarse.multiply(x, &free));
 }
 
-void TotalFeti::FetiFace::project(qp::MultiVector &x) const
+void TotalFeti::FetiFreeSet::project(qp::MultiVector &x) const
 {
   // P_M x = x_M - G_M' (G_M G_M')^+ G_M x_M; amplitudes() looks at the rows of M only.
   const qp::MultiVector alpha = amplitudes(x);
@@ -41,7 +41,7 @@ void TotalFeti::FetiFace::project(qp::MultiVector &x) const
   x.add(-1., feti.coarse.transpose_multiply(alpha, &free));
 }
 
-qp::MultiVector TotalFeti::FetiFace::precondition(const qp::MultiVector &r) const
+qp::MultiVector TotalFeti::FetiFreeSet::precondition(const qp::MultiVector &r) const
 {
   qp::MultiVector z = r;
   // Decided by the parameter: a rank without subdomains has no Schur complements in any case.
@@ -62,8 +62,8 @@ qp::MultiVector TotalFeti::FetiFace::precondition(const qp::MultiVector &r) cons
   return z;
 }
 
-std::vector<double> TotalFeti::FetiFace::make_feasible(qp::MultiVector       &x,
-                                                       const qp::MultiVector &e) const
+std::vector<double> TotalFeti::FetiFreeSet::make_feasible(qp::MultiVector       &x,
+                                                          const qp::MultiVector &e) const
 {
   restrict(x);
   qp::MultiVector missing = e;
@@ -77,7 +77,7 @@ std::vector<double> TotalFeti::FetiFace::make_feasible(qp::MultiVector       &x,
   return qp::norms(missing, MPI_COMM_SELF);
 }
 
-std::vector<double> TotalFeti::FetiFace::closing_rates(const qp::MultiVector &e) const
+std::vector<double> TotalFeti::FetiFreeSet::gap_closing_rates(const qp::MultiVector &e) const
 {
   const qp::MultiVector rates =
     // N N'e is the part of the load that M does not hold, taken as a motion: G' of it is the rate
@@ -86,8 +86,8 @@ std::vector<double> TotalFeti::FetiFace::closing_rates(const qp::MultiVector &e)
   return std::vector<double>(rates.column(0), rates.column(0) + rates.n_rows());
 }
 
-std::unique_ptr<qp::Face> TotalFeti::face(const qp::RowSet &free_rows) const
+std::unique_ptr<qp::FreeSet> TotalFeti::free_set(const qp::RowSet &free_rows) const
 {
-  return std::make_unique<FetiFace>(*this, free_rows);
+  return std::make_unique<FetiFreeSet>(*this, free_rows);
 }
 } // namespace snug::feti

@@ -1,4 +1,4 @@
-#include <snug/supports/held_frame.h>
+#include <snug/supports/constraint_frame.h>
 
 #include <deal.II/base/point.h>
 
@@ -8,16 +8,16 @@
 
 namespace {
 using namespace snug;
-using supports::HeldFrame;
+using supports::ConstraintFrame;
 using supports::Orthonormalised;
 
 /// Random unit vectors and values of two load cases.
 template <int dim>
-HeldFrame<dim> random_frame(unsigned int n, unsigned int seed, bool unit)
+ConstraintFrame<dim> random_frame(unsigned int n, unsigned int seed, bool unit)
 {
   std::mt19937                           generator(seed);
   std::uniform_real_distribution<double> uniform(-1., 1.);
-  HeldFrame<dim>                         frame;
+  ConstraintFrame<dim>                   frame;
   for (unsigned int j = 0; j < n; ++j)
     {
       dealii::Tensor<1, dim> d;
@@ -30,7 +30,8 @@ HeldFrame<dim> random_frame(unsigned int n, unsigned int seed, bool unit)
 }
 
 template <int dim>
-HeldFrame<dim> moved(HeldFrame<dim> frame, const HeldFrame<dim> &velocity, double step)
+ConstraintFrame<dim>
+moved(ConstraintFrame<dim> frame, const ConstraintFrame<dim> &velocity, double step)
 {
   for (unsigned int j = 0; j < frame.directions.size(); ++j)
     {
@@ -43,7 +44,7 @@ HeldFrame<dim> moved(HeldFrame<dim> frame, const HeldFrame<dim> &velocity, doubl
 
 /// q_k . u - s_k of load case c.
 template <int dim>
-double residual(const HeldFrame<dim>         &frame,
+double residual(const ConstraintFrame<dim>   &frame,
                 unsigned int                  k,
                 unsigned int                  c,
                 const dealii::Tensor<1, dim> &u)
@@ -73,12 +74,12 @@ void check(unsigned int n)
     }
 
   // derivatives against differences; multipliers: the energy they give
-  const auto     velocity   = random_frame<dim>(n, 5, false);
-  const auto     derivative = constraints.derivative(velocity);
-  const double   step       = 1e-3;
-  const int      place[]    = {-2, -1, 1, 2};
-  const double   weight[]   = {1. / 12., -8. / 12., 8. / 12., -1. / 12.};
-  HeldFrame<dim> difference = frame;
+  const auto           velocity   = random_frame<dim>(n, 5, false);
+  const auto           derivative = constraints.derivative(velocity);
+  const double         step       = 1e-3;
+  const int            place[]    = {-2, -1, 1, 2};
+  const double         weight[]   = {1. / 12., -8. / 12., 8. / 12., -1. / 12.};
+  ConstraintFrame<dim> difference = frame;
   for (unsigned int j = 0; j < n; ++j)
     {
       difference.directions[j] = dealii::Tensor<1, dim>();
@@ -110,7 +111,7 @@ void check(unsigned int n)
     }
 }
 
-TEST(HeldFrame, IsOrthonormalWithExactDerivatives)
+TEST(ConstraintFrame, IsOrthonormalWithExactDerivatives)
 {
   check<2>(1);
   check<2>(2);
@@ -118,9 +119,9 @@ TEST(HeldFrame, IsOrthonormalWithExactDerivatives)
   check<3>(3);
 }
 
-TEST(HeldFrame, NoticesDependence)
+TEST(ConstraintFrame, NoticesDependence)
 {
-  HeldFrame<2> frame;
+  ConstraintFrame<2> frame;
   frame.directions = {dealii::Point<2>(1., 0.), dealii::Point<2>(0.6, 0.8)};
   frame.values     = {{0.}, {0.}};
   EXPECT_NEAR(Orthonormalised<2>(frame).independence(), 0.8, 1e-15);

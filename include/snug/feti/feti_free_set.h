@@ -1,21 +1,21 @@
-#ifndef snug_feti_feti_face_h
-#define snug_feti_feti_face_h
+#ifndef snug_feti_feti_free_set_h
+#define snug_feti_feti_free_set_h
 
 #include <snug/feti/total_feti.h>
 
 namespace snug::feti {
 /// Face of the dual problem of Total FETI; parts are made when first used.
-class TotalFeti::FetiFace : public qp::Face
+class TotalFeti::FetiFreeSet : public qp::FreeSet
 {
 public:
-  FetiFace(const TotalFeti &feti, const qp::RowSet &free);
+  FetiFreeSet(const TotalFeti &feti, const qp::RowSet &free);
 
   const qp::RowSet   &rows() const override;
   void                project(qp::MultiVector &x) const override;
   qp::MultiVector     precondition(const qp::MultiVector &r) const override;
   qp::MultiVector     amplitudes(const qp::MultiVector &x) const override;
   std::vector<double> make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override;
-  std::vector<double> closing_rates(const qp::MultiVector &e) const override;
+  std::vector<double> gap_closing_rates(const qp::MultiVector &e) const override;
 
 private:
   const CoarseProblem &coarse_problem() const;

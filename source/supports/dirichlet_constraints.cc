@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/supports/held_nodes.h>
+#include <snug/supports/dirichlet_constraints.h>
 #include <snug/supports/smooth_sides.h>
 
 #include <algorithm>
@@ -56,10 +56,10 @@ InputError conflict(const dealii::Tensor<1, dim>         &x,
 } // namespace
 
 template <int dim>
-HeldNodes<dim>::HeldNodes(const mesh::BodyMesh<dim>       &mesh,
-                          const std::vector<Support<dim>> &supports,
-                          unsigned int                     n_load_cases,
-                          const Field                     &positions)
+DirichletConstraints<dim>::DirichletConstraints(const mesh::BodyMesh<dim>       &mesh,
+                                                const std::vector<Support<dim>> &supports,
+                                                unsigned int                     n_load_cases,
+                                                const Field                     &positions)
   : mesh(mesh)
   , shape(mesh.degree())
   , n_load_cases(n_load_cases)
@@ -80,8 +80,8 @@ HeldNodes<dim>::HeldNodes(const mesh::BodyMesh<dim>       &mesh,
 }
 
 template <int dim>
-void HeldNodes<dim>::collect_holds(const std::vector<Support<dim>> &supports,
-                                   const SurfaceField              &reference)
+void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &supports,
+                                              const SurfaceField              &reference)
 {
   std::map<unsigned int, Node> found;
   const auto                   add = [&](unsigned int node, const Hold &hold) {
@@ -138,7 +138,7 @@ void HeldNodes<dim>::collect_holds(const std::vector<Support<dim>> &supports,
 }
 
 template <int dim>
-double HeldNodes<dim>::largest_value() const
+double DirichletConstraints<dim>::largest_value() const
 {
   double largest = 0.;
   for (const Node &node : nodes)
@@ -151,7 +151,7 @@ double HeldNodes<dim>::largest_value() const
 // Two supports may hold a node along one direction, such as faces that meet at an edge. The row
 // would be there twice and B rank deficient, so the later one goes, if it demands the same.
 template <int dim>
-void HeldNodes<dim>::leave_out_dependent(const SurfaceField &positions)
+void DirichletConstraints<dim>::leave_out_dependent(const SurfaceField &positions)
 {
   const auto   n         = normals(positions);
   const double tolerance = same_value * largest_value();
@@ -192,7 +192,8 @@ void HeldNodes<dim>::leave_out_dependent(const SurfaceField &positions)
 }
 
 template <int dim>
-typename HeldNodes<dim>::Normals HeldNodes<dim>::normals(const SurfaceField &positions) const
+typename DirichletConstraints<dim>::Normals
+DirichletConstraints<dim>::normals(const SurfaceField &positions) const
 {
   Normals result;
   for (const auto &side : sides)
@@ -201,9 +202,10 @@ typename HeldNodes<dim>::Normals HeldNodes<dim>::normals(const SurfaceField &pos
 }
 
 template <int dim>
-HeldFrame<dim> HeldNodes<dim>::given_frame(const Node &node, const Normals &n) const
+ConstraintFrame<dim> DirichletConstraints<dim>::given_frame(const Node    &node,
+                                                            const Normals &n) const
 {
-  HeldFrame<dim> frame;
+  ConstraintFrame<dim> frame;
   for (const Hold &hold : node.holds)
     {
       dealii::Tensor<1, dim> direction;
@@ -218,7 +220,7 @@ HeldFrame<dim> HeldNodes<dim>::given_frame(const Node &node, const Normals &n) c
 }
 
 template <int dim>
-unsigned int HeldNodes<dim>::find(unsigned int global_node) const
+unsigned int DirichletConstraints<dim>::find(unsigned int global_node) const
 {
   const auto found = std::lower_bound(nodes.begin(), nodes.end(), global_node,
                                       [this](const Node &node, unsigned int global) {
@@ -230,7 +232,8 @@ unsigned int HeldNodes<dim>::find(unsigned int global_node) const
 }
 
 template <int dim>
-typename HeldNodes<dim>::Frames HeldNodes<dim>::frames(const Field &positions) const
+typename DirichletConstraints<dim>::Frames
+DirichletConstraints<dim>::frames(const Field &positions) const
 {
   if (!follow_positions())
     return constant_frames;
@@ -250,8 +253,8 @@ typename HeldNodes<dim>::Frames HeldNodes<dim>::frames(const Field &positions) c
 }
 
 template <int dim>
-faces::HeldDirections<dim> HeldNodes<dim>::directions(const mesh::Surface<dim> &surface,
-                                                      const Field              &positions) const
+faces::HeldDirections<dim> DirichletConstraints<dim>::directions(const mesh::Surface<dim> &surface,
+                                                                 const Field &positions) const
 {
   const Frames               at_nodes = frames(positions);
   faces::HeldDirections<dim> result(surface.n_nodes());
@@ -265,8 +268,8 @@ faces::HeldDirections<dim> HeldNodes<dim>::directions(const mesh::Surface<dim> &
 }
 
 template <int dim>
-typename HeldNodes<dim>::Frames HeldNodes<dim>::frame_derivatives(const Field &positions,
-                                                                  const Field &velocity) const
+typename DirichletConstraints<dim>::Frames
+DirichletConstraints<dim>::frame_derivatives(const Field &positions, const Field &velocity) const
 {
   Frames result(nodes.size());
   if (!follow_positions())
@@ -280,7 +283,7 @@ typename HeldNodes<dim>::Frames HeldNodes<dim>::frame_derivatives(const Field &p
   for (unsigned int i = 0; i < nodes.size(); ++i)
     if (nodes[i].follows)
       {
-        HeldFrame<dim> derivative;
+        ConstraintFrame<dim> derivative;
         for (const Hold &hold : nodes[i].holds)
           {
             derivative.directions.push_back(hold.component == Support<dim>::normal
@@ -295,10 +298,11 @@ typename HeldNodes<dim>::Frames HeldNodes<dim>::frame_derivatives(const Field &p
 }
 
 template <int dim>
-void HeldNodes<dim>::add_energy_gradient(const Field                            &positions,
-                                         const Field                            &displacement,
-                                         const std::vector<std::vector<double>> &reactions,
-                                         Field                                  &gradient) const
+void DirichletConstraints<dim>::add_energy_gradient(
+  const Field                            &positions,
+  const Field                            &displacement,
+  const std::vector<std::vector<double>> &reactions,
+  Field                                  &gradient) const
 {
   if (!follow_positions())
     return;
@@ -325,6 +329,6 @@ void HeldNodes<dim>::add_energy_gradient(const Field                            
   surface.add_owned(at_surface, gradient);
 }
 
-template class HeldNodes<2>;
-template class HeldNodes<3>;
+template class DirichletConstraints<2>;
+template class DirichletConstraints<3>;
 } // namespace snug::supports

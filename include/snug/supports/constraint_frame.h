@@ -1,5 +1,5 @@
-#ifndef snug_supports_held_frame_h
-#define snug_supports_held_frame_h
+#ifndef snug_supports_constraint_frame_h
+#define snug_supports_constraint_frame_h
 
 #include <deal.II/base/tensor.h>
 
@@ -12,7 +12,7 @@ namespace snug::supports {
  * As a derivative: d_j' and v_j'.
  */
 template <int dim>
-struct HeldFrame
+struct ConstraintFrame
 {
   std::vector<dealii::Tensor<1, dim>> directions;
   std::vector<std::vector<double>>    values; ///< [j][load case]
@@ -26,10 +26,10 @@ template <int dim>
 class Orthonormalised
 {
 public:
-  explicit Orthonormalised(const HeldFrame<dim> &given);
+  explicit Orthonormalised(const ConstraintFrame<dim> &given);
 
   /// q_k and s_k.
-  const HeldFrame<dim> &frame() const { return orthonormal; }
+  const ConstraintFrame<dim> &frame() const { return orthonormal; }
 
   /// The smallest L_jj: the sine of the smallest angle between a d_j and
   /// the span of those before it. Zero: dependent, and frame() is not
@@ -37,14 +37,14 @@ public:
   double independence() const;
 
   /// q_k' and s_k' where the given constraints have derivatives @p given'.
-  HeldFrame<dim> derivative(const HeldFrame<dim> &given_derivative) const;
+  ConstraintFrame<dim> derivative(const ConstraintFrame<dim> &given_derivative) const;
 
   /// Multipliers of the given constraints that do the same as
   /// @p multipliers of the orthonormal ones: L' m = multipliers.
   std::vector<double> given_multipliers(std::vector<double> multipliers) const;
 
 private:
-  HeldFrame<dim>                   orthonormal;
+  ConstraintFrame<dim>             orthonormal;
   std::vector<std::vector<double>> L;
 };
 } // namespace snug::supports

@@ -1,4 +1,4 @@
-#include <snug/supports/held_frame.h>
+#include <snug/supports/constraint_frame.h>
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@ namespace snug::supports {
 // prescribed is transformed with the directions, since q_k . u = s_k must say the same as d_j . u =
 // v_j. L holds the factors, d = L q, for derivatives and for going back.
 template <int dim>
-Orthonormalised<dim>::Orthonormalised(const HeldFrame<dim> &given)
+Orthonormalised<dim>::Orthonormalised(const ConstraintFrame<dim> &given)
 {
   auto &q = orthonormal.directions;
   auto &s = orthonormal.values;
@@ -42,13 +42,13 @@ double Orthonormalised<dim>::independence() const
 }
 
 template <int dim>
-HeldFrame<dim> Orthonormalised<dim>::derivative(const HeldFrame<dim> &given) const
+ConstraintFrame<dim> Orthonormalised<dim>::derivative(const ConstraintFrame<dim> &given) const
 {
-  const auto    &q = orthonormal.directions;
-  const auto    &s = orthonormal.values;
-  HeldFrame<dim> result;
-  auto          &dq = result.directions;
-  auto          &ds = result.values;
+  const auto          &q = orthonormal.directions;
+  const auto          &s = orthonormal.values;
+  ConstraintFrame<dim> result;
+  auto                &dq = result.directions;
+  auto                &ds = result.values;
   for (unsigned int j = 0; j < q.size(); ++j)
     {
       // d_j as given, from its parts

@@ -1,5 +1,5 @@
 #include <snug/state/assumptions.h>
-#include <snug/state/describe.h>
+#include <snug/state/contact_results.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,9 +149,9 @@ void sum_up_contact(const contact::Contact<dim> &contact,
 } // namespace
 
 template <int dim>
-void describe(const StateSolver<dim>     &solver,
-              const RowCoefficients<dim> &rows,
-              ContactState<dim>          &state)
+void recover_contact_results(const StateSolver<dim>     &solver,
+                             const RowCoefficients<dim> &rows,
+                             ContactState<dim>          &state)
 {
   state.displacement = nodal_values(solver, state.u, 0);
   describe_energies(solver, state);
@@ -160,11 +160,11 @@ void describe(const StateSolver<dim>     &solver,
   state.assumptions = assess(solver, rows.contact, state);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                  \
-  template mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim> &,                   \
-                                                   const feti::PrimalVectors &, unsigned int); \
-  template void describe(const StateSolver<dim> &, const RowCoefficients<dim> &,               \
-                         ContactState<dim> &);
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim> &,                    \
+                                                   const feti::PrimalVectors &, unsigned int);  \
+  template void recover_contact_results(const StateSolver<dim> &, const RowCoefficients<dim> &, \
+                                        ContactState<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -1,9 +1,9 @@
-#ifndef snug_supports_held_nodes_h
-#define snug_supports_held_nodes_h
+#ifndef snug_supports_dirichlet_constraints_h
+#define snug_supports_dirichlet_constraints_h
 
 #include <snug/faces/held_directions.h>
 #include <snug/faces/nodal_normals.h>
-#include <snug/supports/held_frame.h>
+#include <snug/supports/constraint_frame.h>
 #include <snug/supports/support.h>
 
 namespace snug::supports {
@@ -24,19 +24,19 @@ namespace snug::supports {
  * constructor. Everything is replicated on all ranks.
  */
 template <int dim>
-class HeldNodes
+class DirichletConstraints
 {
 public:
   using Field  = typename mesh::BodyMesh<dim>::Field;
-  using Frames = std::vector<HeldFrame<dim>>; ///< per held node
+  using Frames = std::vector<ConstraintFrame<dim>>; ///< per held node
 
   /// @p mesh must outlive this object. Collective.
   /// @throws InputError naming two supports that hold a node in one
   ///   direction at different displacements.
-  HeldNodes(const mesh::BodyMesh<dim>       &mesh,
-            const std::vector<Support<dim>> &supports,
-            unsigned int                     n_load_cases,
-            const Field                     &positions);
+  DirichletConstraints(const mesh::BodyMesh<dim>       &mesh,
+                       const std::vector<Support<dim>> &supports,
+                       unsigned int                     n_load_cases,
+                       const Field                     &positions);
 
   /// Held nodes, ascending by global node.
   unsigned int n_nodes() const { return nodes.size(); }
@@ -94,7 +94,7 @@ private:
   void    leave_out_dependent(const SurfaceField &positions);
   double  largest_value() const;
   Normals normals(const SurfaceField &positions) const;
-  HeldFrame<dim> given_frame(const Node &node, const Normals &normals) const;
+  ConstraintFrame<dim> given_frame(const Node &node, const Normals &normals) const;
 
   const mesh::BodyMesh<dim>             &mesh;
   const faces::FaceShape<dim>            shape;
