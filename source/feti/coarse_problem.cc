@@ -85,9 +85,4 @@ qp::MultiVector CoarseProblem::kernel_part(const qp::MultiVector &c) const
 {
   return dense::product(N, dense::transpose_product(N, c));
 }
-
-const qp::MultiVector &CoarseProblem::kernel() const
-{
-  return N;
-}
 } // namespace snug::feti

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace snug::feti {
 namespace {
@@ -36,7 +35,7 @@ std::vector<bool> coupled_to_contact(const qp::RowSet                           
 }
 } // namespace
 
-RowGram::RowGram(const RowLayout &the_layout) : layout(the_layout)
+RowGram::RowGram(const RowLayout &layout)
 {
   const auto                                                   &start    = layout.entry_start();
   const auto                                                   &unknowns = layout.entry_unknowns();
@@ -106,14 +105,6 @@ void RowGram::update(const std::vector<double> &entries, unsigned int stride)
         }
   if (fixed_factor)
     fixed_factor->factorize("B D^-1 B' of the gluing rows");
-}
-
-std::vector<double> RowGram::diagonal() const
-{
-  std::vector<double> result;
-  for (const auto &p : place)
-    result.push_back((p.first ? contact : fixed).matrix.diagonal(p.second));
-  return result;
 }
 
 /// x <- A^-1 x on the rows of the group; the others are not touched.

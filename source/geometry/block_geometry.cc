@@ -143,13 +143,6 @@ dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) con
 }
 
 template <int dim>
-dealii::Point<dim> BlockGeometry<dim>::logical(const MeshPoint<dim> &point) const
-{
-  // Blocks have no common axes, so these are positions in units of the body's diagonal.
-  return Point((position(point) - lower) / lower.distance(upper));
-}
-
-template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::interpolated(const Vertices            &vertices,
                                                     const std::vector<double> &weights,
                                                     Manifold                  *manifold) const

@@ -75,7 +75,8 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
     if (rows[i] && is_nonzero(P, i))
       mine.push_back(i);
   unsigned int count = narrow<unsigned int>(mine.size()), first = 0, total = 0;
-  MPI_Exscan(&count, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
+  MPI_Scan(&count, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
+  first -= count; // MPI_Exscan leaves it undefined on the first rank
   MPI_Allreduce(&count, &total, 1, MPI_UNSIGNED, MPI_SUM, comm);
   // As many conditions as directions leave nothing in general: spare the work.
   if (total >= n)

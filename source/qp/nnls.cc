@@ -18,14 +18,15 @@ const double right_angle = 1e-12; ///< cosine, in NNLS
 std::vector<double>
 least_squares(const MultiVector &A, const MultiVector &b, const std::vector<unsigned int> &columns)
 {
-  dealii::LAPACKFullMatrix<double> part(A.n_rows(), columns.size());
+  const auto                       n = narrow<unsigned int>(columns.size());
+  dealii::LAPACKFullMatrix<double> part(A.n_rows(), n);
   for (unsigned int i = 0; i < A.n_rows(); ++i)
-    for (unsigned int j = 0; j < columns.size(); ++j)
+    for (unsigned int j = 0; j < n; ++j)
       part(i, j) = A(i, columns[j]);
   // Contact columns are often dependent, as the nodes of a flat face push alike: hence singular
   // values, with a cut.
   part.compute_inverse_svd(1e-13);
-  dealii::Vector<double> y(columns.size());
+  dealii::Vector<double> y(n);
   part.vmult(y, dealii::Vector<double>(b.column(0), b.column(0) + b.n_rows()));
   return {y.begin(), y.end()};
 }

@@ -31,7 +31,10 @@ double operator_norm(const DualProblem &problem, const FreeSet &all, MultiVector
   MPI_Scan(&n, &first, 1, MPI_UNSIGNED_LONG, MPI_SUM, comm);
   first -= n;
   for (unsigned int i = 0; i < n; ++i)
-    v(i) = (size > 0. ? v(i) / size : 0.) + 1e-2 * std::cos(1. + double(first + i) * (first + i));
+    {
+      const auto row = static_cast<double>(first + i);
+      v(i)           = (size > 0. ? v(i) / size : 0.) + 1e-2 * std::cos(1. + row * row);
+    }
   double norm = 0.;
   for (unsigned int k = 0; k < power_steps; ++k)
     {

@@ -66,14 +66,6 @@ void ShapedFace<dim>::measure()
   distribute_hanging(weights);
   for (const auto &weight : weights)
     node_areas.push_back(weight[0]);
-  dealii::Tensor<1, dim> lower = reference[0], upper = reference[0];
-  for (const auto &position : reference)
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] = std::min(lower[d], position[d]);
-        upper[d] = std::max(upper[d], position[d]);
-      }
-  diagonal = (upper - lower).norm();
 }
 
 /// Bodies have no nodes in common: only other boundaries of the same body count.

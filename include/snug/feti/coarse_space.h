@@ -1,6 +1,7 @@
 #ifndef snug_feti_coarse_space_h
 #define snug_feti_coarse_space_h
 
+#include <snug/base/narrow.h>
 #include <snug/feti/factor_pool.h>
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
@@ -39,7 +40,7 @@ public:
               unsigned int                        stride,
               const std::vector<qp::MultiVector> &Z);
 
-  unsigned int n_kernel() const { return table.body.size() * table.n_modes; }
+  unsigned int n_kernel() const { return narrow<unsigned int>(table.body.size()) * table.n_modes; }
 
   /// G_M x summed over ranks (n_kernel x k); M = all rows if null.
   qp::MultiVector multiply(const qp::MultiVector &x, const qp::RowSet *free) const;
@@ -47,7 +48,7 @@ public:
   /// G_M' alpha on the owned rows; zero off M.
   qp::MultiVector transpose_multiply(const qp::MultiVector &alpha, const qp::RowSet *free) const;
 
-  /// Values of G_M G_M' in the pattern of matrix(). Collective.
+  /// Values of G_M G_M' in the pattern of pattern(). Collective.
   std::vector<double> gram_values(const qp::RowSet &free) const;
 
   /// Pattern of G G' with the representatives of all bodies coupled.
@@ -103,12 +104,9 @@ public:
   /// N N' c.
   qp::MultiVector kernel_part(const qp::MultiVector &c) const;
 
-  /// Orthonormal kernel, n_kernel x (its dimension).
-  const qp::MultiVector &kernel() const;
-
 private:
   std::shared_ptr<FactorPool::Item> A;
-  qp::MultiVector                   N;
+  qp::MultiVector                   N; ///< orthonormal kernel, n_kernel x (its dimension)
 };
 } // namespace snug::feti
 

@@ -22,9 +22,6 @@ public:
   /// New numbers: B and 1/D per gathered entry, @p stride apart, B first.
   void update(const std::vector<double> &entries, unsigned int stride);
 
-  /// (B D^{-1} B')_ii of the owned rows.
-  std::vector<double> diagonal() const;
-
   /// The part that depends on the set M.
   class Factor
   {
@@ -49,7 +46,6 @@ private:
     void                      solve(const SparseFactor &factor, qp::MultiVector &x) const;
   };
 
-  const RowLayout                       &layout;
   Group                                  fixed, contact;
   FactorPool                             contact_factors;
   std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)

@@ -1,6 +1,7 @@
 #ifndef snug_feti_row_layout_h
 #define snug_feti_row_layout_h
 
+#include <snug/base/narrow.h>
 #include <snug/base/petsc_handle.h>
 #include <snug/qp/dual_problem.h>
 
@@ -33,8 +34,8 @@ public:
             unsigned int                           first_subdomain);
 
   MPI_Comm          communicator() const { return comm; }
-  unsigned int      n_owned() const { return is_bounded.size(); }
-  unsigned int      n_local() const { return local_rows.size(); }
+  unsigned int      n_owned() const { return narrow<unsigned int>(is_bounded.size()); }
+  unsigned int      n_local() const { return narrow<unsigned int>(local_rows.size()); }
   const qp::RowSet &bounded() const { return is_bounded; }
   /// Local row of a global row this rank touches.
   unsigned int local_row(unsigned int global_row) const;

@@ -1,6 +1,7 @@
 #ifndef snug_feti_total_feti_h
 #define snug_feti_total_feti_h
 
+#include <snug/base/narrow.h>
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/feti/generalized_inverse.h>
@@ -89,7 +90,10 @@ public:
 
   const std::vector<SubdomainSystem> &subdomains() const { return systems; }
 
-  unsigned int n_bodies() const { return coarse.subdomains().body_names.size(); }
+  unsigned int n_bodies() const
+  {
+    return narrow<unsigned int>(coarse.subdomains().body_names.size());
+  }
 
   /// Rows of G: rigid modes of all subdomains.
   unsigned int n_kernel() const { return coarse.n_kernel(); }

@@ -35,8 +35,6 @@ public:
   const std::vector<double> &areas() const { return node_areas; }
   /// Nodes that other boundaries of the body share.
   const std::vector<bool> &border() const { return on_border; }
-  /// Diagonal of the bounding box of the nodes [length].
-  double diameter() const { return diagonal; }
 
   bool is_hanging(unsigned int surface_node) const { return !nodes.masters(surface_node).empty(); }
   /// values at hanging nodes <- interpolation of their masters
@@ -54,7 +52,6 @@ private:
   Field                                 reference, unit_normals;
   std::vector<double>                   node_areas;
   std::vector<bool>                     on_border;
-  double                                diagonal = 0.;
 };
 
 /// (body, boundary) of "body.boundary", the entry Face. @throws InputError
