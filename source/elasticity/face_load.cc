@@ -1,4 +1,5 @@
 #include <snug/elasticity/face_load.h>
+#include <snug/faces/face_shape.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -31,44 +32,6 @@ dealii::Tensor<1, dim> interpolate(const mesh::LagrangePoint<dim - 1>        &sh
   return sum;
 }
 
-/// m = (t_y, -t_x): outer normal times dA / d xi.
-dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
-{
-  return cross_product_2d(t[0]);
-}
-
-/// m = t_1 x t_2.
-dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t)
-{
-  return cross_product_3d(t[0], t[1]);
-}
-
-/// m' along tangents V_,i.
-dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &,
-                                            const std::array<dealii::Tensor<1, 2>, 1> &v)
-{
-  return cross_product_2d(v[0]);
-}
-
-dealii::Tensor<1, 3> area_vector_derivative(const std::array<dealii::Tensor<1, 3>, 2> &t,
-                                            const std::array<dealii::Tensor<1, 3>, 2> &v)
-{
-  return cross_product_3d(v[0], t[1]) + cross_product_3d(t[0], v[1]);
-}
-
-/// d/dt_i (c . m) for a fixed vector c.
-std::array<dealii::Tensor<1, 2>, 1>
-area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &, const dealii::Tensor<1, 2> &c)
-{
-  return {{-cross_product_2d(c)}};
-}
-
-std::array<dealii::Tensor<1, 3>, 2>
-area_vector_transpose(const std::array<dealii::Tensor<1, 3>, 2> &t, const dealii::Tensor<1, 3> &c)
-{
-  return {{cross_product_3d(t[1], c), cross_product_3d(c, t[0])}};
-}
-
 /// A Gauss point of a face with nodes X.
 template <int dim>
 struct FacePoint
@@ -81,7 +44,7 @@ struct FacePoint
     : shape(shape)
     , x(interpolate<dim>(shape, X))
     , t(tangents<dim>(shape, X))
-    , m(area_vector(t))
+    , m(faces::area_vector(t))
     , weight(shape.weight * idealization.weight(x))
     , weight_gradient(shape.weight * idealization.template weight_gradient<dim>())
   {}
@@ -93,7 +56,7 @@ struct FacePoint
   /// (n dA)' along V.
   dealii::Tensor<1, dim> vector_derivative(const Nodes &V) const
   {
-    return weight * area_vector_derivative(t, tangents<dim>(shape, V)) +
+    return weight * faces::area_vector_derivative(t, tangents<dim>(shape, V)) +
            (weight_gradient * interpolate<dim>(shape, V)) * m;
   }
 
@@ -103,7 +66,7 @@ struct FacePoint
   /// gradient_a += d/dX_a (c . n dA); with c = kappa n of kappa dA.
   void add_vector_gradient(const dealii::Tensor<1, dim> &c, Nodes &gradient) const
   {
-    const auto gradient_t = area_vector_transpose(t, c);
+    const auto gradient_t = faces::area_vector_transpose(t, c);
     for (unsigned int a = 0; a < gradient.size(); ++a)
       {
         // In axisymmetric models the weight 2 pi r follows the nodes, too.

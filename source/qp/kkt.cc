@@ -44,7 +44,7 @@ KktResidual kkt_residual(const DualProblem &problem,
   const auto sizes = norms(both, comm);
   // w = (d - F lambda) + G'alpha: where nearly all of d - F lambda is rigid motion the two cancel,
   // and what is left is rounding of their size.
-  const double rounding = 16. * std::numeric_limits<double>::epsilon() * sizes[1];
+  const double rounding = projection_rounding * sizes[1];
 
   MultiVector missing = problem.e();
   missing.add(-1., problem.apply_G(lambda));
@@ -87,7 +87,7 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
   both.append(x);
   auto sizes = norms(both, problem.context().communicator());
   // a projected residual that is rounding is no measure
-  if (sizes[0] <= 16. * std::numeric_limits<double>::epsilon() * sizes[1])
+  if (sizes[0] <= projection_rounding * sizes[1])
     sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
   // Without loads and gaps the solution is zero, and any scale will do.
   part.scale = sizes[0] == 0. ? 1. : sizes[0];

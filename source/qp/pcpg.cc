@@ -1,4 +1,5 @@
 #include <snug/qp/independent_columns.h>
+#include <snug/qp/kkt.h>
 #include <snug/qp/pcpg.h>
 
 #include <deal.II/base/exceptions.h>
@@ -9,9 +10,6 @@
 
 namespace snug::qp {
 namespace {
-/// Projected residuals below this part of the residual are rounding.
-const double residual_rounding = 16. * std::numeric_limits<double>::epsilon();
-
 /// Directions depend on each other if a pivot of their Gram matrix,
 /// scaled to unit diagonal, is below this.
 const double dependence_cut = 1e-3;
@@ -210,7 +208,7 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
         {
           // The projection takes the difference of numbers of the size of the residual, most of
           // which may be rigid motion: it cannot be brought below the rounding of these.
-          goals[j] = std::max(tolerances[j], residual_rounding * sizes[k + j]);
+          goals[j] = std::max(tolerances[j], projection_rounding * sizes[k + j]);
           if (sizes[j] <= goals[j])
             continue;
           remaining.push_back(j);
