@@ -101,17 +101,18 @@ const feti::TotalFeti &StateSolver<dim>::feti(const ContactState<dim> &state) co
 template <int dim>
 unsigned long StateSolver<dim>::linear_f_mults(const ContactState<dim> &state) const
 {
-  const auto         &dual   = feti(state);
-  const auto          face   = dual.face(state.dual.active);
-  const unsigned long before = context().work.f_mults;
+  const auto         &dual     = feti(state);
+  const auto          free_set = dual.free_set(state.dual.active);
+  const unsigned long before   = context().work.f_mults;
   qp::MultiVector     lambda(dual.n_owned());
-  face->make_feasible(lambda, dual.e());
+  free_set->make_feasible(lambda, dual.e());
   qp::MultiVector residual = dual.d();
   residual.add(-1., dual.apply(lambda));
   qp::MultiVector projected = residual;
-  face->project(projected);
+  free_set->project(projected);
   const double scale = qp::norms(projected, context().communicator())[0];
-  qp::pcpg(dual, *face, lambda, residual, {state.solved_to * scale}, model().solver.max_iterations);
+  qp::pcpg(dual, *free_set, lambda, residual, {state.solved_to * scale},
+           model().solver.max_iterations);
   return context().work.f_mults - before;
 }
 

@@ -100,12 +100,12 @@ std::vector<Stage> Torn::stages(const Seconds &whole)
                      n_coarse = work.coarse_solves, n_outer = outer_iterations;
 
   const auto x    = feti.d();
-  const auto face = feti.face(active);
+  const auto face = feti.free_set(active);
   auto       y    = x;
   face->project(y); // makes the coarse problem
   face->precondition(x);
   const auto make_face = [&]() {
-    const auto fresh = feti.face(active);
+    const auto fresh = feti.free_set(active);
     fresh->project(y);
   };
   const Seconds apply        = median_time(repeats, [&]() { feti.apply(x); });

@@ -16,11 +16,21 @@ namespace snug {
 template <typename Make>
 struct Choice
 {
+  Choice(std::string              name,
+         std::string              meaning,
+         std::function<Make>      make,
+         std::vector<std::string> entries = {})
+    : name(std::move(name))
+    , meaning(std::move(meaning))
+    , make(std::move(make))
+    , entries(std::move(entries))
+  {}
+
   std::string         name;
   std::string         meaning; ///< one line, with units
   std::function<Make> make;
   /// names of the entries it reads, where those of a family differ
-  std::vector<std::string> entries = {};
+  std::vector<std::string> entries;
 };
 
 template <typename Make>

@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 namespace snug::elasticity {
 /**
  * Integrals of powers of the von Mises stress over cells like those of
