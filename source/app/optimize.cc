@@ -153,7 +153,7 @@ void finish(Observer<dim> &observer, const OptimizationResult &result)
   gradient.f_mults             = evaluator.gradients.f_mults;
   gradient.seconds             = evaluator.gradients.seconds;
   gradient.values              = result.evaluation.gradient;
-  results.summary.optimization = io::summarize(result, problem.scene.optimization.algorithm);
+  results.summary.optimization = {{result}, problem.scene.optimization.algorithm};
   results.write_summary();
   print_end(problem, result, results.first(), states);
 }

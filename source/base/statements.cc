@@ -81,7 +81,7 @@ unsigned int edit_distance(const std::string &a, const std::string &b)
 class StatementParser
 {
 public:
-  explicit StatementParser(const std::string &file) : file(file) {}
+  explicit StatementParser(const std::string &name) : file(name) {}
 
   void read(const std::string &line, const unsigned int number)
   {
@@ -164,7 +164,7 @@ Statement parse_override(const std::string &argument)
           trim(argument.substr(equals + 1)), "--set"};
 }
 
-Origins::Origins(const std::string &file, const std::vector<Statement> &statements) : file(file)
+Origins::Origins(const std::string &name, const std::vector<Statement> &statements) : file(name)
 {
   for (const auto &statement : statements)
     places[statement.path()] = statement.origin;

@@ -107,7 +107,7 @@ void from_text(const std::string &text, unsigned int &value)
   });
   if (whole < 0 || whole > std::numeric_limits<int>::max())
     throw std::invalid_argument("no whole number");
-  value = whole;
+  value = static_cast<unsigned int>(whole);
 }
 
 void from_text(const std::string &text, bool &value)

@@ -4,7 +4,6 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace snug::contact {

@@ -1,7 +1,6 @@
 #include <snug/faces/outer_edges.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace snug::faces {
 namespace {

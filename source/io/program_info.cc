@@ -6,7 +6,6 @@
 #include <dlfcn.h>
 #include <petscsys.h>
 
-#include <cstdlib>
 
 namespace snug::io {
 namespace {

@@ -55,22 +55,6 @@ Summary::State summarize(const state::ContactState<dim> &state)
   return result;
 }
 
-Summary::Optimization summarize(const optimization::OptimizationResult &result,
-                                const std::string                      &algorithm)
-{
-  Summary::Optimization summary;
-  summary.algorithm            = algorithm;
-  summary.iterations           = result.iterations;
-  summary.evaluations          = result.evaluations;
-  summary.objective_initial    = result.objective_initial;
-  summary.objective_final      = result.objective_final;
-  summary.constraint_violation = result.constraint_violation;
-  summary.projected_gradient   = result.projected_gradient;
-  summary.stop_reason          = result.stop_reason;
-  summary.design               = result.x;
-  return summary;
-}
-
 Summary::Times collect_times(const RunContext &context)
 {
   // in the order of the members of Times

@@ -112,7 +112,7 @@ Json summary_part(const Summary::Optimization &optimization)
           {"constraint_violation", optimization.constraint_violation},
           {"projected_gradient", optimization.projected_gradient},
           {"stop_reason", optimization.stop_reason},
-          {"design", optimization.design}};
+          {"design", optimization.x}};
 }
 
 Json summary_part(const Summary::LoadCase &load_case)

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <limits>
-#include <tuple>
 
 namespace snug::mesh_file {
 namespace {

@@ -4,7 +4,6 @@
 #include <snug/shape/near_points.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace snug::shape {

@@ -2,8 +2,6 @@
 #include <snug/state/rigid_modes.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace snug::state {
 template <int dim>

@@ -16,14 +16,14 @@ namespace snug {
 template <typename Make>
 struct Choice
 {
-  Choice(std::string              name,
-         std::string              meaning,
-         std::function<Make>      make,
-         std::vector<std::string> entries = {})
-    : name(std::move(name))
-    , meaning(std::move(meaning))
-    , make(std::move(make))
-    , entries(std::move(entries))
+  Choice(std::string              the_name,
+         std::string              the_meaning,
+         std::function<Make>      how,
+         std::vector<std::string> read = {})
+    : name(std::move(the_name))
+    , meaning(std::move(the_meaning))
+    , make(std::move(how))
+    , entries(std::move(read))
   {}
 
   std::string         name;

@@ -12,9 +12,9 @@ namespace snug {
 class SectionCheck
 {
 public:
-  /// @p section "": the top. @p origins must outlive this object.
-  SectionCheck(const std::string &section, const Origins &origins, unsigned int dimension)
-    : dimension(dimension), origins(origins), section(section)
+  /// @p name "": the top. @p where must outlive this object.
+  SectionCheck(const std::string &name, const Origins &where, unsigned int of_scene)
+    : dimension(of_scene), origins(where), section(name)
   {}
 
   const unsigned int dimension; ///< of the scene

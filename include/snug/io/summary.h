@@ -89,14 +89,9 @@ struct Summary
     std::vector<GradientRow> methods;
   };
 
-  struct Optimization
+  struct Optimization : optimization::OptimizationResult
   {
-    std::string         algorithm;
-    unsigned int        iterations = 0, evaluations = 0;
-    double              objective_initial = none, objective_final = none;
-    double              constraint_violation = none, projected_gradient = none;
-    std::string         stop_reason;
-    std::vector<double> design; ///< [length]
+    std::string algorithm;
   };
 
   /// One of several load cases.
@@ -152,9 +147,6 @@ Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &te
 
 template <int dim>
 Summary::State summarize(const state::ContactState<dim> &state);
-
-Summary::Optimization summarize(const optimization::OptimizationResult &result,
-                                const std::string                      &algorithm);
 
 /// Seconds of the stages named as the members of Times, of the slowest
 /// rank. Collective.
