@@ -221,11 +221,10 @@ void print_import_notes(const scene::Scene &scene, std::ostream &out)
         out << "body " << body.name << ", " << body.mesh.file << ": " << note << '\n';
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                \
-  template Inventory<dim> take_inventory(const scene::Scene &, const mesh::BodyMesh<dim> &); \
-  template void           print(const Inventory<dim> &, std::ostream &);                     \
-  template void           check_distances(const scene::Scene &, const mesh::BodyMesh<dim> &);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template Inventory<2> take_inventory(const scene::Scene &, const mesh::BodyMesh<2> &);
+template void         print(const Inventory<2> &, std::ostream &);
+template void         check_distances(const scene::Scene &, const mesh::BodyMesh<2> &);
+template Inventory<3> take_inventory(const scene::Scene &, const mesh::BodyMesh<3> &);
+template void         print(const Inventory<3> &, std::ostream &);
+template void         check_distances(const scene::Scene &, const mesh::BodyMesh<3> &);
 } // namespace snug::app

@@ -159,9 +159,6 @@ std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &p
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim) \
-  template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<2> &);
+template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<3> &);
 } // namespace snug::contact

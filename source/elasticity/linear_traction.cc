@@ -1,9 +1,6 @@
 #include <snug/elasticity/linear_traction.h>
 
 namespace snug::elasticity {
-namespace {
-/// int (|r|^2 - r (x) r) dA from int r (x) r dA; the out-of-plane entry
-/// in the plane.
 template <int dim>
 dealii::Tensor<2, 3> inertia(const dealii::Tensor<2, dim> &second)
 {
@@ -17,7 +14,6 @@ dealii::Tensor<2, 3> inertia(const dealii::Tensor<2, dim> &second)
   return I;
 }
 
-/// In the plane only the axis across it turns anything.
 template <int dim>
 dealii::Tensor<2, 3> inverse(const dealii::Tensor<2, 3> &I)
 {
@@ -27,7 +23,6 @@ dealii::Tensor<2, 3> inverse(const dealii::Tensor<2, 3> &I)
   result[2][2] = 1. / I[2][2];
   return result;
 }
-} // namespace
 
 /// Positive from x to y.
 template <>
@@ -95,6 +90,10 @@ LinearTraction<dim> SpreadResultant<dim>::derivative(const AreaMoments<dim> &cha
   return result;
 }
 
+template dealii::Tensor<2, 3> inertia(const dealii::Tensor<2, 2> &);
+template dealii::Tensor<2, 3> inertia(const dealii::Tensor<2, 3> &);
+template dealii::Tensor<2, 3> inverse<2>(const dealii::Tensor<2, 3> &);
+template dealii::Tensor<2, 3> inverse<3>(const dealii::Tensor<2, 3> &);
 template class SpreadResultant<2>;
 template class SpreadResultant<3>;
 } // namespace snug::elasticity

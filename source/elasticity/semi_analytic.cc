@@ -1,3 +1,4 @@
+#include <snug/elasticity/linear_traction.h>
 #include <snug/elasticity/semi_analytic.h>
 
 #include <algorithm>
@@ -27,47 +28,12 @@ double largest_norm(const Nodes<dim> &x)
   return norm;
 }
 
-/// Rotations in the plane have one component, in space three.
-dealii::Tensor<1, 1> moment(const dealii::Tensor<1, 2> &x, const dealii::Tensor<1, 2> &v)
-{
-  return dealii::Tensor<1, 1>({x[0] * v[1] - x[1] * v[0]});
-}
-
-dealii::Tensor<1, 3> moment(const dealii::Tensor<1, 3> &x, const dealii::Tensor<1, 3> &v)
-{
-  return cross_product_3d(x, v);
-}
-
-dealii::Tensor<1, 2> rotated(const dealii::Tensor<1, 1> &omega, const dealii::Tensor<1, 2> &x)
-{
-  return dealii::Tensor<1, 2>({-omega[0] * x[1], omega[0] * x[0]});
-}
-
-dealii::Tensor<1, 3> rotated(const dealii::Tensor<1, 3> &omega, const dealii::Tensor<1, 3> &x)
-{
-  return cross_product_3d(omega, x);
-}
-
-dealii::Tensor<2, 1> inertia(const dealii::Tensor<1, 2> &x)
-{
-  dealii::Tensor<2, 1> result;
-  result[0][0] = x.norm_square();
-  return result;
-}
-
-dealii::Tensor<2, 3> inertia(const dealii::Tensor<1, 3> &x)
-{
-  return x.norm_square() * dealii::unit_symmetric_tensor<3>() - outer_product(x, x);
-}
-
 /// The rigid motion nearest to nodal values, about the mean of X.
 template <int dim>
 struct RigidMotion
 {
-  static constexpr int n_rotations = dim == 2 ? 1 : 3;
-
-  dealii::Tensor<1, dim>         translation;
-  dealii::Tensor<1, n_rotations> rotation;
+  dealii::Tensor<1, dim> translation;
+  dealii::Tensor<1, 3>   rotation;
 
   /// In the sense of least squares over the nodes, all with the same weight.
   RigidMotion(const Nodes<dim> &X, const Nodes<dim> &u, const mesh::Idealization &idealization)
@@ -81,15 +47,15 @@ struct RigidMotion
       }
     // c = (R'R)^-1 R'u for rotations about the mean of the nodes, where they are orthogonal to the
     // translations: each part is found alone.
-    const auto                     centre = mean(X);
-    dealii::Tensor<2, n_rotations> sum;
-    dealii::Tensor<1, n_rotations> moments;
+    const auto             centre = mean(X);
+    dealii::Tensor<2, dim> second;
+    dealii::Tensor<1, 3>   moments;
     for (unsigned int a = 0; a < X.size(); ++a)
       {
-        sum += inertia(X[a] - centre);
-        moments += moment(X[a] - centre, u[a]);
+        second += outer_product(X[a] - centre, X[a] - centre);
+        moments += moment_of(X[a] - centre, u[a]);
       }
-    rotation = invert(sum) * moments;
+    rotation = inverse<dim>(inertia(second)) * moments;
   }
 };
 } // namespace
@@ -142,10 +108,10 @@ void SemiAnalytic<dim>::internal_force_derivative(const Element<dim> &element,
       Nodes                  R_change(X.size()); // R' c
       for (unsigned int a = 0; a < X.size(); ++a)
         {
-          deforming[a] -= rigid.translation + rotated(rigid.rotation, X[a] - centre);
+          deforming[a] -= rigid.translation + turned(rigid.rotation, X[a] - centre);
           // Of omega x (X_a - centre); the move of the centre adds a translation, which K does not
           // see.
-          R_change[a] = rotated(rigid.rotation, V[a]);
+          R_change[a] = turned(rigid.rotation, V[a]);
         }
       element.internal_force(X, material, R_change, r);
     }

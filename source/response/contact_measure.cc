@@ -122,12 +122,10 @@ std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &p
   return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                    \
-  template std::vector<bool> rows_of_pair(const state::StateSolver<dim> &, const std::string &); \
-  template std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters &,            \
-                                                          const Measure &,                       \
-                                                          const std::vector<std::string> &);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template std::vector<bool> rows_of_pair(const state::StateSolver<2> &, const std::string &);
+template std::unique_ptr<Response<2>>
+contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);
+template std::vector<bool> rows_of_pair(const state::StateSolver<3> &, const std::string &);
+template std::unique_ptr<Response<3>>
+contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);
 } // namespace snug::response

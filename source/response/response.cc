@@ -90,10 +90,8 @@ std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameter
   return choose(response_table<dim>(), parameters.quantity).make(parameters);
 }
 
-#define SNUG_INSTANTIATE(dim)                                           \
-  template const ChoiceTable<MakeResponse<dim>> &response_table<dim>(); \
-  template std::unique_ptr<Response<dim>>        make_response<dim>(const ResponseParameters &);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template const ChoiceTable<MakeResponse<2>> &response_table<2>();
+template std::unique_ptr<Response<2>>        make_response<2>(const ResponseParameters &);
+template const ChoiceTable<MakeResponse<3>> &response_table<3>();
+template std::unique_ptr<Response<3>>        make_response<3>(const ResponseParameters &);
 } // namespace snug::response

@@ -227,11 +227,8 @@ std::vector<double> Links::collect(const std::vector<double> &gradient) const
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                \
-  template std::vector<bool> fixed_points(const std::vector<Control<dim>> &, \
-                                          const ShapeParameters &);          \
-  template Links::Links(const std::vector<Control<dim>> &, const ShapeParameters &);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template std::vector<bool> fixed_points(const std::vector<Control<2>> &, const ShapeParameters &);
+template Links::Links(const std::vector<Control<2>> &, const ShapeParameters &);
+template std::vector<bool> fixed_points(const std::vector<Control<3>> &, const ShapeParameters &);
+template Links::Links(const std::vector<Control<3>> &, const ShapeParameters &);
 } // namespace snug::shape

@@ -296,10 +296,8 @@ solved_interior(const ShapedFace<dim> &face, const ShapeParameters &parameters, 
   return std::make_unique<SolvedInterior<dim>>(face, parameters.reach, kind);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                      \
-  template std::unique_ptr<Interior<dim>> solved_interior(const ShapedFace<dim> &, \
-                                                          const ShapeParameters &, InteriorKind);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template std::unique_ptr<Interior<2>>
+solved_interior(const ShapedFace<2> &, const ShapeParameters &, InteriorKind);
+template std::unique_ptr<Interior<3>>
+solved_interior(const ShapedFace<3> &, const ShapeParameters &, InteriorKind);
 } // namespace snug::shape

@@ -181,10 +181,8 @@ Modes<dim> spline_box(const mesh::BodyMesh<dim> &mesh,
   return Box<dim>(mesh, wanted_bodies(bodies, parameters), parameters, degree).modes();
 }
 
-#define SNUG_INSTANTIATE(dim)                                                    \
-  template Modes<dim> spline_box(const mesh::BodyMesh<dim> &, const BodyNames &, \
-                                 const ShapeParameters &, unsigned int);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template Modes<2>
+spline_box(const mesh::BodyMesh<2> &, const BodyNames &, const ShapeParameters &, unsigned int);
+template Modes<3>
+spline_box(const mesh::BodyMesh<3> &, const BodyNames &, const ShapeParameters &, unsigned int);
 } // namespace snug::shape

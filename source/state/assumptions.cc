@@ -116,10 +116,8 @@ std::vector<std::string> overlap_warnings(const std::vector<contact::Pair> &pair
   return lines;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                   \
-  template Assumptions assess(const StateSolver<dim> &, const std::vector<contact::Row<dim>> &, \
-                              const ContactState<dim> &);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template Assumptions
+assess(const StateSolver<2> &, const std::vector<contact::Row<2>> &, const ContactState<2> &);
+template Assumptions
+assess(const StateSolver<3> &, const std::vector<contact::Row<3>> &, const ContactState<3> &);
 } // namespace snug::state

@@ -14,6 +14,15 @@ dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, dim> &arm,
 template <int dim>
 dealii::Tensor<1, dim> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, dim> &v);
 
+/// I = int (|r|^2 - r (x) r) from int r (x) r; in the plane the out-of-plane
+/// entry is among them.
+template <int dim>
+dealii::Tensor<2, 3> inertia(const dealii::Tensor<2, dim> &second);
+
+/// I^-1; in the plane only the axis across it turns anything.
+template <int dim>
+dealii::Tensor<2, 3> inverse(const dealii::Tensor<2, 3> &I);
+
 /// Integrals over a face about a fixed origin o, X = x - o; or their
 /// derivatives. [length^2, length^3, length^4]
 template <int dim>
