@@ -49,8 +49,8 @@ public:
       in.fail("there are " + std::to_string(nodes.size()) + " cells and " +
               std::to_string(types.size()) + " cell types");
     if (!groups.empty() && groups.size() != nodes.size())
-      in.fail("there are " + std::to_string(nodes.size()) + " cells and " +
-              std::to_string(groups.size()) + " numbers of theirs");
+      in.fail("there are " + std::to_string(nodes.size()) + " cells and groups of " +
+              std::to_string(groups.size()));
     make_elements();
     return mesh;
   }

@@ -2,10 +2,10 @@
 
 namespace snug::sensitivity {
 /// A face of the state's problem, seen from the rows of this one.
-class SensitivityQp::PartOfFace : public qp::FreeSet
+class SensitivityQp::PartOfFreeSet : public qp::FreeSet
 {
 public:
-  PartOfFace(const SensitivityQp &problem, const qp::RowSet &free) : problem(problem), free(free)
+  PartOfFreeSet(const SensitivityQp &problem, const qp::RowSet &free) : problem(problem), free(free)
   {
     qp::RowSet of_all(problem.feti.n_owned(), 0);
     for (unsigned int i = 0; i < free.size(); ++i)
@@ -92,8 +92,8 @@ qp::MultiVector SensitivityQp::extended(const qp::MultiVector &x) const
   return all;
 }
 
-std::string SensitivityQp::escaping_body() const
+std::unique_ptr<qp::FreeSet> SensitivityQp::free_set(const qp::RowSet &free) const
 {
-  return "";
+  return std::make_unique<PartOfFreeSet>(*this, free);
 }
 } // namespace snug::sensitivity

@@ -37,7 +37,7 @@ void declare_modes(Entries &entries, ShapeParameters &shape)
   entries.add("Filter radius", shape.filter_radius,
               "Node-wise: a node follows the mean of the variables within this radius [length], "
               "with weights that fall linearly to zero.");
-  entries.add("Modes", shape.modes,
+  entries.add("Modes", access(shape.modes, ';'),
               allowed("a list 'FORMULA, FORMULA, FORMULA; ...' of vectors separated by semicolons"),
               "Formula modes: vector fields of x, y, z, one per design variable, separated by "
               "semicolons: '0, 0, x*(1-x); 0, 0, max(0,y)'.");

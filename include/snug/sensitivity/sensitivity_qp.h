@@ -58,10 +58,10 @@ public:
   }
   std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
   /// Never names one: the state is an equilibrium.
-  std::string escaping_body() const override;
+  std::string escaping_body() const override { return ""; }
 
 private:
-  class PartOfFace;
+  class PartOfFreeSet;
 
   const feti::TotalFeti    &feti;
   std::vector<unsigned int> row; ///< of the state's problem

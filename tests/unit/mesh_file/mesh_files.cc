@@ -169,8 +169,8 @@ TEST(MeshFiles, CurvedBoundariesStayOnTheirCircles)
   EXPECT_NEAR(file_volume(mesh), 1.5 * dealii::numbers::PI, 1e-4);
   const auto &names = mesh.geometry(0).boundary_names();
   for (const auto &face : mesh.boundary_faces())
-    for (const unsigned int node : face.nodes)
-      if (names[face.boundary] != "free")
+    if (names[face.boundary] != "free")
+      for (const unsigned int node : face.nodes)
         EXPECT_NEAR((mesh.reference_positions()[node] - Point<2>(3., 0.)).norm(),
                     names[face.boundary] == "inner" ? 1. : 2., 1e-12);
   for (const std::string value : {"sphere 2", "cylinder x", "x^2"})
