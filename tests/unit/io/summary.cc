@@ -59,12 +59,11 @@ TEST(Summary, NumbersReadBackBitForBit)
   summary.state.contact_force = {1. / 3., 4.9406564584124654e-324, -0.};
   summary.optimization.emplace();
   summary.optimization->x = {std::nextafter(1., 2.), 1e300};
-  summary.work.f_mults         = 1ul << 60;
-  const Json json              = Json::parse(summary.json());
+  summary.work.f_mults    = 1ul << 60;
+  const Json json         = Json::parse(summary.json());
   EXPECT_EQ(json["state"]["energy"].get<double>(), -0.1 - 0.2);
   EXPECT_EQ(json["state"]["contact_force"].get<std::vector<double>>(), summary.state.contact_force);
-  EXPECT_EQ(json["optimization"]["design"].get<std::vector<double>>(),
-            summary.optimization->x);
+  EXPECT_EQ(json["optimization"]["design"].get<std::vector<double>>(), summary.optimization->x);
   EXPECT_EQ(json["work"]["f_mults"].get<unsigned long>(), 1ul << 60);
 }
 

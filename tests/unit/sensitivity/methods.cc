@@ -29,7 +29,7 @@ protected:
   {
     shape::ShapeParameters given;
     given.basis          = "Bezier patch";
-    given.free_set       = "foundation.top";
+    given.face           = "foundation.top";
     given.control_points = {3};
     given.direction      = {0., 1.};
     given.bounds         = {-0.05, 0.05};
