@@ -29,7 +29,9 @@ typename CellSet<dim>::Key key(const typename Refined<dim>::active_cell_iterator
   std::uint64_t path   = 0;
   auto          parent = typename Refined<dim>::cell_iterator(cell);
   const auto    level  = static_cast<std::uint64_t>(cell->level());
-  for (const auto child : cell->id().get_child_indices())
+  // Named, as its children are a view into it.
+  const dealii::CellId id = cell->id();
+  for (const auto child : id.get_child_indices())
     path = path << dim | static_cast<unsigned int>(child);
   while (parent->level() > 0)
     parent = parent->parent();
