@@ -64,12 +64,12 @@ unsigned int edit_distance(const std::string &a, const std::string &b)
 {
   std::vector<unsigned int> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0U);
-  for (std::size_t i = 0; i < a.size(); ++i)
+  for (const char letter : a)
     {
       unsigned int diagonal = row[0]++;
       for (std::size_t j = 0; j < b.size(); ++j)
         {
-          const unsigned int replaced = diagonal + (std::tolower(a[i]) != std::tolower(b[j]));
+          const unsigned int replaced = diagonal + (std::tolower(letter) != std::tolower(b[j]));
           diagonal                    = row[j + 1];
           row[j + 1]                  = std::min({replaced, row[j] + 1, row[j + 1] + 1});
         }

@@ -25,7 +25,6 @@ dealii::Tensor<2, 3> inverse(const dealii::Tensor<2, 3> &I)
 }
 
 /// Positive from x to y.
-template <>
 dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 2> &arm, const dealii::Tensor<1, 2> &force)
 {
   dealii::Tensor<1, 3> moment;
@@ -33,14 +32,12 @@ dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 2> &arm, const dealii::Te
   return moment;
 }
 
-template <>
 dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 3> &arm, const dealii::Tensor<1, 3> &force)
 {
   return cross_product_3d(arm, force);
 }
 
 /// (0, 0, w) x (v_x, v_y, 0) = (-w v_y, w v_x, 0)
-template <>
 dealii::Tensor<1, 2> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 2> &v)
 {
   dealii::Tensor<1, 2> result;
@@ -49,7 +46,6 @@ dealii::Tensor<1, 2> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tens
   return result;
 }
 
-template <>
 dealii::Tensor<1, 3> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 3> &v)
 {
   return cross_product_3d(axis, v);

@@ -259,13 +259,15 @@ void Element<dim>::compute_stiffness(const Nodes         &X,
 template <int dim>
 void Element<dim>::stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const
 {
-  constexpr bool section = dim == 2; // solids are never axisymmetric
-  if (section && idealization.is_axisymmetric())
-    degree == 1 ? compute_stiffness<1, section>(X, material, K)
-                : compute_stiffness<2, section>(X, material, K);
-  else
-    degree == 1 ? compute_stiffness<1, false>(X, material, K)
-                : compute_stiffness<2, false>(X, material, K);
+  if constexpr (dim == 2) // solids are never axisymmetric
+    if (idealization.is_axisymmetric())
+      {
+        degree == 1 ? compute_stiffness<1, true>(X, material, K)
+                    : compute_stiffness<2, true>(X, material, K);
+        return;
+      }
+  degree == 1 ? compute_stiffness<1, false>(X, material, K)
+              : compute_stiffness<2, false>(X, material, K);
 }
 
 template void Element<2>::stiffness(const Nodes &, const Material &, std::vector<double> &) const;

@@ -265,7 +265,7 @@ make_blocks(const MeshFile                     &file,
             std::vector<std::string>           &notes)
 {
   Importer<dim> importer(file, parameters);
-  const auto    mesh = std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks());
+  auto          mesh = std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks());
   notes              = importer.notes;
   return mesh;
 }

@@ -75,7 +75,7 @@ MeshFile read_any(const std::string &text)
 
 MeshFile read_mesh_file(const std::string &text)
 {
-  const MeshFile mesh = read_any(text);
+  MeshFile mesh = read_any(text);
   if (mesh.points.empty() || mesh.elements.empty())
     throw InputError(std::string("the file has no ") +
                      (mesh.points.empty() ? "nodes" : "elements"));

@@ -124,7 +124,7 @@ std::shared_ptr<const ScaledProblem::Point> ScaledProblem::find(const std::vecto
 
 std::shared_ptr<const ScaledProblem::Point> ScaledProblem::at(const std::vector<double> &y)
 {
-  if (const auto known = find(y))
+  if (auto known = find(y))
     return known;
   const auto point = std::make_shared<Point>();
   point->y         = y;

@@ -64,7 +64,7 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
   const auto &parameters = solver.model().solver;
   const auto  strong     = strong_rows(solver, state);
   const auto  weak       = weak_rows(solver, state);
-  const auto  linear =
+  auto        linear =
     TangentSystem(feti, strong, parameters, Solves::block, state.dual.directions).solve(data);
   if (state.weak_contacts == 0)
     return linear;

@@ -34,9 +34,9 @@ public:
 
   std::vector<double> make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override
   {
-    auto       all  = problem.extended(x);
-    const auto left = whole->make_feasible(all, e);
-    x               = problem.restricted(all);
+    auto all  = problem.extended(x);
+    auto left = whole->make_feasible(all, e);
+    x         = problem.restricted(all);
     return left;
   }
 

@@ -10,7 +10,7 @@ namespace {
 template <int dim>
 Links make_links(const Shape<dim> &basis, const ShapeParameters &parameters)
 {
-  const auto controls = basis.controls();
+  const auto &controls = basis.controls();
   if (!controls.empty())
     return Links(controls, parameters);
   if (!parameters.fixed.empty())

@@ -6,13 +6,12 @@
 namespace snug::elasticity {
 /// a x b of vectors in the plane or in space; in the plane, the moment of
 /// b about the out-of-plane axis.
-template <int dim>
-dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, dim> &arm,
-                               const dealii::Tensor<1, dim> &force);
+dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 2> &arm, const dealii::Tensor<1, 2> &force);
+dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 3> &arm, const dealii::Tensor<1, 3> &force);
 
 /// axis x v; in the plane, the axis has only its out-of-plane component.
-template <int dim>
-dealii::Tensor<1, dim> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, dim> &v);
+dealii::Tensor<1, 2> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 2> &v);
+dealii::Tensor<1, 3> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 3> &v);
 
 /// I = int (|r|^2 - r (x) r) from int r (x) r; in the plane the out-of-plane
 /// entry is among them.
