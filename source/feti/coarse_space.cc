@@ -1,6 +1,8 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/coarse_space.h>
-#include <snug/feti/dense.h>
+#include <snug/qp/direction_basis.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,10 @@
 
 namespace snug::feti {
 namespace {
+/// Below this, relative to the mean of diag A, a singular value of Z'AZ is that of a motion the
+/// rows do not see.
+const double kernel_cut = 1e-10;
+
 using Pair = std::pair<unsigned int, unsigned int>;
 
 /// The union over ranks of sorted pairs.
@@ -154,18 +160,29 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   MPI_Allreduce(MPI_IN_PLACE, modes.column(0), modes.n_rows() * modes.n_columns(), MPI_DOUBLE,
                 MPI_SUM, layout.communicator());
   // Z (Z'Z)^{-1/2}: orthonormal, and each body keeps its own columns
-  qp::MultiVector vectors = dense::transpose_product(modes, modes);
-  const auto      values  = dense::eigen(vectors);
-  qp::MultiVector scaled  = vectors;
-  for (unsigned int j = 0; j < values.size(); ++j)
-    for (unsigned int i = 0; i < values.size(); ++i)
-      scaled(i, j) = vectors(i, j) / std::sqrt(values[j]);
-  const auto      n = narrow<unsigned int>(values.size());
-  qp::MultiVector transposed(n, n);
-  for (unsigned int j = 0; j < values.size(); ++j)
-    for (unsigned int i = 0; i < values.size(); ++i)
-      transposed(i, j) = vectors(j, i);
-  modes = dense::product(modes, dense::product(scaled, transposed));
+  const qp::MultiVector            products = transpose_times(modes, modes);
+  const unsigned int               n        = products.n_columns();
+  dealii::LAPACKFullMatrix<double> square(n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      square(i, j) = products(i, j);
+  square.compute_svd();
+  // V S V' has the root V S^{-1/2} V', a product of V S^{-1/4} with itself.
+  qp::MultiVector root(n, n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      root(i, j) = square.get_svd_vt()(i, j) / std::pow(square.singular_value(i), 0.25);
+  modes = times(modes, transpose_times(root, root));
+}
+
+qp::MultiVector CoarseSpace::unseen_motions(const CsrMatrix &A) const
+{
+  // A is assembled from the rows of M only. A motion without strain and without relative motion at
+  // the gluing moves each body rigidly, so its kernel lies in the span of the body modes and the
+  // dense problem has at most 6 unknowns per body, however many subdomains there are.
+  qp::MultiVector AZ(A.n_rows, modes.n_columns());
+  A.multiply_add(1., modes, AZ);
+  return qp::null_space(transpose_times(modes, AZ), kernel_cut * A.mean_diagonal());
 }
 
 /// Each rank adds its owned rows; the sum over ranks makes coarse vectors equal on all of them.

@@ -28,6 +28,14 @@ std::size_t CsrMatrix::position(PetscInt i, PetscInt j) const
   return std::lower_bound(begin, end, j) - columns.begin();
 }
 
+double CsrMatrix::mean_diagonal() const
+{
+  double mean = 0.;
+  for (unsigned int i = 0; i < n_rows; ++i)
+    mean += diagonal(i) / n_rows;
+  return mean;
+}
+
 void CsrMatrix::multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const
 {
   for (unsigned int k = 0; k < x.n_columns(); ++k)

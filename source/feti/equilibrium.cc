@@ -1,6 +1,5 @@
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
-#include <snug/feti/dense.h>
 #include <snug/feti/total_feti.h>
 #include <snug/qp/nnls.h>
 
@@ -46,17 +45,7 @@ qp::MultiVector free_motions(const CoarseSpace &coarse, const RowLayout &layout)
     flag = !flag;
   CsrMatrix A = coarse.pattern();
   A.values    = coarse.gram_values(equality);
-  qp::MultiVector AZ(A.n_rows, coarse.body_modes().n_columns());
-  A.multiply_add(1., coarse.body_modes(), AZ);
-  auto   vectors = dense::transpose_product(coarse.body_modes(), AZ);
-  double trace   = 0.;
-  for (unsigned int i = 0; i < A.n_rows; ++i)
-    trace += A.diagonal(i);
-  const auto   values = dense::eigen(vectors);
-  unsigned int n_free = 0;
-  while (n_free < values.size() && values[n_free] <= 1e-10 * trace / A.n_rows)
-    ++n_free;
-  return vectors.columns_from(0, n_free);
+  return coarse.unseen_motions(A);
 }
 
 /// "body punch: translation (0 0 1), rotation (0 0 0)" of the body that
@@ -106,9 +95,8 @@ std::string TotalFeti::escaping_body() const
   // Supports hold all bodies: every load can be balanced.
   if (free.n_columns() == 0)
     return "";
-  const auto wrenches = dense::transpose_product(free, columns);
-  const auto load =
-    dense::transpose_product(free, dense::transpose_product(coarse.body_modes(), rigid_load));
+  const auto wrenches = transpose_times(free, columns);
+  const auto load     = transpose_times(free, transpose_times(coarse.body_modes(), rigid_load));
   // Loads of single subdomains, before they cancel within a body: rounding is of their size.
   double scale = 0.;
   for (unsigned int i = 0; i < rigid_load.n_rows(); ++i)
@@ -119,7 +107,7 @@ std::string TotalFeti::escaping_body() const
     residual = std::max(residual, std::abs(balance.residual(i)));
   // The residual is the load that no contact resists, hence also the direction of the escape.
   if (residual > balance_tolerance * scale)
-    return describe_motion(dense::product(free, balance.residual), coarse.subdomains());
+    return describe_motion(times(free, balance.residual), coarse.subdomains());
   // A body that nothing touches and nothing loads is balanced, but its position is not determined.
   return unheld_body(free, columns);
 }

@@ -1,6 +1,7 @@
 #include <snug/base/narrow.h>
-#include <snug/feti/dense.h>
 #include <snug/feti/generalized_inverse.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 
@@ -23,6 +24,30 @@ CsrMatrix coupled_pattern(const SubdomainSystem &system)
 }
 } // namespace
 
+void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::MultiVector &N)
+{
+  const auto n = narrow<unsigned int>(f.size()), r = N.n_columns();
+  if (r == 0)
+    return;
+  // The mean of diag A is of the size of A: a much smaller rho loses digits of A^+, a much larger
+  // one worsens the condition number. Neither changes A A^+ A = A.
+  const double                     rho = A.mean_diagonal();
+  dealii::LAPACKFullMatrix<double> N_f(n, r), N_f_transposed(r, n), gram(r, r), Q(n, n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < r; ++j)
+      N_f(i, j) = N_f_transposed(j, i) = N(f[i], j);
+  // N_f'N_f is regular only if no motion leaves the fixing nodes in place: in space, three or more
+  // of them not on one line. Nodes close to each other make it, and A, ill conditioned.
+  N_f.Tmmult(gram, N_f);
+  gram.set_property(dealii::LAPACKSupport::symmetric);
+  gram.compute_cholesky_factorization();
+  gram.solve(N_f_transposed);
+  N_f.mmult(Q, N_f_transposed);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      A.values[A.position(f[i], f[j])] += rho * Q(i, j);
+}
+
 GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
                                        const std::string     &package,
                                        RunContext            &the_context)
@@ -33,41 +58,16 @@ GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
   for (unsigned int i = 0; i < system.n_dofs(); ++i)
     for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
       place_of_K.push_back(K_rho.position(i, K.columns[p]));
-  for (const unsigned int i : system.fixing_dofs)
-    for (const unsigned int j : system.fixing_dofs)
-      place_of_fixing.push_back(K_rho.position(i, j));
   factor = std::make_unique<SparseFactor>(K_rho, package);
   ++context.work.symbolic_factorizations;
 }
 
 void GeneralizedInverse::factorize(const std::string &what)
 {
-  const auto        &fixing = system.fixing_dofs;
-  const unsigned int n_fix = narrow<unsigned int>(fixing.size()), n_modes = system.R.n_columns();
-  qp::MultiVector    R_f_transposed(n_modes, n_fix);
-  for (unsigned int i = 0; i < n_fix; ++i)
-    for (unsigned int mode = 0; mode < n_modes; ++mode)
-      R_f_transposed(mode, i) = system.R(fixing[i], mode);
-  // R_f'R_f is regular only if no rigid motion leaves the fixing nodes in place: in space, three or
-  // more of them not on one line. Nodes close to each other make it, and K_rho, ill conditioned.
-  qp::MultiVector gram(n_modes, n_modes);
-  for (unsigned int a = 0; a < n_modes; ++a)
-    for (unsigned int b = 0; b < n_modes; ++b)
-      for (unsigned int i = 0; i < n_fix; ++i)
-        gram(a, b) += R_f_transposed(a, i) * R_f_transposed(b, i);
-  const auto Q = dense::transpose_product(R_f_transposed, dense::solve_spd(gram, R_f_transposed));
-  // The mean of diag K is of the size of K: a much smaller rho loses digits of K^+, a much larger
-  // one worsens the condition number. Neither changes K K^+ K = K.
-  double rho = 0.;
-  for (unsigned int i = 0; i < system.n_dofs(); ++i)
-    rho += system.K.diagonal(i) / system.n_dofs();
-
   std::fill(K_rho.values.begin(), K_rho.values.end(), 0.);
   for (std::size_t p = 0; p < place_of_K.size(); ++p)
     K_rho.values[place_of_K[p]] = system.K.values[p];
-  for (unsigned int i = 0; i < n_fix; ++i)
-    for (unsigned int j = 0; j < n_fix; ++j)
-      K_rho.values[place_of_fixing[i * n_fix + j]] += rho * Q(i, j);
+  fix_kernel(K_rho, system.fixing_dofs, system.R);
   factor->factorize(what);
   ++context.work.numeric_factorizations;
 }

@@ -1,10 +1,12 @@
-#include <snug/feti/dense.h>
 #include <snug/feti/local_schur.h>
+#include <snug/qp/direction_basis.h>
+
+#include <algorithm>
 
 namespace snug::feti {
 namespace {
-/// Squares of singular values of R on the boundary, relative to the
-/// largest, below which a rigid motion leaves the boundary at rest.
+/// Squares of singular values of R on the boundary, relative to the longest
+/// column of its Gram matrix, below which a rigid motion leaves the boundary at rest.
 const double rank_cut = 1e-12;
 
 /// y += A x, every column, for symmetric A of which the rows end at the
@@ -70,9 +72,10 @@ bool LocalSchur::boundary_holds() const
     for (unsigned int i = 0; i < system.n_dofs(); ++i)
       if (position_b[i] < n_b)
         R_b(position_b[i], mode) = system.R(i, mode);
-  auto       gram    = dense::transpose_product(R_b, R_b);
-  const auto squares = dense::eigen(gram);
-  return squares.empty() || squares.front() > rank_cut * squares.back();
+  const auto gram    = transpose_times(R_b, R_b);
+  const auto lengths = norms(gram, MPI_COMM_SELF);
+  const auto longest = *std::max_element(lengths.begin(), lengths.end());
+  return qp::null_space(gram, rank_cut * longest).n_columns() == 0;
 }
 
 LocalSchur::Part LocalSchur::extract(bool rows_on_boundary, bool columns_on_boundary) const

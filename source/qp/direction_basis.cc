@@ -1,29 +1,14 @@
 #include <snug/base/narrow.h>
 #include <snug/qp/direction_basis.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
-#include <cmath>
 
 namespace snug::qp {
 namespace {
-/// Part of the largest entry below which a row is rounding.
+/// Singular values below this part of the longest column are rounding.
 const double rounding = 1e-12;
-
-/// A <- A (I - 2 v v' / v'v)
-void reflect(const std::vector<double> &v, MultiVector &A)
-{
-  double square = 0.;
-  for (const double entry : v)
-    square += entry * entry;
-  for (unsigned int i = 0; i < A.n_rows(); ++i)
-    {
-      double product = 0.;
-      for (unsigned int j = 0; j < v.size(); ++j)
-        product += A(i, j) * v[j];
-      for (unsigned int j = 0; j < v.size(); ++j)
-        A(i, j) -= 2. * product / square * v[j];
-    }
-}
 
 /// Exact zeros are meant: rows that no direction has ever touched put no condition on combinations.
 bool is_nonzero(const MultiVector &x, unsigned int row)
@@ -35,36 +20,23 @@ bool is_nonzero(const MultiVector &x, unsigned int row)
 }
 } // namespace
 
-MultiVector null_space(MultiVector A)
+MultiVector null_space(const MultiVector &A, const double cut)
 {
   const unsigned int m = A.n_rows(), n = A.n_columns();
-  MultiVector        Q(n, n); // product of the reflections
-  double             largest = 0.;
+  // A table of deal.II without rows has no columns either: a row of zeros makes no difference.
+  dealii::LAPACKFullMatrix<double> svd(std::max(m, 1u), n);
   for (unsigned int j = 0; j < n; ++j)
-    {
-      Q(j, j) = 1.;
-      for (unsigned int i = 0; i < m; ++i)
-        largest = std::max(largest, std::abs(A(i, j)));
-    }
+    for (unsigned int i = 0; i < m; ++i)
+      svd(i, j) = A(i, j);
+  svd.compute_svd();
   unsigned int rank = 0;
-  for (unsigned int row = 0; row < m && rank < n; ++row)
-    {
-      std::vector<double> v(n, 0.); // of the reflection
-      double              square = 0.;
-      for (unsigned int j = rank; j < n; ++j)
-        {
-          v[j] = A(row, j);
-          square += v[j] * v[j];
-        }
-      if (std::sqrt(square) <= rounding * largest)
-        continue;
-      // The sign that adds avoids the cancellation in v.
-      v[rank] += std::copysign(std::sqrt(square), v[rank]);
-      reflect(v, A);
-      reflect(v, Q);
-      ++rank;
-    }
-  return Q.columns_from(rank, n - rank);
+  while (rank < n && svd.singular_value(rank) > cut)
+    ++rank;
+  MultiVector N(n, n - rank);
+  for (unsigned int j = 0; j < N.n_columns(); ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      N(i, j) = svd.get_svd_vt()(rank + j, i);
+  return N;
 }
 
 DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
@@ -88,8 +60,10 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
     for (unsigned int i = 0; i < count; ++i)
       on_rows(first + i, j) = P(mine[i], j);
   MPI_Allreduce(MPI_IN_PLACE, on_rows.column(0), total * n, MPI_DOUBLE, MPI_SUM, comm);
-  const MultiVector N      = null_space(on_rows);
-  DirectionBasis    result = {times(P, N), times(FP, N), unit};
+  const auto        lengths = norms(on_rows, MPI_COMM_SELF);
+  const MultiVector N =
+    null_space(on_rows, rounding * *std::max_element(lengths.begin(), lengths.end()));
+  DirectionBasis result = {times(P, N), times(FP, N), unit};
   // Rounding left on these rows would put forces on rows off the face, which are taken to be zero.
   for (unsigned int j = 0; j < result.P.n_columns(); ++j)
     for (const unsigned int i : mine)

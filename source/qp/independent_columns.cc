@@ -24,14 +24,14 @@ orthonormal_combinations(const MultiVector &S, const std::vector<double> &smalle
       const std::size_t pivot  = std::max_element(squares.begin(), squares.end()) - squares.begin();
       MultiVector       c      = candidates[pivot];
       const MultiVector Sc     = times(S, c);
-      const double      square = inner_products(c, Sc, MPI_COMM_SELF)(0);
+      const double      square = transpose_times(c, Sc)(0);
       if (!(square > cut))
         break;
       candidates.erase(candidates.begin() + pivot);
       squares.erase(squares.begin() + pivot);
       for (std::size_t j = 0; j < candidates.size(); ++j)
         {
-          const double part = inner_products(candidates[j], Sc, MPI_COMM_SELF)(0) / square;
+          const double part = transpose_times(candidates[j], Sc)(0) / square;
           candidates[j].add(-part, c);
           squares[j] -= part * part * square;
         }

@@ -77,6 +77,11 @@ MultiVector inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm 
   return products;
 }
 
+MultiVector transpose_times(const MultiVector &X, const MultiVector &Y)
+{
+  return inner_products(X, Y, MPI_COMM_SELF);
+}
+
 std::vector<double> norms(const MultiVector &X, MPI_Comm comm)
 {
   std::vector<double> squares(X.n_columns(), 0.);

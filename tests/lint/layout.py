@@ -11,7 +11,7 @@ DIRECTIVE = re.compile(r"^\s*#\s*(\w+)\s*(.*?)\s*$")
 
 
 def guard_name(root, path):
-    """include/snug/feti/dense.h -> snug_feti_dense_h"""
+    """include/snug/feti/csr_matrix.h -> snug_feti_csr_matrix_h"""
     parts = path.relative_to(root / "include").with_suffix("").parts
     return "_".join(parts + ("h",))
 

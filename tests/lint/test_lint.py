@@ -85,7 +85,7 @@ class Modules(Tree):
         self.write("include/snug/mesh/a.h", "#include <snug/base/errors.h>\n")
         self.write("source/mesh/a.cc",
                    '#include <snug/mesh/a.h>\n#include "a.inst"\n')
-        self.write("source/io/x.cc", "#include <snug/feti/dense.h>\n")
+        self.write("source/io/x.cc", "#include <snug/feti/csr_matrix.h>\n")
         self.expect(modules.check(self.root))
 
     def test_a_sideways_include_is_found(self):

@@ -61,6 +61,10 @@ public:
   /// n_modes; equal on all ranks.
   const qp::MultiVector &body_modes() const { return modes; }
 
+  /// Orthonormal motions of the bodies, in coordinates of body_modes(), that
+  /// the rows M of @p A = G_M G_M' do not see.
+  qp::MultiVector unseen_motions(const CsrMatrix &A) const;
+
   /// Coarse coordinates of one representative subdomain per body.
   const std::vector<unsigned int> &representatives() const { return representative; }
 

@@ -30,6 +30,8 @@ struct CsrMatrix
   /// By search: for scales and set-up, not for inner loops.
   double diagonal(PetscInt i) const { return values[position(i, i)]; }
 
+  double mean_diagonal() const;
+
   /// y += factor * A x, for every column.
   void multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const;
 

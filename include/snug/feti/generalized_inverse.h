@@ -10,6 +10,14 @@
 
 namespace snug::feti {
 /**
+ * A += rho N_f (N_f' N_f)^{-1} N_f' on the unknowns @p f, all coupled in the
+ * pattern of A, with the rows N_f of the kernel N of A and rho = mean diag A.
+ * Makes A regular, and A^-1 a generalized inverse of the former A, as
+ * (A + rho Q) N = rho N_f. Nothing if N has no columns.
+ */
+void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::MultiVector &N);
+
+/**
  * K^+ of a floating subdomain by fixing nodes,
  * @f[ K^+ = (K + \rho Q_f)^{-1}, \qquad
  *     Q_f = R_f (R_f^T R_f)^{-1} R_f^T, \quad
@@ -39,8 +47,7 @@ private:
   const SubdomainSystem        &system;
   RunContext                   &context;
   CsrMatrix                     K_rho;
-  std::vector<std::size_t>      place_of_K;      ///< in K_rho.values
-  std::vector<std::size_t>      place_of_fixing; ///< row by row
+  std::vector<std::size_t>      place_of_K; ///< in K_rho.values
   std::unique_ptr<SparseFactor> factor;
 };
 } // namespace snug::feti

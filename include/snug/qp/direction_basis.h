@@ -20,9 +20,9 @@ struct DirectionBasis
   DirectionBasis off(const RowSet &rows, MPI_Comm comm) const;
 };
 
-/// Orthonormal basis of the null space of @p A (m x n) by Householder
-/// reflections; n x (n - rank).
-MultiVector null_space(MultiVector A);
+/// Orthonormal basis, n x (n - rank), of what @p A (m x n, n > 0) takes to zero:
+/// singular values up to @p cut are rounding.
+MultiVector null_space(const MultiVector &A, double cut);
 } // namespace snug::qp
 
 #endif

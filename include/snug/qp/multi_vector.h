@@ -60,6 +60,9 @@ private:
 /// ranks. Collective.
 MultiVector inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm);
 
+/// X' Y of these rows alone.
+MultiVector transpose_times(const MultiVector &X, const MultiVector &Y);
+
 /// Euclidean norms of the columns, equal on all ranks. Collective.
 std::vector<double> norms(const MultiVector &X, MPI_Comm comm);
 

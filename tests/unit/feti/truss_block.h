@@ -1,7 +1,6 @@
 #ifndef snug_tests_unit_feti_truss_block_h
 #define snug_tests_unit_feti_truss_block_h
 
-#include <snug/feti/dense.h>
 #include <snug/feti/subdomain_system.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -153,7 +152,7 @@ inline feti::SubdomainSystem truss_system(const Block               &block,
       system.f[dim * a + dim - 1] = -1. - 0.1 * (a % 3);
   system.R = rigid_motions(block, position(block.nodes[0]));
   orthonormalise(system.R);
-  system.Z = feti::dense::transpose_product(system.R, rigid_motions(block, centre_of_body));
+  system.Z = qp::transpose_times(system.R, rigid_motions(block, centre_of_body));
   const std::set<unsigned int> corners = {0, block.slot(block.last), block.slot([&]() {
                                             Node corner = block.first;
                                             corner[0]   = block.last[0];
