@@ -6,7 +6,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/map.hpp>
+
 #include <algorithm>
+#include <map>
 
 namespace snug::shape {
 namespace {
@@ -19,19 +22,6 @@ const unsigned int n_solves        = 2;
 
 /// Coarse problems of this size are factorized.
 const PetscInt direct_size = 1000;
-
-/// row[column] += block.
-template <typename Row, typename Block>
-void add_block(Row &row, const unsigned int column, const Block &block)
-{
-  for (auto &entry : row)
-    if (entry.first == column)
-      {
-        entry.second += block;
-        return;
-      }
-  row.emplace_back(column, block);
-}
 
 template <int dim>
 class SolvedInterior : public Interior<dim>
@@ -56,8 +46,8 @@ public:
   {
     Field force(numbers.size());
     for (unsigned int node = 0; node < force.size(); ++node)
-      for (const auto &coupling : couplings[node])
-        force[node] -= coupling.second * moves[coupling.first];
+      for (const auto &[surface_node, block] : couplings[node])
+        force[node] -= block * moves[surface_node];
     Field result = solve(force);
     for (unsigned int node = 0; node < result.size(); ++node)
       if (roles.driver(node) != none)
@@ -71,8 +61,8 @@ public:
     FaceField   result(face.surface().n_nodes());
     for (unsigned int node = 0; node < u.size(); ++node)
       {
-        for (const auto &coupling : couplings[node])
-          result[coupling.first] -= u[node] * coupling.second;
+        for (const auto &[surface_node, block] : couplings[node])
+          result[surface_node] -= u[node] * block;
         if (roles.driver(node) != none)
           result[roles.driver(node)] += gradient[node];
       }
@@ -82,8 +72,8 @@ public:
 private:
   using Block                        = dealii::Tensor<2, dim>;
   static constexpr unsigned int none = NodeRoles<dim>::none;
-  /// Columns and blocks of one row.
-  using Row = std::vector<std::pair<unsigned int, Block>>;
+  /// Blocks of one row by column.
+  using Row = std::map<unsigned int, Block>;
 
   void number_unknowns()
   {
@@ -129,12 +119,11 @@ private:
                 const unsigned int node  = K.nodes[b];
                 const Block        block = P * K.blocks[a * m + b];
                 if (numbers[node] != none)
-                  add_block(rows[row], numbers[node], block * roles.freedom(node));
+                  rows[row][numbers[node]] += block * roles.freedom(node);
                 else if (roles.driver(node) != none)
-                  add_block(couplings[row], roles.driver(node), block);
+                  couplings[row][roles.driver(node)] += block;
               }
-            add_block(rows[row], numbers[row],
-                      trace(K.blocks[a * m + a]) / dim * (Block(identity) - P));
+            rows[row][numbers[row]] += trace(K.blocks[a * m + a]) / dim * (Block(identity) - P);
           }
       }
     return rows;
@@ -146,29 +135,14 @@ private:
   {
     const auto        &mesh = face.mesh();
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
-    std::map<unsigned int, std::vector<double>> parcels;
+    std::map<unsigned int, std::map<unsigned int, Row>> parcels;
     for (unsigned int node = 0; node < rows.size(); ++node)
-      if (mesh.owner(node) != rank)
-        for (const auto &entry : rows[node])
-          {
-            auto &parcel = parcels[mesh.owner(node)];
-            parcel.push_back(numbers[node]);
-            parcel.push_back(entry.first);
-            for (unsigned int c = 0; c < dim * dim; ++c)
-              parcel.push_back(entry.second[c / dim][c % dim]);
-          }
+      if (mesh.owner(node) != rank && !rows[node].empty())
+        parcels[mesh.owner(node)][numbers[node]] = rows[node];
     for (const auto &received : dealii::Utilities::MPI::some_to_some(mesh.communicator(), parcels))
-      {
-        const auto &parcel = received.second;
-        for (unsigned int k = 0; k < parcel.size(); k += 2 + dim * dim)
-          {
-            Block block;
-            for (unsigned int c = 0; c < dim * dim; ++c)
-              block[c / dim][c % dim] = parcel[k + 2 + c];
-            add_block(rows[own[static_cast<unsigned int>(parcel[k]) - first]], parcel[k + 1],
-                      block);
-          }
-      }
+      for (const auto &[number, row] : received.second)
+        for (const auto &[column, block] : row)
+          rows[own[number - first]][column] += block;
   }
 
   void build_matrix(const std::vector<Row> &rows)
@@ -178,9 +152,7 @@ private:
     for (const unsigned int node : own)
       {
         const Row &row = rows[node];
-        own_columns.push_back(std::count_if(row.begin(), row.end(), [&](const auto &entry) {
-          return entry.first >= first && entry.first < first + n;
-        }));
+        own_columns.push_back(std::distance(row.lower_bound(first), row.lower_bound(first + n)));
         other_columns.push_back(row.size() - own_columns.back());
       }
     check(MatCreate(face.mesh().communicator(), matrix.put()));
@@ -193,10 +165,8 @@ private:
       for (const auto &entry : rows[node])
         {
           const PetscInt row = numbers[node], column = entry.first;
-          double         values[dim * dim];
-          for (unsigned int c = 0; c < dim * dim; ++c)
-            values[c] = entry.second[c / dim][c % dim];
-          check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, values, INSERT_VALUES));
+          check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, entry.second.begin_raw(),
+                                    INSERT_VALUES));
         }
     check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
