@@ -11,6 +11,7 @@ CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
   CsrMatrix &matrix = A->matrix;
   const auto values = space.gram_values(free);
   std::copy(values.begin(), values.end(), matrix.values.begin());
+  // Orthonormal, as both factors are.
   N = times(space.body_modes(), space.unseen_motions(matrix));
   // The same way out as fixing nodes for K; only the unknowns of one subdomain per body become
   // coupled.

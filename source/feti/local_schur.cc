@@ -72,6 +72,7 @@ bool LocalSchur::boundary_holds() const
     for (unsigned int i = 0; i < system.n_dofs(); ++i)
       if (position_b[i] < n_b)
         R_b(position_b[i], mode) = system.R(i, mode);
+  // 6 x 6 at most; the singular vectors of R_b itself would be a matrix of all of b.
   const auto gram    = transpose_times(R_b, R_b);
   const auto lengths = norms(gram, MPI_COMM_SELF);
   const auto longest = *std::max_element(lengths.begin(), lengths.end());

@@ -60,6 +60,7 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
     for (unsigned int i = 0; i < count; ++i)
       on_rows(first + i, j) = P(mine[i], j);
   MPI_Allreduce(MPI_IN_PLACE, on_rows.column(0), total * n, MPI_DOUBLE, MPI_SUM, comm);
+  // Relative to these rows: they may all be small beside the directions' other rows.
   const auto        lengths = norms(on_rows, MPI_COMM_SELF);
   const MultiVector N =
     null_space(on_rows, rounding * *std::max_element(lengths.begin(), lengths.end()));

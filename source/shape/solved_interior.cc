@@ -46,6 +46,7 @@ public:
   {
     Field force(numbers.size());
     for (unsigned int node = 0; node < force.size(); ++node)
+      // Of this rank's cells alone: solve() adds up the ranks' forces.
       for (const auto &[surface_node, block] : couplings[node])
         force[node] -= block * moves[surface_node];
     Field result = solve(force);
@@ -123,6 +124,8 @@ private:
                 else if (roles.driver(node) != none)
                   couplings[row][roles.driver(node)] += block;
               }
+            // Directions the node may not take: a diagonal of the others' size keeps A_ff regular
+            // and its condition number as it is.
             rows[row][numbers[row]] += trace(K.blocks[a * m + a]) / dim * (Block(identity) - P);
           }
       }
@@ -137,6 +140,7 @@ private:
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
     std::map<unsigned int, std::map<unsigned int, Row>> parcels;
     for (unsigned int node = 0; node < rows.size(); ++node)
+      // By the number, as a node has another local index on every rank.
       if (mesh.owner(node) != rank && !rows[node].empty())
         parcels[mesh.owner(node)][numbers[node]] = rows[node];
     for (const auto &received : dealii::Utilities::MPI::some_to_some(mesh.communicator(), parcels))
