@@ -21,11 +21,31 @@ contact::Pair find_pair(const scene::Scene                      &scene,
 }
 } // namespace
 
+/// True surfaces are asked for where contact, normal supports and shaped faces are.
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene)
 {
+  std::vector<std::string> faces; // body.boundary
+  for (const auto &pair : scene.contact.pairs)
+    faces.insert(faces.end(), {pair.slave, pair.master});
+  bool is_designed = false;
+  for (const auto &shape : scene.shapes)
+    {
+      faces.push_back(shape.face);
+      is_designed = is_designed || shape.basis != "none";
+    }
   std::vector<geometry::BodyMeshParameters> parameters;
   for (const auto &body : scene.bodies)
-    parameters.push_back(body.mesh);
+    {
+      parameters.push_back(body.mesh);
+      auto &sampled = parameters.back().sampled_boundaries;
+      for (const auto &face : faces)
+        if (face.rfind(body.name + ".", 0) == 0)
+          sampled.push_back(face.substr(body.name.size() + 1));
+      for (const auto &support : body.supports)
+        if (support.second.find("normal") != std::string::npos)
+          sampled.push_back(support.first);
+      parameters.back().is_designed = is_designed;
+    }
   return parameters;
 }
 

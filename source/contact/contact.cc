@@ -174,7 +174,7 @@ typename Contact<dim>::Group Contact<dim>::make_group(const PairGeometry<dim> &g
 template <int dim>
 std::vector<Row<dim>> Contact<dim>::rows(const Field &positions) const
 {
-  AssertDimension(positions.size(), surface.n_nodes());
+  AssertDimension(positions.size(), surface.n_points());
   std::vector<Row<dim>> result;
   for (const Group &group : groups)
     for (Row<dim> &row : group.rows->rows(positions))
@@ -193,8 +193,8 @@ template <int dim>
 std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
                                                     const Field &velocity) const
 {
-  AssertDimension(positions.size(), surface.n_nodes());
-  AssertDimension(velocity.size(), surface.n_nodes());
+  AssertDimension(positions.size(), surface.n_points());
+  AssertDimension(velocity.size(), surface.n_points());
   std::vector<Row<dim>> result;
   for (const Group &group : groups)
     for (Row<dim> &row : group.rows->row_derivatives(positions, velocity))
@@ -214,10 +214,10 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
                                                            const Field               &displacement,
                                                            const std::vector<double> &forces) const
 {
-  AssertDimension(positions.size(), surface.n_nodes());
+  AssertDimension(positions.size(), surface.n_points());
   AssertDimension(displacement.size(), surface.n_nodes());
   AssertDimension(forces.size(), n_rows());
-  Field gradient(surface.n_nodes());
+  Field gradient(surface.n_points());
   auto  first = forces.begin();
   for (const Group &group : groups)
     {
@@ -239,7 +239,7 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
 template <int dim>
 std::vector<double> Contact<dim>::areas(const Field &positions) const
 {
-  AssertDimension(positions.size(), surface.n_nodes());
+  AssertDimension(positions.size(), surface.n_points());
   std::vector<double> result;
   for (const Group &group : groups)
     {
@@ -253,9 +253,9 @@ template <int dim>
 typename Contact<dim>::Field Contact<dim>::area_gradient(const Field               &positions,
                                                          const std::vector<double> &factors) const
 {
-  AssertDimension(positions.size(), surface.n_nodes());
+  AssertDimension(positions.size(), surface.n_points());
   AssertDimension(factors.size(), n_rows());
-  Field gradient(surface.n_nodes());
+  Field gradient(surface.n_points());
   auto  first = factors.begin();
   for (const Group &group : groups)
     {

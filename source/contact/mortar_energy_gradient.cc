@@ -26,25 +26,51 @@ void MortarRows<dim>::add_energy_gradient(const Field               &positions,
                                           Field                     &gradient) const
 {
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
-  const auto                  sums = row_sums<double>(mortar::node_arrays<dim>(positions));
-  Energy                      energy{positions, deformed(positions, displacement), {}, {}};
+  const auto                  x    = mortar::node_arrays<dim>(positions);
+  const auto                  of_n = mortar::node_arrays<dim>(normals.normals());
+  const auto                  sums = row_sums<double>(x);
+  Energy                      energy{positions, deformed(positions, displacement), {}, {}, {}, {}};
   Field                       normal_gradient(surface.n_nodes());
   for (unsigned int i = 0; i < sums.size(); ++i)
     {
-      const unsigned int     node = multipliers.nodes[i];
-      const auto            &n    = normals.normals()[node];
-      const double           p    = forces[i] / sums[i].area;
+      const unsigned int     node      = multipliers.nodes[i];
+      const auto            &n         = normals.normals()[node];
+      const double           p         = forces[i] / sums[i].area;
+      const auto             corrected = correction(i, sums[i], x, of_n[node]);
       dealii::Tensor<1, dim> r;
       for (int d = 0; d < dim; ++d)
         // r_i = int psi_i (y_slave - y_master) dA for y = x + u: the offset is that of x, master
         // less slave.
         r[d] = -sums[i].offset[d];
+      std::vector<double> along_n;
       for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
-        r += sums[i].coefficients[k] * displacement[row_nodes[i][k]];
+        {
+          const auto &u = displacement[row_nodes[i][k]];
+          r += (sums[i].coefficients[k] - corrected.masses()[k]) * u;
+          along_n.push_back(n * u);
+        }
       normal_gradient[node] += p * r;
       energy.directions.push_back(p * n);
       // force / a_i n . r_i: by n it is p r_i, by r_i p n, by a_i minus the whole over a_i.
       energy.area_slopes.push_back(-p / sums[i].area * (n * r));
+
+      // The share of the correction, -p sum_k dM_k n . u_k, by what dM is made of.
+      auto by = corrected.gradient(along_n);
+      for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
+        {
+          by.coefficients[k] *= -p;
+          by.weights[k] *= -p;
+          for (int d = 0; d < dim; ++d)
+            {
+              gradient[row_nodes[i][k]][d] -= p * by.x[k][d];
+              // Places are relative to the slave node.
+              gradient[node][d] += p * by.x[k][d];
+            }
+        }
+      for (int d = 0; d < dim; ++d)
+        normal_gradient[node][d] -= p * by.n[d];
+      energy.coefficient_slopes.push_back(by.coefficients);
+      energy.weight_slopes.push_back(by.weights);
     }
   normals.add_transpose(normal_gradient, gradient);
   for (const SlaveFace &face : faces)
@@ -58,7 +84,7 @@ void MortarRows<dim>::add_area_gradient(const Field               &positions,
                                         Field                     &gradient) const
 {
   AssertDimension(factors.size(), multipliers.nodes.size());
-  const Energy energy{positions, positions, Field(factors.size()), factors};
+  const Energy energy{positions, positions, Field(factors.size()), factors, {}, {}};
   for (const SlaveFace &face : faces)
     add_face_gradient(face, energy, gradient);
 }
@@ -95,6 +121,18 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   const auto coupling    = mortar::couple(of_shapes, face.biorthogonal);
   auto       to_coupling = coupling;
   to_coupling.multiplier = area_slope;
+  // of the corrections by what stands for psi_j N_k in the rows
+  const auto corrections = [&](const std::vector<std::vector<double>> &slopes, unsigned int j,
+                               unsigned int node, bool absolute) {
+    double sum = 0.;
+    if (!slopes.empty())
+      for (const auto &share : multipliers.shares[nodes[j]])
+        for_each_place(share.first, node, [&](unsigned int place, double weight) {
+          const double factor = weight * share.second;
+          sum += (absolute ? std::abs(factor) : factor) * slopes[share.first][place];
+        });
+    return sum;
+  };
   // sum_j direction_j . int psi_j N_k y_k: by the positions of node k, and by the integral itself.
   const auto add = [&](double sign, const dealii::Table<2, double> &integral,
                        const std::vector<unsigned int> &others, dealii::Table<2, double> &slope) {
@@ -103,23 +141,40 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
         {
           gradient[others[k]] += sign * integral(j, k) * direction[j];
           slope(j, k) = sign * (direction[j] * (energy.deformed[others[k]] - origin));
+          // Of the slave side only the node itself is in the rows of biorthogonal functions.
+          if (sign < 0. || !face.biorthogonal || j == k)
+            slope(j, k) += sign * corrections(energy.coefficient_slopes, j, others[k], false);
         }
   };
   add(1., coupling.multiplier_slave, nodes, to_coupling.multiplier_slave);
-  std::vector<mortar::FaceNodes<dim, double>> masters;
+  for (unsigned int j = 0; j < n; ++j)
+    for (int d = 0; d < dim; ++d)
+      to_coupling.multiplier_offset(j, d) = -direction[j][d];
+  std::vector<mortar::MortarFace<dim, double>> masters;
   for (unsigned int f = 0; f < face.masters.size(); ++f)
     {
       add(-1., coupling.multiplier_master[f], surface.faces()[face.masters[f]].nodes,
           to_coupling.multiplier_master[f]);
-      masters.push_back(mortar::face_nodes<dim>(surface, face.masters[f], x));
+      masters.push_back(mortar::mortar_face<dim>(surface, shape, face.masters[f], x));
     }
-  const auto to_nodes = mortar::integrate_transpose<dim>(
-    quadrature, mortar::face_nodes<dim>(surface, face.face, x), masters,
-    mortar::couple_transpose(of_shapes, face.biorthogonal, to_coupling));
-  const auto add_nodes = [&](unsigned int on, const mortar::FaceNodes<dim, double> &values) {
+  auto to_integrals = mortar::couple_transpose(of_shapes, face.biorthogonal, to_coupling);
+  for (unsigned int f = 0; f < face.masters.size(); ++f)
+    {
+      to_integrals.weights.emplace_back(n, n);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int k = 0; k < n; ++k)
+          to_integrals.weights[f](j, k) =
+            corrections(energy.weight_slopes, j, surface.faces()[face.masters[f]].nodes[k], true);
+    }
+  const auto to_nodes =
+    mortar::integrate_transpose<dim>(quadrature,
+                                     mortar::mortar_face<dim>(surface, shape, face.face, x),
+                                     masters, to_integrals);
+  const auto add_nodes = [&](unsigned int on, const mortar::MortarFace<dim, double> &values) {
     for (unsigned int k = 0; k < n; ++k)
       for (int d = 0; d < dim; ++d)
-        gradient[surface.faces()[on].nodes[k]][d] += values[k][d];
+        gradient[surface.faces()[on].nodes[k]][d] += values.nodes[k][d];
+    mortar::add_offset_gradient<dim>(surface.faces()[on], shape, values.offsets, gradient);
   };
   add_nodes(face.face, to_nodes.slave);
   for (unsigned int f = 0; f < face.masters.size(); ++f)

@@ -5,6 +5,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 
@@ -166,31 +167,65 @@ template <typename Number>
 mortar::FaceIntegrals<Number>
 MortarRows<dim>::integrals(const SlaveFace &face, const mortar::FaceNodes<dim, Number> &x) const
 {
-  std::vector<mortar::FaceNodes<dim, Number>> masters;
+  std::vector<mortar::MortarFace<dim, Number>> masters;
   for (const unsigned int master : face.masters)
-    masters.push_back(mortar::face_nodes<dim>(surface, master, x));
-  return mortar::integrate<dim>(quadrature, mortar::face_nodes<dim>(surface, face.face, x),
+    masters.push_back(mortar::mortar_face<dim>(surface, shape, master, x));
+  return mortar::integrate<dim>(quadrature, mortar::mortar_face<dim>(surface, shape, face.face, x),
                                 masters);
 }
 
-/// Add @p coefficient at @p node, or at its masters if it hangs.
+/// The parts of rows that are integrals over one slave face.
 template <int dim>
 template <typename Number>
-void MortarRows<dim>::add_to_row(RowSum<Number> &sum,
-                                 unsigned int    row,
-                                 unsigned int    node,
-                                 const Number   &coefficient) const
+void MortarRows<dim>::add_face(const SlaveFace                      &face,
+                               const mortar::FaceNodes<dim, Number> &x,
+                               std::vector<RowSum<Number>>          &sums) const
 {
-  const auto add = [&](unsigned int at, double weight) {
-    const auto &nodes = row_nodes[row];
-    // Found always: collect_row_nodes() has seen the same faces.
-    const auto place = std::lower_bound(nodes.begin(), nodes.end(), at);
-    sum.coefficients[place - nodes.begin()] += weight * coefficient;
+  const auto  of_shapes = integrals(face, x);
+  const auto  coupling  = mortar::couple(of_shapes, face.biorthogonal);
+  const auto &nodes     = surface.faces()[face.face].nodes;
+  // int psi_j N at one node of a face: coefficient and part of the gap
+  const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
+    for (const auto &share : multipliers.shares[nodes[j]])
+      {
+        RowSum<Number> &sum    = sums[share.first];
+        const Number    shared = share.second * integral;
+        for_each_place(share.first, node, [&](unsigned int place, double weight) {
+          sum.coefficients[place] += weight * shared;
+        });
+        for (int d = 0; d < dim; ++d)
+          // Hanging nodes at their own position, though their coefficients went to their
+          // masters: the gap is one between the faces as they are.
+          sum.offset[d] -= shared * x[node][d];
+      }
   };
-  if (surface.masters(node).empty())
-    add(node, 1.);
-  for (const auto &master : surface.masters(node))
-    add(master.first, master.second);
+  for (unsigned int j = 0; j < nodes.size(); ++j)
+    {
+      for (const auto &share : multipliers.shares[nodes[j]])
+        {
+          sums[share.first].area += share.second * coupling.multiplier[j];
+          for (int d = 0; d < dim; ++d)
+            sums[share.first].offset[d] += share.second * coupling.multiplier_offset(j, d);
+        }
+      for (unsigned int l = 0; l < nodes.size(); ++l)
+        // The other integrals are zero up to rounding, and their nodes may not be in the row.
+        if (!face.biorthogonal || l == j)
+          add(j, nodes[l], coupling.multiplier_slave(j, l));
+      for (unsigned int f = 0; f < face.masters.size(); ++f)
+        {
+          const auto &master = surface.faces()[face.masters[f]].nodes;
+          for (unsigned int k = 0; k < master.size(); ++k)
+            {
+              add(j, master[k], -coupling.multiplier_master[f](j, k));
+              for (const auto &share : multipliers.shares[nodes[j]])
+                for_each_place(share.first, master[k], [&](unsigned int place, double weight) {
+                  // Of hanging nodes of degree 2, weights and shares may be negative.
+                  sums[share.first].weights[place] +=
+                    std::abs(weight * share.second) * of_shapes.weights[f](j, k);
+                });
+            }
+        }
+    }
 }
 
 template <int dim>
@@ -200,46 +235,36 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
 {
   std::vector<RowSum<Number>> sums(row_nodes.size());
   for (unsigned int i = 0; i < sums.size(); ++i)
-    sums[i].coefficients.resize(row_nodes[i].size());
-  for (const SlaveFace &face : faces)
     {
-      const auto  coupling = mortar::couple(integrals(face, x), face.biorthogonal);
-      const auto &nodes    = surface.faces()[face.face].nodes;
-      // int psi_j N at one node of a face: coefficient and part of the gap
-      const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
-        for (const auto &share : multipliers.shares[nodes[j]])
-          {
-            RowSum<Number> &sum    = sums[share.first];
-            const Number    shared = share.second * integral;
-            add_to_row(sum, share.first, node, shared);
-            for (int d = 0; d < dim; ++d)
-              // Hanging nodes at their own position, though their coefficients went to their
-              // masters: the gap is one between the faces as they are.
-              sum.offset[d] -= shared * x[node][d];
-          }
-      };
-      for (unsigned int j = 0; j < nodes.size(); ++j)
-        {
-          for (const auto &share : multipliers.shares[nodes[j]])
-            sums[share.first].area += share.second * coupling.multiplier[j];
-          for (unsigned int l = 0; l < nodes.size(); ++l)
-            // The other integrals are zero up to rounding, and their nodes may not be in the row.
-            if (!face.biorthogonal || l == j)
-              add(j, nodes[l], coupling.multiplier_slave(j, l));
-          for (unsigned int f = 0; f < face.masters.size(); ++f)
-            {
-              const auto &master = surface.faces()[face.masters[f]].nodes;
-              for (unsigned int k = 0; k < master.size(); ++k)
-                add(j, master[k], -coupling.multiplier_master[f](j, k));
-            }
-        }
+      sums[i].coefficients.resize(row_nodes[i].size());
+      sums[i].weights.resize(row_nodes[i].size());
     }
-  for (unsigned int i = 0; i < sums.size(); ++i)
+  for (const SlaveFace &face : faces)
+    add_face(face, x, sums);
+  for (const auto &sum : sums)
     // The row is divided by its area.
-    if (!(faces::value_of(sums[i].area) > 0.))
+    if (!(faces::value_of(sum.area) > 0.))
       throw TangledMesh("the master side has moved away from contact "
                         "nodes that it was opposite to");
   return sums;
+}
+
+template <int dim>
+template <typename Number>
+mortar::MomentCorrection<dim, Number>
+MortarRows<dim>::correction(unsigned int                          i,
+                            const RowSum<Number>                 &sum,
+                            const mortar::FaceNodes<dim, Number> &x,
+                            const std::array<Number, dim>        &n) const
+{
+  mortar::FaceNodes<dim, Number> relative;
+  for (const unsigned int node : row_nodes[i])
+    {
+      relative.push_back(x[node]);
+      for (int d = 0; d < dim; ++d)
+        relative.back()[d] -= x[multipliers.nodes[i]][d];
+    }
+  return {relative, sum.coefficients, sum.weights, n};
 }
 
 /// Hanging nodes are left out: they have no unknowns whose force could be asked for.
@@ -260,7 +285,9 @@ template <int dim>
 std::vector<Row<dim>> MortarRows<dim>::rows(const Field &positions) const
 {
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
-  const auto                  sums = row_sums<double>(mortar::node_arrays<dim>(positions));
+  const auto                  x    = mortar::node_arrays<dim>(positions);
+  const auto                  n    = mortar::node_arrays<dim>(normals.normals());
+  const auto                  sums = row_sums<double>(x);
   std::vector<Row<dim>>       result(sums.size());
   for (unsigned int i = 0; i < sums.size(); ++i)
     {
@@ -268,9 +295,11 @@ std::vector<Row<dim>> MortarRows<dim>::rows(const Field &positions) const
       row.normal    = normals.normals()[multipliers.nodes[i]];
       for (int d = 0; d < dim; ++d)
         row.gap += row.normal[d] * sums[i].offset[d] / sums[i].area;
+      const auto corrected = correction(i, sums[i], x, n[multipliers.nodes[i]]);
       for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
         row.coefficients.emplace_back(row_nodes[i][k],
-                                      sums[i].coefficients[k] / sums[i].area * row.normal);
+                                      (sums[i].coefficients[k] - corrected.masses()[k]) /
+                                        sums[i].area * row.normal);
     }
   return result;
 }
@@ -282,7 +311,9 @@ std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
   const Field                 normal_slopes = normals.derivative(velocity);
   // One pass over the segments gives values and derivatives, exact through cuts and projections.
-  const auto sums = row_sums<faces::Differential<1>>(mortar::node_arrays<dim>(positions, velocity));
+  const auto            x          = mortar::node_arrays<dim>(positions, velocity);
+  const auto            with_slope = mortar::node_arrays<dim>(normals.normals(), normal_slopes);
+  const auto            sums       = row_sums<faces::Differential<1>>(x);
   std::vector<Row<dim>> result(sums.size());
   for (unsigned int i = 0; i < sums.size(); ++i)
     {
@@ -294,9 +325,10 @@ std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
           const auto mean = sums[i].offset[d] / sums[i].area;
           row.gap += row.normal[d] * mean.value + n[d] * mean.slope[0];
         }
+      const auto corrected = correction(i, sums[i], x, with_slope[multipliers.nodes[i]]);
       for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
         {
-          const auto c = sums[i].coefficients[k] / sums[i].area;
+          const auto c = (sums[i].coefficients[k] - corrected.masses()[k]) / sums[i].area;
           row.coefficients.emplace_back(row_nodes[i][k], c.value * row.normal + c.slope[0] * n);
         }
     }
@@ -318,7 +350,10 @@ template class MortarRows<3>;
   template mortar::FaceIntegrals<double> MortarRows<dim>::integrals(               \
     const SlaveFace &, const mortar::FaceNodes<dim, double> &) const;              \
   template std::vector<MortarRows<dim>::RowSum<double>> MortarRows<dim>::row_sums( \
-    const mortar::FaceNodes<dim, double> &) const;
+    const mortar::FaceNodes<dim, double> &) const;                                 \
+  template mortar::MomentCorrection<dim, double> MortarRows<dim>::correction(      \
+    unsigned int, const RowSum<double> &, const mortar::FaceNodes<dim, double> &,  \
+    const std::array<double, dim> &) const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

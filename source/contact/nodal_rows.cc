@@ -4,10 +4,14 @@
 #include <snug/contact/supported_normals.h>
 #include <snug/faces/tributary.h>
 
+#include <algorithm>
 #include <map>
 
 namespace snug::contact {
 namespace {
+/// Areas below this part of the largest are none.
+const double least_area = 1e-10;
+
 /// n = v/|v|, v = -sum_k w_k n_k
 template <int dim>
 struct RowNormal
@@ -19,21 +23,28 @@ struct RowNormal
 template <int dim>
 using SurfaceField = typename mesh::Surface<dim>::Field;
 
-/// sum_k w_k field_k over the masters of @p projection.
+/// sum_k w_k field_k
 template <int dim>
-dealii::Tensor<1, dim> at_master(const Projection &projection, const SurfaceField<dim> &field)
+dealii::Tensor<1, dim> weighted(const Projection::Weights &weights, const SurfaceField<dim> &field)
 {
   dealii::Tensor<1, dim> sum;
-  for (const auto &master : projection.masters)
-    sum += master.second * field[master.first];
+  for (const auto &point : weights)
+    sum += point.second * field[point.first];
   return sum;
+}
+
+/// From the slave to the true surface of the master, or its derivative.
+template <int dim>
+dealii::Tensor<1, dim> to_master(const Projection &projection, const SurfaceField<dim> &field)
+{
+  return weighted<dim>(projection.surface, field) - field[projection.slave];
 }
 
 template <int dim>
 RowNormal<dim> row_normal(const Projection &projection, const SurfaceField<dim> &nodal_normals)
 {
   // Nodal normals point out of the master; those of rows into it.
-  const dealii::Tensor<1, dim> v      = -1. * at_master<dim>(projection, nodal_normals);
+  const dealii::Tensor<1, dim> v      = -1. * weighted<dim>(projection.masters, nodal_normals);
   const double                 length = v.norm();
   if (!(length > 0.))
     throw TangledMesh("the normals of a contact face cancel: it is folded");
@@ -67,15 +78,22 @@ public:
   {
     const Opposition<dim> opposition(pair);
     const auto            normals = master_normals(pair.positions);
-    for (const Projection &projection : project(surface, sides, shape, pair.positions))
+    const auto   areas = faces::tributary_areas<dim>({surface, sides.slave, shape}, pair.positions);
+    const double largest = *std::max_element(areas.begin(), areas.end());
+    for (const Projection &projection :
+         project(surface, sides, shape, pair.positions, normals.normals()))
       {
-        const unsigned int slave = projection.slave;
-        const double       distance =
-          (at_master<dim>(projection, pair.positions) - pair.positions[slave]).norm();
-        const auto n = row_normal<dim>(projection, normals.normals()).n;
+        const unsigned int slave    = projection.slave;
+        const double       distance = to_master<dim>(projection, pair.positions).norm();
+        const auto         n        = row_normal<dim>(projection, normals.normals()).n;
         // The distance counts on both sides: a deep overlap is as far away as a wide gap.
         if (pair.taken[slave] || !opposition.holds(slave, distance, n))
           continue;
+        if (!(areas[slave] > least_area * largest))
+          {
+            idle.push_back(slave);
+            continue;
+          }
         found.push_back(projection);
         slave_nodes.push_back(slave);
       }
@@ -83,6 +101,28 @@ public:
   }
 
   const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
+
+  /// On the axis of revolution the function of a corner node of degree 2 has the integral zero, int
+  /// N r dr = 0: a pressure makes no force there, and a force no pressure. The parabola through the
+  /// other nodes of the face that is level at the axis has (4 p_1 - p_2) / 3 there.
+  std::vector<SharedNode> shared_nodes() const override
+  {
+    std::map<unsigned int, unsigned int> rows_of;
+    for (unsigned int i = 0; i < slave_nodes.size(); ++i)
+      rows_of[slave_nodes[i]] = i;
+    std::vector<SharedNode> result;
+    for (const unsigned int f : sides.slave)
+      for (const unsigned int node : idle)
+        {
+          auto nodes = surface.faces()[f].nodes;
+          if (nodes.back() == node)
+            std::reverse(nodes.begin(), nodes.end());
+          if (nodes.front() == node && nodes.size() == 3 && rows_of.count(nodes[1]) > 0 &&
+              rows_of.count(nodes[2]) > 0)
+            result.push_back({node, {{rows_of[nodes[1]], 4. / 3.}, {rows_of[nodes[2]], -1. / 3.}}});
+        }
+    return result;
+  }
 
   std::vector<Row<dim>> rows(const Field &positions) const override
   {
@@ -92,7 +132,7 @@ public:
       {
         const auto n = row_normal<dim>(found[i], normals.normals()).n;
         // With the positions of the hanging nodes themselves: the gap is that of the mesh as it is.
-        const double gap = n * (at_master<dim>(found[i], positions) - positions[found[i].slave]);
+        const double gap = n * to_master<dim>(found[i], positions);
         result.push_back(make_row(factors[i], n, gap));
       }
     return result;
@@ -108,12 +148,11 @@ public:
       {
         const auto                  &projection = found[i];
         const auto                   normal     = row_normal<dim>(projection, normals.normals());
-        const dealii::Tensor<1, dim> dv         = -1. * at_master<dim>(projection, derivatives);
+        const dealii::Tensor<1, dim> dv = -1. * weighted<dim>(projection.masters, derivatives);
         // Weights are frozen, so only the nodal normals change v.
-        const auto   dn = faces::unit_vector_derivative(normal.n, normal.length, dv);
-        const double dgap =
-          dn * (at_master<dim>(projection, positions) - positions[projection.slave]) +
-          normal.n * (at_master<dim>(projection, velocity) - velocity[projection.slave]);
+        const auto   dn   = faces::unit_vector_derivative(normal.n, normal.length, dv);
+        const double dgap = dn * to_master<dim>(projection, positions) +
+                            normal.n * to_master<dim>(projection, velocity);
         result.push_back(make_row(factors[i], dn, dgap));
       }
     return result;
@@ -131,9 +170,8 @@ public:
       {
         const auto &projection = found[i];
         const auto  normal     = row_normal<dim>(projection, normals.normals());
-        // d/dn of n . (sum_b factor_b u_b - sum_k w_k x_k + x_s)
-        dealii::Tensor<1, dim> n_gradient =
-          positions[projection.slave] - at_master<dim>(projection, positions);
+        // d/dn of n . (sum_b factor_b u_b - x_m + x_s)
+        dealii::Tensor<1, dim> n_gradient = -1. * to_master<dim>(projection, positions);
         for (const auto &factor : factors[i])
           n_gradient += factor.second * displacement[factor.first];
         // The derivative of a unit vector is symmetric and serves as its own transpose.
@@ -141,11 +179,10 @@ public:
           forces[i] * faces::unit_vector_derivative(normal.n, normal.length, n_gradient);
         // By the positions in the gap; displacements are fixed.
         gradient[projection.slave] += forces[i] * normal.n;
+        for (const auto &point : projection.surface)
+          gradient[point.first] -= forces[i] * point.second * normal.n;
         for (const auto &master : projection.masters)
-          {
-            gradient[master.first] -= forces[i] * master.second * normal.n;
-            normal_gradients[master.first] -= master.second * v_gradient;
-          }
+          normal_gradients[master.first] -= master.second * v_gradient;
       }
     normals.add_transpose(normal_gradients, gradient);
   }
@@ -172,6 +209,7 @@ private:
   faces::HeldDirections<dim>   held;
   std::vector<Projection>      found;
   std::vector<unsigned int>    slave_nodes;
+  std::vector<unsigned int>    idle; ///< slave nodes opposite to the master, but without an area
   /// of each row: surface nodes, ascending, and their factors of n in the
   /// coefficients: 1 (slave) or -w (masters, none hanging)
   std::vector<std::vector<std::pair<unsigned int, double>>> factors;

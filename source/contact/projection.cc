@@ -159,21 +159,18 @@ private:
   }
 };
 
-template <int dim>
-std::vector<std::pair<unsigned int, double>> weights(const faces::FaceShape<dim>     &shape,
-                                                     const dealii::Point<dim - 1>    &xi,
-                                                     const std::vector<unsigned int> &nodes)
+Projection::Weights nonzero(const std::vector<double>       &values,
+                            const std::vector<unsigned int> &points)
 {
-  const auto                                   values = shape.at(xi);
-  std::vector<std::pair<unsigned int, double>> result;
-  double                                       sum = 0.;
-  for (unsigned int k = 0; k < nodes.size(); ++k)
+  Projection::Weights result;
+  double              sum = 0.;
+  for (unsigned int k = 0; k < points.size(); ++k)
     // On an edge the nodes of the other edges have weights that are rounding: they would couple the
     // row to nodes that it has nothing to do with.
-    if (std::abs(values.value[k]) >= least_weight)
+    if (std::abs(values[k]) >= least_weight)
       {
-        result.emplace_back(nodes[k], values.value[k]);
-        sum += values.value[k];
+        result.emplace_back(points[k], values[k]);
+        sum += values[k];
       }
   for (auto &weight : result)
     // What was left out is made up for: rigid translations must not open or close the gap.
@@ -181,18 +178,125 @@ std::vector<std::pair<unsigned int, double>> weights(const faces::FaceShape<dim>
   std::sort(result.begin(), result.end());
   return result;
 }
+
+/// The rays of a master side along its normals.
+template <int dim>
+class NormalRays
+{
+public:
+  using Field = typename mesh::Surface<dim>::Field;
+  using Xi    = dealii::Point<dim - 1>;
+
+  NormalRays(const mesh::Surface<dim>        &surface,
+             const std::vector<unsigned int> &faces,
+             const faces::FaceShape<dim>     &shape,
+             const Field                     &positions,
+             const Field                     &normals)
+    : surface(surface)
+    , shape(shape)
+    , positions(positions)
+    , normals(normals)
+    , at_node(surface.n_nodes())
+  {
+    for (const unsigned int face : faces)
+      for (const unsigned int node : surface.faces()[face].nodes)
+        at_node[node].push_back(face);
+  }
+
+  /// Face and coordinates where the ray to @p p begins, near those of the closest point; there
+  /// itself if no ray is found, as where the side ends.
+  std::pair<unsigned int, Xi>
+  find(const dealii::Tensor<1, dim> &p, const unsigned int face, const Xi &closest) const
+  {
+    std::vector<unsigned int> candidates = {face};
+    for (const unsigned int node : surface.faces()[face].nodes)
+      candidates.insert(candidates.end(), at_node[node].begin(), at_node[node].end());
+    // The face of the closest point first, then its neighbours by number.
+    std::sort(candidates.begin() + 1, candidates.end());
+    for (const unsigned int candidate : candidates)
+      {
+        Xi xi = candidate == face ? closest : Xi();
+        if (candidate != face)
+          for (int a = 0; a < dim - 1; ++a)
+            xi[a] = 0.5;
+        if (solve(p, surface.faces()[candidate].nodes, xi))
+          return {candidate, xi};
+      }
+    return {face, closest};
+  }
+
+private:
+  const mesh::Surface<dim>              &surface;
+  const faces::FaceShape<dim>           &shape;
+  const Field                           &positions, &normals;
+  std::vector<std::vector<unsigned int>> at_node; ///< faces
+
+  /// Newton's method for xi and the length t of the ray.
+  bool solve(const dealii::Tensor<1, dim> &p, const std::vector<unsigned int> &nodes, Xi &xi) const
+  {
+    const double       converged = 1e-15, inside = 1e-10;
+    const unsigned int max_iterations = 30;
+    double             t              = 0.;
+    for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+      {
+        const auto             values = shape.at(xi);
+        dealii::Tensor<1, dim> x, v;
+        for (unsigned int k = 0; k < nodes.size(); ++k)
+          {
+            x += values.value[k] * (positions[nodes[k]] - p);
+            v += values.value[k] * normals[nodes[k]];
+          }
+        if (iteration == 0)
+          t = -(x * v) / v.norm_square();
+        const auto             tx = faces::tangents<dim>(values, nodes, positions);
+        const auto             tv = faces::tangents<dim>(values, nodes, normals);
+        dealii::Tensor<2, dim> jacobian;
+        for (int d = 0; d < dim; ++d)
+          {
+            for (int a = 0; a < dim - 1; ++a)
+              jacobian[d][a] = tx[a][d] + t * tv[a][d];
+            jacobian[d][dim - 1] = v[d];
+          }
+        if (!(std::abs(dealii::determinant(jacobian)) > 0.))
+          return false;
+        const auto step = -(dealii::invert(jacobian) * (x + t * v));
+        double     move = 0.;
+        for (int a = 0; a < dim - 1; ++a)
+          {
+            xi[a] += step[a];
+            move += std::abs(step[a]);
+          }
+        t += step[dim - 1];
+        if (!(move < 10.))
+          return false;
+        if (move <= converged || (iteration + 1 == max_iterations && move < 1e-12))
+          {
+            for (int a = 0; a < dim - 1; ++a)
+              {
+                if (xi[a] < -inside || xi[a] > 1. + inside)
+                  return false;
+                xi[a] = std::clamp(xi[a], 0., 1.);
+              }
+            return true;
+          }
+      }
+    return false;
+  }
+};
 } // namespace
 
 template <int dim>
 std::vector<Projection> project(const mesh::Surface<dim>                 &surface,
                                 const PairFaces                          &sides,
                                 const faces::FaceShape<dim>              &shape,
-                                const typename mesh::Surface<dim>::Field &positions)
+                                const typename mesh::Surface<dim>::Field &positions,
+                                const typename mesh::Surface<dim>::Field &normals)
 {
   std::vector<Projection> result;
   if (sides.master.empty())
     return result;
   const MasterSide<dim>        master(surface, sides.master, shape, positions);
+  const NormalRays<dim>        rays(surface, sides.master, shape, positions, normals);
   const faces::OuterEdges<dim> edges(surface, sides.master, shape);
   std::vector<bool>            visited(surface.n_nodes(), false);
   for (const unsigned int slave_face : sides.slave)
@@ -201,15 +305,19 @@ std::vector<Projection> project(const mesh::Surface<dim>                 &surfac
         // Faces share nodes, of which each is projected once; hanging ones never.
         if (visited[slave] || !surface.masters(slave).empty())
           continue;
-        visited[slave]   = true;
-        const auto found = master.closest(positions[slave]);
+        visited[slave]     = true;
+        const auto closest = master.closest(positions[slave]);
         // Beyond the end of the master side the closest point stays on its edge, and the row would
         // hold back a node that passes by the master side.
-        if (edges.excess(found.face, found.point.xi, positions[slave] - found.point.position,
+        if (edges.excess(closest.face, closest.point.xi, positions[slave] - closest.point.position,
                          positions) > edge_tolerance)
           continue;
+        const auto [face, xi] = rays.find(positions[slave], closest.face, closest.point.xi);
+        const auto &of        = surface.faces()[face];
+        const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
         result.push_back(
-          {slave, weights(shape, found.point.xi, surface.faces()[found.face].nodes)});
+          {slave, face, masters,
+           of.samples.empty() ? masters : nonzero(shape.samples_at(xi).value, of.samples)});
       }
   return result;
 }
@@ -217,9 +325,11 @@ std::vector<Projection> project(const mesh::Surface<dim>                 &surfac
 template std::vector<Projection> project(const mesh::Surface<2> &,
                                          const PairFaces &,
                                          const faces::FaceShape<2> &,
+                                         const mesh::Surface<2>::Field &,
                                          const mesh::Surface<2>::Field &);
 template std::vector<Projection> project(const mesh::Surface<3> &,
                                          const PairFaces &,
                                          const faces::FaceShape<3> &,
+                                         const mesh::Surface<3>::Field &,
                                          const mesh::Surface<3>::Field &);
 } // namespace snug::contact

@@ -57,11 +57,12 @@ FaceCoordinates<dim, double> values_of(const FaceCoordinates<dim, Number> &x)
 }
 } // namespace
 
-template <int dim, typename Number>
-FaceValues<dim, Number>::FaceValues(unsigned int degree, const FaceCoordinates<dim, Number> &xi)
+template <int dim, typename Number, unsigned int max_degree>
+FaceValues<dim, Number, max_degree>::FaceValues(unsigned int                        degree,
+                                                const FaceCoordinates<dim, Number> &xi)
   : n_nodes(dim == 2 ? degree + 1 : (degree + 1) * (degree + 1))
 {
-  std::array<std::array<std::array<Number, 2>, 3>, dim - 1> along;
+  std::array<std::array<std::array<Number, 2>, max_degree + 1>, dim - 1> along;
   for (int axis = 0; axis < dim - 1; ++axis)
     for (unsigned int i = 0; i <= degree; ++i)
       along[axis][i] = mesh::lagrange<1>(degree, i, xi[axis]);
@@ -128,6 +129,8 @@ FaceCoordinates<dim, Number> PlaneFace<dim, Number>::coordinates(const Point &y)
 #define SNUG_INSTANTIATE(dim, Number)      \
   template struct FaceValues<dim, Number>; \
   template class PlaneFace<dim, Number>;
+template struct FaceValues<2, double, 4>;
+template struct FaceValues<3, double, 4>;
 SNUG_INSTANTIATE(2, double)
 SNUG_INSTANTIATE(2, Differential<1>)
 SNUG_INSTANTIATE(2, Differential<8>)

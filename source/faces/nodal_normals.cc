@@ -10,37 +10,78 @@ NodalNormals<dim>::NodalNormals(const mesh::Surface<dim>        &surface,
                                 const std::vector<unsigned int> &faces,
                                 const FaceShape<dim>            &shape,
                                 const Field                     &positions)
-  : surface(surface)
-  , faces(faces)
-  , shape(shape)
-  , positions(positions)
-  , unit(surface.n_nodes())
-  , length(surface.n_nodes(), 0.)
+  : surface(surface), faces(faces), shape(shape), positions(positions)
 {
+  normalise_areas(positions, area_unit, area_length);
+  unit = area_unit;
+  length.assign(unit.size(), 1.);
+  correct();
+}
+
+/// a_k/|a_k| and |a_k| at the positions @p x.
+template <int dim>
+void NodalNormals<dim>::normalise_areas(const Field         &x,
+                                        Field               &areas,
+                                        std::vector<double> &lengths) const
+{
+  areas.assign(surface.n_nodes(), {});
+  lengths.assign(surface.n_nodes(), 0.);
   std::vector<bool> touched(surface.n_nodes(), false);
   for (const unsigned int f : faces)
     {
-      const auto &nodes = surface.faces()[f].nodes;
-      for (unsigned int k = 0; k < nodes.size(); ++k)
+      const auto &face = surface.faces()[f];
+      for (unsigned int k = 0; k < face.nodes.size(); ++k)
         {
+          const TrueSurface<dim> of(shape, face, k);
           // Not normalized before they are summed: faces weigh by their areas, and the sum is a
           // polynomial of the positions.
-          unit[nodes[k]] += area_vector(tangents<dim>(shape.at_node(k), nodes, positions));
-          touched[nodes[k]] = true;
+          areas[face.nodes[k]] += area_vector(tangents<dim>(of.at_node, of.points, x));
+          touched[face.nodes[k]] = true;
         }
     }
-  for (unsigned int node = 0; node < unit.size(); ++node)
+  for (unsigned int node = 0; node < areas.size(); ++node)
     if (touched[node])
       {
-        length[node] = unit[node].norm();
+        lengths[node] = areas[node].norm();
         // Written so that NaN is caught as well.
-        if (!(length[node] > 0.) || !std::isfinite(length[node]))
+        if (!(lengths[node] > 0.) || !std::isfinite(lengths[node]))
           {
             std::ostringstream message;
-            message << "the contact faces at (" << positions[node]
-                    << ") are tangled: they have no normal";
+            message << "the contact faces at (" << x[node] << ") are tangled: they have no normal";
             throw TangledMesh(message.str());
           }
+        areas[node] /= lengths[node];
+      }
+}
+
+template <int dim>
+void NodalNormals<dim>::correct()
+{
+  using Known = const geometry::KnownSurface<dim> *;
+  std::vector<Known> known(surface.n_nodes(), nullptr);
+  std::vector<bool>  several(surface.n_nodes(), false);
+  bool               any = false;
+  for (const unsigned int f : faces)
+    for (const unsigned int node : surface.faces()[f].nodes)
+      {
+        const Known here = surface.faces()[f].known;
+        // Of a face without one, or with another one, the normal is a mean.
+        several[node] = several[node] || here == nullptr || (known[node] && known[node] != here);
+        known[node]   = here;
+        any           = any || here != nullptr;
+      }
+  if (!any)
+    return;
+  Field               reference;
+  std::vector<double> lengths;
+  normalise_areas(surface.reference_positions(), reference, lengths);
+  for (unsigned int node = 0; node < unit.size(); ++node)
+    if (known[node] && !several[node])
+      {
+        const auto exact =
+          known[node]->normal(dealii::Point<dim>(surface.reference_positions()[node]));
+        unit[node] += exact - reference[node];
+        length[node] = unit[node].norm();
         unit[node] /= length[node];
       }
 }
@@ -51,37 +92,46 @@ typename NodalNormals<dim>::Field NodalNormals<dim>::derivative(const Field &vel
   Field result(surface.n_nodes());
   for (const unsigned int f : faces)
     {
-      const auto &nodes = surface.faces()[f].nodes;
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        result[nodes[k]] +=
-          area_vector_derivative(tangents<dim>(shape.at_node(k), nodes, positions),
-                                 tangents<dim>(shape.at_node(k), nodes, velocity));
+      const auto &face = surface.faces()[f];
+      for (unsigned int k = 0; k < face.nodes.size(); ++k)
+        {
+          const TrueSurface<dim> of(shape, face, k);
+          result[face.nodes[k]] +=
+            area_vector_derivative(tangents<dim>(of.at_node, of.points, positions),
+                                   tangents<dim>(of.at_node, of.points, velocity));
+        }
     }
   for (unsigned int node = 0; node < result.size(); ++node)
     // Nodes of other faces have length 0 and no derivative.
-    if (length[node] > 0.)
-      result[node] = unit_vector_derivative(unit[node], length[node], result[node]);
+    if (area_length[node] > 0.)
+      result[node] =
+        unit_vector_derivative(unit[node], length[node],
+                               unit_vector_derivative(area_unit[node], area_length[node],
+                                                      result[node]));
   return result;
 }
 
-/// The chain backwards: unit normal, sum of area vectors, tangents, nodes of each face.
+/// The chain backwards: unit normal, sum of area vectors, tangents, points of each face.
 template <int dim>
 void NodalNormals<dim>::add_transpose(const Field &normal_gradient, Field &gradient) const
 {
   for (const unsigned int f : faces)
     {
-      const auto &nodes = surface.faces()[f].nodes;
-      for (unsigned int k = 0; k < nodes.size(); ++k)
+      const auto &face = surface.faces()[f];
+      for (unsigned int k = 0; k < face.nodes.size(); ++k)
         {
-          const auto &values = shape.at_node(k);
-          const auto  t_gradient =
-            // (I - n n')/|a| is symmetric: the same function serves derivative and transpose.
-            area_vector_transpose(tangents<dim>(values, nodes, positions),
-                                  unit_vector_derivative(unit[nodes[k]], length[nodes[k]],
-                                                         normal_gradient[nodes[k]]));
-          for (unsigned int j = 0; j < nodes.size(); ++j)
+          const TrueSurface<dim> of(shape, face, k);
+          const unsigned int     node = face.nodes[k];
+          // (I - n n')/|a| is symmetric: the same function serves derivative and transpose.
+          const auto to_area =
+            unit_vector_derivative(area_unit[node], area_length[node],
+                                   unit_vector_derivative(unit[node], length[node],
+                                                          normal_gradient[node]));
+          const auto to_tangents =
+            area_vector_transpose(tangents<dim>(of.at_node, of.points, positions), to_area);
+          for (unsigned int j = 0; j < of.points.size(); ++j)
             for (int i = 0; i < dim - 1; ++i)
-              gradient[nodes[j]] += values.gradient[j][i] * t_gradient[i];
+              gradient[of.points[j]] += of.at_node.gradient[j][i] * to_tangents[i];
         }
     }
 }

@@ -22,9 +22,10 @@ std::vector<double> summed(const mesh::BodyMesh<dim>                 &mesh,
   if (gradient == nullptr)
     return values;
   auto field = *gradient;
-  // positions of hanging nodes follow from those of their masters
+  // samples and hanging nodes follow the nodes of their faces and their masters
+  mesh.distribute_samples(field);
   mesh.distribute_hanging(field);
-  for (unsigned int node = 0; node < field.size(); ++node)
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     for (unsigned int c = 0; c < dim; ++c)
       values[dim * node + c] = field[node][c];
   mesh::sum_at_shared_nodes(mesh, dim, values);

@@ -3,6 +3,7 @@
 #include <snug/mesh/body_mesh.h>
 #include <snug/mesh/distribute.h>
 #include <snug/mesh/face_nodes.h>
+#include <snug/mesh/lagrange.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace snug::mesh {
 /// What deal.II knows of the cells and nodes, while the mesh is made of it.
@@ -151,11 +153,78 @@ void BodyMesh<dim>::collect_cells(const Source &source)
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
             // boundary ids are indices of the body's names, see create_coarse_mesh()
-            mesh_faces.push_back({entry.body, cell->face(f)->boundary_id(),
-                                  static_cast<unsigned int>(mesh_cells.size() - 1),
-                                  oriented_face_nodes<dim>(entry.nodes, fe_degree, f)});
+            mesh_faces.push_back(
+              {entry.body,
+               cell->face(f)->boundary_id(),
+               static_cast<unsigned int>(mesh_cells.size() - 1),
+               oriented_face_nodes<dim>(entry.nodes, fe_degree, f),
+               geometries[body]->known_surface(source.coarse.coarse_cell(cell->id()), f),
+               {}});
       }
   neighbours = owned_neighbours(source.triangulation);
+}
+
+/// Faces come in the order in which collect_cells() met them. Points of shared edges are samples of
+/// both faces.
+template <int dim>
+void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParameters> &bodies,
+                                    const Source                                    &source)
+{
+  const auto                lattice = lagrange_nodes<dim>(surface_degree);
+  std::vector<unsigned int> all(lattice.size());
+  std::iota(all.begin(), all.end(), 0u);
+  for (const auto &sample : lagrange_nodes<dim - 1>(surface_degree))
+    sample_weights.push_back(lagrange_point<dim - 1>(fe_degree, sample.point).value);
+  auto face = mesh_faces.begin();
+  for (const auto &cell : source.nodes.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->at_boundary(f))
+          {
+            const auto &geometry = *geometries[face->body];
+            const auto &wanted   = bodies[face->body].sampled_boundaries;
+            const auto &name     = geometry.boundary_names()[face->boundary];
+            if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+              {
+                const unsigned int first = reference.size();
+                for (const unsigned int i : oriented_face_nodes<dim>(all, surface_degree, f))
+                  {
+                    const auto point = source.coarse.point(cell->id(), lattice[i].point);
+                    face->samples.push_back(reference.size());
+                    reference.push_back(geometry.position(point));
+                    logical.push_back(geometry.logical(point));
+                  }
+                if (!bodies[face->body].is_designed && is_flat(*face))
+                  {
+                    face->samples.clear();
+                    reference.resize(first);
+                    logical.resize(first);
+                  }
+              }
+            ++face;
+          }
+  hanging_of_node.resize(reference.size(), static_cast<unsigned int>(-1));
+  node_body.resize(reference.size());
+  for (const auto &sampled : mesh_faces)
+    for (const unsigned int sample : sampled.samples)
+      node_body[sample] = sampled.body;
+}
+
+/// Do the samples lie where the nodes interpolate them?
+template <int dim>
+bool BodyMesh<dim>::is_flat(const Face &face) const
+{
+  const double size = (reference[face.nodes.back()] - reference[face.nodes.front()]).norm();
+  for (unsigned int k = 0; k < face.samples.size(); ++k)
+    {
+      auto offset = reference[face.samples[k]];
+      for (unsigned int a = 0; a < face.nodes.size(); ++a)
+        offset -= sample_weights[k][a] * reference[face.nodes[a]];
+      // Rounding, also of faces far from the origin.
+      if (offset.norm() > 1e-10 * size)
+        return false;
+    }
+  return true;
 }
 
 /// Supports and checks ask for x == 0 exactly, but a ring has r cos(pi / 2) = 6e-17 r there.
@@ -187,11 +256,12 @@ BodyMesh<dim>::BodyMesh(MPI_Comm                                         communi
   everywhere(communicator, [&]() { collect_nodes(source); });
   collect_hanging(source);
   collect_cells(source);
-  if (idealization.is_axisymmetric())
-    snap_to_axis();
   // Curved faces put hanging nodes off the polynomials of their masters, but the displacement
   // there is interpolated, and so must the position be, or rigid motions would strain.
   interpolate_hanging(reference);
+  everywhere(communicator, [&]() { collect_samples(bodies, source); });
+  if (idealization.is_axisymmetric())
+    snap_to_axis();
 }
 
 /// upper_bound passes over ranks without nodes, whose ranges are empty.
@@ -225,6 +295,31 @@ void BodyMesh<dim>::distribute_hanging(Field &field) const
         field[master.first] += master.second * field[entry.node];
       field[entry.node] = 0.;
     }
+}
+
+template <int dim>
+void BodyMesh<dim>::interpolate_samples(Field &field) const
+{
+  for (const auto &face : mesh_faces)
+    for (unsigned int k = 0; k < face.samples.size(); ++k)
+      {
+        dealii::Tensor<1, dim> value;
+        for (unsigned int a = 0; a < face.nodes.size(); ++a)
+          value += sample_weights[k][a] * field[face.nodes[a]];
+        field[face.samples[k]] = value;
+      }
+}
+
+template <int dim>
+void BodyMesh<dim>::distribute_samples(Field &field) const
+{
+  for (const auto &face : mesh_faces)
+    for (unsigned int k = 0; k < face.samples.size(); ++k)
+      {
+        for (unsigned int a = 0; a < face.nodes.size(); ++a)
+          field[face.nodes[a]] += sample_weights[k][a] * field[face.samples[k]];
+        field[face.samples[k]] = 0.;
+      }
 }
 
 template class BodyMesh<2>;

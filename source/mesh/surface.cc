@@ -1,3 +1,4 @@
+#include <snug/mesh/lagrange.h>
 #include <snug/mesh/surface.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,9 +11,9 @@
 
 namespace snug::mesh {
 namespace {
-/// {body, boundary, logical centre in units of 2^-32, global nodes}: as
-/// integers, so that sorting gives an order that does not depend on how
-/// cells and nodes are distributed.
+/// {body, boundary, logical centre in units of 2^-32, known surface, has
+/// samples, global nodes}: as integers, so that sorting gives an order that
+/// does not depend on how cells and nodes are distributed.
 using FaceRecord = std::vector<long long>;
 
 /// Hanging global node and its masters.
@@ -27,6 +28,8 @@ FaceRecord face_record(const BodyMesh<dim> &mesh, const typename BodyMesh<dim>::
   FaceRecord record = {face.body, face.boundary};
   for (unsigned int d = 0; d < dim; ++d)
     record.push_back(std::llround(std::ldexp(centre[d], 32)));
+  record.push_back(face.known_surface);
+  record.push_back(face.samples.empty() ? 0 : 1);
   for (const unsigned int node : face.nodes)
     record.push_back(mesh.global_node(node));
   return record;
@@ -78,13 +81,16 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
   : mesh(mesh)
 {
   // A face belongs to the rank of its cell, but its nodes may be owned by others.
-  std::vector<FaceRecord>    faces;
-  std::vector<HangingRecord> hanging;
+  std::vector<FaceRecord>                                 faces;
+  std::vector<HangingRecord>                              hanging;
+  std::map<FaceRecord, const std::vector<unsigned int> *> samples; // of this rank's faces
   for (const auto &face : mesh.boundary_faces())
     if (std::find(boundaries.begin(), boundaries.end(), std::make_pair(face.body, face.boundary)) !=
         boundaries.end())
       {
         faces.push_back(face_record(mesh, face));
+        if (!face.samples.empty())
+          samples[faces.back()] = &face.samples;
         for (const unsigned int node : face.nodes)
           if (mesh.is_hanging(node))
             hanging.push_back(hanging_record(mesh, node));
@@ -93,17 +99,35 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
   faces   = gathered(mesh.communicator(), faces);
   hanging = gathered(mesh.communicator(), hanging);
 
-  const unsigned int n_leading = 2 + dim;
+  const unsigned int n_leading = 4 + dim;
   // masters too, which need not be nodes of the given faces
   global_nodes = nodes_of(faces, hanging, n_leading);
   std::map<unsigned int, unsigned int> index;
   for (unsigned int node = 0; node < global_nodes.size(); ++node)
     index[global_nodes[node]] = node;
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+    known_surfaces.push_back(mesh.geometry(body).known_surfaces());
+  const unsigned int samples_per_face =
+    dealii::Utilities::pow(surface_degree + 1, dim - 1);
+  unsigned int n_samples = 0;
   for (const auto &record : faces)
     {
-      Face face{static_cast<unsigned int>(record[0]), static_cast<unsigned int>(record[1]), {}};
+      Face face{static_cast<unsigned int>(record[0]),
+                static_cast<unsigned int>(record[1]),
+                {},
+                {},
+                nullptr};
+      if (record[2 + dim] < static_cast<long long>(known_surfaces[face.body].size()))
+        face.known = &known_surfaces[face.body][record[2 + dim]];
       for (unsigned int i = n_leading; i < record.size(); ++i)
         face.nodes.push_back(index.at(record[i]));
+      const auto mine = samples.find(record);
+      for (unsigned int k = 0; k < record[3 + dim] * samples_per_face; ++k)
+        {
+          face.samples.push_back(n_nodes() + n_samples++);
+          if (mine != samples.end())
+            owned_samples.emplace_back(face.samples.back(), (*mine->second)[k]);
+        }
       surface_faces.push_back(face);
     }
   node_masters.resize(global_nodes.size());
@@ -125,12 +149,15 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
           owned.emplace_back(found->second, node);
       }
   std::sort(owned.begin(), owned.end());
+  reference.resize(n_nodes() + n_samples);
+  reference = gather(mesh.reference_positions());
 }
 
 template <int dim>
 typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
 {
-  AssertDimension(field.size(), mesh.n_local_nodes());
+  const bool with_samples = field.size() == mesh.n_points();
+  AssertThrow(with_samples || field.size() == mesh.n_local_nodes(), dealii::ExcInternalError());
   // in ascending surface nodes, as owned is sorted
   std::vector<double> mine;
   for (const auto &node : owned)
@@ -139,7 +166,7 @@ typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::
   // Ranks own ascending ranges of global nodes, so the parts in rank
   // order are in the order of surface nodes.
   const auto   parts = dealii::Utilities::MPI::all_gather(mesh.communicator(), mine);
-  Field        result(n_nodes());
+  Field        result(with_samples ? n_points() : n_nodes());
   unsigned int position = 0;
   for (const auto &part : parts)
     for (const double value : part)
@@ -148,17 +175,29 @@ typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::
         ++position;
       }
   AssertDimension(position, dim * n_nodes());
+  if (with_samples && n_points() > n_nodes())
+    {
+      // One rank has each: the others add zeros.
+      std::vector<double> values(dim * (n_points() - n_nodes()), 0.);
+      for (const auto &sample : owned_samples)
+        for (unsigned int d = 0; d < dim; ++d)
+          values[dim * (sample.first - n_nodes()) + d] = field[sample.second][d];
+      dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
+      for (unsigned int i = 0; i < values.size(); ++i)
+        result[n_nodes() + i / dim][i % dim] = values[i];
+    }
   return result;
 }
 
 template <int dim>
 void Surface<dim>::add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const
 {
-  AssertDimension(surface_field.size(), n_nodes());
-  AssertDimension(field.size(), mesh.n_local_nodes());
+  // surface fields are equal on all ranks, so only owners add
   for (const auto &node : owned)
-    // surface fields are equal on all ranks, so only owners add
     field[node.second] += surface_field[node.first];
+  if (surface_field.size() > n_nodes())
+    for (const auto &sample : owned_samples)
+      field[sample.second] += surface_field[sample.first];
 }
 
 template class Surface<2>;

@@ -1,31 +1,55 @@
+#include <snug/mesh/lagrange.h>
 #include <snug/mortar/integral_gradient.h>
 
 namespace snug::mortar {
 namespace {
-/// A scalar f of the shape functions at one point and its derivatives
-/// with respect to the point's face coordinates.
+/// Derivatives of a scalar by the integrals of one pair of faces.
+struct PairWeights
+{
+  const FaceIntegrals<double>    &whole;
+  const dealii::Table<2, double> &P, &W;
+};
+
+/// A scalar f of the shape functions and offsets at one point and its
+/// derivatives with respect to the point's face coordinates.
 template <int dim>
 struct Integrand
 {
   double                              value = 0.;
   faces::FaceCoordinates<dim, double> to_slave{}, to_master{};
+  std::array<double, dim>             to_offset{}; ///< by delta
 
-  /// f = sum_j N_j (d_j + sum_l m_jl N_l + sum_k P_jk N_k)
-  Integrand(const FaceIntegrals<double>          &weights,
-            const dealii::Table<2, double>       &P,
+  /// f = sum_j N_j (d_j + sum_l m_jl N_l + sum_k P_jk N_k + sum_c o_jc delta_c)
+  ///     + sum_jk W_jk (N_j N_k)^p
+  Integrand(const PairWeights                    &weights,
             const faces::FaceValues<dim, double> &slave,
-            const faces::FaceValues<dim, double> &master)
+            const faces::FaceValues<dim, double> &master,
+            const std::array<double, dim>        &delta)
   {
-    for (unsigned int j = 0; j < slave.n_nodes; ++j)
+    const unsigned int n      = slave.n_nodes;
+    const bool         linear = n == 1u << (dim - 1);
+    const auto        &m      = weights.whole.slave_slave;
+    for (unsigned int j = 0; j < n; ++j)
       {
-        double factor = weights.slave[j], slope = factor;
-        for (unsigned int l = 0; l < slave.n_nodes; ++l)
+        double factor = weights.whole.slave[j], slope = factor;
+        for (int c = 0; c < dim; ++c)
           {
-            const auto &m = weights.slave_slave;
-            factor += m(j, l) * slave.value[l] + P(j, l) * master.value[l];
-            slope += (m(j, l) + m(l, j)) * slave.value[l] + P(j, l) * master.value[l];
+            const double o = weights.whole.offset(j, c);
+            factor += o * delta[c];
+            slope += o * delta[c];
+            to_offset[c] += slave.value[j] * o;
+          }
+        for (unsigned int l = 0; l < n; ++l)
+          {
+            // of (N_j N_l)^p, p = 2: by N_j and N_l twice the half
+            const double product = slave.value[j] * master.value[l];
+            const double W       = weights.W(j, l) * (linear ? 1. : 2. * product);
+            const double PW      = weights.P(j, l) + W;
+            factor += m(j, l) * slave.value[l] +
+                      (weights.P(j, l) + (linear ? W : 0.5 * W)) * master.value[l];
+            slope += (m(j, l) + m(l, j)) * slave.value[l] + PW * master.value[l];
             for (int a = 0; a < dim - 1; ++a)
-              to_master[a] += slave.value[j] * P(j, l) * master.gradient[l][a];
+              to_master[a] += slave.value[j] * PW * master.gradient[l][a];
           }
         value += slave.value[j] * factor;
         for (int a = 0; a < dim - 1; ++a)
@@ -49,18 +73,58 @@ FaceNodes<dim, faces::Differential<n>> independent(const FaceNodes<dim, double> 
   return result;
 }
 
+/// The true surface over a face at one point, which counts in delta with a sign.
+template <int dim>
+struct OffsetPoint
+{
+  static constexpr unsigned int                degree = mesh::surface_degree;
+  const faces::FaceValues<dim, double, degree> values;
+  std::array<double, dim>                      offset{};
+  std::array<std::array<double, dim>, dim - 1> slopes{};
+
+  OffsetPoint(const FaceNodes<dim, double> &offsets, const faces::FaceCoordinates<dim, double> &xi)
+    : values(degree, xi)
+  {
+    for (unsigned int k = 0; k < offsets.size(); ++k)
+      for (int d = 0; d < dim; ++d)
+        {
+          offset[d] += values.value[k] * offsets[k][d];
+          for (int a = 0; a < dim - 1; ++a)
+            slopes[a][d] += values.gradient[k][a] * offsets[k][d];
+        }
+  }
+
+  /// By xi, and by the offsets at the samples, of a scalar whose derivative by the offset is
+  /// @p to_offset, times @p factor.
+  void add(const double                         factor,
+           const std::array<double, dim>       &to_offset,
+           const double                         weight,
+           faces::FaceCoordinates<dim, double> &to_xi,
+           FaceNodes<dim, double>              &to_samples) const
+  {
+    for (int d = 0; d < dim; ++d)
+      {
+        for (int a = 0; a < dim - 1; ++a)
+          to_xi[a] += factor * to_offset[d] * slopes[a][d];
+        for (unsigned int k = 0; k < to_samples.size(); ++k)
+          to_samples[k][d] += factor * to_offset[d] * weight * values.value[k];
+      }
+  }
+};
+
 /// int f of one pair of faces, differentiated by the positions of their
-/// nodes, those of the slave face first.
+/// nodes, those of the slave face first; by their offsets into @p to_slave and @p to_master.
 template <int n, int dim>
-std::array<double, n> pair_gradient(const SegmentQuadrature<dim>   &quadrature,
-                                    const FaceNodes<dim, double>   &slave,
-                                    const FaceNodes<dim, double>   &master,
-                                    const FaceIntegrals<double>    &weights,
-                                    const dealii::Table<2, double> &P)
+std::array<double, n> pair_gradient(const SegmentQuadrature<dim>  &quadrature,
+                                    const MortarFace<dim, double> &slave,
+                                    const MortarFace<dim, double> &master,
+                                    const PairWeights             &weights,
+                                    FaceNodes<dim, double>        &to_slave,
+                                    FaceNodes<dim, double>        &to_master)
 {
   std::array<double, n> gradient{};
-  for (const auto &point :
-       quadrature.points(independent<n, dim>(slave, 0), independent<n, dim>(master, n / 2)))
+  for (const auto &point : quadrature.points(independent<n, dim>(slave.nodes, 0),
+                                             independent<n, dim>(master.nodes, n / 2)))
     {
       faces::FaceCoordinates<dim, double> xi, eta;
       for (int a = 0; a < dim - 1; ++a)
@@ -68,7 +132,13 @@ std::array<double, n> pair_gradient(const SegmentQuadrature<dim>   &quadrature,
           xi[a]  = point.slave[a].value;
           eta[a] = point.master[a].value;
         }
-      const Integrand<dim> f(weights, P, quadrature.shape(xi), quadrature.shape(eta));
+      const OffsetPoint<dim>  on_slave(slave.offsets, xi), on_master(master.offsets, eta);
+      std::array<double, dim> delta = on_master.offset;
+      for (int d = 0; d < dim; ++d)
+        delta[d] -= on_slave.offset[d];
+      Integrand<dim> f(weights, quadrature.shape(xi), quadrature.shape(eta), delta);
+      on_slave.add(-1., f.to_offset, point.weight.value, f.to_slave, to_slave);
+      on_master.add(1., f.to_offset, point.weight.value, f.to_master, to_master);
       for (int v = 0; v < n; ++v)
         {
           double slope = 0.;
@@ -84,24 +154,29 @@ std::array<double, n> pair_gradient(const SegmentQuadrature<dim>   &quadrature,
 /// The gradient of one slave face with all its masters; n independent variables per pair of faces,
 /// half of them the slave's.
 template <int n, int dim>
-FaceGradient<dim> face_gradient(const SegmentQuadrature<dim>              &quadrature,
-                                const FaceNodes<dim, double>              &slave,
-                                const std::vector<FaceNodes<dim, double>> &masters,
-                                const FaceIntegrals<double>               &weights)
+FaceGradient<dim> face_gradient(const SegmentQuadrature<dim>               &quadrature,
+                                const MortarFace<dim, double>              &slave,
+                                const std::vector<MortarFace<dim, double>> &masters,
+                                const FaceIntegrals<double>                &weights)
 {
-  const FaceNodes<dim, double> zero(slave.size());
-  FaceGradient<dim>            result;
-  result.slave = zero;
+  const auto zero = [](const MortarFace<dim, double> &face) {
+    return MortarFace<dim, double>{FaceNodes<dim, double>(face.nodes.size()),
+                                   FaceNodes<dim, double>(face.offsets.size())};
+  };
+  FaceGradient<dim> result;
+  result.slave = zero(slave);
   for (unsigned int f = 0; f < masters.size(); ++f)
     {
+      result.masters.push_back(zero(masters[f]));
       const auto gradient =
-        pair_gradient<n, dim>(quadrature, slave, masters[f], weights, weights.slave_master[f]);
-      result.masters.push_back(zero);
-      for (unsigned int k = 0; k < slave.size(); ++k)
+        pair_gradient<n, dim>(quadrature, slave, masters[f],
+                              {weights, weights.slave_master[f], weights.weights[f]},
+                              result.slave.offsets, result.masters[f].offsets);
+      for (unsigned int k = 0; k < slave.nodes.size(); ++k)
         for (int i = 0; i < dim; ++i)
           {
-            result.slave[k][i] += gradient[dim * k + i];
-            result.masters[f][k][i] = gradient[n / 2 + dim * k + i];
+            result.slave.nodes[k][i] += gradient[dim * k + i];
+            result.masters[f].nodes[k][i] = gradient[n / 2 + dim * k + i];
           }
     }
   return result;
@@ -109,24 +184,23 @@ FaceGradient<dim> face_gradient(const SegmentQuadrature<dim>              &quadr
 } // namespace
 
 template <int dim>
-FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>              &quadrature,
-                                      const FaceNodes<dim, double>              &slave,
-                                      const std::vector<FaceNodes<dim, double>> &masters,
-                                      const FaceIntegrals<double>               &gradient)
+FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>               &quadrature,
+                                      const MortarFace<dim, double>              &slave,
+                                      const std::vector<MortarFace<dim, double>> &masters,
+                                      const FaceIntegrals<double>                &gradient)
 {
   // The number of derivatives is a template argument: faces of degree 1 and 2 have 2 or 3 nodes in
   // 2D, 4 or 9 in 3D, dim coordinates each, on two faces.
   const int linear = dim == 2 ? 8 : 24, quadratic = dim == 2 ? 12 : 54;
-  if (2 * dim * slave.size() == linear)
+  if (2 * dim * slave.nodes.size() == linear)
     return face_gradient<linear, dim>(quadrature, slave, masters, gradient);
   return face_gradient<quadratic, dim>(quadrature, slave, masters, gradient);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                      \
-  template FaceGradient<dim> integrate_transpose<dim>(const SegmentQuadrature<dim> &,              \
-                                                      const FaceNodes<dim, double> &,              \
-                                                      const std::vector<FaceNodes<dim, double>> &, \
-                                                      const FaceIntegrals<double> &);
+#define SNUG_INSTANTIATE(dim)                                        \
+  template FaceGradient<dim> integrate_transpose<dim>(               \
+    const SegmentQuadrature<dim> &, const MortarFace<dim, double> &, \
+    const std::vector<MortarFace<dim, double>> &, const FaceIntegrals<double> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

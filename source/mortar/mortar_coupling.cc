@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/mesh/lagrange.h>
 #include <snug/mortar/mortar_coupling.h>
 
 namespace snug::mortar {
@@ -87,21 +88,52 @@ bool uncovered(const FaceIntegrals<Number> &integrals)
 } // namespace
 
 template <int dim, typename Number>
-FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>              &quadrature,
-                                const FaceNodes<dim, Number>              &slave,
-                                const std::vector<FaceNodes<dim, Number>> &masters)
+std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &offsets,
+                                  const faces::FaceCoordinates<dim, Number> &xi)
 {
-  const unsigned int    n = slave.size();
+  std::array<Number, dim> result{};
+  if (offsets.empty())
+    return result;
+  faces::FaceCoordinates<dim, double> at;
+  for (int a = 0; a < dim - 1; ++a)
+    at[a] = faces::value_of(xi[a]);
+  constexpr unsigned int                       degree = mesh::surface_degree;
+  const faces::FaceValues<dim, double, degree> values(degree, at);
+  // The polynomial's value and slope carry first derivatives exactly.
+  for (unsigned int k = 0; k < offsets.size(); ++k)
+    {
+      Number value = values.value[k];
+      for (int a = 0; a < dim - 1; ++a)
+        value += values.gradient[k][a] * (xi[a] - at[a]);
+      for (int d = 0; d < dim; ++d)
+        result[d] += value * offsets[k][d];
+    }
+  return result;
+}
+
+template <int dim, typename Number>
+FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quadrature,
+                                const MortarFace<dim, Number>              &slave,
+                                const std::vector<MortarFace<dim, Number>> &masters)
+{
+  const unsigned int    n      = slave.nodes.size();
+  const bool            linear = n == 1u << (dim - 1);
   FaceIntegrals<Number> result;
   result.slave.resize(n);
   result.slave_slave.reinit(n, n);
+  result.offset.reinit(n, dim);
   for (const auto &master : masters)
     {
-      Matrix<Number> P(n, n);
-      for (const auto &point : quadrature.points(slave, master))
+      Matrix<Number> P(n, n), W(n, n);
+      const bool     curved = !slave.offsets.empty() || !master.offsets.empty();
+      for (const auto &point : quadrature.points(slave.nodes, master.nodes))
         {
           const auto N_slave  = quadrature.shape(point.slave).value;
           const auto N_master = quadrature.shape(point.master).value;
+          auto       delta    = offset_at<dim>(master.offsets, point.master);
+          const auto of_slave = offset_at<dim>(slave.offsets, point.slave);
+          for (int d = 0; d < dim; ++d)
+            delta[d] -= of_slave[d];
           for (unsigned int j = 0; j < n; ++j)
             {
               const Number weighted = point.weight * N_slave[j];
@@ -110,9 +142,14 @@ FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>              &quadr
                 {
                   result.slave_slave(j, l) += weighted * N_slave[l];
                   P(j, l) += weighted * N_master[l];
+                  if (!linear)
+                    W(j, l) += weighted * N_slave[j] * N_master[l] * N_master[l];
                 }
+              for (int d = 0; d < dim && curved; ++d)
+                result.offset(j, d) += weighted * delta[d];
             }
         }
+      result.weights.push_back(linear ? P : W);
       result.slave_master.push_back(P);
     }
   return result;
@@ -122,7 +159,7 @@ template <typename Number>
 FaceCoupling<Number> couple(const FaceIntegrals<Number> &integrals, bool biorthogonal)
 {
   if (!biorthogonal || uncovered(integrals))
-    return {integrals.slave, integrals.slave_slave, integrals.slave_master};
+    return {integrals.slave, integrals.slave_slave, integrals.slave_master, integrals.offset};
   const unsigned int   n = integrals.slave.size();
   const Matrix<Number> A = dual_coefficients(integrals);
   FaceCoupling<Number> result;
@@ -132,6 +169,7 @@ FaceCoupling<Number> couple(const FaceIntegrals<Number> &integrals, bool biortho
     result.multiplier_slave(j, j) = integrals.slave[j];
   for (const auto &P : integrals.slave_master)
     result.multiplier_master.push_back(product(A, P));
+  result.multiplier_offset = product(A, integrals.offset);
   return result;
 }
 
@@ -140,9 +178,13 @@ FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
                                        const FaceCoupling<double>  &gradient)
 {
   if (!biorthogonal || uncovered(integrals))
-    return {gradient.multiplier, gradient.multiplier_slave, gradient.multiplier_master};
+    return {gradient.multiplier,
+            gradient.multiplier_slave,
+            gradient.multiplier_master,
+            {},
+            gradient.multiplier_offset};
   // Reverse mode of couple(): a star marks the derivative of the scalar by a matrix.
-  // with M = A P: P* = A' M*, A* = sum M* P'; with A = diag(d) m^-1:
+  // with M = A P: P* = A' M*, A* = sum M* P', as for the offset; with A = diag(d) m^-1:
   // d* = diag(A* m^-1), m* = -A' A* m^-1
   const unsigned int    n         = integrals.slave.size();
   const Matrix<double>  m_inverse = inverse(integrals.slave_slave);
@@ -159,6 +201,11 @@ FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
           A_gradient(i, j) += of_face(i, j);
       result.slave_master.push_back(product(At, M));
     }
+  const auto by_offset = product(gradient.multiplier_offset, transpose(integrals.offset));
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      A_gradient(i, j) += by_offset(i, j);
+  result.offset      = product(At, gradient.multiplier_offset);
   const auto A_m     = product(A_gradient, m_inverse);
   result.slave_slave = product(At, A_m);
   result.slave       = gradient.multiplier;
@@ -174,15 +221,19 @@ FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim, Number)                                           \
-  template FaceIntegrals<Number> integrate<dim>(const SegmentQuadrature<dim> &, \
-                                                const FaceNodes<dim, Number> &, \
-                                                const std::vector<FaceNodes<dim, Number>> &);
+#define SNUG_INSTANTIATE(dim, Number)                                            \
+  template FaceIntegrals<Number> integrate<dim>(const SegmentQuadrature<dim> &,  \
+                                                const MortarFace<dim, Number> &, \
+                                                const std::vector<MortarFace<dim, Number>> &);
 SNUG_INSTANTIATE(2, double)
 SNUG_INSTANTIATE(2, faces::Differential<1>)
 SNUG_INSTANTIATE(3, double)
 SNUG_INSTANTIATE(3, faces::Differential<1>)
 #undef SNUG_INSTANTIATE
+template std::array<double, 2>                offset_at<2>(const FaceNodes<2, double> &,
+                                            const faces::FaceCoordinates<2, double> &);
+template std::array<double, 3>                offset_at<3>(const FaceNodes<3, double> &,
+                                            const faces::FaceCoordinates<3, double> &);
 template FaceCoupling<double>                 couple(const FaceIntegrals<double> &, bool);
 template FaceCoupling<faces::Differential<1>> couple(const FaceIntegrals<faces::Differential<1>> &,
                                                      bool);

@@ -9,6 +9,7 @@ namespace snug::mortar {
 namespace {
 /// Nodes covered less than this on each of their faces are weak.
 const double least_cover = 0.25;
+const double round_off   = 1e-10;
 
 /// Who has the multiplier function of a node, by surface node.
 using Owners = std::map<unsigned int, double>;
@@ -28,6 +29,10 @@ public:
     set_order(covers);
   }
 
+  /// A held node has no displacement along the normal, so its own row would demand what nobody can
+  /// give; a weak one would nearly repeat its neighbour's. Held ones go first, since a weak node
+  /// may then give to whoever a held one gave to. A held node without free neighbours keeps its
+  /// row: the master may still move.
   void choose(const std::vector<bool> &held)
   {
     std::vector<unsigned int> left;
@@ -91,12 +96,15 @@ private:
     double                    covered       = 0.; ///< of all faces
     double                    best_part     = 0.; ///< of one face
     double                    largest_whole = 0.;
-    std::vector<unsigned int> neighbours; ///< on its faces
+    double                    around        = 0.; ///< covered of all functions on its faces
+    std::vector<unsigned int> neighbours;         ///< on its faces
     Owners                    owners;
 
+    /// On the axis of revolution the function of a corner node of degree 2 has the integral zero.
     bool is_weak() const
     {
-      return best_part < least_cover || covered < least_cover * largest_whole;
+      return !(covered > round_off * around) || best_part < least_cover ||
+             covered < least_cover * largest_whole;
     }
   };
 
@@ -139,8 +147,11 @@ private:
             if (most > 0.)
               candidate.best_part = std::max(candidate.best_part, node.second / most);
             for (const auto &other : covered)
-              if (other.first != node.first)
-                candidate.neighbours.push_back(other.first);
+              {
+                candidate.around += other.second;
+                if (other.first != node.first)
+                  candidate.neighbours.push_back(other.first);
+              }
           }
       }
   }
@@ -196,6 +207,9 @@ private:
     return result;
   }
 
+  /// Let all nodes of @p left with neighbours that have owners take the same; false if there are
+  /// none. All shares of a sweep are found before any is given: the result must not depend on the
+  /// order.
   bool give_away(std::vector<unsigned int> &left)
   {
     std::vector<unsigned int> settled;
@@ -218,13 +232,6 @@ private:
   }
 };
 
-/// Let all nodes of @p left with neighbours that have owners take the
-/// same; false if there are none.
-// All shares of a sweep are found before any is given: the result must not depend on the order.
-// A held node has no displacement along the normal, so its own row would demand what nobody can
-// give; a weak one would nearly repeat its neighbour's. Held ones go first, since a weak node may
-// then give to whoever a held one gave to. A held node without free neighbours keeps its row: the
-// master may still move.
 } // namespace
 
 template <int dim>

@@ -39,7 +39,7 @@ public:
                          const state::ContactState<dim> &state) const override
   {
     Partials<dim> result;
-    result.positions.resize(solver.mesh().n_local_nodes());
+    result.positions.resize(solver.mesh().n_points());
     const auto add = [&](unsigned int s, unsigned int i) {
       const auto                         &assembler = *solver.assemblers()[s];
       const auto                          X         = assembler.cell_field(i, state.positions);

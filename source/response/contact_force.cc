@@ -70,7 +70,7 @@ public:
     // J is linear in the forces: its derivatives are the factors of value().
     for (const bool row : chosen)
       result.forces.push_back(row ? 1. : 0.);
-    result.positions.resize(solver.mesh().n_local_nodes());
+    result.positions.resize(solver.mesh().n_points());
     if (parameters.component == Component::normal)
       return result;
     const auto e    = unit_vector<dim>(parameters);

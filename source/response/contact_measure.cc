@@ -64,7 +64,7 @@ public:
         result.forces[rows[i]] = measured.by_force[i];
         by_area[rows[i]]       = measured.by_area[i];
       }
-    result.positions.resize(solver.mesh().n_local_nodes());
+    result.positions.resize(solver.mesh().n_points());
     // The gradient at the surface nodes is replicated: each rank adds those of its own nodes.
     solver.surface().add_owned(
       solver.contact().area_gradient(solver.surface().gather(state.positions), by_area),

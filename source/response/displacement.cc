@@ -158,7 +158,7 @@ private:
   Partials<dim> partials_at_point(const state::StateSolver<dim> &solver) const
   {
     Partials<dim> result;
-    result.positions.resize(solver.mesh().n_local_nodes());
+    result.positions.resize(solver.mesh().n_points());
     for (const auto &assembler : solver.assemblers())
       result.u.emplace_back(assembler->n_dofs());
     for (const auto &place : find_point(solver, parameters))
@@ -180,7 +180,7 @@ private:
     const auto    whole = average(solver, state, parameters);
     const double  J     = whole.integral / whole.area;
     Partials<dim> result;
-    result.positions.resize(solver.mesh().n_local_nodes());
+    result.positions.resize(solver.mesh().n_points());
     for (const auto &assembler : solver.assemblers())
       result.u.emplace_back(assembler->n_dofs());
     for (const auto &face : faces_of(solver, parameters))

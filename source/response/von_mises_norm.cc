@@ -32,7 +32,7 @@ public:
   {
     const auto    of = integrals(solver, state);
     Partials<dim> result;
-    result.positions.resize(solver.mesh().n_local_nodes());
+    result.positions.resize(solver.mesh().n_points());
     for (const auto &assembler : solver.assemblers())
       result.u.emplace_back(assembler->n_dofs());
     if (of.scale == 0.)

@@ -25,7 +25,7 @@ public:
   Partials<dim> partials(const state::StateSolver<dim> &solver, const State &state) const override
   {
     Partials<dim> result;
-    result.positions.resize(solver.mesh().n_local_nodes());
+    result.positions.resize(solver.mesh().n_points());
     // Assembled again, as the solver holds the loads of the case solved last.
     const auto f = solver.loads(state.positions, state.load_case);
     // Collective: every rank asks, also one without subdomains.

@@ -67,9 +67,10 @@ typename mesh::BodyMesh<dim>::Field spanned_field(const GradientProblem<dim> &pr
   const unsigned int k    = values.size();
   const unsigned int rank = problem.solver.context().rank();
   const auto         own  = [&](auto field) {
-    for (unsigned int node = 0; node < field.size(); ++node)
-      if (mesh.owner(node) != rank)
-        field[node] = 0.;
+    for (unsigned int point = 0; point < field.size(); ++point)
+      // Samples belong to nodes: the products are those of nodes.
+      if (point >= mesh.n_local_nodes() || mesh.owner(point) != rank)
+        field[point] = 0.;
     return field;
   };
   dealii::LAPACKFullMatrix<double> gram(k);

@@ -125,18 +125,27 @@ Shape<dim>::Shape(std::unique_ptr<ShapedFace<dim>> face,
   , interior(std::move(interior))
 {}
 
-/// Modes are free to move hanging nodes anywhere; C puts them back on the lines or faces of their
+/// Modes that know their moves anywhere on the face give those of its samples, others those of nodes,
+/// between which samples lie. Modes are free to move hanging nodes anywhere; C puts them back on the lines or faces of their
 /// masters, and H those of the mesh, or it would tear open there.
 template <int dim>
 typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) const
 {
   Field moves = modes.apply(alpha);
-  if (face)
+  if (!face)
     {
-      face->interpolate_hanging(moves);
-      moves = interior->extend(moves);
+      mesh.interpolate_hanging(moves);
+      return moves;
     }
+  const Field on_face = moves;
+  face->interpolate_hanging(moves);
+  moves = interior->extend(moves);
+  moves.resize(mesh.n_points());
   mesh.interpolate_hanging(moves);
+  mesh.interpolate_samples(moves);
+  if (modes.n_nodes == face->surface().n_points())
+    for (const auto &sample : face->surface().samples())
+      moves[sample.second] = on_face[sample.first];
   return moves;
 }
 
@@ -144,15 +153,27 @@ typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) c
 template <int dim>
 std::vector<double> Shape<dim>::transpose(const Field &gradient) const
 {
-  Field at_nodes = gradient;
-  mesh.distribute_hanging(at_nodes);
+  Field at_points = gradient;
+  Field on_face;
   if (face)
     {
-      at_nodes = interior->transpose(at_nodes);
-      face->distribute_hanging(at_nodes);
+      on_face.resize(modes.n_nodes);
+      if (modes.n_nodes == face->surface().n_points())
+        for (const auto &sample : face->surface().samples())
+          std::swap(on_face[sample.first], at_points[sample.second]);
+      mesh.distribute_samples(at_points);
+    }
+  mesh.distribute_hanging(at_points);
+  if (face)
+    {
+      at_points.resize(mesh.n_local_nodes());
+      auto to_nodes = interior->transpose(at_points);
+      face->distribute_hanging(to_nodes);
+      std::copy_n(to_nodes.begin(), face->surface().n_nodes(), on_face.begin());
+      at_points = on_face;
     }
   // All of V' is linear, so that ranks add their shares at the end, where there are few numbers.
-  auto result = modes.transpose(at_nodes);
+  auto result = modes.transpose(at_points);
   dealii::Utilities::MPI::sum(result, mesh.communicator(), result);
   return result;
 }
@@ -198,7 +219,7 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
     {"none", "the shape is fixed",
      [](const auto &mesh, const auto &, const auto &) {
        Modes<dim> none;
-       none.n_nodes = mesh.n_local_nodes();
+       none.n_nodes = mesh.n_points();
        return std::make_unique<Shape<dim>>(mesh, none);
      }},
     {"Bezier patch", "heights [length] of Bézier control points over a face",

@@ -38,7 +38,6 @@ ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
   : body_mesh(mesh)
   , place(find_face(mesh, bodies, parameters))
   , nodes(mesh, {place})
-  , reference(nodes.gather(mesh.reference_positions()))
 {
   // On all ranks: surfaces are replicated.
   if (nodes.n_nodes() == 0)
@@ -54,7 +53,20 @@ void ShapedFace<dim>::measure()
   const faces::FaceShape<dim> shape(body_mesh.degree());
   std::vector<unsigned int>   all(nodes.faces().size());
   std::iota(all.begin(), all.end(), 0u);
-  unit_normals = faces::NodalNormals<dim>(nodes, all, shape, reference).normals();
+  const auto &reference = positions();
+  unit_normals          = faces::NodalNormals<dim>(nodes, all, shape, reference).normals();
+  unit_normals.resize(nodes.n_points());
+  const auto at_samples = mesh::lagrange_nodes<dim - 1>(mesh::surface_degree);
+  for (const auto &face : nodes.faces())
+    for (unsigned int k = 0; k < face.samples.size(); ++k)
+      {
+        const unsigned int sample = face.samples[k];
+        const auto         area =
+          faces::area_vector(faces::tangents<dim>(at_samples[k], face.samples, reference));
+        unit_normals[sample] = face.known != nullptr
+                                 ? face.known->normal(dealii::Point<dim>(reference[sample]))
+                                 : area / area.norm();
+      }
   Field weights(nodes.n_nodes());
   for (const auto &face : nodes.faces())
     for (unsigned int k = 0; k < face.nodes.size(); ++k)
@@ -66,6 +78,7 @@ void ShapedFace<dim>::measure()
   distribute_hanging(weights);
   for (const auto &weight : weights)
     node_areas.push_back(weight[0]);
+  node_areas.resize(nodes.n_points(), 0.);
 }
 
 /// Bodies have no nodes in common: only other boundaries of the same body count.
@@ -90,7 +103,7 @@ void ShapedFace<dim>::find_border()
 template <int dim>
 void ShapedFace<dim>::interpolate_hanging(Field &field) const
 {
-  for (unsigned int node = 0; node < field.size(); ++node)
+  for (unsigned int node = 0; node < nodes.n_nodes(); ++node)
     if (is_hanging(node))
       {
         field[node] = 0.;
@@ -103,7 +116,7 @@ void ShapedFace<dim>::interpolate_hanging(Field &field) const
 template <int dim>
 void ShapedFace<dim>::distribute_hanging(Field &field) const
 {
-  for (unsigned int node = 0; node < field.size(); ++node)
+  for (unsigned int node = 0; node < nodes.n_nodes(); ++node)
     if (is_hanging(node))
       {
         for (const auto &master : nodes.masters(node))
@@ -119,7 +132,8 @@ typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
 {
   if (parameters.direction.empty())
     return face.normals();
-  return typename ShapedFace<dim>::Field(face.surface().n_nodes(), unit_direction<dim>(parameters));
+  return typename ShapedFace<dim>::Field(face.surface().n_points(),
+                                         unit_direction<dim>(parameters));
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                \

@@ -73,7 +73,7 @@ template <int dim>
 typename Shapes<dim>::Field Shapes<dim>::apply(const std::vector<double> &alpha) const
 {
   AssertDimension(alpha.size(), n_variables());
-  Field result(mesh.n_local_nodes());
+  Field result(mesh.n_points());
   for (const Part &part : parts)
     {
       // Shapes add up: V = [V_1 L_1, V_2 L_2, ..].

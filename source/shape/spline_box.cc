@@ -56,7 +56,7 @@ public:
     : mesh(mesh)
     , net(spline_net(parameters, dim, degree))
     , directions(directions_of_points<dim>(parameters))
-    , places(mesh.n_local_nodes())
+    , places(mesh.n_points())
     , frozen(net.n_points(), false)
   {
     std::tie(corner, size) = box_of<dim>(parameters);
@@ -102,7 +102,7 @@ public:
 private:
   void find_nodes(const std::vector<bool> &is_wanted)
   {
-    for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    for (unsigned int node = 0; node < mesh.n_points(); ++node)
       if (is_wanted[mesh.body_of_node(node)] && !mesh.is_hanging(node))
         {
           auto s = fractions(mesh.reference_positions()[node] - corner, size);

@@ -59,12 +59,13 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
   const auto             axes       = patch_axes(face, parameters);
   const auto            &positions  = face.positions();
   dealii::Tensor<1, dim> lower = positions[0], upper = positions[0], middle;
-  for (const auto &position : positions)
+  const unsigned int     n_nodes = face.surface().n_nodes();
+  for (unsigned int node = 0; node < n_nodes; ++node)
     for (unsigned int d = 0; d < dim; ++d)
       {
-        lower[d] = std::min(lower[d], position[d]);
-        upper[d] = std::max(upper[d], position[d]);
-        middle[d] += position[d] / positions.size();
+        lower[d] = std::min(lower[d], positions[node][d]);
+        upper[d] = std::max(upper[d], positions[node][d]);
+        middle[d] += positions[node][d] / n_nodes;
       }
   Modes<dim> modes;
   modes.n_variables = net.n_points();
@@ -72,7 +73,9 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
   modes.row         = [=, &positions](unsigned int node) {
     std::vector<double> place; // s, t
     for (const unsigned int d : axes)
-      place.push_back((positions[node][d] - lower[d]) / (upper[d] - lower[d]));
+      // Samples of a face with curved edges may lie outside of the nodes' rectangle.
+      place.push_back(
+        std::clamp((positions[node][d] - lower[d]) / (upper[d] - lower[d]), 0., 1.));
     typename Modes<dim>::Row row;
     for (const auto &value : net.values(place))
       row.emplace_back(value.first, value.second * directions[node]);

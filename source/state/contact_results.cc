@@ -138,6 +138,14 @@ void sum_up_contact(const contact::Contact<dim> &contact,
       pair.active_contacts += point.strong;
       state.weak_contacts += point.weak;
     }
+  for (const auto &node : contact.shared_nodes())
+    {
+      double pressure = 0.;
+      for (const auto &row : node.rows)
+        pressure += row.second * state.contact[row.first].pressure;
+      double &largest = state.pairs[contact.places()[node.rows[0].first].pair].max_pressure;
+      largest         = std::max(largest, pressure);
+    }
   for (const auto &pair : state.pairs)
     {
       state.contact_force += pair.force;

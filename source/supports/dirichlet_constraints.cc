@@ -323,7 +323,7 @@ void DirichletConstraints<dim>::add_energy_gradient(
             normal_gradients[node.holds[j].side][node.surface_node] +=
               multipliers[j] * u[node.surface_node];
       }
-  SurfaceField at_surface(surface.n_nodes());
+  SurfaceField at_surface(surface.n_points());
   for (unsigned int side = 0; side < sides.size(); ++side)
     n[side].add_transpose(normal_gradients[side], at_surface);
   surface.add_owned(at_surface, gradient);

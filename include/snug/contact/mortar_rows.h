@@ -5,19 +5,24 @@
 #include <snug/contact/row_group.h>
 #include <snug/contact/supported_normals.h>
 #include <snug/mortar/face_arrays.h>
+#include <snug/mortar/moment_correction.h>
 #include <snug/mortar/mortar_coupling.h>
 #include <snug/mortar/multiplier_nodes.h>
+
+#include <algorithm>
 
 namespace snug::contact {
 /**
  * Mortar contact of one pair: the pressure sum_i p_i psi_i n_i acts between
  * the faces, psi_i the functions of the multiplier nodes (FaceCoupling,
  * MultiplierNodes), n_i the slave side's SupportedNormals there. Row i is
- * the mean gap weighted by psi_i, c_l = n_i D_il / a_i, c_k = -n_i M_ik /
- * a_i, gap = n_i . int psi_i (x_master - x_slave) / a_i, D_il = int psi_i
- * N_l, M_ik = int psi_i N_k, a_i = int psi_i, over the part of the slave
- * side that lies opposite to the master side, so that its force over the
- * area a_i is p_i. Hanging nodes are replaced by their masters.
+ * the mean gap weighted by psi_i, c_l = n_i D_il / a_i, c_k = -n_i (M_ik +
+ * dM_ik) / a_i, gap = n_i . int psi_i (x_master - x_slave) / a_i, D_il = int
+ * psi_i N_l, M_ik = int psi_i N_k, a_i = int psi_i, over the part of the
+ * slave side that lies opposite to the master side, so that its force over
+ * the area a_i is p_i. Positions in the gap are those of the true surfaces;
+ * dM frees the row of its moment (MomentCorrection) with the weights
+ * int (N_i N_k)^p, p the degree. Hanging nodes are replaced by their masters.
  *
  * Which faces lie opposite to each other, which nodes carry multipliers and
  * which faces are covered enough for biorthogonal functions stays; cut
@@ -56,12 +61,13 @@ private:
     bool                      biorthogonal;
   };
 
-  /// a_i times the coefficients of row i without n_i, by the nodes of the
-  /// row, the integral of psi_i (x_master - x_slave), and a_i.
+  /// a_i times the coefficients of row i without n_i and dM, and the weights
+  /// of its correction, by the nodes of the row; the integral of psi_i
+  /// (x_master - x_slave), and a_i.
   template <typename Number>
   struct RowSum
   {
-    std::vector<Number>     coefficients;
+    std::vector<Number>     coefficients, weights;
     std::array<Number, dim> offset{};
     Number                  area = 0.;
   };
@@ -81,13 +87,34 @@ private:
   template <typename Number>
   mortar::FaceIntegrals<Number> integrals(const SlaveFace                      &face,
                                           const mortar::FaceNodes<dim, Number> &x) const;
+  /// visit(place in row_nodes[row], weight) for a node, or the masters of a
+  /// hanging one.
+  template <typename Visit>
+  void for_each_place(unsigned int row, unsigned int node, const Visit &visit) const
+  {
+    const auto at = [&](unsigned int wanted, double weight) {
+      const auto &nodes = row_nodes[row];
+      // Found always: collect_row_nodes() has seen the same faces.
+      visit(std::lower_bound(nodes.begin(), nodes.end(), wanted) - nodes.begin(), weight);
+    };
+    if (surface.masters(node).empty())
+      at(node, 1.);
+    for (const auto &master : surface.masters(node))
+      at(master.first, master.second);
+  }
+
   template <typename Number>
-  void add_to_row(RowSum<Number> &sum,
-                  unsigned int    row,
-                  unsigned int    node,
-                  const Number   &coefficient) const;
+  void add_face(const SlaveFace                      &face,
+                const mortar::FaceNodes<dim, Number> &x,
+                std::vector<RowSum<Number>>          &sums) const;
   template <typename Number>
   std::vector<RowSum<Number>> row_sums(const mortar::FaceNodes<dim, Number> &x) const;
+  /// The correction of row @p i with the normal @p n.
+  template <typename Number>
+  mortar::MomentCorrection<dim, Number> correction(unsigned int                          i,
+                                                   const RowSum<Number>                 &sum,
+                                                   const mortar::FaceNodes<dim, Number> &x,
+                                                   const std::array<Number, dim>        &n) const;
 
   /// The energy of the rows, sum_i force_i / a_i n_i . r_i with r_i the
   /// integral of psi_i (y_slave - y_master), y = x + u.
@@ -96,6 +123,9 @@ private:
     Field               positions, deformed; ///< x, y
     Field               directions;          ///< force_i n_i / a_i per row
     std::vector<double> area_slopes;         ///< derivatives by a_i
+    /// of the corrections by the coefficients and weights of RowSum, per row;
+    /// empty where there are none
+    std::vector<std::vector<double>> coefficient_slopes, weight_slopes;
   };
 
   Field deformed(const Field &positions, const Field &displacement) const;

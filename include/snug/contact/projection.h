@@ -8,17 +8,23 @@
 
 namespace snug::contact {
 /**
- * Slave node s against master face: closest point with shape function
- * weights w_k at master nodes k, found once and frozen.
- * With nodal normals n_k = a_k/|a_k| of the master side (a_k: sum over
- * its faces of the area vectors t1 x t2 at node k) the unit normal is
- * n = v/|v|, v = -sum_k w_k n_k: from the slave INTO the master body.
+ * Slave node s against master face, found once and frozen: the point
+ * x(xi) = sum_k w_k x_k of the face from which the normal of the master side
+ * leads to the slave node,
+ *   x_s = x(xi) + t v(xi),  v(xi) = sum_k w_k n_k,  w_k = N_k(xi),
+ * with the nodal normals n_k. On a circle or a sphere v is radial to
+ * rounding, so that rows have no lever about its centre, as they would have
+ * from the point of the facet that is closest to the node.
  */
 struct Projection
 {
-  unsigned int slave; ///< surface node
-  /// surface nodes, ascending, and weights, which sum to 1
-  std::vector<std::pair<unsigned int, double>> masters;
+  /// Surface nodes or points, ascending, and weights, which sum to 1.
+  using Weights = std::vector<std::pair<unsigned int, double>>;
+
+  unsigned int slave;   ///< surface node
+  unsigned int face;    ///< of the surface
+  Weights      masters; ///< the nodes of the face
+  Weights      surface; ///< the points that give the face's true surface at xi
 };
 
 /**
@@ -29,17 +35,19 @@ struct Projection
 constexpr double edge_tolerance = 0.05;
 
 /**
- * Closest points of the slave nodes that do not hang, in the order of the
+ * Projections of the slave nodes that do not hang, in the order of the
  * slave faces and their nodes, without the nodes beyond the edge of the
- * master side. The faces to be tried come from a tree of boxes that
- * contain them, so none is missed. Where faces are equally close, the one
- * with the lowest index is taken; weights below 1e-12 become 0.
+ * master side, by the @p normals of the master's nodes. The search starts
+ * from the closest point. The faces to be tried come from a tree of boxes
+ * that contain them, so none is missed. Where faces are equally close, the
+ * one with the lowest index is taken; weights below 1e-12 become 0.
  */
 template <int dim>
 std::vector<Projection> project(const mesh::Surface<dim>                 &surface,
                                 const PairFaces                          &sides,
                                 const faces::FaceShape<dim>              &shape,
-                                const typename mesh::Surface<dim>::Field &positions);
+                                const typename mesh::Surface<dim>::Field &positions,
+                                const typename mesh::Surface<dim>::Field &normals);
 } // namespace snug::contact
 
 #endif

@@ -12,11 +12,12 @@ template <int dim, typename Number>
 using FaceCoordinates = std::array<Number, dim - 1>;
 
 /// The shape functions of FaceShape and their derivatives at one point,
-/// also where its coordinates are differentiated.
-template <int dim, typename Number>
+/// also where its coordinates are differentiated, up to a degree.
+template <int dim, typename Number, unsigned int max_degree = 2>
 struct FaceValues
 {
-  static constexpr unsigned int max_nodes = dim == 2 ? 3 : 9;
+  static constexpr unsigned int max_nodes =
+    dim == 2 ? max_degree + 1 : (max_degree + 1) * (max_degree + 1);
 
   FaceValues(unsigned int degree, const FaceCoordinates<dim, Number> &xi);
 

@@ -27,7 +27,12 @@ public:
   using Values = mesh::LagrangePoint<dim - 1>;
 
   explicit FaceShape(unsigned int degree) : p(degree), nodes(mesh::lagrange_nodes<dim - 1>(degree))
-  {}
+  {
+    for (const auto &node : nodes)
+      samples_at_nodes.push_back(samples_at(node.point));
+    for (const auto &sample : mesh::lagrange_nodes<dim - 1>(mesh::surface_degree))
+      nodes_at_samples.push_back(at(sample.point));
+  }
 
   unsigned int n_nodes() const { return nodes.size(); }
   unsigned int degree() const { return p; }
@@ -40,9 +45,39 @@ public:
   /// Values at node @p k.
   const Values &at_node(unsigned int k) const { return nodes[k]; }
 
+  /// @name The functions of a face's samples, which describe its true surface
+  /// @{
+  static Values samples_at(const Coordinates &xi)
+  {
+    return mesh::lagrange_point<dim - 1>(mesh::surface_degree, xi);
+  }
+
+  const Values &samples_at_node(unsigned int k) const { return samples_at_nodes[k]; }
+  /// @}
+
+  /// The shape functions at sample @p k.
+  const Values &at_sample(unsigned int k) const { return nodes_at_samples[k]; }
+
 private:
   unsigned int        p;
-  std::vector<Values> nodes;
+  std::vector<Values> nodes, samples_at_nodes, nodes_at_samples;
+};
+
+/// The points and functions that describe the true surface of a face: its
+/// samples, or without any its nodes.
+template <int dim>
+struct TrueSurface
+{
+  const std::vector<unsigned int>       &points; ///< of the surface
+  const typename FaceShape<dim>::Values &at_node;
+
+  /// At node @p k of @p face.
+  TrueSurface(const FaceShape<dim>                    &shape,
+              const typename mesh::Surface<dim>::Face &face,
+              unsigned int                             k)
+    : points(face.samples.empty() ? face.nodes : face.samples)
+    , at_node(face.samples.empty() ? shape.at_node(k) : shape.samples_at_node(k))
+  {}
 };
 
 /// x,_1 and x,_2 of the face with @p nodes at a point with shape @p values.

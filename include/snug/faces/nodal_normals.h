@@ -5,11 +5,16 @@
 
 namespace snug::faces {
 /**
- * Unit outward normals n_k = a_k/|a_k| at the nodes of a set of faces,
- * a_k = sum over the faces at node k of their area vectors there, with
- * exact derivatives
- *   n_k' = (I - n_k n_k') a_k' / |a_k|,  a_k' bilinear in x and x'.
- * Fields run over all surface nodes; nodes of other faces hold zeros.
+ * Unit outward normals n_k = v_k/|v_k| at the nodes of a set of faces,
+ *   v_k = a_k/|a_k| + c_k,
+ * a_k = sum over the faces at node k of the area vectors of their true
+ * surfaces there. Where all of these faces lie on one surface of known
+ * shape, c_k makes n_k exact in the reference geometry: the polynomials of
+ * the surface are accurate to some 1e-9, but bodies that turn freely in
+ * each other need normals without a lever. Else c_k = 0. Derivatives are
+ * exact,
+ *   n_k' = (I - n_k n_k') v_k' / |v_k|,  a_k' bilinear in x and x'.
+ * Normals run over all surface nodes, those of other faces are zero.
  */
 template <int dim>
 class NodalNormals
@@ -17,7 +22,8 @@ class NodalNormals
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// @p faces: indices into @p surface. The references must outlive this.
+  /// @p faces: indices into @p surface; @p positions of all points. The
+  /// references must outlive this.
   /// @throws TangledMesh if an area vector vanishes or is not finite.
   NodalNormals(const mesh::Surface<dim>        &surface,
                const std::vector<unsigned int> &faces,
@@ -26,10 +32,10 @@ public:
 
   const Field &normals() const { return unit; }
 
-  /// n' along @p velocity of the positions.
+  /// n' along @p velocity of the points.
   Field derivative(const Field &velocity) const;
 
-  /// gradient += (dn/dx)' @p normal_gradient.
+  /// gradient += (dn/dx)' @p normal_gradient; @p gradient of all points.
   void add_transpose(const Field &normal_gradient, Field &gradient) const;
 
 private:
@@ -37,8 +43,11 @@ private:
   const std::vector<unsigned int> &faces;
   const FaceShape<dim>            &shape;
   const Field                     &positions;
-  Field                            unit;
-  std::vector<double>              length; ///< |a_k|
+  Field                            unit, area_unit;     ///< n_k, a_k/|a_k|
+  std::vector<double>              length, area_length; ///< |v_k|, |a_k|
+
+  void normalise_areas(const Field &x, Field &areas, std::vector<double> &lengths) const;
+  void correct();
 };
 
 /// (I - n n') v / length: the derivative of a unit vector n = a/length

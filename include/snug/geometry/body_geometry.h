@@ -109,6 +109,11 @@ struct BodyMeshParameters
   std::vector<double>                              shift; ///< [length]
   /// @}
 
+  /// Boundaries whose true surface contact and supports ask for, and
+  /// whether designs may curve those that are flat: not entries.
+  std::vector<std::string> sampled_boundaries;
+  bool                     is_designed = false;
+
   unsigned int refinements = 0;
   /// cells are refined where this formula of x, y, z is positive
   std::string  refine_where;

@@ -22,12 +22,18 @@ namespace snug::mesh {
  * Local node indices run over the locally relevant nodes. Cells are the
  * locally owned ones. Node k of a cell is tensor-product ordered, the
  * first coordinate fastest, (degree+1)^dim nodes.
+ *
+ * Behind the nodes come the samples: points of the true surface of boundary
+ * faces of this rank, (surface_degree+1)^(dim-1) per face in tensor order.
+ * Faces of bodies' sampled boundaries have them, unless the face is flat and
+ * stays so. Positions, velocities and gradients run over nodes and samples,
+ * displacements over nodes.
  */
 template <int dim>
 class BodyMesh
 {
 public:
-  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per local node
+  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per local node or point
 
   struct Cell
   {
@@ -48,6 +54,9 @@ public:
     unsigned int              boundary; ///< index of the body's names
     unsigned int              cell;     ///< index into cells()
     std::vector<unsigned int> nodes;
+    /// the surface of known shape it lies on, or no_surface, see BodyGeometry
+    unsigned int              known_surface;
+    std::vector<unsigned int> samples; ///< or empty
   };
 
   /// The hanging node @p node is sum_m weight_m master_m; masters are
@@ -76,7 +85,9 @@ public:
   const std::vector<Face>    &boundary_faces() const { return mesh_faces; }
   const std::vector<Hanging> &hanging() const { return hanging_nodes; }
 
-  unsigned int n_local_nodes() const { return reference.size(); }
+  unsigned int n_local_nodes() const { return relevant.n_elements(); }
+  /// Local nodes and samples.
+  unsigned int n_points() const { return reference.size(); }
   /// Global number of a local node.
   unsigned int global_node(unsigned int node) const { return relevant.nth_index_in_set(node); }
   /// Local index of a global node; it must be relevant on this rank.
@@ -98,6 +109,10 @@ public:
   void interpolate_hanging(Field &field) const;
   /// Transpose: add values at hanging nodes to their masters, then zero.
   void distribute_hanging(Field &field) const;
+  /// field at samples <- interpolation of the nodes of their faces
+  void interpolate_samples(Field &field) const;
+  /// Transpose: add values at samples to the nodes, then zero.
+  void distribute_samples(Field &field) const;
 
   /// Active cells of all ranks.
   unsigned long n_global_cells() const { return n_cells; }
@@ -117,7 +132,7 @@ private:
   // Owned and ghost nodes: a local index is the place of a node in this set.
   dealii::IndexSet          relevant;
   std::vector<unsigned int> first_node_of_rank; ///< n_ranks + 1
-  // per local node
+  // per point
   std::vector<unsigned int>       node_body;
   std::vector<dealii::Point<dim>> logical;
   Field                           reference;
@@ -126,7 +141,9 @@ private:
   std::vector<Face>               mesh_faces;
   std::vector<Hanging>            hanging_nodes;
   CellPairs                       neighbours;
-  unsigned long                   n_cells = 0, n_free_nodes = 0;
+  /// of the nodes of a face at its samples
+  std::vector<std::vector<double>> sample_weights;
+  unsigned long                    n_cells = 0, n_free_nodes = 0;
 
   void triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
                    const TearingParameters                         &tearing,
@@ -135,6 +152,9 @@ private:
   void collect_nodes(const Source &source);
   void collect_hanging(const Source &source);
   void collect_cells(const Source &source);
+  void collect_samples(const std::vector<geometry::BodyMeshParameters> &bodies,
+                       const Source                                    &source);
+  bool is_flat(const Face &face) const;
   void snap_to_axis();
 };
 } // namespace snug::mesh

@@ -8,6 +8,9 @@
 #include <vector>
 
 namespace snug::mesh {
+/// Degree of the polynomials by which true surfaces of faces are described.
+constexpr unsigned int surface_degree = 4;
+
 /// Lagrange function i of degree p with equidistant nodes on [0,1],
 /// prod_{j != i} (p x - j) / (i - j), and its first @p order derivatives.
 template <int order, typename Number>

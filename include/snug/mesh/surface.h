@@ -6,19 +6,22 @@
 namespace snug::mesh {
 /**
  * A set of boundary faces gathered on every rank, for contact search.
- * Surface nodes are numbered by ascending global node; all arrays are
- * equal on all ranks.
+ * Surface nodes are numbered by ascending global node; behind them come the
+ * samples of the faces, see BodyMesh. All arrays are equal on all ranks.
  */
 template <int dim>
 class Surface
 {
 public:
-  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per surface node
+  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per surface node or point
 
   struct Face
   {
     unsigned int              body, boundary;
     std::vector<unsigned int> nodes; ///< surface nodes, oriented outwards
+    /// surface points, ascending without a gap, or empty: the mesh is the surface
+    std::vector<unsigned int>          samples;
+    const geometry::KnownSurface<dim> *known; ///< null: none
   };
 
   /// Gather the faces of the (body, boundary) pairs. Collective.
@@ -29,6 +32,10 @@ public:
   const Idealization      &idealization() const { return mesh.idealization(); }
   const std::vector<Face> &faces() const { return surface_faces; }
   unsigned int             n_nodes() const { return global_nodes.size(); }
+  /// Nodes and samples.
+  unsigned int n_points() const { return reference.size(); }
+  /// Reference positions of the points.
+  const Field &reference_positions() const { return reference; }
   unsigned int global_node(unsigned int surface_node) const { return global_nodes[surface_node]; }
   /// Masters (surface nodes, weights) of a hanging node; else empty.
   const std::vector<std::pair<unsigned int, double>> &masters(unsigned int surface_node) const
@@ -36,11 +43,16 @@ public:
     return node_masters[surface_node];
   }
 
-  /// Values of a nodal field at the surface nodes. Collective.
+  /// Values of a field of nodes or points at those of the surface. Collective.
   Field gather(const typename BodyMesh<dim>::Field &field) const;
-  /// Add a surface field to a nodal field at the nodes this rank owns
-  /// (hanging nodes included), so that a sum over ranks adds each once.
+  /// Add a surface field to a field of nodes or points at those this rank
+  /// owns (hanging nodes included), so that a sum over ranks adds each once.
   void add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const;
+  /// (surface, local) numbers of the samples on this rank.
+  const std::vector<std::pair<unsigned int, unsigned int>> &samples() const
+  {
+    return owned_samples;
+  }
 
 private:
   const BodyMesh<dim>                                      &mesh;
@@ -48,7 +60,9 @@ private:
   std::vector<unsigned int>                                 global_nodes;
   std::vector<std::vector<std::pair<unsigned int, double>>> node_masters;
   /// local node of each surface node this rank owns: (surface, local)
-  std::vector<std::pair<unsigned int, unsigned int>> owned;
+  std::vector<std::pair<unsigned int, unsigned int>>    owned, owned_samples;
+  std::vector<std::vector<geometry::KnownSurface<dim>>> known_surfaces; ///< per body
+  Field                                                 reference;
 };
 } // namespace snug::mesh
 

@@ -1,11 +1,11 @@
 #ifndef snug_mortar_face_arrays_h
 #define snug_mortar_face_arrays_h
 
-#include <snug/mesh/surface.h>
+#include <snug/faces/face_shape.h>
 #include <snug/mortar/segment_points.h>
 
 namespace snug::mortar {
-/// Positions of all surface nodes.
+/// Positions of all surface points.
 template <int dim>
 FaceNodes<dim, double> node_arrays(const typename mesh::Surface<dim>::Field &positions);
 
@@ -15,11 +15,19 @@ FaceNodes<dim, faces::Differential<1>>
 node_arrays(const typename mesh::Surface<dim>::Field &positions,
             const typename mesh::Surface<dim>::Field &velocity);
 
-/// Those of the nodes of surface face @p face.
+/// Surface face @p face of @p points.
 template <int dim, typename Number>
-FaceNodes<dim, Number> face_nodes(const mesh::Surface<dim>     &surface,
-                                  unsigned int                  face,
-                                  const FaceNodes<dim, Number> &nodes);
+MortarFace<dim, Number> mortar_face(const mesh::Surface<dim>     &surface,
+                                    const faces::FaceShape<dim>  &shape,
+                                    unsigned int                  face,
+                                    const FaceNodes<dim, Number> &points);
+
+/// gradient_a += sum_k offset_gradient_k . d offset_k / d x_a at the points of the face.
+template <int dim>
+void add_offset_gradient(const typename mesh::Surface<dim>::Face &face,
+                         const faces::FaceShape<dim>             &shape,
+                         const FaceNodes<dim, double>            &offset_gradient,
+                         typename mesh::Surface<dim>::Field      &gradient);
 } // namespace snug::mortar
 
 #endif

@@ -4,21 +4,22 @@
 #include <snug/mortar/mortar_coupling.h>
 
 namespace snug::mortar {
-/// Gradient with respect to the nodes of a slave and some master faces.
+/// Gradient with respect to the nodes and offsets of a slave and some
+/// master faces.
 template <int dim>
 struct FaceGradient
 {
-  FaceNodes<dim, double>              slave;
-  std::vector<FaceNodes<dim, double>> masters;
+  MortarFace<dim, double>              slave;
+  std::vector<MortarFace<dim, double>> masters;
 };
 
 /// The transpose of the derivative of integrate(): from the gradient of a
-/// scalar with respect to the integrals, that to the nodes.
+/// scalar with respect to the integrals, that to nodes and offsets.
 template <int dim>
-FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>              &quadrature,
-                                      const FaceNodes<dim, double>              &slave,
-                                      const std::vector<FaceNodes<dim, double>> &masters,
-                                      const FaceIntegrals<double>               &gradient);
+FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>               &quadrature,
+                                      const MortarFace<dim, double>              &slave,
+                                      const std::vector<MortarFace<dim, double>> &masters,
+                                      const FaceIntegrals<double>                &gradient);
 } // namespace snug::mortar
 
 #endif

@@ -9,7 +9,8 @@ namespace snug::mortar {
 /**
  * Integrals over the covered part of a slave face, the part opposite to
  * the given master faces, of its shape functions N_j and those of the
- * master faces, N_k.
+ * master faces, N_k, and of the offset between the true surfaces beyond
+ * that of the faces, delta = delta_master - delta_slave.
  */
 template <typename Number>
 struct FaceIntegrals
@@ -17,6 +18,9 @@ struct FaceIntegrals
   std::vector<Number>                   slave;        ///< int N_j
   dealii::Table<2, Number>              slave_slave;  ///< int N_j N_l
   std::vector<dealii::Table<2, Number>> slave_master; ///< int N_j N_k
+  /// int (N_j N_k)^p, p the degree: never negative
+  std::vector<dealii::Table<2, Number>> weights;
+  dealii::Table<2, Number>              offset; ///< int N_j delta_d
 };
 
 /**
@@ -34,18 +38,25 @@ struct FaceCoupling
   std::vector<Number>                   multiplier;        ///< int psi_j
   dealii::Table<2, Number>              multiplier_slave;  ///< psi_j N_l
   std::vector<dealii::Table<2, Number>> multiplier_master; ///< psi_j N_k
+  dealii::Table<2, Number>              multiplier_offset; ///< psi_j delta_d
 };
 
+/// The offset of a face at @p xi, differentiated with it.
 template <int dim, typename Number>
-FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>              &quadrature,
-                                const FaceNodes<dim, Number>              &slave,
-                                const std::vector<FaceNodes<dim, Number>> &masters);
+std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &offsets,
+                                  const faces::FaceCoordinates<dim, Number> &xi);
+
+template <int dim, typename Number>
+FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quadrature,
+                                const MortarFace<dim, Number>              &slave,
+                                const std::vector<MortarFace<dim, Number>> &masters);
 
 template <typename Number>
 FaceCoupling<Number> couple(const FaceIntegrals<Number> &integrals, bool biorthogonal);
 
 /// The transpose of the derivative of couple(): from the gradient of a
-/// scalar with respect to the coupling, that to the integrals.
+/// scalar with respect to the coupling, that to the integrals but for the
+/// weights, of which there is none.
 FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
                                        bool                         biorthogonal,
                                        const FaceCoupling<double>  &gradient);

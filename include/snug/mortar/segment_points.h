@@ -17,6 +17,15 @@ struct SegmentPoint
 template <int dim, typename Number>
 using FaceNodes = std::vector<std::array<Number, dim>>;
 
+/// A face as the integrals need it.
+template <int dim, typename Number>
+struct MortarFace
+{
+  FaceNodes<dim, Number> nodes;
+  /// from the face to its true surface, at its samples; empty: none
+  FaceNodes<dim, Number> offsets;
+};
+
 /**
  * Quadrature of the part of a slave face that lies opposite to a master
  * face (Puso, Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004).

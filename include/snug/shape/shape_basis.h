@@ -22,9 +22,10 @@ struct Control
 };
 
 /**
- * A linear operator from design variables to the moves of nodes, by nodes:
- * those of a shaped face, the same on all ranks, or the local ones of the
- * mesh. Hanging nodes do not count.
+ * A linear operator from design variables to the moves of nodes and
+ * samples, by points: those of a shaped face, the same on all ranks, or the
+ * local ones of the mesh; of a face perhaps of its nodes only. Hanging nodes
+ * do not count.
  */
 template <int dim>
 struct Modes
@@ -58,14 +59,14 @@ public:
 
   virtual unsigned int n_variables() const = 0;
 
-  /// V alpha on the local nodes. Collective.
+  /// V alpha on the local points. Collective.
   virtual Field apply(const std::vector<double> &alpha) const = 0;
 
-  /// V' gradient summed over ranks: node gradient -> dJ/dalpha, where
+  /// V' gradient summed over ranks: gradient by points -> dJ/dalpha, where
   /// @p gradient adds up to the whole over ranks. Collective.
   virtual std::vector<double> transpose(const Field &gradient) const = 0;
 
-  /// Column i on the local nodes, made when it is asked for first and kept
+  /// Column i on the local points, made when it is asked for first and kept
   /// for all designs. Collective.
   Field column(unsigned int i) const;
 
@@ -86,7 +87,7 @@ typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
  * A basis made from the entries of one subsection: V = H E C M with the
  * modes M. Of modes of a face, C makes its hanging nodes follow and E its
  * body's interior; others have none of these. H interpolates the hanging
- * nodes of the mesh.
+ * nodes of the mesh and the samples whose moves the modes do not give.
  */
 template <int dim>
 class Shape : public ShapeBasis<dim>
@@ -94,7 +95,7 @@ class Shape : public ShapeBasis<dim>
 public:
   using Field = typename ShapeBasis<dim>::Field;
 
-  /// Modes of the local nodes of the mesh, which must outlive this.
+  /// Modes of the local points of the mesh, which must outlive this.
   Shape(const mesh::BodyMesh<dim> &mesh, Modes<dim> modes);
 
   /// Modes of a face.

@@ -13,7 +13,7 @@ template <int dim>
 class ShapedFace
 {
 public:
-  using Field = typename mesh::Surface<dim>::Field; ///< per surface node
+  using Field = typename mesh::Surface<dim>::Field; ///< per surface node or point
 
   /// Collective. @throws InputError naming the entry Face. The mesh must
   /// outlive this object.
@@ -26,12 +26,12 @@ public:
   unsigned int               boundary() const { return place.second; }
   const mesh::Surface<dim>  &surface() const { return nodes; }
 
-  /// Reference positions of the surface nodes [length].
-  const Field &positions() const { return reference; }
-  /// Unit outward normals.
+  /// Reference positions of the surface points [length].
+  const Field &positions() const { return nodes.reference_positions(); }
+  /// Unit outward normals at the surface points.
   const Field &normals() const { return unit_normals; }
-  /// The face's area spread over its nodes, hanging ones have none
-  /// [length^(dim-1)].
+  /// The face's area spread over its nodes, hanging ones and samples have
+  /// none [length^(dim-1)].
   const std::vector<double> &areas() const { return node_areas; }
   /// Nodes that other boundaries of the body share.
   const std::vector<bool> &border() const { return on_border; }
@@ -49,7 +49,7 @@ private:
   const mesh::BodyMesh<dim>            &body_mesh;
   std::pair<unsigned int, unsigned int> place; ///< body, boundary
   mesh::Surface<dim>                    nodes;
-  Field                                 reference, unit_normals;
+  Field                                 unit_normals;
   std::vector<double>                   node_areas;
   std::vector<bool>                     on_border;
 };

@@ -46,7 +46,7 @@ template <int dim>
 double
 derivative_error(const TwoBoxes<dim> &scene, const snug::contact::Contact<dim> &contact, double h)
 {
-  const auto velocity = scene.random_field(4);
+  const auto velocity = scene.random_velocity(4);
   const auto exact    = contact.row_derivatives(scene.positions, velocity);
   // (f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h
   auto numbers = exact;
@@ -62,7 +62,7 @@ derivative_error(const TwoBoxes<dim> &scene, const snug::contact::Contact<dim> &
 template <int dim>
 double reverse_error(const TwoBoxes<dim> &scene, const snug::contact::Contact<dim> &contact)
 {
-  const auto          velocity     = scene.random_field(5);
+  const auto          velocity     = scene.random_velocity(5);
   const auto          displacement = scene.random_field(6);
   std::vector<double> forces(contact.n_rows());
   for (unsigned int i = 0; i < forces.size(); ++i)

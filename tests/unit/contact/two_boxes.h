@@ -51,6 +51,20 @@ struct TwoBoxes
     return bodies;
   }
 
+  /// A ball pressed into a socket, in 2D a roller into a trough, both sides
+  /// sampled: the lower box's top is convex about (0.5, .., 1 - @p radius),
+  /// the upper box's bottom concave.
+  static Bodies ball_and_socket(unsigned int n_slave, unsigned int n_master, double radius)
+  {
+    Bodies            bodies         = boxes(n_slave, n_master);
+    const std::string shape          = dim == 2 ? "cylinder z " : "sphere ";
+    bodies[0].curved_faces["bottom"] = shape + std::to_string(-radius - 0.1);
+    bodies[1].curved_faces["top"]    = shape + std::to_string(radius);
+    bodies[0].sampled_boundaries     = {"bottom"};
+    bodies[1].sampled_boundaries     = {"top"};
+    return bodies;
+  }
+
   static snug::contact::Pair pair()
   {
     snug::contact::Pair pair{{0, 2 * dim - 2}, {1, 2 * dim - 1}, "slave", "master"};
@@ -70,8 +84,9 @@ struct TwoBoxes
     snug::contact::PairFaces sides;
     for (unsigned int f = 0; f < surface.faces().size(); ++f)
       (surface.faces()[f].body == 0 ? sides.slave : sides.master).push_back(f);
-    return snug::contact::project(surface, sides, snug::faces::FaceShape<dim>(mesh.degree()),
-                                  positions);
+    const snug::faces::FaceShape<dim>    shape(mesh.degree());
+    const snug::faces::NodalNormals<dim> normals(surface, sides.master, shape, positions);
+    return snug::contact::project(surface, sides, shape, positions, normals.normals());
   }
 
   /// Bend both sides, without penetration at first sight; hanging nodes follow
@@ -84,7 +99,7 @@ struct TwoBoxes
         x[dim - 1] += 0.08 * std::sin(2. * x[0] + y) + 0.05 * y * x[0];
         x[0] += 0.03 * std::cos(3. * y + x[0]);
       }
-    for (unsigned int node = 0; node < positions.size(); ++node)
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       if (!surface.masters(node).empty())
         {
           positions[node] = 0.;
@@ -96,7 +111,7 @@ struct TwoBoxes
   /// Rollers at x = 0.
   void hold_left()
   {
-    for (unsigned int node = 0; node < positions.size(); ++node)
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       if (positions[node][0] == 0.)
         {
           held[node].emplace_back();
@@ -104,11 +119,17 @@ struct TwoBoxes
         }
   }
 
-  Field random_field(unsigned int seed) const
+  /// Of displacements.
+  Field random_field(unsigned int seed) const { return random_field(seed, surface.n_nodes()); }
+
+  /// Of positions.
+  Field random_velocity(unsigned int seed) const { return random_field(seed, surface.n_points()); }
+
+  static Field random_field(unsigned int seed, unsigned int size)
   {
     std::mt19937                           random(seed);
     std::uniform_real_distribution<double> uniform(-1., 1.);
-    Field                                  field(surface.n_nodes());
+    Field                                  field(size);
     for (auto &value : field)
       for (unsigned int d = 0; d < dim; ++d)
         value[d] = uniform(random);
