@@ -9,9 +9,6 @@
 
 namespace snug::contact {
 namespace {
-/// Areas below this part of the largest are none.
-const double least_area = 1e-10;
-
 /// n = v/|v|, v = -sum_k w_k n_k
 template <int dim>
 struct RowNormal
@@ -78,8 +75,6 @@ public:
   {
     const Opposition<dim> opposition(pair);
     const auto            normals = master_normals(pair.positions);
-    const auto   areas = faces::tributary_areas<dim>({surface, sides.slave, shape}, pair.positions);
-    const double largest = *std::max_element(areas.begin(), areas.end());
     for (const Projection &projection :
          project(surface, sides, shape, pair.positions, normals.normals()))
       {
@@ -89,7 +84,7 @@ public:
         // The distance counts on both sides: a deep overlap is as far away as a wide gap.
         if (pair.taken[slave] || !opposition.holds(slave, distance, n))
           continue;
-        if (!(areas[slave] > least_area * largest))
+        if (faces::is_without_area(surface, shape.degree(), pair.positions[slave]))
           {
             idle.push_back(slave);
             continue;
@@ -102,9 +97,8 @@ public:
 
   const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
 
-  /// On the axis of revolution the function of a corner node of degree 2 has the integral zero, int
-  /// N r dr = 0: a pressure makes no force there, and a force no pressure. The parabola through the
-  /// other nodes of the face that is level at the axis has (4 p_1 - p_2) / 3 there.
+  /// Where a node is without an area, on the axis, the parabola through the other nodes of the face
+  /// that is level there has (4 p_1 - p_2) / 3.
   std::vector<SharedNode> shared_nodes() const override
   {
     std::map<unsigned int, unsigned int> rows_of;

@@ -1,3 +1,4 @@
+#include <snug/faces/tributary.h>
 #include <snug/mortar/multiplier_nodes.h>
 
 #include <algorithm>
@@ -9,7 +10,6 @@ namespace snug::mortar {
 namespace {
 /// Nodes covered less than this on each of their faces are weak.
 const double least_cover = 0.25;
-const double round_off   = 1e-10;
 
 /// Who has the multiplier function of a node, by surface node.
 using Owners = std::map<unsigned int, double>;
@@ -96,15 +96,13 @@ private:
     double                    covered       = 0.; ///< of all faces
     double                    best_part     = 0.; ///< of one face
     double                    largest_whole = 0.;
-    double                    around        = 0.; ///< covered of all functions on its faces
-    std::vector<unsigned int> neighbours;         ///< on its faces
+    bool                      without_area  = false;
+    std::vector<unsigned int> neighbours; ///< on its faces
     Owners                    owners;
 
-    /// On the axis of revolution the function of a corner node of degree 2 has the integral zero.
     bool is_weak() const
     {
-      return !(covered > round_off * around) || best_part < least_cover ||
-             covered < least_cover * largest_whole;
+      return without_area || best_part < least_cover || covered < least_cover * largest_whole;
     }
   };
 
@@ -127,8 +125,9 @@ private:
   {
     for (const FaceCover &cover : covers)
       {
-        const auto &nodes = surface.faces()[cover.face].nodes;
-        Owners      covered, whole;
+        const auto        &nodes  = surface.faces()[cover.face].nodes;
+        const unsigned int degree = nodes.size() == 1u << (dim - 1) ? 1 : 2;
+        Owners             covered, whole;
         for (unsigned int k = 0; k < nodes.size(); ++k)
           for (const auto &master : masters(nodes[k]))
             {
@@ -142,13 +141,13 @@ private:
             // judged by the sum over its faces alone.
             Candidate   &candidate = candidates[node.first];
             const double most      = whole[node.first];
+            candidate.without_area = faces::is_without_area(surface, degree, positions[node.first]);
             candidate.covered += node.second;
             candidate.largest_whole = std::max(candidate.largest_whole, most);
             if (most > 0.)
               candidate.best_part = std::max(candidate.best_part, node.second / most);
             for (const auto &other : covered)
               {
-                candidate.around += other.second;
                 if (other.first != node.first)
                   candidate.neighbours.push_back(other.first);
               }

@@ -20,6 +20,17 @@ struct TributaryFaces
  * to their masters and keep it, too, so it is the sum over nodes that do
  * not hang which is the area.
  */
+/// Whether the area of a node is zero but for curvature: on the axis of
+/// revolution, int N r dr = 0 of the corner nodes of degree 2. A pressure
+/// makes no force there, and a force no pressure.
+template <int dim>
+bool is_without_area(const mesh::Surface<dim>     &surface,
+                     unsigned int                  degree,
+                     const dealii::Tensor<1, dim> &position)
+{
+  return surface.idealization().is_axisymmetric() && degree == 2 && position[0] == 0.;
+}
+
 template <int dim>
 std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
                                     const typename mesh::Surface<dim>::Field &positions);
