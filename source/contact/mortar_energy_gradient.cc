@@ -8,7 +8,7 @@ typename MortarRows<dim>::Field MortarRows<dim>::deformed(const Field &positions
                                                           const Field &displacement) const
 {
   Field result = positions;
-  for (unsigned int node = 0; node < result.size(); ++node)
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     {
       // Hanging nodes have positions of their own, but no displacements.
       if (surface.masters(node).empty())

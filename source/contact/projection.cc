@@ -225,6 +225,41 @@ public:
     return {face, closest};
   }
 
+  /// Where the ray from @p xi of @p face meets the true surface: coordinates of its samples.
+  Xi on_surface(const unsigned int face, const Xi &xi) const
+  {
+    const auto            &of     = surface.faces()[face];
+    const auto             values = shape.at(xi);
+    const auto             t      = faces::tangents<dim>(values, of.nodes, positions);
+    dealii::Tensor<1, dim> x, v;
+    for (unsigned int k = 0; k < of.nodes.size(); ++k)
+      {
+        x += values.value[k] * positions[of.nodes[k]];
+        v += values.value[k] * normals[of.nodes[k]];
+      }
+    dealii::Tensor<2, dim> frame;
+    for (int d = 0; d < dim; ++d)
+      {
+        for (int a = 0; a < dim - 1; ++a)
+          frame[d][a] = t[a][d];
+        frame[d][dim - 1] = v[d];
+      }
+    const auto to_frame = dealii::invert(frame);
+    Xi         result   = xi;
+    // The surface is nearly parallel to the face: its height comes in as a small factor each time.
+    for (unsigned int iteration = 0; iteration < 10; ++iteration)
+      {
+        const auto             at = shape.samples_at(result);
+        dealii::Tensor<1, dim> y  = -x;
+        for (unsigned int k = 0; k < of.samples.size(); ++k)
+          y += at.value[k] * positions[of.samples[k]];
+        const auto off = to_frame * y;
+        for (int a = 0; a < dim - 1; ++a)
+          result[a] -= off[a];
+      }
+    return result;
+  }
+
 private:
   const mesh::Surface<dim>              &surface;
   const faces::FaceShape<dim>           &shape;
@@ -317,7 +352,9 @@ std::vector<Projection> project(const mesh::Surface<dim>                 &surfac
         const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
         result.push_back(
           {slave, face, masters,
-           of.samples.empty() ? masters : nonzero(shape.samples_at(xi).value, of.samples)});
+           of.samples.empty()
+             ? masters
+             : nonzero(shape.samples_at(rays.on_surface(face, xi)).value, of.samples)});
       }
   return result;
 }

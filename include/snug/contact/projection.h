@@ -24,7 +24,7 @@ struct Projection
   unsigned int slave;   ///< surface node
   unsigned int face;    ///< of the surface
   Weights      masters; ///< the nodes of the face
-  Weights      surface; ///< the points that give the face's true surface at xi
+  Weights      surface; ///< the points that give the true surface where the ray meets it
 };
 
 /**

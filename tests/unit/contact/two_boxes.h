@@ -3,6 +3,7 @@
 
 #include <snug/contact/contact.h>
 #include <snug/contact/projection.h>
+#include <snug/faces/nodal_normals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,15 +54,20 @@ struct TwoBoxes
 
   /// A ball pressed into a socket, in 2D a roller into a trough, both sides
   /// sampled: the lower box's top is convex about (0.5, .., 1 - @p radius),
-  /// the upper box's bottom concave.
+  /// the upper box's bottom, which is smaller, concave.
   static Bodies ball_and_socket(unsigned int n_slave, unsigned int n_master, double radius)
   {
     Bodies            bodies         = boxes(n_slave, n_master);
     const std::string shape          = dim == 2 ? "cylinder z " : "sphere ";
     bodies[0].curved_faces["bottom"] = shape + std::to_string(-radius - 0.1);
     bodies[1].curved_faces["top"]    = shape + std::to_string(radius);
-    bodies[0].sampled_boundaries     = {"bottom"};
-    bodies[1].sampled_boundaries     = {"top"};
+    for (unsigned int d = 0; d < dim - 1; ++d)
+      {
+        bodies[0].corner[d] = 0.1;
+        bodies[0].size[d]   = 0.75;
+      }
+    bodies[0].sampled_boundaries = {"bottom"};
+    bodies[1].sampled_boundaries = {"top"};
     return bodies;
   }
 
