@@ -31,7 +31,7 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
   for (const auto &shape : scene.shapes)
     {
       faces.push_back(shape.face);
-      is_designed = is_designed || shape.basis != "none";
+      is_designed = is_designed || shape.moves();
     }
   std::vector<geometry::BodyMeshParameters> parameters;
   for (const auto &body : scene.bodies)

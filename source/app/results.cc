@@ -45,9 +45,17 @@ void Results<dim>::print_header()
   for (const auto &place : solver.contact().places())
     ++rows[place.pair];
   for (unsigned int p = 0; p < pairs.size(); ++p)
-    out << "contact " << pairs[p].name() << ", "
-        << (pairs[p].obstacle ? "obstacle" : to_text(pairs[p].parameters.method)) << ", " << rows[p]
-        << " rows" << std::endl;
+    {
+      out << "contact " << pairs[p].name() << ", ";
+      const auto &matching = solver.contact().matchings()[p];
+      if (pairs[p].obstacle)
+        out << "obstacle";
+      else
+        out << to_text(*pairs[p].parameters.method) << ", " << matching.n_matching << " of "
+            << matching.n_nodes << " slave nodes meet master nodes";
+      out << ", " << rows[p] << " rows" << std::endl;
+    }
+  warn(state::matching_warnings(pairs, solver.contact().matchings()));
   warn(state::overlap_warnings(pairs, solver.contact().overlaps()));
 }
 

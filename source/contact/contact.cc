@@ -28,6 +28,14 @@ std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair
   return faces;
 }
 
+/// Of obstacles, the master side is empty.
+template <int dim>
+PairFaces sides_of(const mesh::Surface<dim> &surface, const Pair &pair)
+{
+  return {faces_of(surface, pair.slave),
+          pair.obstacle ? std::vector<unsigned int>() : faces_of(surface, pair.master)};
+}
+
 /// Exchange the sides of a pair whose master is finer, if it wants that.
 template <int dim>
 void choose_slave(const mesh::Surface<dim>                 &surface,
@@ -80,8 +88,18 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
                       const faces::HeldDirections<dim> &held)
   : surface(surface), shape(degree), chosen(pairs)
 {
+  const std::vector<bool> none(surface.n_nodes(), false);
   for (Pair &pair : chosen)
-    choose_slave(surface, positions, pair);
+    {
+      choose_slave(surface, positions, pair);
+      matching_of.emplace_back();
+      if (!pair.obstacle)
+        matching_of.back() =
+          matching<dim>({surface, shape, pair, sides_of(surface, pair), positions, held, none});
+      // Once, like the slave: pairing anew must not change the rows' kind.
+      if (!pair.parameters.method)
+        pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
+    }
   this->pair(positions, held);
 }
 
@@ -100,10 +118,8 @@ void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim>
       // equal and W = B D^-1 B' singular.
       auto &taken_here = taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
       taken_here.resize(surface.n_nodes(), false);
-      PairFaces sides{faces_of(surface, pair.slave), {}};
-      if (!pair.obstacle)
-        sides.master = faces_of(surface, pair.master);
-      groups.push_back(make_group({surface, shape, pair, sides, positions, held, taken_here}));
+      groups.push_back(
+        make_group({surface, shape, pair, sides_of(surface, pair), positions, held, taken_here}));
       for (const unsigned int slave : groups.back().rows->slaves())
         {
           // The number of a row is its place here, over all groups.

@@ -53,7 +53,11 @@ void ObstacleParameters::check(const SectionCheck &section) const
 
 void PairParameters::declare(Entries &entries)
 {
-  entries.add("Method", method, "How two faces meet.");
+  entries.add("Method", method,
+              choice_or_auto<Method>("nodal where every slave node within the search distance lies "
+                                     "opposite to a master node, within 1 % of a face, else "
+                                     "mortar"),
+              "How two faces meet.");
   entries.add("Slave", slave,
               "Whose nodes must not penetrate the other face. finer: that of the smaller faces on "
               "average; first: the one that is named first, as also for meshes within a tenth.");

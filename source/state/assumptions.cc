@@ -116,6 +116,21 @@ std::vector<std::string> overlap_warnings(const std::vector<contact::Pair> &pair
   return lines;
 }
 
+std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     &pairs,
+                                           const std::vector<contact::Matching> &matchings)
+{
+  std::vector<std::string> lines;
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    if (!pairs[p].obstacle && pairs[p].parameters.method == contact::Method::nodal &&
+        !matchings[p].complete())
+      lines.push_back("'" + pairs[p].name() + "' is nodal, but " +
+                      std::to_string(matchings[p].n_nodes - matchings[p].n_matching) + " of " +
+                      std::to_string(matchings[p].n_nodes) +
+                      " slave nodes meet no master node: pressures are off by some percent from "
+                      "node to node; its 'Method' mortar has none of that");
+  return lines;
+}
+
 template Assumptions
 assess(const StateSolver<2> &, const std::vector<contact::Row<2>> &, const ContactState<2> &);
 template Assumptions

@@ -1,7 +1,7 @@
 #ifndef snug_contact_contact_h
 #define snug_contact_contact_h
 
-#include <snug/contact/pair_geometry.h>
+#include <snug/contact/matching.h>
 #include <snug/contact/row_group.h>
 #include <snug/geometry/formula.h>
 
@@ -42,8 +42,10 @@ public:
   Contact(const Contact &)            = delete;
   Contact &operator=(const Contact &) = delete;
 
-  /// The pairs with their slaves chosen, which come first.
-  const std::vector<Pair>     &pairs() const { return chosen; }
+  /// The pairs with their slaves chosen, which come first, and their methods.
+  const std::vector<Pair> &pairs() const { return chosen; }
+  /// Of each pair when it was first paired; nothing of obstacles.
+  const std::vector<Matching> &matchings() const { return matching_of; }
   unsigned int                 n_rows() const { return row_places.size(); }
   const std::vector<RowPlace> &places() const { return row_places; }
   /// Of all groups; rows count through.
@@ -85,7 +87,8 @@ private:
   const mesh::Surface<dim>   &surface;
   const faces::FaceShape<dim> shape;
   std::vector<Pair>           chosen;
-  std::vector<Group>          groups; ///< one per pair
+  std::vector<Matching>       matching_of; ///< each pair
+  std::vector<Group>          groups;      ///< one per pair
   std::vector<RowPlace>       row_places;
   std::vector<SharedNode>     shared;
   Field                       paired_offsets; ///< of each row, when paired

@@ -42,8 +42,8 @@ inline Names names(Slave)
 /// of `subsection Pair SLAVE: MASTER`.
 struct PairParameters
 {
-  Method method = Method::nodal;
-  Slave  slave  = Slave::finer;
+  std::optional<Method> method; ///< none: by whether the meshes match
+  Slave                 slave = Slave::finer;
   /// slave nodes farther from the master carry no row [length]; 0: any
   double search_distance = 0.;
   /// between the slave's normal and the row's [degrees]

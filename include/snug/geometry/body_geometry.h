@@ -2,7 +2,6 @@
 #define snug_geometry_body_geometry_h
 
 #include <snug/base/values.h>
-#include <snug/base/choice.h>
 #include <snug/geometry/known_surface.h>
 
 #include <deal.II/base/point.h>

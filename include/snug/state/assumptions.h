@@ -38,6 +38,10 @@ void check_overlaps(const std::vector<contact::Pair> &pairs, const std::vector<d
 /// than large_overlap where they were paired, if that is not wanted.
 std::vector<std::string> overlap_warnings(const std::vector<contact::Pair> &pairs,
                                           const std::vector<double>        &overlaps);
+
+/// One line for each nodal pair of faces whose meshes do not match.
+std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     &pairs,
+                                           const std::vector<contact::Matching> &matchings);
 } // namespace snug::state
 
 #endif
