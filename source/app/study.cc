@@ -19,6 +19,18 @@ void print_certificate(std::ostream &out, const state::Certificate &errors)
       << errors.negative_pressure << ", complementarity " << errors.complementarity << std::endl;
 }
 
+/// In the plane only the last component.
+template <int dim>
+std::string moment_text(const dealii::Tensor<1, 3> &moment)
+{
+  std::ostringstream text;
+  if (dim == 2)
+    text << moment[2];
+  else
+    text << moment;
+  return text.str();
+}
+
 template <int dim>
 void print_state(std::ostream &out, const state::ContactState<dim> &state)
 {
@@ -29,11 +41,16 @@ void print_state(std::ostream &out, const state::ContactState<dim> &state)
       << state.active_contacts << " active and " << state.weak_contacts << " weakly active of "
       << state.contact.size() << " contact rows, distance to degeneracy "
       << state.degeneracy_distance << '\n';
-  if (state.pairs.size() > 1)
-    for (const auto &pair : state.pairs)
-      out << "  on " << pair.name << ": force (" << pair.force << "), area " << pair.contact_area
-          << ", peak pressure " << pair.max_pressure << ", " << pair.active_contacts
-          << " active of " << pair.rows << " rows\n";
+  for (const auto &pair : state.pairs)
+    out << "  on " << pair.name << ": force (" << pair.force << "), moment ("
+        << moment_text<dim>(pair.moment) << ") about (" << pair.centre << "), area "
+        << pair.contact_area << ", peak pressure " << pair.max_pressure << " at (" << pair.peak
+        << ") on faces of " << pair.peak_size << ", " << pair.active_contacts << " active of "
+        << pair.rows << " rows\n";
+  for (const auto &reaction : state.reactions)
+    out << "  support " << reaction.name << ": force (" << reaction.force << "), moment ("
+        << moment_text<dim>(reaction.moment) << ") about (" << reaction.centre << ")\n";
+  out << "loads (" << state.load << "), with supports and obstacles (" << state.balance << ")\n";
   out << state.dual.method << ": " << state.dual.outer_iterations << " outer iterations, "
       << state.f_mults << " F-mults\n";
   print_certificate(out, state.certificate);

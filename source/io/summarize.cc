@@ -18,6 +18,14 @@ Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &te
   return result;
 }
 
+namespace {
+template <int dim>
+std::vector<double> numbers(const dealii::Tensor<1, dim> &v)
+{
+  return {v.begin_raw(), v.end_raw()};
+}
+} // namespace
+
 /// Copies: io has its own struct, so that keys of the file stay when the solver's members change.
 template <int dim>
 Summary::State summarize(const state::ContactState<dim> &state)
@@ -27,31 +35,38 @@ Summary::State summarize(const state::ContactState<dim> &state)
   result.energy                = state.energy;
   result.compliance            = state.compliance;
   result.strain_energy         = state.strain_energy;
-  for (unsigned int c = 0; c < dim; ++c)
-    result.contact_force.push_back(state.contact_force[c]);
-  result.contact_area        = state.contact_area;
-  result.max_pressure        = state.max_pressure;
-  result.active_contacts     = state.active_contacts;
-  result.weak_contacts       = state.weak_contacts;
-  result.degeneracy_distance = state.degeneracy_distance;
-  result.outer_iterations    = state.dual.outer_iterations;
-  result.f_mults             = state.f_mults;
-  result.linear_f_mults      = state.linear_f_mults;
-  result.method              = state.dual.method;
-  result.certificate         = state.certificate;
-  result.assumptions         = state.assumptions;
+  result.contact_force         = numbers(state.contact_force);
+  result.load                  = numbers(state.load);
+  result.balance               = numbers(state.balance);
+  result.contact_area          = state.contact_area;
+  result.max_pressure          = state.max_pressure;
+  result.active_contacts       = state.active_contacts;
+  result.weak_contacts         = state.weak_contacts;
+  result.degeneracy_distance   = state.degeneracy_distance;
+  result.outer_iterations      = state.dual.outer_iterations;
+  result.f_mults               = state.f_mults;
+  result.linear_f_mults        = state.linear_f_mults;
+  result.method                = state.dual.method;
+  result.certificate           = state.certificate;
+  result.assumptions           = state.assumptions;
   for (const auto &of_pair : state.pairs)
     {
       Summary::Pair pair;
       pair.name            = of_pair.name;
       pair.rows            = of_pair.rows;
       pair.active_contacts = of_pair.active_contacts;
-      for (unsigned int c = 0; c < dim; ++c)
-        pair.force.push_back(of_pair.force[c]);
-      pair.contact_area = of_pair.contact_area;
-      pair.max_pressure = of_pair.max_pressure;
+      pair.force           = numbers(of_pair.force);
+      pair.moment          = numbers(of_pair.moment);
+      pair.centre          = numbers(of_pair.centre);
+      pair.contact_area    = of_pair.contact_area;
+      pair.max_pressure    = of_pair.max_pressure;
+      pair.peak            = numbers(of_pair.peak);
+      pair.peak_size       = of_pair.peak_size;
       result.pairs.push_back(pair);
     }
+  for (const auto &reaction : state.reactions)
+    result.reactions.push_back(
+      {reaction.name, numbers(reaction.centre), numbers(reaction.force), numbers(reaction.moment)});
   return result;
 }
 

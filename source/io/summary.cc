@@ -33,8 +33,20 @@ Json summary_part(const Summary::Pair &pair)
           {"rows", pair.rows},
           {"active_contacts", pair.active_contacts},
           {"force", pair.force},
+          {"moment", pair.moment},
+          {"centre", pair.centre},
           {"contact_area", pair.contact_area},
-          {"max_pressure", pair.max_pressure}};
+          {"max_pressure", pair.max_pressure},
+          {"peak", pair.peak},
+          {"peak_size", pair.peak_size}};
+}
+
+Json summary_part(const Summary::Reaction &reaction)
+{
+  return {{"name", reaction.name},
+          {"centre", reaction.centre},
+          {"force", reaction.force},
+          {"moment", reaction.moment}};
 }
 
 /// Keys have the names of the members, see state::ContactState for formulas and units.
@@ -43,6 +55,9 @@ Json summary_part(const Summary::State &state)
   Json pairs = Json::array();
   for (const auto &pair : state.pairs)
     pairs.push_back(summary_part(pair));
+  Json reactions = Json::array();
+  for (const auto &reaction : state.reactions)
+    reactions.push_back(summary_part(reaction));
   // objects even if empty, not null, as readers go through the keys
   Json responses = Json::object();
   for (const auto &[name, value] : state.responses)
@@ -65,6 +80,9 @@ Json summary_part(const Summary::State &state)
           {"linear_f_mults", linear},
           {"method", state.method},
           {"pairs", pairs},
+          {"reactions", reactions},
+          {"load", state.load},
+          {"balance", state.balance},
           {"responses", responses},
           {"certificate",
            {{"equilibrium", certificate.equilibrium},

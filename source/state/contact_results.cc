@@ -1,5 +1,6 @@
 #include <snug/state/assumptions.h>
 #include <snug/state/contact_results.h>
+#include <snug/state/reactions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -165,6 +166,7 @@ void recover_contact_results(const StateSolver<dim>     &solver,
   describe_energies(solver, state);
   describe_contact(solver, rows, state);
   sum_up_contact(solver.contact(), rows, state);
+  add_reactions(solver, rows, state);
   state.assumptions = assess(solver, rows.contact, state);
 }
 

@@ -104,7 +104,7 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
       for (const unsigned int node : face.nodes)
         // Exactly zero: meshes of revolution are made so, and any other radius is off the axis.
         if (axis && reference[node][0] == 0.)
-          add(node, {"the axis of rotation", 0, 0, std::vector<double>(n_load_cases)});
+          add(node, {"the axis of rotation", "", 0, 0, std::vector<double>(n_load_cases)});
     }
   for (const auto &support : supports)
     for (unsigned int f = 0; f < surface.faces().size(); ++f)
@@ -115,7 +115,7 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
         const bool normal = support.component == Support<dim>::normal;
         for (const unsigned int node : face.nodes)
           {
-            Hold hold{support.name, support.component, normal ? side_of_face[f] : 0,
+            Hold hold{support.name, support.face, support.component, normal ? side_of_face[f] : 0,
                       std::vector<double>(n_load_cases)};
             for (unsigned int c = 0; c < support.values.size(); ++c)
               if (support.values[c])
@@ -327,6 +327,27 @@ void DirichletConstraints<dim>::add_energy_gradient(
   for (unsigned int side = 0; side < sides.size(); ++side)
     n[side].add_transpose(normal_gradients[side], at_surface);
   surface.add_owned(at_surface, gradient);
+}
+
+/// Reactions belong to orthonormal directions; those of the supports are found from them.
+template <int dim>
+std::vector<typename DirichletConstraints<dim>::Force>
+DirichletConstraints<dim>::forces(const Field                            &positions,
+                                  const std::vector<std::vector<double>> &reactions) const
+{
+  const auto         x = surface.gather(positions);
+  const auto         n = normals(x);
+  std::vector<Force> result;
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    {
+      const auto frame       = given_frame(nodes[i], n);
+      const auto multipliers = Orthonormalised<dim>(frame).given_multipliers(reactions[i]);
+      for (unsigned int j = 0; j < multipliers.size(); ++j)
+        // K u + B'lambda = f: a multiplier acts against its direction.
+        result.push_back({nodes[i].holds[j].face, x[nodes[i].surface_node],
+                          -multipliers[j] * frame.directions[j]});
+    }
+  return result;
 }
 
 template class DirichletConstraints<2>;

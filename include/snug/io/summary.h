@@ -44,24 +44,35 @@ struct Summary
   {
     std::string         name;
     unsigned int        rows = 0, active_contacts = 0;
-    std::vector<double> force;
+    std::vector<double> force, moment, centre;
     double              contact_area = none, max_pressure = none;
+    std::vector<double> peak;
+    double              peak_size = none;
+  };
+
+  /// Members as in state::Reaction.
+  struct Reaction
+  {
+    std::string         name;
+    std::vector<double> centre, force, moment;
   };
 
   /// Members as in state::ContactState; linear_f_mults 0 becomes null.
   struct State
   {
-    double              least_scaled_jacobian = none;
-    double              energy = none, compliance = none;
-    double              strain_energy = none;
-    std::vector<double> contact_force;
-    double              contact_area = none, max_pressure = none;
-    unsigned int        active_contacts = 0, weak_contacts = 0;
-    double              degeneracy_distance = none;
-    unsigned int        outer_iterations    = 0;
-    unsigned long       f_mults = 0, linear_f_mults = 0;
-    std::string         method; ///< the solver that finished
-    std::vector<Pair>   pairs;
+    double                least_scaled_jacobian = none;
+    double                energy = none, compliance = none;
+    double                strain_energy = none;
+    std::vector<double>   contact_force;
+    double                contact_area = none, max_pressure = none;
+    unsigned int          active_contacts = 0, weak_contacts = 0;
+    double                degeneracy_distance = none;
+    unsigned int          outer_iterations    = 0;
+    unsigned long         f_mults = 0, linear_f_mults = 0;
+    std::string           method; ///< the solver that finished
+    std::vector<Pair>     pairs;
+    std::vector<Reaction> reactions;
+    std::vector<double>   load, balance;
     /// names and values of the scene's responses
     std::vector<std::pair<std::string, double>> responses;
     state::Certificate                          certificate;

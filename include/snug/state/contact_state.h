@@ -48,12 +48,26 @@ struct Assumptions
   double drift    = 0.; ///< largest of a design off its pairing, in faces
 };
 
+/// A force and a moment, which in the plane has one component, the last
+/// [force length], about a centre.
+template <int dim>
+struct Reaction
+{
+  std::string            name; ///< "body.boundary"
+  dealii::Tensor<1, dim> centre, force;
+  dealii::Tensor<1, 3>   moment;
+};
+
 /// The contact rows of one pair, summed up.
 template <int dim>
 struct PairState
 {
   std::string            name;              ///< "slave: master"
   dealii::Tensor<1, dim> force;             ///< on the slave side [force]
+  dealii::Tensor<1, 3>   moment;            ///< the same, about the centre
+  dealii::Tensor<1, dim> centre;            ///< the point of an obstacle, else mean place by force
+  dealii::Tensor<1, dim> peak;              ///< where the pressure is largest
+  double                 peak_size    = 0.; ///< of the slave faces there [length]
   double                 contact_area = 0.; ///< of active rows [length^2]
   double                 max_pressure = 0.;
   unsigned int           rows = 0, active_contacts = 0;
@@ -77,6 +91,11 @@ struct ContactState
   qp::DualSolution            dual;
   std::vector<ContactPoint>   contact;
   std::vector<PairState<dim>> pairs;
+  /// of the supports on the bodies, about the means of their nodes; of
+  /// sections of revolution, the force along the axis
+  std::vector<Reaction<dim>> reactions;
+  dealii::Tensor<1, dim>     load;    ///< all loads together [force]
+  dealii::Tensor<1, dim>     balance; ///< with what supports and obstacles do
 
   double                 least_scaled_jacobian = 1.; ///< of all cells
   double                 energy                = 0.; ///< 1/2 u'Ku - f'u

@@ -70,6 +70,18 @@ public:
                            const std::vector<std::vector<double>> &reactions,
                            Field                                  &gradient) const;
 
+  /// A force of a support on a node.
+  struct Force
+  {
+    std::string            face; ///< of the support
+    dealii::Tensor<1, dim> position, value;
+  };
+
+  /// Forces on the bodies that make the @p reactions, as above; equal on all
+  /// ranks. Collective.
+  std::vector<Force> forces(const Field                            &positions,
+                            const std::vector<std::vector<double>> &reactions) const;
+
 private:
   using SurfaceField = typename mesh::Surface<dim>::Field;
   using Normals      = std::vector<faces::NodalNormals<dim>>; ///< of sides
@@ -78,6 +90,7 @@ private:
   struct Hold
   {
     std::string         name;      ///< of its support
+    std::string         face;      ///< of the support, "" of the axis
     unsigned int        component; ///< axis, or Support::normal
     unsigned int        side;      ///< whose normal
     std::vector<double> values;    ///< per load case [length]

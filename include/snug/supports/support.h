@@ -21,6 +21,7 @@ struct Support
   /// reference position; zero where there is none.
   std::vector<std::function<double(const dealii::Point<dim> &)>> values;
   std::string name; ///< of what the user wrote, for messages
+  std::string face; ///< "body.boundary", for results
 };
 } // namespace snug::supports
 

@@ -1,0 +1,135 @@
+#include <snug/elasticity/linear_traction.h>
+#include <snug/state/reactions.h>
+
+#include <map>
+
+namespace snug::state {
+namespace {
+/// A force at a place.
+template <int dim>
+using Force = std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>;
+
+template <int dim>
+dealii::Tensor<1, 3> moment_about(const dealii::Tensor<1, dim>  &centre,
+                                  const std::vector<Force<dim>> &forces)
+{
+  dealii::Tensor<1, 3> sum;
+  for (const auto &[place, force] : forces)
+    sum += elasticity::moment_of(place - centre, force);
+  return sum;
+}
+
+/// Radial forces on a section of revolution cancel over the circumference.
+template <int dim>
+dealii::Tensor<1, dim> resultant(const StateSolver<dim> &solver, dealii::Tensor<1, dim> force)
+{
+  if (solver.mesh().idealization().is_axisymmetric())
+    force[0] = 0.;
+  return force;
+}
+
+template <int dim>
+void add_supports(const StateSolver<dim>     &solver,
+                  const RowCoefficients<dim> &rows,
+                  ContactState<dim>          &state)
+{
+  std::map<std::string, std::vector<Force<dim>>> forces;
+  std::vector<std::string>                       names; // in the order of the nodes
+  for (const auto &force :
+       solver.held().forces(state.positions,
+                            solver.gluing().reactions(state.dual.lambda.column(0), rows)))
+    {
+      if (force.face.empty())
+        continue;
+      if (forces.count(force.face) == 0)
+        names.push_back(force.face);
+      forces[force.face].emplace_back(force.position, resultant(solver, force.value));
+    }
+  state.reactions.clear();
+  for (const auto &name : names)
+    {
+      Reaction<dim> reaction{name, {}, {}, {}};
+      const auto   &of_face = forces[name];
+      for (const auto &[place, force] : of_face)
+        {
+          reaction.centre += place / double(of_face.size());
+          reaction.force += force;
+        }
+      reaction.centre = resultant(solver, reaction.centre);
+      reaction.moment = moment_about<dim>(reaction.centre, of_face);
+      state.reactions.push_back(reaction);
+    }
+}
+
+template <int dim>
+void add_loads(const StateSolver<dim> &solver, ContactState<dim> &state)
+{
+  double      sums[dim] = {};
+  const auto &feti      = solver.feti(state);
+  for (const auto &f : feti.loads())
+    for (unsigned int i = 0; i < f.n_rows(); ++i)
+      sums[i % dim] += f(i);
+  MPI_Allreduce(MPI_IN_PLACE, sums, dim, MPI_DOUBLE, MPI_SUM, solver.context().communicator());
+  for (unsigned int c = 0; c < dim; ++c)
+    state.load[c] = sums[c];
+  state.load = resultant(solver, state.load);
+}
+
+/// Contact points are replicated.
+template <int dim>
+void add_places(const StateSolver<dim>     &solver,
+                const RowCoefficients<dim> &rows,
+                ContactState<dim>          &state)
+{
+  const auto                          &contact = solver.contact();
+  const auto                           x       = solver.surface().gather(state.positions);
+  const auto                           sizes   = contact::node_face_sizes(solver.surface(), x);
+  std::vector<std::vector<Force<dim>>> forces(state.pairs.size());
+  std::vector<double>                  sums(state.pairs.size(), 0.), largest = sums;
+  for (unsigned int i = 0; i < state.contact.size(); ++i)
+    {
+      const auto &[pair, slave] = contact.places()[i];
+      const auto &point         = state.contact[i];
+      auto       &of_pair       = state.pairs[pair];
+      forces[pair].emplace_back(x[slave], resultant(solver, -point.force * rows.contact[i].normal));
+      of_pair.centre += point.force * x[slave];
+      sums[pair] += point.force;
+      if (point.pressure > largest[pair])
+        {
+          largest[pair]     = point.pressure;
+          of_pair.peak      = x[slave];
+          of_pair.peak_size = sizes[slave];
+        }
+    }
+  for (unsigned int p = 0; p < state.pairs.size(); ++p)
+    {
+      auto       &pair     = state.pairs[p];
+      const auto &obstacle = contact.pairs()[p].obstacle;
+      if (obstacle)
+        pair.centre = contact::to_point<dim>(obstacle->point);
+      else if (sums[p] > 0.)
+        pair.centre /= sums[p];
+      pair.moment = moment_about<dim>(pair.centre, forces[p]);
+    }
+}
+} // namespace
+
+template <int dim>
+void add_reactions(const StateSolver<dim>     &solver,
+                   const RowCoefficients<dim> &rows,
+                   ContactState<dim>          &state)
+{
+  add_supports(solver, rows, state);
+  add_loads(solver, state);
+  add_places(solver, rows, state);
+  state.balance = state.load;
+  for (const auto &reaction : state.reactions)
+    state.balance += reaction.force;
+  for (unsigned int p = 0; p < state.pairs.size(); ++p)
+    if (solver.contact().pairs()[p].obstacle)
+      state.balance += resultant(solver, state.pairs[p].force);
+}
+
+template void add_reactions(const StateSolver<2> &, const RowCoefficients<2> &, ContactState<2> &);
+template void add_reactions(const StateSolver<3> &, const RowCoefficients<3> &, ContactState<3> &);
+} // namespace snug::state
