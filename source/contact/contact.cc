@@ -160,13 +160,14 @@ void Contact<dim>::measure_pairing(const Field &positions)
   const auto paired = rows(positions);
   const auto sizes  = node_face_sizes(surface, positions);
   paired_offsets.clear();
-  deepest.assign(groups.size(), 0.);
+  deepest.assign(groups.size(), {});
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
       paired_offsets.push_back(slave_minus_master(paired[i], positions));
-      double &depth = deepest[row_places[i].pair];
+      Overlap &depth = deepest[row_places[i].pair];
       // A negative gap is an overlap.
-      depth = std::max(depth, -paired[i].gap / sizes[row_places[i].slave]);
+      depth.length = std::max(depth.length, -paired[i].gap);
+      depth.faces  = std::max(depth.faces, -paired[i].gap / sizes[row_places[i].slave]);
     }
 }
 

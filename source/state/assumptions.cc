@@ -38,6 +38,51 @@ line(const std::string &what, double value, const std::string &unit, const std::
   text << what << " up to " << value << unit << advice;
   return text.str();
 }
+/// How many faces the contact of a pair is wide where it is narrowest: the extent of the nodes that
+/// carry force, along the axis of least extent within the face, and half a face at each end. Where
+/// they reach a symmetry plane or another support, as much lies beyond it.
+template <int dim>
+double contact_width(const StateSolver<dim>                   &solver,
+                     const unsigned int                        pair,
+                     const ContactState<dim>                  &state,
+                     const typename mesh::Surface<dim>::Field &x,
+                     const std::vector<double>                &sizes)
+{
+  const auto               &places = solver.contact().places();
+  std::vector<unsigned int> nodes;
+  dealii::Tensor<1, dim>    mean;
+  double                    size = 0., at_support = 1.;
+  bool                      all = true;
+  for (unsigned int i = 0; i < places.size(); ++i)
+    {
+      if (places[i].pair != pair)
+        continue;
+      all = all && state.contact[i].strong;
+      if (!state.contact[i].strong)
+        continue;
+      nodes.push_back(places[i].slave);
+      mean += x[nodes.back()];
+      size += sizes[nodes.back()];
+      if (solver.held().find(solver.surface().global_node(nodes.back())) < solver.held().n_nodes())
+        at_support = 2.;
+    }
+  if (all || nodes.empty())
+    return std::numeric_limits<double>::infinity();
+  mean /= double(nodes.size());
+  size /= double(nodes.size());
+  dealii::SymmetricTensor<2, dim> spread;
+  for (const unsigned int node : nodes)
+    spread += symmetrize(outer_product(x[node] - mean, x[node] - mean));
+  // In descending order: in 2D along the line, in 3D the shorter one in the face.
+  const auto axis  = eigenvectors(spread)[dim - 2].second;
+  double     lower = 0., upper = 0.;
+  for (const unsigned int node : nodes)
+    {
+      lower = std::min(lower, (x[node] - mean) * axis);
+      upper = std::max(upper, (x[node] - mean) * axis);
+    }
+  return at_support * (upper - lower) / size + 1.;
+}
 } // namespace
 
 template <int dim>
@@ -73,6 +118,9 @@ Assumptions assess(const StateSolver<dim>               &solver,
       if (state.contact[i].strong)
         result.slip = std::max(result.slip, slips[i]);
     }
+  const auto sizes = contact::node_face_sizes(surface, x);
+  for (unsigned int pair = 0; pair < solver.contact().pairs().size(); ++pair)
+    result.width = std::min(result.width, contact_width(solver, pair, state, x, sizes));
   return result;
 }
 
@@ -91,28 +139,49 @@ std::vector<std::string> warnings(const Assumptions &assumptions)
     lines.push_back(line("the design moved slave nodes off the points they were paired "
                          "with by",
                          assumptions.drift, " of a face", ": see 'Contact/Update pairing'"));
+  if (assumptions.width < least_width)
+    {
+      std::ostringstream text;
+      text.precision(2);
+      text << "a contact is " << assumptions.width
+           << " faces wide: its pressures need finer meshes there, of 8 faces or more";
+      lines.push_back(text.str());
+    }
   return lines;
 }
 
-void check_overlaps(const std::vector<contact::Pair> &pairs, const std::vector<double> &overlaps)
+namespace {
+/// ", 0.3 of a face"
+std::string of_a_face(const contact::Overlap &overlap)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << ", " << overlap.faces << " of a face";
+  return text.str();
+}
+} // namespace
+
+void check_overlaps(const std::vector<contact::Pair>    &pairs,
+                    const std::vector<contact::Overlap> &overlaps)
 {
   for (unsigned int p = 0; p < pairs.size(); ++p)
     // Overlaps are replicated like all contact data: all ranks throw, or none.
-    if (overlaps[p] > absurd_overlap && !pairs[p].parameters.interference)
+    if (overlaps[p].faces > absurd_overlap && !pairs[p].parameters.interference)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
-                      line("the sides overlap at first by", overlaps[p], " faces",
+                      line("the sides overlap at first by", overlaps[p].length,
+                           of_a_face(overlaps[p]),
                            ": if they are the right ones, set the pair's "
                            "'Interference'"));
 }
 
-std::vector<std::string> overlap_warnings(const std::vector<contact::Pair> &pairs,
-                                          const std::vector<double>        &overlaps)
+std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>    &pairs,
+                                          const std::vector<contact::Overlap> &overlaps)
 {
   std::vector<std::string> lines;
   for (unsigned int p = 0; p < pairs.size(); ++p)
-    if (overlaps[p] > large_overlap && !pairs[p].parameters.interference)
-      lines.push_back(line("'" + pairs[p].name() + "' overlaps at first by", overlaps[p],
-                           " of a face", ": if that is wanted, set its 'Interference'"));
+    if (overlaps[p].faces > large_overlap && !pairs[p].parameters.interference)
+      lines.push_back(line("'" + pairs[p].name() + "' overlaps at first by", overlaps[p].length,
+                           of_a_face(overlaps[p]), ": if that is wanted, set its 'Interference'"));
   return lines;
 }
 

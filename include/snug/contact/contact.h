@@ -13,6 +13,13 @@ struct RowPlace
   unsigned int slave; ///< surface node
 };
 
+/// How deep slave nodes lie in the master.
+struct Overlap
+{
+  double length = 0.; ///< [length]
+  double faces  = 0.; ///< as a part of the slave node's largest face
+};
+
 /**
  * All contact rows of a scene: one group per pair, in the order of the
  * pairs, with the pair's gap formula at the slave nodes added to the gaps
@@ -72,7 +79,7 @@ public:
   /// were paired with; 0 for obstacles, whose points follow.
   std::vector<double> drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
   /// The deepest overlap of each pair where it was paired.
-  const std::vector<double> &overlaps() const { return deepest; }
+  const std::vector<Overlap> &overlaps() const { return deepest; }
   /// @}
 
 private:
@@ -92,7 +99,7 @@ private:
   std::vector<RowPlace>       row_places;
   std::vector<SharedNode>     shared;
   Field                       paired_offsets; ///< of each row, when paired
-  std::vector<double>         deepest;        ///< of each pair, when paired
+  std::vector<Overlap>        deepest;        ///< of each pair, when paired
 
   void  collect_shared_nodes();
   void  measure_pairing(const Field &positions);

@@ -10,6 +10,7 @@ constexpr double large_rotation = 0.1; ///< [rad]: lengths change by 0.5 %
 constexpr double large_strain   = 0.1;
 constexpr double large_slip     = 0.5; ///< of a face
 constexpr double large_drift    = 0.5; ///< of a face
+constexpr double least_width    = 3.;  ///< of a contact, in faces
 constexpr double large_overlap  = 0.1; ///< of a face
 /// @}
 
@@ -32,12 +33,13 @@ std::vector<std::string> warnings(const Assumptions &assumptions);
 
 /// @throws InputError if slave nodes of a pair overlap the master by more
 /// than absurd_overlap where they were paired and that is not wanted.
-void check_overlaps(const std::vector<contact::Pair> &pairs, const std::vector<double> &overlaps);
+void check_overlaps(const std::vector<contact::Pair>    &pairs,
+                    const std::vector<contact::Overlap> &overlaps);
 
 /// One line for each pair whose slave nodes overlap the master by more
 /// than large_overlap where they were paired, if that is not wanted.
-std::vector<std::string> overlap_warnings(const std::vector<contact::Pair> &pairs,
-                                          const std::vector<double>        &overlaps);
+std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>    &pairs,
+                                          const std::vector<contact::Overlap> &overlaps);
 
 /// One line for each nodal pair of faces whose meshes do not match.
 std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     &pairs,

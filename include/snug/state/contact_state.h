@@ -46,6 +46,9 @@ struct Assumptions
   double strain   = 0.; ///< largest of a cell
   double slip     = 0.; ///< largest of an active contact, in faces
   double drift    = 0.; ///< largest of a design off its pairing, in faces
+  /// least of a pair, across where it is narrowest, in faces; infinite where
+  /// all of the slave side is in contact
+  double width = std::numeric_limits<double>::infinity();
 };
 
 /// A force and a moment, which in the plane has one component, the last
