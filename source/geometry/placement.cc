@@ -87,6 +87,20 @@ public:
     return place(this->body->position(point));
   }
 
+  // A warp leaves no shape as it was.
+  std::vector<KnownSurface<dim>> known_surfaces() const override
+  {
+    std::vector<KnownSurface<dim>> result;
+    for (const auto &surface : this->body->known_surfaces())
+      result.push_back(surface.placed(scale, turned, shift));
+    return result;
+  }
+
+  unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override
+  {
+    return warp.empty() ? this->body->known_surface(coarse_cell, face) : this->no_surface;
+  }
+
   // Interiors follow faces by lengths in the frame, so it is placed like the body.
   Point box_position(const Point &fraction) const override
   {

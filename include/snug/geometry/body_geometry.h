@@ -2,6 +2,7 @@
 #define snug_geometry_body_geometry_h
 
 #include <snug/base/choice.h>
+#include <snug/geometry/known_surface.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -117,7 +118,8 @@ dealii::Point<dim> unit_centre()
 /**
  * The reference geometry of one body: a coarse mesh and the map from its
  * cells to positions, which is evaluated anew on every mesh, so that
- * curved faces stay curved.
+ * curved faces stay curved: positions of boundary points lie on the true
+ * surface, which meshes only interpolate.
  *
  * Some bodies have a grid: their coarse cells lie in layers along the axes
  * of logical coordinates in [0,1]^dim, and boundary 2d + s is the side s of
@@ -153,6 +155,19 @@ public:
 
   /// Index of the region of a cell of the coarse mesh.
   virtual unsigned int region(unsigned int /*coarse_cell*/) const { return 0; }
+
+  /// The surfaces of known shape that boundary faces lie on to rounding;
+  /// planes are not among them.
+  virtual std::vector<KnownSurface<dim>> known_surfaces() const { return {}; }
+
+  /// Index into known_surfaces() for the boundary face @p face of a cell of
+  /// the coarse mesh; no_surface: none.
+  virtual unsigned int known_surface(unsigned int /*coarse_cell*/, unsigned int /*face*/) const
+  {
+    return no_surface;
+  }
+
+  static constexpr unsigned int no_surface = static_cast<unsigned int>(-1);
 
   /// Reference position. @throws InputError where a formula is not finite.
   virtual dealii::Point<dim> position(const MeshPoint<dim> &point) const = 0;

@@ -26,6 +26,13 @@ public:
 
   unsigned int region(unsigned int coarse_cell) const override { return body->region(coarse_cell); }
 
+  std::vector<KnownSurface<dim>> known_surfaces() const override { return body->known_surfaces(); }
+
+  unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override
+  {
+    return body->known_surface(coarse_cell, face);
+  }
+
   Point position(const MeshPoint<dim> &point) const override { return body->position(point); }
 
   Point logical(const MeshPoint<dim> &point) const override { return body->logical(point); }
