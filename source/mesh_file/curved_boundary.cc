@@ -88,13 +88,13 @@ bool CurvedBoundary<dim>::is_straight(const Corners &edge) const
   });
 }
 
-/// The next nodes of the chain from @p node on along @p edge.
+/// The next nodes of the chain from @p node on along @p edge, up to a plane region.
 template <int dim>
 std::vector<dealii::Point<dim>> CurvedBoundary<dim>::walk(const Corners *edge,
                                                           unsigned int   node) const
 {
   std::vector<Point> result;
-  while (edge != nullptr && result.size() < 3)
+  while (edge != nullptr && result.size() < 3 && !is_straight(*edge))
     {
       node = other(*edge, node);
       result.push_back(surface.points[node]);
@@ -140,7 +140,7 @@ dealii::Tensor<1, dim> CurvedBoundary<dim>::normal(const unsigned int part, cons
     return n /= n.norm();
   for (const unsigned int k : near)
     for (const unsigned int f : surface.facets_at.at(k))
-      if (surface.part_of[f] == part)
+      if (surface.part_of[f] == part && !surface.is_flat[f])
         nodes.insert(surface.facets[f].corners.begin(), surface.facets[f].corners.end());
   nodes.erase(node);
   std::vector<Point> neighbours;

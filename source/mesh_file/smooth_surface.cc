@@ -113,9 +113,10 @@ dealii::Tensor<1, 3> surface_normal(const dealii::Point<3>              &x,
           b(i) += weight * row[i] * (d * guess);
         }
     }
-  // What few or regular neighbours cannot tell is left to the lower degrees.
-  for (unsigned int i = 0; i < n; ++i)
-    A(i, i) += neighbours.size() * (i < 2 ? 1e-13 : i < 5 ? 1e-11 : 1e-9);
+  // What few or regular neighbours can hardly tell is left to the lower degrees; what they tell
+  // well changes by this fraction.
+  for (unsigned int i = 2; i < n; ++i)
+    A(i, i) += neighbours.size() * (i < 5 ? 1e-7 : 1e-3);
   A.gauss_jordan();
   A.vmult(c, b);
   const Vector result = guess - c(0) * e1 - c(1) * e2;
