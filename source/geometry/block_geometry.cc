@@ -76,13 +76,20 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
           for (unsigned int e = 0; e < 4; ++e)
             curved.emplace(sorted(edge_of<2>(face, e)), surface);
       }
-  const bool straight = curved.empty() && mesh->pieces.empty();
-  for (unsigned int b = 0; b < is_curved.size() && !straight; ++b)
+  std::vector<bool> on_curve(mesh->vertices.size(), false);
+  for (const auto &entry : curved)
+    for (const unsigned int vertex : entry.first)
+      on_curve[vertex] = true;
+  for (const auto &entry : mesh->pieces)
+    for (const unsigned int vertex : entry.first)
+      on_curve[vertex] = true;
+  for (unsigned int b = 0; b < is_curved.size(); ++b)
     for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
       {
-        const Vertices edge = sorted(edge_of<dim>(mesh->blocks[b], e));
-        if (curved.count(edge) > 0 || mesh->pieces.count(edge) > 0)
-          is_curved[b] = true;
+        const Vertices edge = edge_of<dim>(mesh->blocks[b], e);
+        if (on_curve[edge[0]] && on_curve[edge[1]])
+          is_curved[b] =
+            is_curved[b] || curved.count(sorted(edge)) > 0 || mesh->pieces.count(sorted(edge)) > 0;
       }
   upper = mesh->vertices.front();
   lower = upper;

@@ -57,7 +57,8 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
               allowed("a list 'number: name, ...' of different numbers"),
               "Names for the groups of faces to which the file gives only numbers, as VTK and UCD "
               "do: '1: bottom, 7: bore'.");
-  entries.add("Surface", mesh.surfaces, allowed("a list 'boundary: facets|smooth, ...'"),
+  entries.add("Surface", mesh.surfaces,
+              allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
               "What a boundary of a mesh file is, if not what its nodes and elements say: plane "
               "facets between its nodes, or a smooth surface through them: 'nut: facets, bore: "
               "smooth'. Facets that turn by more than 30 degrees always meet in an edge, and "

@@ -35,7 +35,16 @@ public:
           const BodySurface<dim>    &surface,
           const CurvedBoundary<dim> &boundary)
     : mesh(mesh), cells(cells), surface(surface), boundary(boundary)
-  {}
+  {
+    std::vector<bool> is_end(surface.points.size(), false);
+    for (const auto &curve : boundary.curves)
+      for (const unsigned int end : curve.first)
+        is_end[end] = true;
+    for (const auto &cell : cells.cells)
+      if (std::any_of(cell.corners.begin(), cell.corners.end(),
+                      [&](const unsigned int corner) { return is_end[corner]; }))
+        near.push_back(&cell);
+  }
 
   void add_pieces()
   {
@@ -62,12 +71,12 @@ public:
   {
     if (cells.split == nullptr)
       return;
-    for (const auto &cell : cells.cells)
+    for (const MeshFile::Element *cell : near)
       {
         std::set<Corners> edges;
-        for (const auto &local : faces_of(cell.shape))
+        for (const auto &local : faces_of(cell->shape))
           {
-            const Corners face = corners_of(cell, local);
+            const Corners face = corners_of(*cell, local);
             const auto    own  = edges_of(face);
             edges.insert(own.begin(), own.end());
             for (const Corners &edge : own)
@@ -76,11 +85,11 @@ public:
             if (dim == 3)
               place(face, {own.begin(), own.end()}, curved ? face.size() == 3 ? 4. / 9. : 0.5 : 0.);
           }
-        place(cell.corners, edges,
-              !curved                    ? 0.
-              : dim == 3                 ? 0.25
-              : cell.corners.size() == 3 ? 4. / 9.
-                                         : 0.5);
+        place(cell->corners, edges,
+              !curved                     ? 0.
+              : dim == 3                  ? 0.25
+              : cell->corners.size() == 3 ? 4. / 9.
+                                          : 0.5);
       }
     if (curved)
       for (const auto &centre : centres)
@@ -91,10 +100,11 @@ private:
   using Patch      = std::shared_ptr<geometry::Patch<dim>>;
   using Coordinate = std::map<unsigned int, dealii::Point<2>>;
 
-  geometry::BlockMesh<dim>  &mesh;
-  const SplitCells          &cells;
-  const BodySurface<dim>    &surface;
-  const CurvedBoundary<dim> &boundary;
+  geometry::BlockMesh<dim>              &mesh;
+  const SplitCells                      &cells;
+  const BodySurface<dim>                &surface;
+  const CurvedBoundary<dim>             &boundary;
+  std::vector<const MeshFile::Element *> near; ///< those with curved edges, and some others
   /// middles of curved facets
   std::map<unsigned int, std::pair<Patch, dealii::Point<2>>> centres;
 
@@ -171,12 +181,16 @@ void curve_blocks(geometry::BlockMesh<dim> &mesh,
   std::copy(surface.points.begin(), surface.points.end(), mesh.vertices.begin());
   Curving<dim> curving(mesh, cells, surface, boundary);
   curving.place_middles(false);
-  std::map<unsigned int, double> least; ///< of curved blocks when they were straight
+  std::map<unsigned int, double> least; ///< of blocks with curves, when straight
   curving.add_pieces();
+  std::vector<bool> is_curved(mesh.vertices.size(), false);
+  for (const auto &piece : mesh.pieces)
+    for (const unsigned int vertex : piece.first)
+      is_curved[vertex] = true;
   for (unsigned int b = 0; b < mesh.blocks.size(); ++b)
-    for (const Corners &part : geometry::edges_and_faces<dim>(mesh.blocks[b]))
-      if (mesh.pieces.count(part) > 0 && least.count(b) == 0)
-        least[b] = geometry::least_scaled_jacobian<dim>(mesh.vertices, mesh.blocks[b], {});
+    if (std::count_if(mesh.blocks[b].begin(), mesh.blocks[b].end(),
+                      [&](const unsigned int vertex) { return is_curved[vertex]; }) > 1)
+      least[b] = geometry::least_scaled_jacobian<dim>(mesh.vertices, mesh.blocks[b], {});
   std::set<geometry::Patch<dim> *> straightened;
   curving.place_middles(true);
   // After 20 times they are straight but for a millionth of what they were.

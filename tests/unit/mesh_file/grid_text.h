@@ -5,6 +5,8 @@
 
 #include <snug/geometry/cell_numbering.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <functional>
 
 namespace snug::test {
@@ -153,6 +155,84 @@ void on_boundary(const geometry::BodyGeometry<dim> &body,
             visit(body.position({c, unit}), c, f);
           }
       }
+}
+
+const double pi = dealii::numbers::PI;
+
+/// In [0,1], equal ends, steps of very different size.
+inline double uneven(double s, unsigned int n)
+{
+  const double i = s * n;
+  return s + 0.3 / n * std::sin(2.3 * i * i) * (i > 0.5 && i < n - 0.5 ? 1. : 0.);
+}
+
+/// Layers from 60 % of an ellipse to the ellipse, all around or a part.
+inline GridText ellipse(unsigned int n, double a, double b, bool closed, bool simplices = false)
+{
+  GridText grid;
+  grid.n         = {n, 2};
+  grid.closed    = closed;
+  grid.simplices = simplices;
+  grid.map       = [=](const dealii::Point<3> &u) {
+    const double phi = -(closed ? 2. * pi : 2.) * uneven(u[0], n), r = 0.6 + 0.4 * u[2];
+    return dealii::Point<3>(1. + r * a * std::cos(phi), 2. + r * b * std::sin(phi), 0.);
+  };
+  return grid;
+}
+
+/// Largest distance of the boundary "top" from a true shape.
+template <int dim>
+double error(const geometry::BodyGeometry<dim>                       &body,
+             const std::function<double(const dealii::Point<dim> &)> &distance)
+{
+  double largest = 0.;
+  on_boundary<dim>(body, "top", [&](const dealii::Point<dim> &x, unsigned int, unsigned int) {
+    largest = std::max(largest, std::abs(distance(x)));
+  });
+  return largest;
+}
+
+/// Where cells share a face or an edge they have the same points.
+inline void expect_continuous(const geometry::BodyGeometry<3> &body)
+{
+  const auto                                            mesh = body.coarse_mesh();
+  std::map<std::vector<unsigned int>, dealii::Point<3>> seen;
+  using Info         = dealii::GeometryInfo<3>;
+  unsigned int twice = 0;
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    {
+      const auto compare = [&](std::vector<unsigned int> local) {
+        // coordinates by vertices in ascending order of their numbers
+        std::sort(local.begin(), local.end(), [&](unsigned int a, unsigned int b) {
+          return mesh.cells[c][a] < mesh.cells[c][b];
+        });
+        const dealii::Point<3>    origin = Info::unit_cell_vertex(local[0]);
+        std::vector<unsigned int> key    = {mesh.cells[c][local[0]]};
+        dealii::Point<3>          unit   = origin;
+        double                    part   = 0.3;
+        for (const unsigned int v : local)
+          if (origin.distance(Info::unit_cell_vertex(v)) == 1.)
+            {
+              unit += part * (Info::unit_cell_vertex(v) - origin);
+              part += 0.4;
+              key.push_back(mesh.cells[c][v]);
+            }
+        const auto x     = body.position({c, unit});
+        const auto entry = seen.emplace(key, x);
+        twice += !entry.second;
+        EXPECT_NEAR(x.distance(entry.first->second), 0., 1e-13) << x;
+      };
+      for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
+        compare({Info::line_to_cell_vertices(e, 0), Info::line_to_cell_vertices(e, 1)});
+      for (unsigned int f = 0; f < 6; ++f)
+        compare({Info::face_to_cell_vertices(f, 0), Info::face_to_cell_vertices(f, 1),
+                 Info::face_to_cell_vertices(f, 2), Info::face_to_cell_vertices(f, 3)});
+      for (unsigned int v = 0; v < 8; ++v)
+        EXPECT_NEAR(
+          body.position({c, Info::unit_cell_vertex(v)}).distance(mesh.vertices[mesh.cells[c][v]]),
+          0., 1e-13);
+    }
+  EXPECT_GT(twice, mesh.cells.size());
 }
 } // namespace snug::test
 
