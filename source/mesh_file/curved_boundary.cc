@@ -138,6 +138,11 @@ dealii::Tensor<1, dim> CurvedBoundary<dim>::normal(const unsigned int part, cons
       }
   if (n.norm() > 0.)
     return n /= n.norm();
+  mean /= mean.norm();
+  // There is none at the tip of a cone; edges begin straight there.
+  for (const unsigned int f : surface.facets_at.at(node))
+    if (surface.part_of[f] == part && surface.normal(f) * mean < std::cos(M_PI / 6.))
+      return n;
   for (const unsigned int k : near)
     for (const unsigned int f : surface.facets_at.at(k))
       if (surface.part_of[f] == part && !surface.is_flat[f])
@@ -147,7 +152,7 @@ dealii::Tensor<1, dim> CurvedBoundary<dim>::normal(const unsigned int part, cons
   for (const unsigned int k : nodes)
     neighbours.push_back(surface.points[k]);
   if constexpr (dim == 3)
-    n = surface_normal(surface.points[node], neighbours, mean / mean.norm());
+    n = surface_normal(surface.points[node], neighbours, mean);
   return n;
 }
 

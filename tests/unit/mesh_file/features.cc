@@ -33,6 +33,28 @@ TEST(CurvedSurfaces, PlaneRegionsOfASmoothBoundaryStay)
         EXPECT_NEAR(std::abs(x[1]), 1., 2e-16);
       }
   });
+  // its wall in 3D
+  for (const bool simplices : {false, true})
+    {
+      GridText solid;
+      solid.n         = {n, 3, 1};
+      solid.closed    = true;
+      solid.simplices = simplices;
+      solid.map       = [&](const Point<3> &u) {
+        const auto x = grid.map(u);
+        return Point<3>(x[0], x[1], -0.7 * u[1]);
+      };
+      const auto wall = make<3>(solid, solid.body());
+      EXPECT_LT(error<3>(*wall, [&](const Point<3> &x) { return from(Point<2>(x[0], x[1])); }),
+                1e-4); // facets: 4e-3
+      on_boundary<3>(*wall, "top", [&](const Point<3> &x, unsigned int, unsigned int) {
+        if (std::abs(x[0]) < 2. - 1e-10)
+          {
+            EXPECT_NEAR(std::abs(x[1]), 1., 2e-16);
+          }
+      });
+      expect_continuous(*wall);
+    }
 }
 
 TEST(CurvedSurfaces, CoarseFacetsStayUnlessSmoothIsAskedFor)
@@ -73,6 +95,16 @@ TEST(CurvedSurfaces, FeaturesAreKept)
       on_boundary<3>(*body, "top", [&](const Point<3> &x, unsigned int cell, unsigned int face) {
         EXPECT_NEAR(std::hypot(x[0], x[1]), 2., 5e-15);
         EXPECT_TRUE(body->known_surface(cell, face) < 2);
+      });
+      // in a file of few digits, too
+      grid.digits        = 6;
+      const auto rounded = make<3>(grid, grid.body());
+      expect_continuous(*rounded);
+      on_boundary<3>(*rounded, "top", [&](const Point<3> &x, unsigned int cell, unsigned int face) {
+        ASSERT_LT(rounded->known_surface(cell, face), 2u);
+        EXPECT_LT(std::abs(
+                    rounded->known_surfaces()[rounded->known_surface(cell, face)].distance(x)),
+                  5e-15);
       });
       on_boundary<3>(*body, "free", [&](const Point<3> &x, unsigned int, unsigned int) {
         EXPECT_TRUE(x[2] == 0. || x[2] == -2. || std::abs(std::hypot(x[0], x[1]) - 1.) < 5e-15);

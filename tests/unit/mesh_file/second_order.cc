@@ -1,4 +1,4 @@
-#include "files.h"
+#include "grid_text.h"
 
 #include <snug/geometry/block_geometry.h>
 #include <snug/mesh_file/mesh_file.h>
@@ -108,6 +108,52 @@ TEST(SecondOrder, BoundariesAreIsoparametricInEveryFormat)
     }
   expect_isoparametric<3>({"hex20", hex, "1 1 hex 1 2 3 4 5 6 7 8\n", false}, "-4.msh");
   expect_isoparametric<3>({"hex27", hex, "1 1 hex 1 2 3 4 5 6 7 8\n", true}, "-4-binary.msh");
+}
+
+TEST(SecondOrder, SplitTetrahedraMeetOnTheirSharedFaces)
+{
+  // a cube of six tetrahedra, whose nodes are those of a 3 x 3 x 3 lattice, straight and moved
+  std::ostringstream cells[2], points[2];
+  points[1].precision(17);
+  for (unsigned int i = 0; i < 27; ++i)
+    {
+      const Point<3> x((i % 3) / 2., (i / 3 % 3) / 2., (i / 9) / 2.);
+      points[0] << x << '\n';
+      points[1] << moved(x, false, true) << '\n';
+    }
+  std::array<int, 3> axes = {{1, 3, 9}};
+  do
+    {
+      // along the axes from a corner to the opposite one
+      std::vector<int> tet = {0, 2 * axes[0], 2 * (axes[0] + axes[1]), 26};
+      if ((axes[0] < axes[1]) + (axes[1] < axes[2]) + (axes[0] < axes[2]) != 3 &&
+          (axes[0] < axes[1]) + (axes[1] < axes[2]) + (axes[0] < axes[2]) != 1)
+        std::swap(tet[1], tet[2]);
+      cells[0] << 4;
+      cells[1] << 10;
+      for (const int corner : tet)
+        for (auto &text : cells)
+          text << ' ' << corner;
+      for (const auto &edge :
+           {std::array<int, 2>{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{1, 3}}, {{2, 3}}})
+        cells[1] << ' ' << (tet[edge[0]] + tet[edge[1]]) / 2;
+      for (auto &text : cells)
+        text << '\n';
+  } while (std::next_permutation(axes.begin(), axes.end()));
+  std::unique_ptr<geometry::BodyGeometry<3>> body[2];
+  for (const unsigned int order : {0, 1})
+    {
+      const std::string type = order == 0 ? "10\n" : "24\n";
+      body[order] =
+        body_of<3>("# vtk DataFile Version 2.0\ntets\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                   "POINTS 27 double\n" +
+                   points[order].str() + "CELLS 6 66\n" + cells[order].str() + "CELL_TYPES 6\n" +
+                   type + type + type + type + type + type);
+    }
+  expect_continuous(*body[1]);
+  for (const auto &point : boundary_points(*body[0]))
+    EXPECT_NEAR(body[1]->position(point).distance(moved(body[0]->position(point), false, true)), 0.,
+                1e-14);
 }
 
 TEST(SecondOrder, StraightElementsAreLeftAsTheyAre)
