@@ -61,8 +61,8 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
               allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
               "What a boundary of a mesh file is, if not what its nodes and elements say: plane "
               "facets between its nodes, or a smooth surface through them: 'nut: facets, bore: "
-              "smooth'. Facets that turn by more than 30 degrees always meet in an edge, and "
-              "those that turn by more than 15 degrees stay facets without this entry.");
+              "smooth'. Facets that turn by more than 30 degrees always meet in an edge; those "
+              "that turn by more than 15 degrees stay facets unless 'smooth' is said.");
 }
 
 void declare_placement(Entries &entries, BodyMeshParameters &mesh)

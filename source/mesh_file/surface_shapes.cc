@@ -140,12 +140,11 @@ SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
   for (const Point &point : points.points)
     size = std::max(size, point.distance(points.points[0]));
   const double tolerance = std::min(std::max(1e-6 * size, digit), 1e-4 * size);
-  const double kink      = quadratic ? 0. : largest_kink(part);
+  const double kink      = quadratic || want == "smooth" ? 0. : largest_kink(part);
   const auto  &name      = names[boundary];
   if (is_plane(points, tolerance, result.normal))
     result.kind = Kind::plane;
-  else if (want == "smooth")
-    result.kind = Kind::smooth;
+  // Round, or a polygon? Its nodes lie on the circle in either case.
   else if (kink > 15.)
     add_once(notes, "boundary " + name + " stays facets, as these turn by up to " +
                       std::to_string(std::lround(kink)) + " degrees; 'Surface = " + name +

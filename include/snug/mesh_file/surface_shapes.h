@@ -8,13 +8,15 @@
 namespace snug::mesh_file {
 /**
  * What each part of the surface of a body is, the first of these that applies:
- * - what "Curved faces" or "Surface" say of its boundary;
- * - a plane, if its facets lie in one;
+ * - what "Curved faces" says of its boundary;
+ * - facets, if "Surface" says so;
+ * - a plane, if its nodes lie in one;
  * - facets, with a note, if these turn by more than 15 degrees and are not quadratic;
  * - a sphere, cylinder, cone or torus on which all of its nodes lie, to 1e-6 of its size or the
  *   last digit of the file;
  * - of the shape of its elements, if these are quadratic;
  * - smooth.
+ * The fourth and the last but one do not count where "Surface" says smooth.
  */
 template <int dim>
 class SurfaceShapes

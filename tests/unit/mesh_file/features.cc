@@ -66,7 +66,7 @@ TEST(CurvedSurfaces, CoarseFacetsStayUnlessSmoothIsAskedFor)
   const auto circle = [](const Point<2> &x) { return x.distance(Point<2>(1., 2.)) - 2.; };
   EXPECT_GT(error<2>(*make<2>(grid, body), circle), 1e-2);
   body.surfaces = {{"top", "smooth"}};
-  EXPECT_LT(error<2>(*make<2>(grid, body), circle), 1e-5);
+  EXPECT_LT(error<2>(*make<2>(grid, body), circle), 1e-14);
   for (const std::string value : {"round", ""})
     {
       body.surfaces = {{"top", value}};
