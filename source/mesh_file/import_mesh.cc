@@ -206,6 +206,28 @@ private:
     return result;
   }
 
+  /// Middle nodes of the cells; other regions of the file have some, too.
+  typename BodySurface<dim>::Middles middles() const
+  {
+    typename BodySurface<dim>::Middles result;
+    const auto                         add = [&](const Corners &corners) {
+      const auto found = file.middles.find(sorted(corners));
+      if (found != file.middles.end())
+        result.insert(*found);
+    };
+    for (const auto &cell : cells)
+      for (const auto &local : faces_of(cell.shape))
+        {
+          Corners face;
+          for (const unsigned int corner : local)
+            face.push_back(cell.corners[corner]);
+          add(face);
+          for (unsigned int i = 0; i < face.size(); ++i)
+            add({face[i], face[(i + 1) % face.size()]});
+        }
+    return result;
+  }
+
   void curve_boundaries()
   {
     std::set<unsigned int> whole;
@@ -214,7 +236,7 @@ private:
     for (const auto &point : points)
       mesh.vertices.push_back(in_space(point));
     BodySurface<dim> surface({mesh.vertices.begin(), mesh.vertices.begin() + file.points.size()},
-                             file.middles, facets(), whole);
+                             middles(), facets(), whole);
     const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes);
     curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
   }
