@@ -76,10 +76,21 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
           for (unsigned int e = 0; e < 4; ++e)
             curved.emplace(sorted(edge_of<2>(face, e)), surface);
       }
-  for (unsigned int b = 0; b < is_curved.size() && !curved.empty(); ++b)
+  std::vector<bool> on_curve(mesh->vertices.size(), false);
+  for (const auto &entry : curved)
+    for (const unsigned int vertex : entry.first)
+      on_curve[vertex] = true;
+  for (const auto &entry : mesh->pieces)
+    for (const unsigned int vertex : entry.first)
+      on_curve[vertex] = true;
+  for (unsigned int b = 0; b < is_curved.size(); ++b)
     for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
-      if (curved.count(sorted(edge_of<dim>(mesh->blocks[b], e))) > 0)
-        is_curved[b] = true;
+      {
+        const Vertices edge = edge_of<dim>(mesh->blocks[b], e);
+        if (on_curve[edge[0]] && on_curve[edge[1]])
+          is_curved[b] =
+            is_curved[b] || curved.count(sorted(edge)) > 0 || mesh->pieces.count(sorted(edge)) > 0;
+      }
   upper = mesh->vertices.front();
   lower = upper;
   for (const Point &vertex : mesh->vertices)
@@ -133,6 +144,18 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
 }
 
 template <int dim>
+unsigned int BlockGeometry<dim>::known_surface(const unsigned int coarse_cell,
+                                               const unsigned int face) const
+{
+  const auto         index   = multi_index(coarse_cell % cells_per_block(), mesh->cells);
+  const unsigned int d       = face / 2;
+  const Vertices    &block   = mesh->blocks[coarse_cell / cells_per_block()];
+  const auto         found   = mesh->known.find(sorted(face_of<dim>(block, face)));
+  const bool         at_side = index[d] == (face % 2 == 1 ? mesh->cells[d] - 1 : 0);
+  return at_side && found != mesh->known.end() ? found->second : this->no_surface;
+}
+
+template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) const
 {
   const auto index = multi_index(point.cell % cells_per_block(), mesh->cells);
@@ -159,10 +182,28 @@ dealii::Point<dim> BlockGeometry<dim>::interpolated(const Vertices            &v
   return result;
 }
 
+template <int dim>
+std::unique_ptr<dealii::Point<dim>>
+BlockGeometry<dim>::piece_position(const Vertices            &vertices,
+                                   const std::vector<double> &weights) const
+{
+  const Vertices key   = sorted(vertices);
+  const auto     found = mesh->pieces.find(key);
+  if (found == mesh->pieces.end())
+    return nullptr;
+  dealii::Point<2> at;
+  for (unsigned int i = 0; i < key.size(); ++i)
+    at += weights[std::find(vertices.begin(), vertices.end(), key[i]) - vertices.begin()] *
+          found->second.at[i];
+  return std::make_unique<Point>(found->second.patch->position(at));
+}
+
 /// t goes from the first to the second vertex.
 template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::edge_position(const Vertices &vertices, double t) const
 {
+  if (const auto x = piece_position(vertices, {1. - t, t}))
+    return *x;
   const auto found = curved.find(sorted(vertices));
   return interpolated(vertices, {1. - t, t}, found == curved.end() ? nullptr : found->second);
 }
@@ -171,6 +212,8 @@ template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::face_position(const Vertices         &vertices,
                                                      const dealii::Point<2> &u) const
 {
+  if (const auto x = piece_position(vertices, weights<2>(u)))
+    return *x;
   const auto found = curved.find(sorted(vertices));
   Manifold  *own   = found == curved.end() ? nullptr : found->second;
   // Of a flat face, each vertex is counted by two edges, so it is taken away once (Coons patch).

@@ -53,6 +53,15 @@ void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name)
 }
 
 template <int dim>
+void set_known(BlockMesh<dim> &mesh, const unsigned int index, const KnownSurface<dim> &surface)
+{
+  for (const auto &face : mesh.boundaries)
+    if (face.second == index)
+      mesh.known[face.first] = mesh.known_surfaces.size();
+  mesh.known_surfaces.push_back(surface);
+}
+
+template <int dim>
 void remove_unused_boundaries(BlockMesh<dim> &mesh)
 {
   std::map<unsigned int, unsigned int> number;
@@ -148,6 +157,8 @@ void order_layer_consistently(BlockMesh<3> &mesh)
 
 template void mirror(BlockMesh<2> &, unsigned int, const std::string &);
 template void mirror(BlockMesh<3> &, unsigned int, const std::string &);
+template void set_known(BlockMesh<2> &, unsigned int, const KnownSurface<2> &);
+template void set_known(BlockMesh<3> &, unsigned int, const KnownSurface<3> &);
 template void remove_unused_boundaries(BlockMesh<2> &);
 template void remove_unused_boundaries(BlockMesh<3> &);
 template bool order_consistently(BlockMesh<2> &);

@@ -82,11 +82,41 @@ public:
     return result;
   }
 
+  std::vector<KnownSurface<dim>> known_surfaces() const override
+  {
+    std::vector<KnownSurface<dim>> result;
+    for (const auto &face : curved_faces)
+      if (is_known(face))
+        result.push_back(*face.known());
+    return result;
+  }
+
+  unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override
+  {
+    unsigned int index = 0;
+    for (const auto &curved : curved_faces)
+      {
+        if (curved.boundary() == face && is_known(curved) && this->at_side(coarse_cell, face))
+          return index;
+        index += is_known(curved);
+      }
+    return this->no_surface;
+  }
+
 private:
   using GridGeometry<dim>::cells;
   std::array<double, dim>      corner, size;
   std::array<AxisSpacing, dim> spacing;
   std::vector<CurvedFace<dim>> curved_faces;
+
+  /// Faces beside it that are curved move it off its shape, opposite ones do not.
+  bool is_known(const CurvedFace<dim> &face) const
+  {
+    return face.known() &&
+           std::all_of(curved_faces.begin(), curved_faces.end(), [&](const auto &beside) {
+             return beside.boundary() / 2 == face.boundary() / 2;
+           });
+  }
 
   void set_spacing(const BodyMeshParameters &parameters)
   {

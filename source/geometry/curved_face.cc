@@ -92,6 +92,25 @@ double CurvedFace<dim>::displacement(const dealii::Point<dim> &point) const
   return radius > 0. ? -recede : recede;
 }
 
+template <int dim>
+std::optional<KnownSurface<dim>> CurvedFace<dim>::known() const
+{
+  if (formula)
+    return {};
+  KnownSurface<dim> result;
+  result.centre = flat.centre;
+  // R > 0: the centre is inside
+  result.centre[flat.boundary / 2] -= (flat.boundary % 2 == 1 ? 1. : -1.) * radius;
+  result.radius = std::abs(radius);
+  result.convex = radius > 0.;
+  if (straight_axis < dim)
+    {
+      result.kind                = KnownSurface<dim>::Kind::cylinder;
+      result.axis[straight_axis] = 1.;
+    }
+  return result;
+}
+
 template class CurvedFace<2>;
 template class CurvedFace<3>;
 } // namespace snug::geometry

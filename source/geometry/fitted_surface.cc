@@ -1,80 +1,73 @@
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/fitted_surface.h>
 
-#include <deal.II/grid/manifold_lib.h>
-
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 namespace snug::geometry {
 namespace {
-/// Axis of "cylinder AXIS", dim of a sphere.
-/// dim is no axis, so that offset() drops no component.
+/// Direction of "cylinder AXIS", 0 of a sphere.
 template <int dim>
-unsigned int read_axis(const std::string &boundary, const std::string &value)
+dealii::Tensor<1, dim> read_axis(const std::string &boundary, const std::string &value)
 {
-  const auto word = words(value);
-  if (word.size() == 1 && word[0] == "sphere")
-    return dim;
-  const unsigned int axis = word.size() == 2 && word[0] == "cylinder" ? axis_called(word[1]) : 3;
-  if (axis == 3 || (dim == 2 && axis != 2))
+  const auto         word     = words(value);
+  const bool         sphere   = word.size() == 1 && word[0] == "sphere";
+  const bool         cylinder = word.size() == 2 && word[0] == "cylinder";
+  const unsigned int axis     = cylinder ? axis_called(word[1]) : 3;
+  if (!sphere && (axis == 3 || (dim == 2 && axis != 2)))
     throw bad_entry("Curved faces", boundary + ": " + value,
                     std::string("of a mesh file must be 'sphere' or 'cylinder ") +
                       (dim == 2 ? "z'" : "AXIS'"));
-  return axis;
+  dealii::Tensor<1, dim> result;
+  if (axis < dim)
+    result[axis] = 1.;
+  return result;
 }
 } // namespace
 
 template <int dim>
-FittedSurface<dim>::FittedSurface(const std::string                     &boundary,
-                                  const std::string                     &value,
-                                  const std::vector<dealii::Point<dim>> &points)
-  : straight_axis(read_axis<dim>(boundary, value))
+double SurfaceSample<dim>::largest_distance(const KnownSurface<dim> &surface) const
 {
-  fit(points);
   double largest = 0.;
   for (const auto &point : points)
-    largest = std::max(largest, std::abs(offset(point).norm() - radius));
-  // 1e-4: files with 5 or 6 digits pass, nodes on chords or of another face do not. A radius of
-  // 1000 distances is a plane up to that: there is no sphere to be found.
-  const double allowed = 1e-4, flat = 1e3;
-  const double length = points.front().distance(points.back());
-  if (!(largest <= allowed * radius && radius < flat * length))
     {
-      std::ostringstream text;
-      text << "does not fit: nodes of '" << boundary << "' are up to " << largest
-           << " off the best one, of radius " << radius;
-      throw bad_entry("Curved faces", boundary + ": " + value, text.str());
+      const double distance = std::abs(surface.distance(point));
+      // also of surfaces that failed
+      largest = std::isfinite(distance) ? std::max(largest, distance) : HUGE_VAL;
     }
+  return largest;
 }
 
 template <int dim>
-dealii::Tensor<1, dim> FittedSurface<dim>::offset(const dealii::Point<dim> &point) const
+KnownSurface<dim> SurfaceSample<dim>::faced(KnownSurface<dim> surface) const
 {
-  dealii::Tensor<1, dim> result = point - centre;
-  if (straight_axis < dim)
-    result[straight_axis] = 0.;
-  return result;
+  surface.convex = true;
+  double sum     = 0.;
+  for (unsigned int i = 0; i < at.size(); ++i)
+    sum += normals[i] * surface.normal(at[i]);
+  surface.convex = sum >= 0.;
+  return surface;
 }
 
 template <int dim>
-void FittedSurface<dim>::fit(const std::vector<dealii::Point<dim>> &points)
+KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::Tensor<1, dim> &axis)
 {
   // Coordinates from the mean in units of the size: the normal equations, of squares of them,
   // stay well conditioned for small surfaces far from the origin.
+  const auto        &points = sample.points;
   dealii::Point<dim> mean;
   for (const auto &point : points)
     mean += point / double(points.size());
-  centre      = mean;
   double size = 0.;
   for (const auto &point : points)
-    size = std::max(size, offset(point).norm());
-  // unknowns: the centre and R^2 - |c|^2; along the straight axis the matrix is empty
+    size = std::max(size, mean.distance(point));
+  // unknowns: the centre, of which the part along the axis is held at 0, and R^2 - |c|^2
   dealii::FullMatrix<double> A(dim + 1, dim + 1);
   dealii::Vector<double>     b(dim + 1), x(dim + 1);
   for (const auto &point : points)
     {
-      const dealii::Tensor<1, dim> y = offset(point) / size;
+      dealii::Tensor<1, dim> y = (point - mean) / size;
+      y -= (y * axis) * axis;
       for (unsigned int i = 0; i <= dim; ++i)
         {
           const double left = i < dim ? 2. * y[i] : 1.;
@@ -83,51 +76,84 @@ void FittedSurface<dim>::fit(const std::vector<dealii::Point<dim>> &points)
           b(i) += left * y.norm_square();
         }
     }
-  if (straight_axis < dim)
-    A(straight_axis, straight_axis) = 1.;
-  // Flat boundaries give a singular matrix; the shift makes that a huge radius, which is
-  // rejected above.
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      A(i, j) += axis[i] * axis[j] * points.size();
+  // Flat boundaries give a singular matrix; the shift makes that a huge radius, which callers
+  // reject.
   for (unsigned int i = 0; i <= dim; ++i)
     A(i, i) *= 1. + 1e-14;
   // A x = b: the normal equations of 2 c.y + (R^2 - |c|^2) = |y|^2 over all points
   A.gauss_jordan();
   A.vmult(x, b);
+  KnownSurface<dim> result;
+  result.kind =
+    axis.norm() > 0. ? KnownSurface<dim>::Kind::cylinder : KnownSurface<dim>::Kind::sphere;
+  result.axis   = axis;
+  result.centre = mean;
   // R^2 = (R^2 - |c|^2) + |c|^2
   double square = x(dim);
   for (unsigned int d = 0; d < dim; ++d)
     {
-      centre[d] += size * x(d);
+      result.centre[d] += size * x(d);
       square += x(d) * x(d);
     }
-  radius = size * std::sqrt(square);
+  result.radius = size * std::sqrt(square);
+  return sample.faced(result);
 }
 
 template <int dim>
-dealii::Point<dim> FittedSurface<dim>::project(const dealii::Point<dim> &point) const
+KnownSurface<dim> fitted_surface(const std::string        &boundary,
+                                 const std::string        &value,
+                                 const SurfaceSample<dim> &sample)
 {
-  const auto from = offset(point);
-  // the component along the axis of a cylinder stays
-  return point + (radius / from.norm() - 1.) * from;
+  const auto   axis    = read_axis<dim>(boundary, value);
+  const auto   surface = fitted_round(sample, axis);
+  const double largest = sample.largest_distance(surface);
+  // 1e-4: files with 5 or 6 digits pass, nodes on chords or of another face do not. A radius of
+  // 1000 distances is a plane up to that: there is no sphere to be found.
+  const double allowed = 1e-4, flat = 1e3;
+  const double length = sample.points.front().distance(sample.points.back());
+  if (!(largest <= allowed * surface.radius && surface.radius < flat * length))
+    {
+      std::ostringstream text;
+      text << "does not fit: nodes of '" << boundary << "' are up to " << largest
+           << " off the best one, of radius " << surface.radius;
+      throw bad_entry("Curved faces", boundary + ": " + value, text.str());
+    }
+  return surface;
 }
 
-/// Circles about the centre, also for "cylinder z".
-template <>
-BlockMesh<2>::Surface FittedSurface<2>::manifold() const
+template <int dim>
+std::string describe(const KnownSurface<dim> &surface)
 {
-  return std::make_shared<dealii::SphericalManifold<2>>(centre);
+  using Kind = typename KnownSurface<dim>::Kind;
+  std::ostringstream text;
+  switch (surface.kind)
+    {
+      case Kind::sphere:
+        text << (dim == 2 ? "circle" : "sphere") << " of radius " << surface.radius;
+        break;
+      case Kind::cylinder:
+        text << "cylinder of radius " << surface.radius;
+        break;
+      case Kind::cone:
+        text << "cone of " << surface.angle * 180. / M_PI << " degrees to its axis";
+        break;
+      case Kind::torus:
+        text << "torus of radii " << surface.radius << " and " << surface.tube;
+    }
+  return text.str();
 }
 
-template <>
-BlockMesh<3>::Surface FittedSurface<3>::manifold() const
-{
-  if (straight_axis == 3)
-    return std::make_shared<dealii::SphericalManifold<3>>(centre);
-  // the manifold takes a point of the axis and its direction
-  dealii::Tensor<1, 3> direction;
-  direction[straight_axis] = 1.;
-  return std::make_shared<dealii::CylindricalManifold<3>>(direction, centre);
-}
-
-template class FittedSurface<2>;
-template class FittedSurface<3>;
+template struct SurfaceSample<2>;
+template struct SurfaceSample<3>;
+template KnownSurface<2> fitted_round(const SurfaceSample<2> &, const dealii::Tensor<1, 2> &);
+template KnownSurface<3> fitted_round(const SurfaceSample<3> &, const dealii::Tensor<1, 3> &);
+template KnownSurface<2>
+fitted_surface(const std::string &, const std::string &, const SurfaceSample<2> &);
+template KnownSurface<3>
+fitted_surface(const std::string &, const std::string &, const SurfaceSample<3> &);
+template std::string describe(const KnownSurface<2> &);
+template std::string describe(const KnownSurface<3> &);
 } // namespace snug::geometry

@@ -19,8 +19,11 @@ typename KnownSurface<dim>::Vector KnownSurface<dim>::lever(const Point &x) cons
 template <int dim>
 typename KnownSurface<dim>::Vector KnownSurface<dim>::normal(const Point &x) const
 {
-  Vector n = lever(x);
-  n /= n.norm();
+  Vector       n      = lever(x);
+  const double length = n.norm();
+  // At the apex of a cone, and in the middle of others, no direction is closest.
+  if (length > 0.)
+    n /= length;
   // At right angles to the line of the cone, cos(angle) axis + sin(angle) n.
   if (kind == Kind::cone)
     n = std::cos(angle) * n - std::sin(angle) * axis;

@@ -48,13 +48,21 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
   entries.add("Mesh file", mesh.file, allowed("the path of a file"),
               "Gmsh .msh 2 or 4.1, Abaqus .inp, VTK legacy, or UCD in ASCII; relative to the "
               "parameter file. Triangles, tetrahedra and prisms are split into quadrilaterals and "
-              "hexahedra; of quadratic elements the corners count.");
+              "hexahedra. Boundaries are curved as their quadratic elements are, or lie on smooth "
+              "surfaces through their nodes; those on spheres, cylinders, cones and tori are "
+              "recognized.");
   entries.add("Mesh regions", mesh.regions,
               "Groups of cells of the file that make the body; empty: all cells.");
   entries.add("Boundary names", mesh.boundary_numbers,
               allowed("a list 'number: name, ...' of different numbers"),
               "Names for the groups of faces to which the file gives only numbers, as VTK and UCD "
               "do: '1: bottom, 7: bore'.");
+  entries.add("Surface", mesh.surfaces,
+              allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
+              "What a boundary of a mesh file is, if not what its nodes and elements say: plane "
+              "facets between its nodes, or a smooth surface through them: 'nut: facets, bore: "
+              "smooth'. Facets that turn by more than 30 degrees always meet in an edge; those "
+              "that turn by more than 15 degrees stay facets unless 'smooth' is said.");
 }
 
 void declare_placement(Entries &entries, BodyMeshParameters &mesh)

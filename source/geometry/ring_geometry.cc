@@ -93,6 +93,27 @@ public:
     return box_position(logical);
   }
 
+  std::vector<KnownSurface<dim>> known_surfaces() const override
+  {
+    KnownSurface<dim> hole;
+    if (dim == 3)
+      {
+        hole.kind          = KnownSurface<dim>::Kind::cylinder;
+        hole.axis[dim - 1] = 1.;
+      }
+    hole.radius           = inner;
+    hole.convex           = false;
+    KnownSurface<dim> rim = hole;
+    rim.radius            = outer;
+    rim.convex            = true;
+    return {hole, rim};
+  }
+
+  unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override
+  {
+    return face / 2 == dim - 2 && this->at_side(coarse_cell, face) ? face % 2 : this->no_surface;
+  }
+
 private:
   double inner, outer, length, angle;
 };

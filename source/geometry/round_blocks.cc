@@ -93,6 +93,15 @@ void finish(BlockMesh<dim> &mesh, double radius)
   mesh.region_names = {"body"};
 }
 
+/// The boundary 0, outer, of all of these bodies.
+template <int dim>
+void set_outer(BlockMesh<dim> &mesh, const double radius)
+{
+  KnownSurface<dim> outer;
+  outer.radius = radius;
+  set_known(mesh, 0, outer);
+}
+
 BlockMesh<2> disc_mesh(const BodyMeshParameters &parameters, unsigned int n_cells)
 {
   require_positive("Radius", parameters.radius);
@@ -111,6 +120,7 @@ BlockMesh<2> disc_mesh(const BodyMeshParameters &parameters, unsigned int n_cell
   if (parts == 1)
     mirror(mesh, 1, "bottom");
   remove_unused_boundaries(mesh);
+  set_outer(mesh, parameters.radius);
   AssertThrow(order_consistently(mesh), dealii::ExcInternalError());
   return mesh;
 }
@@ -145,6 +155,11 @@ BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_ce
   mesh.surfaces[0] = std::make_shared<dealii::CylindricalManifold<3>>(2);
   mesh.cells       = {{flat.cells[0], flat.cells[1], n_cells}};
   finish(mesh, 1.);
+  KnownSurface<3> outer;
+  outer.kind    = KnownSurface<3>::Kind::cylinder;
+  outer.axis[2] = 1.;
+  outer.radius  = flat.known_surfaces[0].radius;
+  set_known(mesh, 0, outer);
   return mesh;
 }
 
@@ -170,6 +185,7 @@ BlockMesh<3> sphere_mesh(const BodyMeshParameters &parameters)
   set_cut_planes(mesh, 1);
   finish(mesh, parameters.radius);
   mirror_octant(mesh, parts);
+  set_outer(mesh, parameters.radius);
   AssertThrow(order_consistently(mesh), dealii::ExcInternalError());
   return mesh;
 }
@@ -203,6 +219,11 @@ BlockMesh<3> shell_mesh(const BodyMeshParameters &parameters)
   set_cut_planes(mesh, 2);
   finish(mesh, parameters.radius);
   mirror_octant(mesh, parts);
+  set_outer(mesh, parameters.radius);
+  KnownSurface<3> inner;
+  inner.radius = parameters.inner_radius;
+  inner.convex = false;
+  set_known(mesh, 1, inner);
   // the axis across must stay the last, since it has its own number of cells
   order_layer_consistently(mesh);
   return mesh;

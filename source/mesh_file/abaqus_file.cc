@@ -1,3 +1,4 @@
+#include <snug/mesh_file/element_split.h>
 #include <snug/mesh_file/mesh_formats.h>
 #include <snug/mesh_file/mesh_text.h>
 
@@ -55,23 +56,18 @@ ElementType abaqus_type(const std::string &name, unsigned long line)
   throw error_at_line(line, "elements of the type '" + name + "' cannot be read");
 }
 
-/// Corners, counted from 0, of face @p number, counted from 1
-/// (S1, S2, ... of Abaqus); null if there is none. Faces of flat elements are edges.
-const std::vector<unsigned int> *abaqus_face(ElementShape shape, unsigned long number)
+/// Of C3D27, whose centre comes before its faces, which are in the order S1 to S6.
+const MiddleOrder &abaqus_hexahedron()
 {
-  using S                               = ElementShape;
-  using Faces                           = std::vector<std::vector<unsigned int>>;
-  static const std::map<S, Faces> faces = {
-    {S::triangle, {{0, 1}, {1, 2}, {2, 0}}},
-    {S::quadrilateral, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
-    {S::tetrahedron, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}},
-    {S::prism, {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}},
-    {S::hexahedron,
-     {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}}};
-  const auto found = faces.find(shape);
-  if (found == faces.end() || number == 0 || number > found->second.size())
-    return nullptr;
-  return &found->second[number - 1];
+  static const MiddleOrder order = []() {
+    MiddleOrder result = vtk_middles(ElementShape::hexahedron);
+    result.resize(12);
+    result.push_back({0, 1, 2, 3, 4, 5, 6, 7});
+    const auto &faces = faces_of(ElementShape::hexahedron);
+    result.insert(result.end(), faces.begin(), faces.end());
+    return result;
+  }();
+  return order;
 }
 
 /// Reads an .inp file keyword by keyword.
@@ -197,12 +193,15 @@ private:
     const std::string name   = "element " + pending[0];
     if (!element_index.emplace(number, mesh.elements.size()).second)
       throw error_at_line(at, name + " occurs twice");
-    MeshFile::Element element{type.shape, {}, {}, number, at};
+    MeshFile::Element         element{type.shape, {}, {}, number, at};
+    std::vector<unsigned int> nodes;
+    for (unsigned int i = 1; i <= type.n_nodes; ++i)
+      nodes.push_back(numbers.index(to_whole(pending[i], at), name, at));
     // Abaqus lists the corners first, then the nodes on edges, but of lines the middle second.
-    const unsigned int step = type.shape == ElementShape::line ? type.n_nodes - 1 : 1;
-    for (unsigned int i = 0; i < n_corners(type.shape); ++i)
-      element.corners.push_back(numbers.index(to_whole(pending[1 + i * step], at), name, at));
-    mesh.corners_only = mesh.corners_only || type.n_nodes > n_corners(type.shape);
+    if (type.shape == ElementShape::line)
+      std::swap(nodes[1], nodes.back());
+    add_nodes(mesh, element, nodes,
+              type.n_nodes == 27 ? abaqus_hexahedron() : vtk_middles(type.shape));
     mesh.elements.push_back(element);
     pending.clear();
     if (!options["ELSET"].empty())
@@ -267,14 +266,14 @@ private:
           throw error_at_line(at, "surface '" + name + "' has the element " +
                                     std::to_string(number) + ", which is not there");
         // a copy, since add_face() lets the list of elements grow
-        const MeshFile::Element cell = mesh.elements[found->second];
-        const std::string       face = words.size() > 1 ? upper_case(words[1]) : "";
-        const auto             *corners =
-          abaqus_face(cell.shape, face.size() == 2 && face[0] == 'S' ? face[1] - '0' : 0);
-        if (corners == nullptr)
+        const MeshFile::Element cell  = mesh.elements[found->second];
+        const std::string       face  = words.size() > 1 ? upper_case(words[1]) : "";
+        const auto             &faces = faces_of(cell.shape);
+        const std::size_t which = face.size() == 2 && face[0] == 'S' ? face[1] - '1' : faces.size();
+        if (which >= faces.size())
           throw error_at_line(at,
                               "element " + std::to_string(number) + " has no face '" + face + "'");
-        add_face(cell, *corners, name);
+        add_face(cell, faces[which], name);
       }
   }
 

@@ -6,21 +6,6 @@ namespace snug::mesh_file {
 namespace {
 using Corners = std::vector<unsigned int>;
 
-/// Corners of the faces of solids; of flat elements there is one.
-/// Not in the order around the face, as only middles are taken of them.
-const std::vector<Corners> &faces_of(const ElementShape shape)
-{
-  using S                                              = ElementShape;
-  static const std::map<S, std::vector<Corners>> faces = {
-    {S::triangle, {{0, 1, 2}}},
-    {S::quadrilateral, {{0, 1, 2, 3}}},
-    {S::tetrahedron, {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}}},
-    {S::prism, {{0, 1, 2}, {3, 4, 5}, {0, 1, 3, 4}, {1, 2, 4, 5}, {0, 2, 3, 5}}},
-    {S::hexahedron,
-     {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 4, 5}, {1, 2, 5, 6}, {2, 3, 6, 7}, {0, 3, 4, 7}}}};
-  return faces.at(shape);
-}
-
 bool has(const Corners &face, const unsigned int corner)
 {
   return std::find(face.begin(), face.end(), corner) != face.end();
@@ -39,6 +24,22 @@ const Corners &face_with(const ElementShape shape,
   return faces_of(shape).front();
 }
 } // namespace
+
+const std::vector<std::vector<unsigned int>> &faces_of(const ElementShape shape)
+{
+  using S                                              = ElementShape;
+  static const std::map<S, std::vector<Corners>> faces = {
+    {S::vertex, {}},
+    {S::line, {}},
+    {S::triangle, {{0, 1}, {1, 2}, {2, 0}}},
+    {S::quadrilateral, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+    {S::tetrahedron, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}},
+    {S::pyramid, {}},
+    {S::prism, {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}},
+    {S::hexahedron,
+     {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}}};
+  return faces.at(shape);
+}
 
 const std::vector<std::vector<unsigned int>> &corner_neighbours(const ElementShape shape)
 {

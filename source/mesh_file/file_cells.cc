@@ -159,8 +159,6 @@ std::vector<MeshFile::Element> body_cells(const MeshFile                 &file,
   if (dim == 2)
     check_plane(cells, file.points);
   turn_mirrored<dim>(cells, file.points, notes);
-  if (file.corners_only)
-    notes.push_back("middle nodes of quadratic elements left out");
   return cells;
 }
 

@@ -253,14 +253,11 @@ private:
     for (const auto physical_group : groups)
       if (physical_group != 0)
         element.groups.push_back(group(type.shape, physical_group));
-    const std::string name = "element " + std::to_string(number);
+    const std::string         name = "element " + std::to_string(number);
+    std::vector<unsigned int> nodes;
     for (unsigned int i = 0; i < type.n_nodes; ++i)
-      {
-        const unsigned int point = numbers.index(read_node("a node of " + name), name, in.line());
-        if (i < n_corners(type.shape))
-          element.corners.push_back(point);
-      }
-    mesh.corners_only = mesh.corners_only || type.n_nodes > n_corners(type.shape);
+      nodes.push_back(numbers.index(read_node("a node of " + name), name, in.line()));
+    add_nodes(mesh, element, nodes, gmsh_middles(type.shape));
     mesh.elements.push_back(element);
   }
 

@@ -1,8 +1,7 @@
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/curved_face.h>
 #include <snug/geometry/entry_values.h>
-#include <snug/geometry/fitted_surface.h>
-#include <snug/mesh_file/element_split.h>
+#include <snug/mesh_file/curved_blocks.h>
 #include <snug/mesh_file/file_cells.h>
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/mesh_file/mesh_text.h>
@@ -66,9 +65,7 @@ private:
 
   std::vector<Corners> parts(const Element &element)
   {
-    if (split)
-      return split->parts(element);
-    return {cell_vertices(element)};
+    return SplitCells{cells, split.get()}.parts(element);
   }
 
   /// The group that says what region a cell belongs to.
@@ -182,43 +179,66 @@ private:
     return result;
   }
 
-  std::set<unsigned int> corners_of(unsigned int boundary) const
+  /// Faces of the cells at the boundary, before these are split.
+  std::vector<Facet> facets()
   {
-    std::set<unsigned int> corners;
-    for (const auto &entry : mesh.boundaries)
-      if (entry.second == boundary)
-        corners.insert(entry.first.begin(), entry.first.end());
-    return corners;
+    std::map<Corners, std::pair<unsigned int, Corners>> count;
+    for (const auto &cell : cells)
+      for (const auto &local : faces_of(cell.shape))
+        {
+          Corners face;
+          for (const unsigned int corner : local)
+            face.push_back(cell.corners[corner]);
+          auto &entry = count[sorted(face)];
+          ++entry.first;
+          entry.second = face;
+        }
+    std::vector<Facet> result;
+    for (const auto &entry : count)
+      if (entry.second.first == 1)
+        {
+          const Corners &face  = entry.second.second;
+          const auto     shape = face.size() == 2   ? ElementShape::line
+                                 : face.size() == 3 ? ElementShape::triangle
+                                                    : ElementShape::quadrilateral;
+          result.push_back({face, mesh.boundaries.at(sorted(parts({shape, face, {}, 0, 0})[0]))});
+        }
+    return result;
   }
 
-  /// Move the middles of split elements onto the surfaces that the nodes
-  /// of the file lie on; by turns where two surfaces meet.
+  /// Middle nodes of the cells; other regions of the file have some, too.
+  typename BodySurface<dim>::Middles middles() const
+  {
+    typename BodySurface<dim>::Middles result;
+    const auto                         add = [&](const Corners &corners) {
+      const auto found = file.middles.find(sorted(corners));
+      if (found != file.middles.end())
+        result.insert(*found);
+    };
+    for (const auto &cell : cells)
+      for (const auto &local : faces_of(cell.shape))
+        {
+          Corners face;
+          for (const unsigned int corner : local)
+            face.push_back(cell.corners[corner]);
+          add(face);
+          for (unsigned int i = 0; i < face.size(); ++i)
+            add({face[i], face[(i + 1) % face.size()]});
+        }
+    return result;
+  }
+
   void curve_boundaries()
   {
-    std::vector<std::pair<unsigned int, geometry::FittedSurface<dim>>> surfaces;
+    std::set<unsigned int> whole;
     for (const auto &entry : parameters.curved_faces)
-      {
-        const unsigned int boundary =
-          geometry::curved_boundary(mesh.boundary_names, entry.first, entry.second);
-        std::vector<dealii::Point<dim>> known;
-        for (const unsigned int corner : corners_of(boundary))
-          // Points behind those of the file are middles of chords, which lie off the surface.
-          if (corner < file.points.size())
-            known.push_back(in_space(points[corner]));
-        surfaces.emplace_back(boundary,
-                              geometry::FittedSurface<dim>(entry.first, entry.second, known));
-        mesh.surfaces[boundary] = surfaces.back().second.manifold();
-      }
-    // A point on two surfaces must reach their intersection: projections by turns approach it.
-    const unsigned int turns = surfaces.size() > 1 ? 20 : 1;
-    for (unsigned int turn = 0; turn < turns; ++turn)
-      for (const auto &surface : surfaces)
-        for (const unsigned int corner : corners_of(surface.first))
-          {
-            const auto on = surface.second.project(in_space(points[corner]));
-            for (unsigned int d = 0; d < dim; ++d)
-              points[corner][d] = on[d];
-          }
+      whole.insert(geometry::curved_boundary(mesh.boundary_names, entry.first, entry.second));
+    for (const auto &point : points)
+      mesh.vertices.push_back(in_space(point));
+    BodySurface<dim> surface({mesh.vertices.begin(), mesh.vertices.begin() + file.points.size()},
+                             middles(), facets(), whole);
+    const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes);
+    curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
   }
 
   /// Points of other regions, and the middle nodes of quadratic elements, must not count for the
@@ -227,25 +247,41 @@ private:
   {
     const unsigned int none = static_cast<unsigned int>(-1);
     Corners            number(points.size(), none);
+    const auto         all = std::move(mesh.vertices);
+    mesh.vertices.clear();
     for (auto &block : mesh.blocks)
       for (unsigned int &corner : block)
         {
           if (number[corner] == none)
             {
               number[corner] = mesh.vertices.size();
-              mesh.vertices.push_back(in_space(points[corner]));
+              mesh.vertices.push_back(all[corner]);
             }
           corner = number[corner];
         }
-    std::map<Corners, unsigned int> boundaries;
-    for (const auto &entry : mesh.boundaries)
+    const auto renumbered = [&](const auto &faces) {
+      std::decay_t<decltype(faces)> result;
+      for (const auto &entry : faces)
+        {
+          Corners key;
+          for (const unsigned int corner : entry.first)
+            key.push_back(number[corner]);
+          result[sorted(key)] = entry.second;
+        }
+      return result;
+    };
+    mesh.boundaries = renumbered(mesh.boundaries);
+    mesh.known      = renumbered(mesh.known);
+    // Coordinates change places with their vertices.
+    for (auto &entry : mesh.pieces)
       {
-        Corners key;
-        for (const unsigned int corner : entry.first)
-          key.push_back(number[corner]);
-        boundaries[sorted(key)] = entry.second;
+        std::map<unsigned int, dealii::Point<2>> at;
+        for (unsigned int i = 0; i < entry.first.size(); ++i)
+          at[number[entry.first[i]]] = entry.second.at[i];
+        std::transform(at.begin(), at.end(), entry.second.at.begin(),
+                       [](const auto &own) { return own.second; });
       }
-    mesh.boundaries = boundaries;
+    mesh.pieces = renumbered(mesh.pieces);
   }
 };
 

@@ -19,7 +19,7 @@ const std::map<unsigned long, ElementType> &vtk_types()
     {13, {S::prism, 6}},        {14, {S::pyramid, 5}},       {21, {S::line, 3}},
     {22, {S::triangle, 6}},     {23, {S::quadrilateral, 8}}, {24, {S::tetrahedron, 10}},
     {25, {S::hexahedron, 20}},  {26, {S::prism, 15}},        {28, {S::quadrilateral, 9}},
-    {29, {S::hexahedron, 27}}};
+    {29, {S::hexahedron, 27}},  {32, {S::prism, 18}}};
   return types;
 }
 
@@ -229,19 +229,16 @@ private:
                                           std::to_string(nodes[i].size()) +
                                           " points cannot be read");
         MeshFile::Element element{found->second.shape, {}, {}, i, lines[i]};
-        for (unsigned int k = 0; k < n_corners(element.shape); ++k)
-          {
-            if (nodes[i][k] >= mesh.points.size())
-              throw error_at_line(lines[i], name + " has the point " + std::to_string(nodes[i][k]) +
-                                              ", which is not there");
-            element.corners.push_back(nodes[i][k]);
-          }
+        for (const auto node : nodes[i])
+          if (node >= mesh.points.size())
+            throw error_at_line(lines[i], name + " has the point " + std::to_string(node) +
+                                            ", which is not there");
+        add_nodes(mesh, element, {nodes[i].begin(), nodes[i].end()}, vtk_middles(element.shape));
         if (!groups.empty() && groups[i] != "-1")
           {
             element.groups.push_back(groups[i]);
             mesh.unnamed[groups[i]] = true;
           }
-        mesh.corners_only = mesh.corners_only || nodes[i].size() > element.corners.size();
         mesh.elements.push_back(element);
       }
   }

@@ -13,7 +13,8 @@ namespace snug::geometry {
  * @f[ x(u) = \sum_{f} w_f S_f - \sum_{e} w_e C_e + \sum_v w_v x_v, @f]
  * w products of u_d or 1 - u_d over the axes normal to face f, edge e and
  * vertex v. Faces S and edges C of curved boundaries lie on them; where two
- * boundaries meet, C lies on one, and the face S of the other blends to it.
+ * boundaries meet, C lies on one, and the face S of the other blends to it. Pieces of the mesh say
+ * themselves where they lie.
  */
 template <int dim>
 class BlockGeometry : public BodyGeometry<dim>
@@ -34,6 +35,10 @@ public:
   {
     return mesh->regions[coarse_cell / cells_per_block()];
   }
+
+  std::vector<KnownSurface<dim>> known_surfaces() const override { return mesh->known_surfaces; }
+
+  unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override;
 
   dealii::Point<dim> position(const MeshPoint<dim> &point) const override;
 
@@ -57,7 +62,10 @@ private:
 
   unsigned int cells_per_block() const { return product(mesh->cells); }
   Point        block_position(unsigned int block, const Point &u) const;
-  Point        edge_position(const std::vector<unsigned int> &vertices, double t) const;
+  /// Of the piece with these vertices, null if there is none.
+  std::unique_ptr<Point> piece_position(const std::vector<unsigned int> &vertices,
+                                        const std::vector<double>       &weights) const;
+  Point                  edge_position(const std::vector<unsigned int> &vertices, double t) const;
   Point face_position(const std::vector<unsigned int> &vertices, const dealii::Point<2> &u) const;
   Point interpolated(const std::vector<unsigned int> &vertices,
                      const std::vector<double>       &weights,

@@ -1,6 +1,8 @@
 #ifndef snug_geometry_block_mesh_h
 #define snug_geometry_block_mesh_h
 
+#include <snug/geometry/patch.h>
+
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -27,6 +29,13 @@ struct BlockMesh
   /// A boundary face of a block: vertices in ascending order.
   using Face = std::vector<unsigned int>;
 
+  /// A part of a patch, by the coordinates of vertices in ascending order.
+  struct Piece
+  {
+    std::shared_ptr<Patch<dim>>   patch;
+    std::vector<dealii::Point<2>> at;
+  };
+
   std::vector<dealii::Point<dim>>        vertices;
   std::vector<std::vector<unsigned int>> blocks;  ///< deal.II vertex order
   std::vector<unsigned int>              regions; ///< per block
@@ -34,6 +43,11 @@ struct BlockMesh
   std::vector<std::string>               boundary_names, region_names;
   /// boundaries that are curved, and what they lie on
   std::map<unsigned int, Surface> surfaces;
+  /// edges, and in 3D boundary faces, that are curved by themselves. Those of a face lie on it.
+  std::map<Face, Piece> pieces;
+  /// shapes of boundary faces that lie on one of them to rounding
+  std::vector<KnownSurface<dim>> known_surfaces;
+  std::map<Face, unsigned int>   known; ///< indices into these
   /// coordinates in which the inside of all blocks is straight; null:
   /// Cartesian ones, blended between the faces
   Surface inside;
@@ -45,6 +59,10 @@ struct BlockMesh
 /// called @p name goes if it does not lie within it.
 template <int dim>
 void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name);
+
+/// All faces of the boundary @p index lie on @p surface.
+template <int dim>
+void set_known(BlockMesh<dim> &mesh, unsigned int index, const KnownSurface<dim> &surface);
 
 /// Remove boundaries without faces.
 template <int dim>

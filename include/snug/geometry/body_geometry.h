@@ -85,7 +85,9 @@ struct BodyMeshParameters
   std::string              file;    ///< path
   std::vector<std::string> regions; ///< of the file; empty: all
   /// number of a group without a name -> name
-  std::map<std::string, std::string>  boundary_numbers;
+  std::map<std::string, std::string> boundary_numbers;
+  /// boundary -> "facets" | "smooth"
+  std::map<std::string, std::string>  surfaces;
   std::shared_ptr<const ImportedMesh> imported; ///< what is in the file
   /// @}
 

@@ -2,8 +2,10 @@
 #define snug_geometry_curved_face_h
 
 #include <snug/geometry/formula.h>
+#include <snug/geometry/known_surface.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,9 @@ public:
   /// Outward displacement [length] of the flat face at the projection of
   /// @p point onto it. @throws InputError if a formula is not finite.
   double displacement(const dealii::Point<dim> &point) const;
+
+  /// The sphere or the cylinder; none of a formula.
+  std::optional<KnownSurface<dim>> known() const;
 
 private:
   FlatFace<dim>                 flat;

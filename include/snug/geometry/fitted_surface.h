@@ -1,41 +1,58 @@
 #ifndef snug_geometry_fitted_surface_h
 #define snug_geometry_fitted_surface_h
 
-#include <snug/geometry/block_mesh.h>
+#include <snug/geometry/known_surface.h>
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace snug::geometry {
+/// Points of a surface, and normals out of the body near some of them.
+template <int dim>
+struct SurfaceSample
+{
+  using Point = dealii::Point<dim>;
+
+  std::vector<Point>                  points;
+  std::vector<Point>                  at; ///< of the normals
+  std::vector<dealii::Tensor<1, dim>> normals;
+
+  /// Of the points from @p surface.
+  double largest_distance(const KnownSurface<dim> &surface) const;
+
+  /// @p surface, convex or not as the normals say.
+  KnownSurface<dim> faced(KnownSurface<dim> surface) const;
+};
+
 /**
- * The sphere, or the cylinder of a given direction, that fits points best:
- * least squares of |x|^2 = 2 c.x + (R^2 - |c|^2) in the centre c and R.
+ * The sphere or, with a unit vector @p axis, the cylinder that fits the points best: least squares
+ * of |x|^2 = 2 c.x + (R^2 - |c|^2) in the centre c and R.
  */
 template <int dim>
-class FittedSurface
-{
-public:
-  /**
-   * @p value: "sphere" or, in 3D, "cylinder AXIS" with the axis x, y or z;
-   * in 2D both are circles, the axis is z.
-   * @throws InputError naming the entry Curved faces if @p value is none of
-   *   these, or a point is off by more than 1e-4 R.
-   */
-  FittedSurface(const std::string                     &boundary,
-                const std::string                     &value,
-                const std::vector<dealii::Point<dim>> &points);
+KnownSurface<dim> fitted_round(const SurfaceSample<dim>     &sample,
+                               const dealii::Tensor<1, dim> &axis);
 
-  /// The nearest point on it.
-  dealii::Point<dim> project(const dealii::Point<dim> &point) const;
+/**
+ * The surface of the entry "Curved faces = boundary: value", where @p value is "sphere" or, in
+ * 3D, "cylinder AXIS" with the axis x, y or z; in 2D both are circles, the axis is z.
+ * @throws InputError naming the entry if @p value is none of these, or a point is off by more
+ *   than 1e-4 R.
+ */
+template <int dim>
+KnownSurface<dim> fitted_surface(const std::string        &boundary,
+                                 const std::string        &value,
+                                 const SurfaceSample<dim> &sample);
 
-  typename BlockMesh<dim>::Surface manifold() const;
+/// The sphere, cylinder, cone or torus, the first of these, from which no point is farther than
+/// @p tolerance. None for fewer points than 3/2 of its unknown numbers.
+template <int dim>
+std::optional<KnownSurface<dim>> recognized_surface(const SurfaceSample<dim> &sample,
+                                                    double                    tolerance);
 
-private:
-  unsigned int       straight_axis = dim; ///< of a cylinder
-  dealii::Point<dim> centre;
-  double             radius = 0.;
-
-  /// From the centre, or from the axis of a cylinder.
-  dealii::Tensor<1, dim> offset(const dealii::Point<dim> &point) const;
-  void                   fit(const std::vector<dealii::Point<dim>> &points);
-};
+/// "cylinder of radius 10", in 2D "circle".
+template <int dim>
+std::string describe(const KnownSurface<dim> &surface);
 } // namespace snug::geometry
 
 #endif

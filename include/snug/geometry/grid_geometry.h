@@ -43,6 +43,13 @@ protected:
   /// Cells along the axes.
   const Counts cells;
 
+  /// Whether the face @p face of a coarse cell is on that side of the body.
+  bool at_side(unsigned int coarse_cell, unsigned int face) const
+  {
+    const unsigned int d = face / 2;
+    return multi_index(coarse_cell, cells)[d] == (face % 2 == 1 ? cells[d] - 1 : 0);
+  }
+
 private:
   std::vector<std::string> names;
   bool                     closed;

@@ -8,6 +8,11 @@ namespace snug::mesh_file {
 /// has dimensions: their other ends, right-handed. Empty for pyramids.
 const std::vector<std::vector<unsigned int>> &corner_neighbours(ElementShape shape);
 
+/// Corners of the faces of an element, of flat ones its edges, in Abaqus' order (S1, S2, ...). They
+/// go round such that the normal by the right-hand rule points into the element, which lies to the
+/// left of the edges of a flat one. None for pyramids.
+const std::vector<std::vector<unsigned int>> &faces_of(ElementShape shape);
+
 /// Whether all elements of the shape are lines, quadrilaterals or
 /// hexahedra, the shapes of cells and their faces.
 bool is_cell_shape(ElementShape shape);
@@ -29,12 +34,12 @@ public:
   /// Vertices of the parts in deal.II's order.
   std::vector<std::vector<unsigned int>> parts(const MeshFile::Element &element);
 
+  /// Index of the middle of the points with these indices.
+  unsigned int middle(std::vector<unsigned int> corners);
+
 private:
   std::vector<dealii::Point<3>>                    &points;
   std::map<std::vector<unsigned int>, unsigned int> middles;
-
-  /// Index of the middle of the points with these indices.
-  unsigned int middle(std::vector<unsigned int> corners);
 };
 } // namespace snug::mesh_file
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace snug::mesh_file {
-/// Linear shapes of elements. Corners are numbered as in VTK: around the
+/// Shapes of elements. Corners are numbered as in VTK: around the
 /// bottom, then around the top.
 enum class ElementShape
 {
@@ -46,8 +46,9 @@ struct MeshFile
   std::vector<Element>          elements;
   /// Groups the file tells only by number, for lack of a name.
   std::map<std::string, bool> unnamed;
-  /// Elements were quadratic; only their corners were taken.
-  bool corners_only = false;
+  /// Points in the middle of edges and quadrilaterals of quadratic elements, by the corners of
+  /// these in ascending order.
+  std::map<std::vector<unsigned int>, unsigned int> middles;
 };
 
 /**

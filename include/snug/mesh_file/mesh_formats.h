@@ -29,6 +29,21 @@ MeshFile read_vtk(const std::string &text);
 MeshFile read_ucd(const std::string &text);
 /// @}
 
+/// Of the nodes of a quadratic element that follow its corners: the corners of the edge, face or
+/// element in whose middle each of them lies.
+using MiddleOrder = std::vector<std::vector<unsigned int>>;
+
+/// The order of VTK and, for elements of up to 20 nodes, of Abaqus; that of Gmsh.
+const MiddleOrder &vtk_middles(ElementShape shape);
+const MiddleOrder &gmsh_middles(ElementShape shape);
+
+/// Of the @p nodes of an element, corners first, add the corners to @p element and the others to
+/// the middles of the mesh.
+void add_nodes(MeshFile                        &mesh,
+               MeshFile::Element               &element,
+               const std::vector<unsigned int> &nodes,
+               const MiddleOrder               &order);
+
 /// What the elements of a type of a format are; quadratic ones have more nodes than corners.
 struct ElementType
 {

@@ -1,0 +1,256 @@
+#include <snug/geometry/curved_face.h>
+#include <snug/geometry/entry_values.h>
+#include <snug/mesh_file/surface_shapes.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iomanip>
+
+namespace snug::mesh_file {
+namespace {
+template <typename T>
+void add_once(std::vector<T> &list, const T &value)
+{
+  if (std::find(list.begin(), list.end(), value) == list.end())
+    list.push_back(value);
+}
+
+/// The fewest digits that give @p value.
+int digits(const double value)
+{
+  char text[40];
+  for (int n = 1; n < 17; ++n)
+    {
+      std::snprintf(text, sizeof text, "%.*e", n - 1, value);
+      if (std::strtod(text, nullptr) == value)
+        return n;
+    }
+  return 17;
+}
+} // namespace
+
+template <int dim>
+double last_digit(const std::vector<dealii::Point<dim>> &points)
+{
+  int    most    = 0;
+  double largest = 0.;
+  bool   single  = true;
+  // a sample of some thousand
+  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 1000)
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double x = points[i][d];
+        most           = std::max(most, digits(x));
+        largest        = std::max(largest, std::abs(x));
+        single         = single && static_cast<double>(static_cast<float>(x)) == x;
+      }
+  if (most > 4 && most < 13)
+    return std::pow(10., std::floor(std::log10(largest)) + 1 - most);
+  return single && most > 4 ? 1.2e-7 * largest : 0.;
+}
+
+template <int dim>
+SurfaceShapes<dim>::SurfaceShapes(BodySurface<dim>                   &the_surface,
+                                  const geometry::BodyMeshParameters &parameters,
+                                  const std::vector<std::string>     &boundary_names,
+                                  std::vector<std::string>           &notes)
+  : surface(the_surface)
+  , parameters(parameters)
+  , names(boundary_names)
+  , notes(notes)
+  , digit(last_digit(surface.points))
+{
+  read_entries();
+  for (const auto &part : surface.parts)
+    shapes.push_back(shape_of(part));
+  move_nodes();
+}
+
+template <int dim>
+void SurfaceShapes<dim>::read_entries()
+{
+  for (const auto &entry : parameters.surfaces)
+    {
+      const unsigned int boundary = geometry::index_of(names, entry.first);
+      const std::string  given    = entry.first + ": " + entry.second;
+      if (boundary == names.size())
+        throw bad_entry("Surface", given, "the faces are " + to_text(names));
+      if (entry.second != "facets" && entry.second != "smooth")
+        throw bad_entry("Surface", given, "must be 'facets' or 'smooth'");
+      wanted[boundary] = entry.second;
+    }
+  for (const auto &entry : parameters.curved_faces)
+    {
+      const unsigned int boundary = geometry::curved_boundary(names, entry.first, entry.second);
+      std::vector<unsigned int> facets;
+      for (unsigned int f = 0; f < surface.facets.size(); ++f)
+        if (surface.facets[f].boundary == boundary)
+          facets.push_back(f);
+      said[boundary] = surfaces.size();
+      surfaces.push_back(
+        geometry::fitted_surface(entry.first, entry.second, sample(facets, false)));
+    }
+}
+
+template <int dim>
+geometry::SurfaceSample<dim> SurfaceShapes<dim>::sample(const std::vector<unsigned int> &facets,
+                                                        const bool middles) const
+{
+  geometry::SurfaceSample<dim> result;
+  std::set<unsigned int>       nodes;
+  const auto                   add_middle = [&](const Corners &of) {
+    const auto found = surface.middles.find(of);
+    if (middles && found != surface.middles.end())
+      nodes.insert(found->second);
+  };
+  for (const unsigned int f : facets)
+    {
+      const Corners &corners = surface.facets[f].corners;
+      nodes.insert(corners.begin(), corners.end());
+      for (const Corners &edge : surface.edges(f))
+        add_middle(edge);
+      add_middle(geometry::sorted(corners));
+      result.at.push_back(surface.centre(f));
+      result.normals.push_back(surface.normal(f));
+    }
+  for (const unsigned int node : nodes)
+    result.points.push_back(surface.points[node]);
+  return result;
+}
+
+template <int dim>
+typename SurfaceShapes<dim>::Shape
+SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
+{
+  Shape              result;
+  const unsigned int boundary = surface.facets[part[0]].boundary;
+  if (said.count(boundary) > 0)
+    {
+      result.kind        = Kind::known;
+      result.known_index = said[boundary];
+      return result;
+    }
+  const std::string want      = wanted.count(boundary) > 0 ? wanted[boundary] : "";
+  const bool        quadratic = want != "smooth" && surface.is_quadratic(part[0]);
+  if (want == "facets")
+    return result;
+  const auto points = sample(part, quadratic);
+  double     size   = 0.;
+  for (const Point &point : points.points)
+    size = std::max(size, point.distance(points.points[0]));
+  const double tolerance = std::min(std::max(1e-6 * size, digit), 1e-4 * size);
+  const double kink      = quadratic || want == "smooth" ? 0. : largest_kink(part);
+  const auto  &name      = names[boundary];
+  if (is_plane(points, tolerance, result.normal))
+    result.kind = Kind::plane;
+  // Round, or a polygon? Its nodes lie on the circle in either case.
+  else if (kink > 15.)
+    add_once(notes, "boundary " + name + " stays facets, as these turn by up to " +
+                      std::to_string(std::lround(kink)) + " degrees; 'Surface = " + name +
+                      ": smooth' smooths it");
+  else if ((result.known_index = recognized(points, tolerance, name)) != none)
+    result.kind = Kind::known;
+  else
+    result.kind = quadratic ? Kind::quadratic : Kind::smooth;
+  if (result.kind == Kind::quadratic)
+    add_once(notes, "boundary " + name + " has the shape of its quadratic elements");
+  if (result.kind == Kind::smooth)
+    add_once(notes, "boundary " + name + " is a smooth surface through its nodes");
+  return result;
+}
+
+template <int dim>
+bool SurfaceShapes<dim>::is_plane(const geometry::SurfaceSample<dim> &points,
+                                  const double                        tolerance,
+                                  Vector                             &n) const
+{
+  n = Vector();
+  for (const auto &normal : points.normals)
+    n += normal / double(points.normals.size());
+  // e.g. all around a hole
+  if (n.norm() < 0.5)
+    return false;
+  n /= n.norm();
+  // Nodes of planes across an axis shall keep their coordinate to the last digit.
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::abs(n[d]) < 1e-10)
+      n[d] = 0.;
+  n /= n.norm();
+  return std::all_of(points.points.begin(), points.points.end(), [&](const Point &point) {
+    return std::abs((point - points.points[0]) * n) <= tolerance;
+  });
+}
+
+template <int dim>
+double SurfaceShapes<dim>::largest_kink(const std::vector<unsigned int> &part) const
+{
+  double largest = 0.;
+  for (const unsigned int f : part)
+    for (const Corners &ridge : surface.ridges_of(f))
+      if (!surface.ridges.at(ridge).is_feature)
+        largest = std::max(largest, surface.kink(ridge));
+  return largest;
+}
+
+template <int dim>
+unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &points,
+                                            const double                        tolerance,
+                                            const std::string                  &name)
+{
+  // Two parts of one cylinder must not get two that differ by round-off.
+  unsigned int index = 0;
+  while (index < surfaces.size() &&
+         !(points.largest_distance(surfaces[index]) <= tolerance &&
+           points.faced(surfaces[index]).convex == surfaces[index].convex))
+    ++index;
+  if (index == surfaces.size())
+    {
+      const auto found = geometry::recognized_surface(points, tolerance);
+      if (!found)
+        return none;
+      surfaces.push_back(*found);
+    }
+  std::ostringstream text;
+  text << "boundary " << name << " is a " << geometry::describe(surfaces[index])
+       << " (largest deviation " << std::setprecision(1) << points.largest_distance(surfaces[index])
+       << ")";
+  add_once(notes, text.str());
+  return index;
+}
+
+template <int dim>
+geometry::Guides<dim> SurfaceShapes<dim>::guides(const std::vector<unsigned int> &facets) const
+{
+  std::set<unsigned int> indices; // ascending: the same of all facets that meet
+  geometry::Guides<dim>  result;
+  for (const unsigned int f : facets)
+    {
+      const Shape &shape = of_facet(f);
+      if (shape.kind == Kind::known)
+        indices.insert(shape.known_index);
+      else if (shape.kind == Kind::plane)
+        add_once(result.planes, shape.normal);
+    }
+  for (const unsigned int index : indices)
+    result.surfaces.push_back(surfaces[index]);
+  return result;
+}
+
+/// To the last digit, as rounding of the file must not tilt normals.
+template <int dim>
+void SurfaceShapes<dim>::move_nodes()
+{
+  for (const auto &node : surface.facets_at)
+    {
+      const auto on = guides(node.second);
+      if (!on.surfaces.empty())
+        surface.points[node.first] = on.onto(surface.points[node.first]);
+    }
+}
+
+template class SurfaceShapes<2>;
+template class SurfaceShapes<3>;
+template double last_digit(const std::vector<dealii::Point<2>> &);
+template double last_digit(const std::vector<dealii::Point<3>> &);
+} // namespace snug::mesh_file
