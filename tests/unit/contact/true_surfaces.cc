@@ -86,3 +86,96 @@ TEST(TrueSurfaces, MortarGapsAreMeansOfThoseOfTheSpheres)
   expect_gaps(Socket<2>(8, 6, 1, "mortar"), 2e-4);
   expect_gaps(Socket<3>(8, 6, 1, "mortar"), 4e-4);
 }
+
+namespace {
+/// A full pin in a full plate, or a ball in a shell, whose meshes do not match.
+template <int dim>
+struct Round
+{
+  using Bodies = std::vector<geometry::BodyMeshParameters>;
+
+  static Bodies bodies(unsigned int n_pin, unsigned int n_plate)
+  {
+    Bodies result(2);
+    for (unsigned int b = 0; b < 2; ++b)
+      {
+        result[b].source             = dim == 2 ? geometry::Source::ring : geometry::Source::shell;
+        result[b].inner_radius       = b == 0 ? 0.5 : 1.01;
+        result[b].radius             = b == 0 ? 1. : 2.;
+        result[b].round_cells        = {b == 0 ? n_pin : n_plate, 1};
+        result[b].sampled_boundaries = {b == 0 ? "outer" : "inner"};
+        // Off the origin and turned, so that nothing is round by its digits alone.
+        result[b].rotate = {{"z", "17"}};
+        result[b].shift  = std::vector<double>(dim, 0.3);
+      }
+    return result;
+  }
+
+  Round(unsigned int n_pin, unsigned int n_plate, unsigned int degree)
+    : mesh(MPI_COMM_WORLD, bodies(n_pin, n_plate), degree)
+    , surface(mesh, {side(0, "outer"), side(1, "inner")})
+  {}
+
+  Pair::Side side(unsigned int body, const std::string &name) const
+  {
+    return {body, geometry::boundary_index(mesh.geometry(body), name)};
+  }
+
+  /// The largest moment of a row's forces on the pin about the common centre, for a unit force.
+  double largest_moment(Method method) const
+  {
+    Pair pair{side(0, "outer"), side(1, "inner"), "pin", "plate"};
+    pair.parameters.method = method;
+    const Contact<dim>     contact(surface, {pair}, mesh.degree(), surface.reference_positions(),
+                                   faces::HeldDirections<dim>(surface.n_nodes()));
+    dealii::Tensor<1, dim> centre;
+    for (unsigned int d = 0; d < dim; ++d)
+      centre[d] = 0.3;
+    double largest = 0.;
+    for (const auto &row : contact.rows(surface.reference_positions()))
+      for (const unsigned int body : {0, 1})
+        {
+          dealii::Tensor<1, 3> moment;
+          for (const auto &[node, force] : row.coefficients)
+            if (is_of(body, node))
+              moment += cross_product_3d(in_space(surface.reference_positions()[node] - centre),
+                                         in_space(force));
+          largest = std::max(largest, moment.norm());
+        }
+    return largest;
+  }
+
+  static dealii::Tensor<1, 3> in_space(const dealii::Tensor<1, dim> &v)
+  {
+    dealii::Tensor<1, 3> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = v[d];
+    return result;
+  }
+
+  bool is_of(unsigned int body, unsigned int node) const
+  {
+    return mesh.body_of_node(mesh.local_node(surface.global_node(node))) == body;
+  }
+
+  mesh::BodyMesh<dim> mesh;
+  mesh::Surface<dim>  surface;
+};
+} // namespace
+
+/// Facets would give moments of 1e-3 to 1e-2; each of the bodies has none by itself.
+TEST(TrueSurfaces, RoundBodiesTurnFreely)
+{
+  int n_ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+  if (n_ranks > 1)
+    GTEST_SKIP() << "nodes of both bodies are asked for on one rank";
+  for (const auto method : {Method::nodal, Method::mortar})
+    for (const unsigned int degree : {1, 2})
+      {
+        EXPECT_LT(Round<2>(12, 15, degree).largest_moment(method), 1e-14) << degree;
+        EXPECT_LT(Round<2>(31, 20, degree).largest_moment(method), 1e-14) << degree;
+      }
+  EXPECT_LT(Round<3>(2, 3, 1).largest_moment(Method::nodal), 1e-14);
+  EXPECT_LT(Round<3>(2, 3, 1).largest_moment(Method::mortar), 1e-14);
+}

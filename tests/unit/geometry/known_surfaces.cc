@@ -14,7 +14,7 @@ namespace {
 template <int dim>
 void expect_known(const geometry::BodyMeshParameters &parameters, unsigned int n)
 {
-  SCOPED_TRACE(parameters.source);
+  SCOPED_TRACE(to_text(parameters.source));
   const auto                                     body = geometry::make_geometry<dim>(parameters);
   const auto                                     surfaces = body->known_surfaces();
   const auto                                     mesh     = body->coarse_mesh();
@@ -60,21 +60,23 @@ TEST(KnownSurfaces, GeneratedBodiesSayWhatTheyAre)
   geometry::BodyMeshParameters parameters;
   parameters.shift  = {0.3, -0.2};
   parameters.rotate = {{"z", "25"}};
-  for (const std::string part : {"full", "half", "quarter"})
+  using geometry::Part;
+  using geometry::Source;
+  for (const auto part : {Part::full, Part::half, Part::quarter})
     {
       parameters.part   = part;
-      parameters.source = "ring";
+      parameters.source = Source::ring;
       parameters.shift  = {0.3, -0.2};
       expect_known<2>(parameters, 2);
-      parameters.source = "disc";
+      parameters.source = Source::disc;
       expect_known<2>(parameters, 1);
       parameters.shift = {0.3, -0.2, 0.1};
-      for (const std::string source : {"cylinder", "sphere"})
+      for (const auto source : {Source::cylinder, Source::sphere})
         {
           parameters.source = source;
           expect_known<3>(parameters, 1);
         }
-      for (const std::string source : {"ring", "shell"})
+      for (const auto source : {Source::ring, Source::shell})
         {
           parameters.source = source;
           expect_known<3>(parameters, 2);
@@ -85,7 +87,7 @@ TEST(KnownSurfaces, GeneratedBodiesSayWhatTheyAre)
 TEST(KnownSurfaces, OfABoxUnlessAFaceBesideMovesThem)
 {
   geometry::BodyMeshParameters parameters;
-  parameters.source       = "box";
+  parameters.source       = geometry::Source::box;
   parameters.cells        = {2, 3, 2};
   parameters.curved_faces = {{"top", "sphere 4"}};
   expect_known<3>(parameters, 1);
