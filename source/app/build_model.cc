@@ -50,9 +50,8 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
       const auto &body = scene.bodies[b];
       model.body_names.push_back(body.name);
       model.bodies.emplace_back();
-      model.bodies.back().materials = materials_of(scene, body, mesh.geometry(b).region_names());
-      model.bodies.back().formulation =
-        choose(elasticity::formulation_table(), body.formulation).make();
+      model.bodies.back().materials   = materials_of(scene, body, mesh.geometry(b).region_names());
+      model.bodies.back().formulation = body.formulation;
     }
   model.load_cases = build_load_cases(scene, mesh);
   model.supports   = build_supports(scene, mesh);

@@ -12,7 +12,8 @@ Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem) : problem(problem)
   for (const Constraint &constraint : constraints)
     measured.push_back({constraint.response.get(), constraint.load_case});
   // its scale is that of the first design, whatever a journal replays
-  if (problem.scene.optimization.combine == "worst" && problem.n_load_cases() > 1)
+  if (problem.scene.optimization.combine == optimization::Combination::worst &&
+      problem.n_load_cases() > 1)
     problem.combined_objective(first_states());
 }
 
@@ -53,8 +54,8 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
     warm_starts.push_back({state.dual.lambda, state.dual.active});
 
   auto parameters = problem.scene.gradient;
-  if (parameters.method == "energy") // not for every constraint
-    parameters.method = "auto";
+  if (parameters.method == sensitivity::Method::energy) // not for every constraint
+    parameters.method.reset();
   const auto objective = problem.combined_objective(states);
   gradients = sensitivity::combined_gradients(problem.load_cases(states, design, parameters),
                                               *problem.objective, objective.factors, measured);

@@ -121,7 +121,7 @@ typename Inventory<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mesh,
 
 /// @p size: of the body, against which round-off does not show.
 template <int dim>
-std::string to_text(const Box<dim> &box, double size)
+std::string extents(const Box<dim> &box, double size)
 {
   const double       least = 1e-9 * size;
   std::ostringstream text;
@@ -165,7 +165,7 @@ void print(const Inventory<dim> &inventory, std::ostream &out)
     {
       const double size = body.box.lower.distance(body.box.upper);
       out << "body " << body.name << ": " << body.n_cells << " cells, "
-          << to_text<dim>(body.box, size) << '\n';
+          << extents<dim>(body.box, size) << '\n';
       if (body.regions.size() > 1)
         for (const auto &region : body.regions)
           {
@@ -180,7 +180,7 @@ void print(const Inventory<dim> &inventory, std::ostream &out)
         width = std::max(width, boundary.name.size());
       for (const auto &boundary : body.boundaries)
         out << "  " << std::left << std::setw(width) << boundary.name << "  area " << std::setw(10)
-            << boundary.area << "  " << to_text<dim>(boundary.box, size) << '\n';
+            << boundary.area << "  " << extents<dim>(boundary.box, size) << '\n';
     }
 }
 

@@ -79,7 +79,7 @@ void Observer<dim>::report(const Iteration &iteration, const unsigned int before
         {
           const auto &of_objective = evaluator.gradients.of_response.front();
           if (!of_objective.reason.empty())
-            out << "auto takes " << of_objective.method
+            out << "auto takes " << to_text(of_objective.method)
                 << " for the objective: " << of_objective.reason << std::endl;
           results.add_first(evaluator.states, of_objective.shape);
         }
@@ -147,13 +147,13 @@ void finish(Observer<dim> &observer, const OptimizationResult &result)
   results.export_shape(result.x);
 
   auto &gradient               = results.summary.gradient.emplace();
-  gradient.method              = of_objective.method;
+  gradient.method              = to_text(of_objective.method);
   gradient.reason              = of_objective.reason;
   gradient.differentiable      = of_objective.differentiable;
   gradient.f_mults             = evaluator.gradients.f_mults;
   gradient.seconds             = evaluator.gradients.seconds;
   gradient.values              = result.evaluation.gradient;
-  results.summary.optimization = {{result}, problem.scene.optimization.algorithm};
+  results.summary.optimization = {{result}, to_text(problem.scene.optimization.algorithm)};
   results.write_summary();
   print_end(problem, result, results.first(), states);
 }

@@ -46,7 +46,7 @@ void Results<dim>::print_header()
     ++rows[place.pair];
   for (unsigned int p = 0; p < pairs.size(); ++p)
     out << "contact " << pairs[p].name() << ", "
-        << (pairs[p].obstacle ? "obstacle" : pairs[p].parameters.method) << ", " << rows[p]
+        << (pairs[p].obstacle ? "obstacle" : to_text(pairs[p].parameters.method)) << ", " << rows[p]
         << " rows" << std::endl;
   warn(state::overlap_warnings(pairs, solver.contact().overlaps()));
 }

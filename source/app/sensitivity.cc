@@ -7,6 +7,9 @@
 #include <ostream>
 
 namespace snug::app {
+using sensitivity::Derivatives;
+using By = sensitivity::Method;
+
 namespace {
 void print_table(std::ostream &out, const std::vector<io::Summary::GradientRow> &rows)
 {
@@ -51,7 +54,7 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
   for (const Method &method : methods())
     {
       // before differences, which leave the solver at another design
-      if (method.is_difference && one_sided)
+      if (one_sided && method.parameters.method == By::finite_differences)
         {
           add_one_sided();
           one_sided = false;
@@ -61,7 +64,7 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
   if (one_sided)
     add_one_sided();
   for (const auto &row : gradient.methods)
-    if (row.method == chosen)
+    if (row.method == to_text(chosen))
       static_cast<io::Summary::GradientRow &>(gradient) = row;
   print_table(problem.context.out(), gradient.methods);
 }
@@ -69,47 +72,49 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
 template <int dim>
 void Sensitivity<dim>::choose_method()
 {
-  chosen = problem.scene.gradient.method;
+  const auto &given = problem.scene.gradient.method;
   // adjoint and direct solve nothing for what depends on the geometry alone
   const bool needs_no_solve =
-    !problem.objective->needs_solution() && (chosen == "adjoint" || chosen == "direct");
-  if (chosen != "auto" && !needs_no_solve)
-    return;
+    !problem.objective->needs_solution() && (given == By::adjoint || given == By::direct);
+  if (given && !needs_no_solve)
+    {
+      chosen = *given;
+      return;
+    }
   const auto choice =
     sensitivity::cheapest_methods<dim>({problem.objective.get()}, problem.shapes->n_variables())
       .front();
   chosen          = choice.method;
   gradient.reason = choice.reason;
-  problem.context.out() << problem.scene.gradient.method << " takes " << chosen << ": "
-                        << choice.reason << std::endl;
+  problem.context.out() << to_text(given) << " takes " << to_text(chosen) << ": " << choice.reason
+                        << std::endl;
 }
 
 template <int dim>
 std::vector<typename Sensitivity<dim>::Method> Sensitivity<dim>::methods() const
 {
   const auto &given = problem.scene.gradient;
-  const auto  named = [&](const std::string &name, const std::string &method,
-                         const std::string &derivatives) {
-    Method result{name, given, method == "finite differences"};
+  const auto  by    = [&](const By method, const Derivatives derivatives) {
+    Method result{to_text(method), given};
     result.parameters.method      = method;
     result.parameters.derivatives = derivatives;
     return result;
   };
   if (!given.compare)
-    return {named(chosen, chosen, given.derivatives)};
+    return {by(chosen, given.derivatives)};
   const auto         &response = *problem.objective;
   std::vector<Method> list;
   if (!sensitivity::needs_solve(response))
-    list.push_back(named("energy", "energy", "exact"));
+    list.push_back(by(By::energy, Derivatives::exact));
   if (response.needs_solution())
     {
-      list.push_back(named("adjoint", "adjoint", "exact"));
-      list.push_back(named("direct", "direct", "exact"));
-      list.push_back(
-        named("semi-analytic", "direct",
-              given.derivatives == "exact" ? "central differences" : given.derivatives));
+      list.push_back(by(By::adjoint, Derivatives::exact));
+      list.push_back(by(By::direct, Derivatives::exact));
+      list.push_back(by(By::direct, given.derivatives == Derivatives::exact ? Derivatives::central
+                                                                            : given.derivatives));
+      list.back().name = "semi-analytic";
     }
-  list.push_back(named("finite differences", "finite differences", "exact"));
+  list.push_back(by(By::finite_differences, Derivatives::exact));
   return list;
 }
 
@@ -128,15 +133,15 @@ void Sensitivity<dim>::add(const Method &method)
   row.seconds                = result.seconds;
   row.values                 = of_objective.values;
   row.differentiable         = of_objective.differentiable;
-  if (method.is_difference)
+  if (method.parameters.method == By::finite_differences)
     row.step = method.parameters.step;
-  else if (method.parameters.derivatives != "exact")
+  else if (method.parameters.derivatives != Derivatives::exact)
     row.step = method.parameters.semi_analytic_step;
-  if (method.name == "direct")
+  if (method.parameters.method == By::direct && reference.empty())
     reference = result.displacement;
   else if (!result.displacement.empty() && !reference.empty())
     row.displacement_difference = displacement_difference(result.displacement);
-  if (method.name == chosen)
+  if (method.name == to_text(chosen))
     shape_gradient = of_objective.shape;
   gradient.methods.push_back(row);
 }

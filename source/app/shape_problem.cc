@@ -71,8 +71,7 @@ optimization::Combined ShapeProblem<dim>::combined_objective(const States &state
     }
   if (objective_scale == 0.)
     objective_scale = largest;
-  return choose(optimization::combination_table(), scene.optimization.combine)
-    .make(values, weights, objective_scale);
+  return optimization::combined(scene.optimization.combine, values, weights, objective_scale);
 }
 
 template <int dim>

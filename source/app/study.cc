@@ -129,7 +129,7 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
   if (!options.restart)
     io::remove_results(context, output_directories(scene));
   Results<dim> results(problem);
-  results.summary.task = scene::to_text(scene.task);
+  results.summary.task = to_text(scene.task);
   results.print_header();
   std::string complaint;
   switch (scene.task)
@@ -156,7 +156,7 @@ void run_study(RunContext &context, const scene::Scene &scene, const Options &op
 {
   if (options.restart && scene.task != scene::Task::optimize)
     throw InputError(scene.file + ": option '--restart' goes on with an " +
-                     "optimization, but 'Task' = " + scene::to_text(scene.task));
+                     "optimization, but 'Task' = " + to_text(scene.task));
   if (scene.dimension == 2)
     run_task<2>(context, scene, options);
   else

@@ -55,10 +55,16 @@ Form allowed(const std::string &description)
   return form;
 }
 
-Form choice(const std::string &names)
+Form choice(const Names &names)
 {
   Form form;
-  form.choices = split(names, '|');
+  for (const auto &[name, meaning] : names)
+    {
+      form.choices.push_back(name);
+      if (!meaning.empty())
+        form.explained += (form.explained.empty() ? " " : "; ") + name + ": " + meaning;
+    }
+  form.explained += form.explained.empty() ? "" : ".";
   form.allowed = (form.choices.size() > 1 ? "one of " : "") + to_text(form.choices);
   return form;
 }

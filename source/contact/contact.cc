@@ -37,7 +37,7 @@ void choose_slave(const mesh::Surface<dim>                 &surface,
   const auto size = [&](const Pair::Side &side) {
     return mean_face_size(surface, faces_of(surface, side), positions);
   };
-  if (pair.parameters.slave == "finer" && !pair.obstacle &&
+  if (pair.parameters.slave == Slave::finer && !pair.obstacle &&
       size(pair.master) < (1. - finer_by) * size(pair.slave))
     {
       std::swap(pair.slave, pair.master);
@@ -45,7 +45,7 @@ void choose_slave(const mesh::Surface<dim>                 &surface,
     }
   // The choice is made once: a design that changes which side is finer must not exchange the sides
   // when contact is paired anew.
-  pair.parameters.slave = "first";
+  pair.parameters.slave = Slave::first;
 }
 
 /// Value of a field at the slave of a row less that at its master, if
@@ -71,17 +71,6 @@ double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &norm
   return (v - (v * normal) * normal).norm();
 }
 } // namespace
-
-template <int dim>
-const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> &contact_method_table()
-{
-  static const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> table = {
-    {"nodal", "slave nodes against the closest points of master faces", nodal_rows<dim>},
-    {"mortar",
-     "mean gaps around slave nodes, integrated over both faces: for meshes that do not match",
-     [](const PairGeometry<dim> &pair) { return std::make_unique<MortarRows<dim>>(pair); }}};
-  return table;
-}
 
 template <int dim>
 Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
@@ -170,9 +159,12 @@ typename Contact<dim>::Group Contact<dim>::make_group(const PairGeometry<dim> &g
 {
   const PairParameters &parameters = geometry.pair.parameters;
   Group                 group;
-  group.rows = geometry.pair.obstacle
-                 ? obstacle_rows(geometry)
-                 : choose(contact_method_table<dim>(), parameters.method).make(geometry);
+  if (geometry.pair.obstacle)
+    group.rows = obstacle_rows(geometry);
+  else if (parameters.method == Method::nodal)
+    group.rows = nodal_rows(geometry);
+  else
+    group.rows = std::make_unique<MortarRows<dim>>(geometry);
   group.step = gap_step * geometry.slave_size();
   if (parameters.gap != "0")
     group.offset = std::make_unique<geometry::Formula<dim>>("Gap", parameters.gap);
@@ -305,10 +297,6 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
   return result;
 }
 
-template const ChoiceTable<std::unique_ptr<RowGroup<2>>(const PairGeometry<2> &)> &
-contact_method_table();
-template const ChoiceTable<std::unique_ptr<RowGroup<3>>(const PairGeometry<3> &)> &
-contact_method_table();
 template class Contact<2>;
 template class Contact<3>;
 } // namespace snug::contact

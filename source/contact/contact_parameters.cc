@@ -8,7 +8,7 @@ namespace snug::contact {
 void ObstacleParameters::declare(Entries &entries)
 {
   const Form vector = per_dimension({}, "finite numbers separated by commas");
-  entries.add("Shape", shape, choice(obstacle_table<3>()), "What it fills.");
+  entries.add("Shape", shape, choice(names(obstacle_table<3>())), "What it fills.");
   entries.add("Point", point, vector,
               "On the plane, centre of the sphere, on the axis of the cylinder, or origin of the "
               "formula [length]; empty: 0.");
@@ -46,14 +46,15 @@ void ObstacleParameters::check(const SectionCheck &section) const
   };
   require_direction("Normal", normal);
   require_direction("Axis", axis);
-  if (shape == "formula")
+  const auto &read = choose(obstacle_table<3>(), shape).entries;
+  if (std::find(read.begin(), read.end(), "Formula") != read.end())
     geometry::require_formula(section, "Formula", formula, formula);
 }
 
 void PairParameters::declare(Entries &entries)
 {
-  entries.add("Method", method, choice(contact_method_table<3>()), "How two faces meet.");
-  entries.add("Slave", slave, choice("finer|first"),
+  entries.add("Method", method, "How two faces meet.");
+  entries.add("Slave", slave,
               "Whose nodes must not penetrate the other face. finer: that of the smaller faces on "
               "average; first: the one that is named first, as also for meshes within a tenth.");
   entries.add("Search distance", search_distance, at_least(0., "must be 0 or above"),
@@ -72,7 +73,7 @@ void PairParameters::declare(Entries &entries)
 
 void PairParameters::check(const SectionCheck &section) const
 {
-  section.require(method != "mortar" || largest_angle <= 60. ||
+  section.require(method != Method::mortar || largest_angle <= 60. ||
                     largest_angle == PairParameters().largest_angle,
                   "Largest angle", to_text(largest_angle), "must be at most 60 for mortar");
   geometry::require_formula(section, "Gap", gap, gap);

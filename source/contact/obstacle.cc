@@ -101,7 +101,8 @@ const ChoiceTable<Make<dim>> &obstacle_table()
      "coordinate direction",
      [](const ObstacleParameters &parameters, double element_size) {
        return std::make_unique<LevelSet<dim>>(parameters, element_size);
-     }}};
+     },
+     {"Point", "Axis", "Formula"}}};
   return table;
 }
 

@@ -3,26 +3,14 @@
 #include <deal.II/base/exceptions.h>
 
 namespace snug::elasticity {
-/// Errors are of order h, h, h^2 and h^4.
-const ChoiceTable<Stencil()> &stencil_table()
+Stencil stencil(const Differences differences)
 {
-  static const ChoiceTable<Stencil()> table = {
-    {"forward", "(f(h) - f(0)) / h",
-     []() {
-       return Stencil{{0., 1.}, {-1., 1.}};
-     }},
-    {"backward", "(f(0) - f(-h)) / h",
-     []() {
-       return Stencil{{-1., 0.}, {-1., 1.}};
-     }},
-    {"central", "(f(h) - f(-h)) / 2h",
-     []() {
-       return Stencil{{-1., 1.}, {-1. / 2., 1. / 2.}};
-     }},
-    {"fourth order", "(f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h", []() {
-       return Stencil{{-2., -1., 1., 2.}, {1. / 12., -8. / 12., 8. / 12., -1. / 12.}};
-     }}};
-  return table;
+  static const Stencil stencils[] = {{{0., 1.}, {-1., 1.}},
+                                     {{-1., 0.}, {-1., 1.}},
+                                     {{-1., 1.}, {-1. / 2., 1. / 2.}},
+                                     {{-2., -1., 1., 2.},
+                                      {1. / 12., -8. / 12., 8. / 12., -1. / 12.}}};
+  return stencils[static_cast<unsigned int>(differences)];
 }
 
 template <int dim>

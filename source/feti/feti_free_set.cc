@@ -45,7 +45,7 @@ qp::MultiVector TotalFeti::FetiFreeSet::precondition(const qp::MultiVector &r) c
 {
   qp::MultiVector z = r;
   // Decided by the parameter: a rank without subdomains has no Schur complements in any case.
-  if (feti.schur.empty() && feti.parameters.preconditioner == "none")
+  if (feti.schur.empty() && feti.parameters.preconditioner == Preconditioner::none)
     {
       restrict(z);
       return z;

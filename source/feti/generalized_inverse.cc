@@ -49,7 +49,7 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
 }
 
 GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
-                                       const std::string     &package,
+                                       const Factorization    package,
                                        RunContext            &the_context)
   : system(the_system), context(the_context), K_rho(coupled_pattern(the_system))
 {

@@ -34,7 +34,7 @@ void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::Mul
 
 LocalSchur::LocalSchur(const SubdomainSystem &the_system,
                        bool                   the_lumped,
-                       const std::string     &the_package,
+                       Factorization          the_package,
                        RunContext            &the_context)
   : system(the_system), context(the_context), lumped(the_lumped), package(the_package)
 {}

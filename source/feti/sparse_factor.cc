@@ -37,7 +37,7 @@ void keep_to_one_thread()
 }
 } // namespace
 
-SparseFactor::SparseFactor(const CsrMatrix &the_matrix, const std::string &package)
+SparseFactor::SparseFactor(const CsrMatrix &the_matrix, const Factorization package)
   : matrix(the_matrix)
 {
   // CHOLMOD's default takes AMD when it looks good enough; trying METIS as well costs symbolic
@@ -46,7 +46,7 @@ SparseFactor::SparseFactor(const CsrMatrix &the_matrix, const std::string &packa
   // It would print a warning of its own before the one line of factorize().
   set_default("-mat_cholmod_print", "0");
   keep_to_one_thread();
-  const bool mumps = package == "MUMPS";
+  const bool mumps = package == Factorization::MUMPS;
   // PETSc wraps the arrays without a copy and does not write to them, but for the scaling in
   // factorize(), which is taken back.
   auto &csr = const_cast<CsrMatrix &>(matrix);

@@ -55,9 +55,10 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
     {
       inverses.push_back(
         std::make_unique<GeneralizedInverse>(system, parameters.factorization, run));
-      if (parameters.preconditioner != "none")
-        schur.push_back(std::make_unique<LocalSchur>(system, parameters.preconditioner == "lumped",
-                                                     parameters.factorization, run));
+      if (parameters.preconditioner != Preconditioner::none)
+        schur.push_back(
+          std::make_unique<LocalSchur>(system, parameters.preconditioner == Preconditioner::lumped,
+                                       parameters.factorization, run));
     }
 }
 
@@ -97,7 +98,7 @@ void TotalFeti::gather_rows()
 {
   const unsigned int           n_modes = coarse.subdomains().n_modes;
   const unsigned int           width   = 2 + n_modes;
-  const bool                   scaled  = parameters.scaling == "stiffness";
+  const bool                   scaled  = parameters.scaling == Scaling::stiffness;
   std::vector<double>          values;
   std::vector<qp::MultiVector> Z;
   for (const SubdomainSystem &system : systems)
@@ -133,7 +134,7 @@ void TotalFeti::gather_rows()
 
 void TotalFeti::weight_rows()
 {
-  const bool scaled = parameters.scaling == "stiffness";
+  const bool scaled = parameters.scaling == Scaling::stiffness;
   weighted_B.resize(schur.size());
   for (unsigned int s = 0; s < schur.size(); ++s)
     {

@@ -30,7 +30,7 @@ void check_box(const SectionCheck &section, const BodyMeshParameters &mesh)
 
 void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, const double cells)
 {
-  const bool file = mesh.source == "file";
+  const bool file = mesh.source == Source::file;
   require_coarse(section, cells, file ? "Mesh file" : "Cells",
                  file ? mesh.file : to_text(mesh.round_cells));
   // p4est numbers at most 2^31 nodes.
@@ -45,10 +45,10 @@ void check_radius(const SectionCheck &section, const BodyMeshParameters &mesh, c
                               "but does to " +
                               to_text(least);
   const bool moved = !mesh.shift.empty() && mesh.shift[0] < 0.;
-  const bool box   = mesh.source == "box" && mesh.corner[0] < 0.;
+  const bool box   = mesh.source == Source::box && mesh.corner[0] < 0.;
   section.require(least >= 0. || !moved, "Shift", to_text(mesh.shift), allowed);
   section.require(least >= 0. || !box, "Box corner", to_text(mesh.corner), allowed);
-  section.require(least >= 0., "Mesh", mesh.source, allowed);
+  section.require(least >= 0., "Mesh", to_text(mesh.source), allowed);
 }
 
 /// The least x, the radius, of the vertices, or of two in each cell, which are
@@ -87,7 +87,7 @@ void check_in(const SectionCheck &section, const BodyMeshParameters &mesh, const
     }
   catch (const InputError &error)
     {
-      throw section.placed(error, "Mesh", mesh.source);
+      throw section.placed(error, "Mesh", to_text(mesh.source));
     }
   check_size(section, mesh, geometry->n_coarse_cells());
   if (axisymmetric)
@@ -97,7 +97,7 @@ void check_in(const SectionCheck &section, const BodyMeshParameters &mesh, const
 
 void BodyMeshParameters::check(const SectionCheck &section, const bool axisymmetric) const
 {
-  if (source == "box")
+  if (source == Source::box)
     check_box(section, *this);
   section.dimension == 2 ? check_in<2>(section, *this, axisymmetric)
                          : check_in<3>(section, *this, axisymmetric);

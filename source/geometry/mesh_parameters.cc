@@ -33,7 +33,7 @@ void declare_round(Entries &entries, BodyMeshParameters &mesh)
   entries.add("Radius", mesh.radius, "Outer radius of round bodies [length].");
   entries.add("Inner radius", mesh.inner_radius, "Inner radius of rings and shells [length].");
   entries.add("Length", mesh.length, "Length along z of cylinders and rings in 3D [length].");
-  entries.add("Part", mesh.part, choice("full|half|quarter|eighth"),
+  entries.add("Part", mesh.part,
               "How much of a round body there is; the others are its mirror images. Eighths are of "
               "spheres and shells.");
   entries.add(
@@ -97,7 +97,7 @@ void declare_refinement(Entries &entries, BodyMeshParameters &mesh)
 
 void BodyMeshParameters::declare(Entries &entries)
 {
-  entries.add("Mesh", source, choice(body_geometry_table<3>()), "Source of the mesh.");
+  entries.add("Mesh", source, "Source of the mesh.");
   declare_box(entries, *this);
   declare_round(entries, *this);
   declare_file(entries, *this);

@@ -13,7 +13,7 @@ template <int dim>
 std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
 {
   const auto given = round_cells(parameters, dim);
-  if (parameters.part == "full" && given[0] < 3)
+  if (parameters.part == Part::full && given[0] < 3)
     throw bad_entry("Cells", to_text(given), "must be at least 3 around a full ring");
   std::array<unsigned int, dim> cells;
   cells[dim - 1] = given[0];
@@ -25,13 +25,13 @@ std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
 
 /// In the order of boundaries 2d + s.
 template <int dim>
-std::vector<std::string> ring_faces(const std::string &part)
+std::vector<std::string> ring_faces(const Part part)
 {
   std::vector<std::string> names;
   if (dim == 3)
     names = {"bottom", "top"};
   names.insert(names.end(), {"inner", "outer"});
-  if (part != "full")
+  if (part != Part::full)
     names.insert(names.end(), {"start", "end"});
   return names;
 }
@@ -47,7 +47,7 @@ public:
   explicit RingGeometry(const BodyMeshParameters &parameters)
     : GridGeometry<dim>(ring_cells<dim>(parameters),
                         ring_faces<dim>(parameters.part),
-                        parameters.part == "full")
+                        parameters.part == Part::full)
     , inner(parameters.inner_radius)
     , outer(parameters.radius)
     , length(parameters.length)

@@ -7,6 +7,8 @@
 
 #include <deal.II/grid/manifold_lib.h>
 
+#include <algorithm>
+
 namespace snug::geometry {
 namespace {
 /// Make @p face of block @p block a part of boundary @p boundary.
@@ -122,10 +124,9 @@ BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_ce
     for (const auto &vertex : flat.vertices)
       mesh.vertices.emplace_back(vertex[0], vertex[1], z);
   mesh.boundary_names = flat.boundary_names;
-  for (auto &name : mesh.boundary_names)
-    // in 3D, bottom is the side z = 0
-    if (name == "bottom")
-      name = "front";
+  // in 3D, bottom is the side z = 0
+  std::replace(mesh.boundary_names.begin(), mesh.boundary_names.end(), std::string("bottom"),
+               std::string("front"));
   const unsigned int bottom = mesh.boundary_names.size();
   mesh.boundary_names.insert(mesh.boundary_names.end(), {"bottom", "top"});
   for (const auto &quad : flat.blocks)

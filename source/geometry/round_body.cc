@@ -11,23 +11,17 @@ std::vector<unsigned int> round_cells(const BodyMeshParameters &parameters, unsi
   if (given.size() != n || std::count(given.begin(), given.end(), 0u) > 0)
     throw bad_entry("Cells", to_text(given),
                     "must be " + std::to_string(n) + " numbers of at least 1 for a " +
-                      parameters.source);
+                      to_text(parameters.source));
   return given;
 }
 
 unsigned int n_of_part(const BodyMeshParameters &parameters, unsigned int largest)
 {
-  unsigned int n = 1;
-  // each is half of the one before
-  for (const std::string part : {"full", "half", "quarter", "eighth"})
-    {
-      if (parameters.part == part && n <= largest)
-        return n;
-      n *= 2;
-    }
-  throw bad_entry("Part", parameters.part,
-                  largest == 4 ? "must be full, half or quarter for a " + parameters.source
-                               : "must be full, half, quarter or eighth");
+  const unsigned int n = 1u << static_cast<unsigned int>(parameters.part);
+  if (n <= largest)
+    return n;
+  throw bad_entry("Part", to_text(parameters.part),
+                  "must be full, half or quarter for a " + to_text(parameters.source));
 }
 
 void require_positive(const std::string &entry, double value)

@@ -9,6 +9,8 @@
 
 namespace snug::io {
 namespace {
+const std::string reference_blas = "reference"; // netlib's
+
 /// The file dgemm was loaded from, links resolved; empty if unknown.
 /// Asked while running: libblas.so.3 is a link that the administrator may turn to another BLAS
 /// (Debian's alternatives), so that the name at link time says nothing.
@@ -53,14 +55,14 @@ std::string blas_name(const std::string &file, const std::string &openblas_confi
       return name;
   // netlib's library is the one called plainly libblas, as Debian has it
   if (file.find("/libblas.so") != std::string::npos)
-    return "reference";
+    return reference_blas;
   return file.empty() ? "unknown" : file;
 }
 
 std::string blas_warning(const Summary::Program &program)
 {
   // only the reference BLAS is known to be slow; unknown ones get no advice
-  if (program.blas != "reference")
+  if (program.blas != reference_blas)
     return "";
   return "the reference BLAS is in use; factorizations are 3 to "
          "10 times faster with OpenBLAS (sudo apt install "

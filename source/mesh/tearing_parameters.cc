@@ -18,6 +18,6 @@ void TearingParameters::declare(Entries &entries)
   entries.add("Subdomains", {text, read}, allowed("auto or a whole number of at least 1"),
               "Wanted number of subdomains of all bodies and ranks; auto: by size. There are at "
               "least as many as ranks.");
-  entries.add("Method", method, choice(partition_table<3>()), "How a body is divided.");
+  entries.add("Method", method, choice(names(partition_table<3>())), "How a body is divided.");
 }
 } // namespace snug::mesh

@@ -1,4 +1,5 @@
 #include <snug/base/deal_ii_compat.h>
+#include <snug/base/errors.h>
 #include <snug/base/run_context.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/formula.h>

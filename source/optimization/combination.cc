@@ -9,7 +9,7 @@ using Numbers = std::vector<double>;
 
 const double sharpness = 100.; // p
 
-Combined weighted_sum(const Numbers &values, const Numbers &weights, double)
+Combined weighted_sum(const Numbers &values, const Numbers &weights)
 {
   Combined combined{0., weights};
   for (unsigned int c = 0; c < values.size(); ++c)
@@ -38,14 +38,12 @@ Combined smooth_maximum(const Numbers &values, const Numbers &weights, const dou
 }
 } // namespace
 
-const ChoiceTable<Combined(const Numbers &, const Numbers &, double)> &combination_table()
+Combined combined(const Combination combination,
+                  const Numbers    &values,
+                  const Numbers    &weights,
+                  const double      scale)
 {
-  static const ChoiceTable<Combined(const Numbers &, const Numbers &, double)> table = {
-    {"sum", "the weighted sum", weighted_sum},
-    {"worst",
-     "a smooth maximum of the weighted values, less than ln(n) "
-     "percent of the first one above it for n load cases",
-     smooth_maximum}};
-  return table;
+  return combination == Combination::sum ? weighted_sum(values, weights)
+                                         : smooth_maximum(values, weights, scale);
 }
 } // namespace snug::optimization

@@ -1,6 +1,5 @@
-#include <snug/base/errors.h>
+#include <snug/base/entries.h>
 #include <snug/optimization/nlopt_answers.h>
-#include <snug/optimization/nlopt_search.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +12,39 @@ namespace {
 constexpr unsigned int max_failures         = 5;
 constexpr unsigned int max_round_off_starts = 5;
 
-/// Its runs, and what leads from one to the next.
+/**
+ * Its runs, and what leads from one to the next, in variables scaled by
+ * their bound widths and with objective and constraints scaled to order one
+ * (ScaledProblem).
+ *
+ * SLSQP ends at an accepted design x that meets the constraints to the
+ * constraint tolerance when its projected gradient is at most
+ * gradient_tolerance or, since the accepted design before, the objective
+ * changed by at most objective_tolerance |f(x)| or every variable by at
+ * most design_tolerance of its bound width; if the line search shortened
+ * that step, the next one must agree. NLopt 2.7.1 has its
+ * own tests, but they also report success at designs that violate the
+ * constraints, so they are switched off. The other algorithms do not tell
+ * their iterations: each design that is better than all before counts as
+ * accepted, NLopt's tests end the search with the same tolerances, and a
+ * design that violates the constraints is no success.
+ *
+ * NLopt has no value for "this design cannot be solved" (NaN, infinity and
+ * penalties all mislead it). Such a design ends NLopt's run; a new one
+ * begins at the last accepted design, its moves limited to half the move
+ * that failed, and is re-centred as long as it ends at such a limit. After
+ * five failures the search ends. When NLopt ends by round-off, it is
+ * begun again as long as that gains anything.
+ *
+ * Sources: Kraft, A software package for sequential quadratic programming,
+ * DFVLR-FB 88-28 (1988); Svanberg, SIAM J. Optim. 12 (2002) for MMA and
+ * CCSA; Birgin, Martínez, Optim. Methods Softw. 23 (2008) for AUGLAG;
+ * Johnson, The NLopt nonlinear-optimization package.
+ */
 class Search
 {
 public:
-  Search(NloptAlgorithm                algorithm,
-         const DesignProblem          &problem,
+  Search(const DesignProblem          &problem,
          const OptimizationParameters &parameters,
          const Hooks                  &hooks);
 
@@ -32,7 +58,7 @@ private:
   void       shrink();
   bool       is_at_move_limit() const;
 
-  const NloptAlgorithm          algorithm;
+  const Algorithm               algorithm;
   const OptimizationParameters &parameters;
   const Hooks                  &hooks;
   ScaledProblem                 problem;
@@ -44,11 +70,10 @@ private:
   unsigned int        failures = 0, round_off_starts = 0;
 };
 
-Search::Search(const NloptAlgorithm          algorithm,
-               const DesignProblem          &design_problem,
+Search::Search(const DesignProblem          &design_problem,
                const OptimizationParameters &parameters,
                const Hooks                  &hooks)
-  : algorithm(algorithm)
+  : algorithm(parameters.algorithm)
   , parameters(parameters)
   , hooks(hooks)
   , problem(design_problem)
@@ -56,10 +81,10 @@ Search::Search(const NloptAlgorithm          algorithm,
   , centre(problem.start()->y)
 {
   const auto &relations = problem.relations();
-  if (!takes_equalities(parameters.algorithm) &&
+  if (!takes_equalities(algorithm) &&
       std::count(relations.begin(), relations.end(), Relation::equal) > 0)
-    throw InputError(parameters.algorithm + " takes no equality constraints");
-  if (algorithm == NloptAlgorithm::SLSQP)
+    throw InputError(to_text(algorithm) + " takes no equality constraints");
+  if (algorithm == Algorithm::SLSQP)
     answers = std::make_unique<SlsqpAnswers>(problem, progress, parameters);
   else
     answers = std::make_unique<BetterDesigns>(problem, progress, parameters);
@@ -85,16 +110,16 @@ OptimizationResult Search::run()
 nlopt::opt Search::make_optimizer() const
 {
   const unsigned int n = centre.size();
-  if (algorithm == NloptAlgorithm::SLSQP)
+  if (algorithm == Algorithm::SLSQP)
     return nlopt::opt(nlopt::LD_SLSQP, n);
   const auto with_tolerances = [&](nlopt::opt optimizer, double part) {
     optimizer.set_ftol_rel(part * parameters.objective_tolerance);
     optimizer.set_xtol_abs(part * parameters.design_tolerance);
     return optimizer;
   };
-  if (algorithm == NloptAlgorithm::MMA)
+  if (algorithm == Algorithm::MMA)
     return with_tolerances(nlopt::opt(nlopt::LD_MMA, n), 1.);
-  if (algorithm == NloptAlgorithm::CCSAQ)
+  if (algorithm == Algorithm::CCSAQ)
     return with_tolerances(nlopt::opt(nlopt::LD_CCSAQ, n), 1.);
   auto optimizer = with_tolerances(nlopt::opt(nlopt::AUGLAG, n), 1.);
   optimizer.set_local_optimizer(with_tolerances(nlopt::opt(nlopt::LD_LBFGS, n), 0.1));
@@ -135,7 +160,7 @@ void Search::ask_nlopt()
   try
     {
       const auto why = optimizer.optimize(y, f);
-      if (algorithm != NloptAlgorithm::SLSQP && progress.is_feasible(*progress.iterate()))
+      if (algorithm != Algorithm::SLSQP && progress.is_feasible(*progress.iterate()))
         answers->end = why == nlopt::FTOL_REACHED   ? End::objective
                        : why == nlopt::XTOL_REACHED ? End::design
                                                     : End::round_off;
@@ -217,11 +242,13 @@ bool Search::is_at_move_limit() const
 }
 } // namespace
 
-OptimizationResult nlopt_search(const NloptAlgorithm          algorithm,
-                                const DesignProblem          &problem,
-                                const OptimizationParameters &parameters,
-                                const Hooks                  &hooks)
+OptimizationResult
+minimize(const DesignProblem &problem, const OptimizationParameters &parameters, const Hooks &hooks)
 {
-  return Search(algorithm, problem, parameters, hooks).run();
+  OptimizationParameters checked = parameters;
+  Entries                entries;
+  checked.declare(entries);
+  entries.check(Origins(), 0);
+  return Search(problem, parameters, hooks).run();
 }
 } // namespace snug::optimization

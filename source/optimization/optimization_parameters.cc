@@ -1,17 +1,15 @@
 #include <snug/base/section_check.h>
-#include <snug/optimization/combination.h>
 #include <snug/optimization/limit.h>
 #include <snug/optimization/minimize.h>
 
 namespace snug::optimization {
 void OptimizationParameters::declare(Entries &entries)
 {
-  entries.add("Algorithm", algorithm, choice(algorithm_table()), "The optimizer.");
+  entries.add("Algorithm", algorithm, "The optimizer.");
   entries.add(
     "Objective", objective,
     "The response to be made least: a name in 'Responses' or a quantity of subsection Response.");
-  entries.add("Combine", combine, choice(combination_table()),
-              "What several load cases make of the objective.");
+  entries.add("Combine", combine, "What several load cases make of the objective.");
   entries.add("Constraints", constraints, allowed("a list 'response: limit, response: limit, ...'"),
               "Limits of responses, any number of them: 'volume: = initial, peak: <= 120, tip: >= "
               "0.9 initial'; initial is the value of the first design, and = may be left out. With "
@@ -50,7 +48,7 @@ void OptimizationParameters::check(const SectionCheck &section) const
                            "' must be like '= initial', '<= 120' or '>= 0.9 initial'");
         }
       require(limit.side != Limit::Side::equal || takes_equalities(algorithm),
-              "'" + name + "' must have a limit with <= or >=: " + algorithm +
+              "'" + name + "' must have a limit with <= or >=: " + to_text(algorithm) +
                 " takes no equalities, SLSQP and AUGLAG do");
     }
 }

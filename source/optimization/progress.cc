@@ -4,6 +4,19 @@
 #include <cmath>
 
 namespace snug::optimization {
+/// As the summary and the log call them.
+static Names names(End)
+{
+  return {{""},
+          {"gradient tolerance"},
+          {"objective tolerance"},
+          {"design tolerance"},
+          {"maximum evaluations"},
+          {"round-off"},
+          {"restarts exhausted"},
+          {"interrupted"}};
+}
+
 Progress::Progress(const ScaledProblem          &problem,
                    const OptimizationParameters &parameters,
                    const Hooks                  &hooks)
@@ -90,25 +103,9 @@ bool Progress::has_gained() const
 
 std::string Progress::stop_reason(const End end, const std::string &failure) const
 {
-  switch (end)
-    {
-      case End::gradient:
-        return "gradient tolerance";
-      case End::objective:
-        return "objective tolerance";
-      case End::design:
-        return "design tolerance";
-      case End::evaluations:
-        return "maximum evaluations";
-      case End::none:
-      case End::round_off:
-        return is_feasible(*best) ? "round-off" : "constraints violated";
-      case End::no_value:
-        return "restarts exhausted (" + failure + ")";
-      case End::interrupted:
-        return "interrupted";
-    }
-  return "";
+  if (end == End::none || end == End::round_off)
+    return is_feasible(*best) ? "round-off" : "constraints violated";
+  return to_text(end) + (end == End::no_value ? " (" + failure + ")" : "");
 }
 
 OptimizationResult Progress::finish(const End end, const std::string &failure)
@@ -126,6 +123,7 @@ OptimizationResult Progress::finish(const End end, const std::string &failure)
   result.objective_final      = point->evaluation.objective;
   result.constraint_violation = point->violation;
   result.projected_gradient   = problem.projected_gradient(*point);
+  result.end                  = end;
   result.stop_reason          = stop_reason(end, failure);
   const bool by_round_off =
     end == End::round_off && result.projected_gradient <= std::sqrt(parameters.objective_tolerance);

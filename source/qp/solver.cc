@@ -5,7 +5,8 @@
 namespace snug::qp {
 void SolverParameters::declare(Entries &entries)
 {
-  entries.add("Method", method, choice(solver_table()), "Solver of the dual quadratic program.");
+  entries.add("Method", method, choice(names(solver_table())),
+              "Solver of the dual quadratic program.");
   entries.add("Relative tolerance", relative_tolerance, between(1e-14, 0.1),
               "What the relative errors of equilibrium, continuity, penetration, negative pressure "
               "and complementarity may be; between 1e-14 and 0.1.");

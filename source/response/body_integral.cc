@@ -18,6 +18,8 @@ public:
   /// A volume constraint can be evaluated, and differentiated, where no state was solved.
   bool needs_solution() const override { return false; }
 
+  bool needs_density() const override { return mass; }
+
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {

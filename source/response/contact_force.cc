@@ -41,7 +41,7 @@ public:
   {
     // Both throw for names that do not exist.
     rows_of_pair(solver, parameters.pair);
-    if (parameters.component != "normal")
+    if (parameters.component != Component::normal)
       unit_vector<dim>(parameters);
   }
 
@@ -56,7 +56,9 @@ public:
         force -=
           state.contact[i].force *
           // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i itself.
-          (parameters.component == "normal" ? -1. : rows[i].normal * unit_vector<dim>(parameters));
+          (parameters.component == Component::normal
+             ? -1.
+             : rows[i].normal * unit_vector<dim>(parameters));
     return force;
   }
 
@@ -69,7 +71,7 @@ public:
     for (const bool row : chosen)
       result.forces.push_back(row ? 1. : 0.);
     result.positions.resize(solver.mesh().n_local_nodes());
-    if (parameters.component == "normal")
+    if (parameters.component == Component::normal)
       return result;
     const auto e    = unit_vector<dim>(parameters);
     const auto x    = solver.surface().gather(state.positions);

@@ -63,7 +63,7 @@ template <int dim>
 elasticity::FaceLoadValues<dim> unit_load(const ResponseParameters &parameters, unsigned int n)
 {
   elasticity::FaceLoadValues<dim> load;
-  if (parameters.component == "normal")
+  if (parameters.component == Component::normal)
     // Pressure pushes along the inner normal: -1 makes f . u the integral of u . n.
     load.pressure.assign(n, -1.);
   else
@@ -121,7 +121,7 @@ public:
       find_boundary(solver, parameters);
     else
       find_point(solver, parameters);
-    if (parameters.component != "normal" || !parameters.point.empty())
+    if (parameters.component != Component::normal || !parameters.point.empty())
       unit_vector<dim>(parameters);
   }
 

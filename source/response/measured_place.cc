@@ -92,14 +92,12 @@ void require_one_body(const ResponseParameters        &parameters,
 template <int dim>
 dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters)
 {
-  const auto &component = parameters.component;
-  // No z in 2D; an empty component is found at 0 and ruled out by its size.
-  const auto axis = std::string("xyz").substr(0, dim).find(component);
-  if (component.size() != 1 || axis == std::string::npos)
-    throw bad_entry(parameters.path("Component"), component,
+  const Component component = parameters.component;
+  if (component == Component::normal || (dim == 2 && component == Component::z))
+    throw bad_entry(parameters.path("Component"), to_text(component),
                     dim == 2 ? "must be x or y" : "must be x, y or z");
   dealii::Tensor<1, dim> result;
-  result[axis] = 1.;
+  result[static_cast<unsigned int>(component) - static_cast<unsigned int>(Component::x)] = 1.;
   return result;
 }
 

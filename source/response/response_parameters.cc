@@ -6,7 +6,7 @@
 namespace snug::response {
 void ResponseParameters::declare(Entries &entries)
 {
-  entries.add("Quantity", quantity, choice(response_table<3>()), "What it measures.");
+  entries.add("Quantity", quantity, choice(names(response_table<3>())), "What it measures.");
   entries.add("Body", body, allowed("the name of a body"),
               "The body that counts; empty: all, or the only one that holds the point.");
   entries.add("Face", face, allowed("body.boundary"),
@@ -14,7 +14,7 @@ void ResponseParameters::declare(Entries &entries)
   entries.add("Point", point, per_dimension(),
               "The point whose displacement counts [length], in the reference geometry; designs "
               "carry it along.");
-  entries.add("Component", component, choice("normal|x|y|z"),
+  entries.add("Component", component,
               "Of a displacement or a contact force. normal: along the outward normal of the face; "
               "contact forces: all sizes added up.");
   entries.add("Pair", pair, allowed("slave: master"),
@@ -44,10 +44,10 @@ void ResponseParameters::check(const SectionCheck &section) const
       section.require(point.empty() != face.empty(), "Point", to_text(point),
                       "either 'Point' or 'Face' must be given");
       section.require(face.empty() || body.empty(), "Body", body, "must be left out with 'Face'");
-      section.require(point.empty() || component != "normal", "Component", component,
-                      "must be x, y or z with 'Point'");
+      section.require(point.empty() || component != Component::normal, "Component",
+                      to_text(component), "must be x, y or z with 'Point'");
     }
-  section.require(component != "z" || section.dimension == 3, "Component", component,
-                  "must be normal, x or y for Dimension = 2");
+  section.require(component != Component::z || section.dimension == 3, "Component",
+                  to_text(component), "must be normal, x or y for Dimension = 2");
 }
 } // namespace snug::response

@@ -1,5 +1,4 @@
 #include <snug/base/section_check.h>
-#include <snug/elasticity/formulation.h>
 #include <snug/geometry/formula.h>
 #include <snug/geometry/regions.h>
 #include <snug/scene/check.h>
@@ -106,14 +105,13 @@ void Body::declare(Entries &entries)
     "Materials of the scene the body is made of, instead of its own modulus, ratio and density: "
     "'steel' for all of it, or one per region, 'core: steel, coat: rubber'. Regions are the groups "
     "of cells of a mesh file and those of 'Region formulas'; cells in none are the region body.");
-  entries.add("Formulation", formulation, choice(elasticity::formulation_table()),
-              "How elements take the change of volume.");
+  entries.add("Formulation", formulation, "How elements take the change of volume.");
   entries.add("Supports", supports,
               allowed("a list 'boundary: components, ...' of different boundaries"),
               "Boundaries with the displacement components held at zero: 'bottom: xyz, left: x'. "
               "'normal' is the component along the outward normal of any face, flat, oblique or "
               "curved (symmetry planes, rollers): 'side: normal, end: normal z'.");
-  loads.declare(entries, "boundary");
+  loads.declare(entries, "boundary", "top");
   entries.add("Body force",
               {[this]() { return to_text(body_force); },
                [this](const std::string &text) { body_force = vector_components(text); }},
@@ -124,10 +122,11 @@ void Body::declare(Entries &entries)
 
 void check_body(const Scene &scene, const SectionCheck &section, const Body &body)
 {
-  body.mesh.check(section, scene.model == "axisymmetric");
+  body.mesh.check(section, idealization(scene).is_axisymmetric());
   check_materials(scene, section, body);
-  section.require(scene.model != "plane stress" || body.formulation == "standard", "Formulation",
-                  body.formulation,
+  section.require(scene.model != mesh::Idealization::Kind::plane_stress ||
+                    body.formulation == elasticity::Formulation::standard,
+                  "Formulation", to_text(body.formulation),
                   "must be standard for Model = plane stress, which does not lock");
   check_supports(section, body);
 }

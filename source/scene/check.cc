@@ -31,13 +31,14 @@ void check_list_of_names(const std::string              &entry,
 
 void check_model(const Scene &scene, const SectionCheck &top)
 {
-  const bool plane = scene.model == "plane strain" || scene.model == "plane stress";
-  top.require((scene.model == "solid") == (scene.dimension == 3), "Model", scene.model,
+  using Kind       = mesh::Idealization::Kind;
+  const bool plane = scene.model == Kind::plane_strain || scene.model == Kind::plane_stress;
+  top.require((scene.model == Kind::solid) == (scene.dimension == 3), "Model", to_text(scene.model),
               scene.dimension == 3 ? "must be solid for Dimension = 3"
                                    : "must be one of plane strain, plane stress, "
                                      "axisymmetric for Dimension = 2");
   top.require(plane || scene.thickness == 1., "Thickness", to_text(scene.thickness),
-              "must be left out for Model = " + scene.model);
+              "must be left out for Model = " + to_text(scene.model));
   top.require(!scene.output_directory.empty(), "Output directory", "", "must not be empty");
 }
 
@@ -68,9 +69,9 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
   // The same in 2D and 3D.
   const std::string &objective = scene.optimization.objective;
   const auto         measured  = response_called(scene, objective);
-  section.require(scene.gradient.method != "energy" ||
+  section.require(scene.gradient.method != sensitivity::Method::energy ||
                     !sensitivity::needs_solve(*response::make_response<3>(*measured)),
-                  "Method", scene.gradient.method,
+                  "Method", to_text(scene.gradient.method),
                   "must be auto, adjoint, direct or finite differences for the objective '" +
                     objective + "'");
 }

@@ -78,8 +78,9 @@ Parameters require_response(const Scene        &scene,
                     "in 'Responses'");
   section.require(!response->reads("Pair") || !scene.contact.pairs.empty(), entry, value,
                   "'" + name + "' has no contact to measure in the scene");
-  section.require(response->quantity != "mass" || has_mass(scene, *response), entry, value,
-                  "'" + name + "' is zero: what it measures has no 'Density'");
+  section.require(!response::make_response<3>(*response)->needs_density() ||
+                    has_mass(scene, *response),
+                  entry, value, "'" + name + "' is zero: what it measures has no 'Density'");
   return *response;
 }
 } // namespace

@@ -17,8 +17,9 @@ void check_places(const Scene                  &scene,
     return;
   require_face(scene, section, "Face", shape.face, shape.face);
   const auto &body = scene.bodies[body_index(scene, split_face(shape.face).first)];
-  section.require(shape.interior != "linear blending" || body.mesh.source == "box", "Interior",
-                  shape.interior,
+  section.require(shape.interior != shape::InteriorKind::linear_blending ||
+                    body.mesh.source == geometry::Source::box,
+                  "Interior", to_text(shape.interior),
                   "must be Laplace or elasticity for the body '" + body.name +
                     "', which is no box");
 }
@@ -32,9 +33,9 @@ void check_shapes(const Scene &scene, const Origins &origins)
       shape.check(section);
       check_places(scene, section, shape);
     }
-  const bool none = std::all_of(scene.shapes.begin(), scene.shapes.end(),
-                                [](const auto &shape) { return shape.basis == "none"; });
-  if (none && scene.task != Task::state)
+  const bool moves = std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                                 [](const auto &shape) { return shape.moves(); });
+  if (!moves && scene.task != Task::state)
     throw origins.error(scene.shapes.front().path("Basis"), "none",
                         "must not be none for the task " + to_text(scene.task));
 }

@@ -3,10 +3,6 @@
 
 namespace snug::scene {
 namespace {
-const std::vector<std::pair<Task, std::string>> task_names = {{Task::state, "state"},
-                                                              {Task::sensitivity, "sensitivity"},
-                                                              {Task::optimize, "optimize"}};
-
 /// The names of what has subsections of its own, which is made before.
 template <typename Named>
 void add_names(Entries                  &entries,
@@ -20,13 +16,13 @@ void add_names(Entries                  &entries,
 
 void declare_general(Entries &entries, Scene &scene)
 {
-  entries.add("Task", scene.task, choice("state|sensitivity|optimize"),
+  entries.add("Task", scene.task,
               "state: solve one contact problem. sensitivity: also differentiate it by all "
               "methods, side by side. optimize: find the best shape.");
-  entries.add("Dimension", scene.dimension, choice("2|3"), "Dimension of the meshes.");
-  entries.add("Model", scene.model, choice("auto|" + names(mesh::idealization_table())),
-              "What the meshes stand for. auto: solid in 3D, plane strain in 2D; " +
-                meanings(mesh::idealization_table()) + ".");
+  entries.add("Dimension", scene.dimension, choice({{"2"}, {"3"}}), "Dimension of the meshes.");
+  entries.add("Model", scene.model,
+              choice_or_auto<mesh::Idealization::Kind>("solid in 3D, plane strain in 2D"),
+              "What the meshes stand for.");
   entries.add("Thickness", scene.thickness, positive(),
               "Thickness of plane strain and plane stress models [length]; forces, energies and "
               "volumes are those of this thickness.");
@@ -53,7 +49,7 @@ void declare_general(Entries &entries, Scene &scene)
   entries.add("Output directory", scene.output_directory,
               "Where results go; made if it is not there. Relative to the directory the program is "
               "started in.");
-  entries.add("Element degree", scene.degree, choice("1|2"),
+  entries.add("Element degree", scene.degree, choice({{"1"}, {"2"}}),
               "Polynomial degree of the elements: 1 (bilinear, trilinear) or 2.");
   entries.add("Least scaled Jacobian", scene.least_scaled_jacobian, between(0., 0.99),
               "Meshes with a cell of less are refused, designs as if they were tangled: det J over "
@@ -82,21 +78,6 @@ void declare_solver(Entries &entries, Scene &scene)
   scene.feti.declare(entries);
 }
 } // namespace
-
-std::string to_text(const Task task)
-{
-  for (const auto &[known, name] : task_names)
-    if (known == task)
-      return name;
-  return "";
-}
-
-void from_text(const std::string &text, Task &task)
-{
-  for (const auto &[known, name] : task_names)
-    if (name == text)
-      task = known;
-}
 
 void declare(Entries &entries, Scene &scene)
 {

@@ -24,10 +24,9 @@ void declare_gravity(Entries &entries, std::vector<double> &gravity)
               "0 -9.81'. Empty: none.");
 }
 
-void LoadParameters::declare(Entries &entries, const std::string &key)
+void LoadParameters::declare(Entries &entries, const std::string &key, const std::string &where)
 {
-  const std::string list  = "a list '" + key + ": ";
-  const std::string where = key == "boundary" ? "top" : "punch.top";
+  const std::string list = "a list '" + key + ": ";
   entries.add("Displacement", displacements, allowed(list + "component = formula, ...'"),
               "Prescribed displacement components [length]: x, y, z or normal, by formulas of x, "
               "y, z in the reference geometry: '" +
@@ -60,7 +59,7 @@ void LoadCaseParameters::declare(Entries &entries)
   entries.add("Weight", weight, at_least(0., "must not be negative"),
               "Factor of its objective in the sum over load cases, or in their worst.");
   declare_gravity(entries, gravity);
-  loads.declare(entries, "body.boundary");
+  loads.declare(entries, "body.boundary", "punch.top");
 }
 
 void LoadParameters::check(const SectionCheck &section, const RequireKey &require_key) const

@@ -108,8 +108,8 @@ void assign(const std::vector<Statement> &statements, Scene &scene)
 /// Give what was left empty its default.
 void complete(Scene &scene)
 {
-  if (scene.model == "auto")
-    scene.model = scene.dimension == 2 ? "plane strain" : "solid";
+  if (!scene.model)
+    scene.model = mesh::Idealization::natural(scene.dimension).kind;
   for (auto &body : scene.bodies)
     body.mesh.complete(scene.dimension);
   for (auto &obstacle : scene.obstacles)
@@ -123,7 +123,7 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
   for (auto &body : scene.bodies)
     {
       auto &mesh = body.mesh;
-      if (mesh.source != "file")
+      if (mesh.source != geometry::Source::file)
         continue;
       for (const auto &[region, material] : body.materials)
         mesh.named_regions.push_back(region);
@@ -141,7 +141,7 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
         }
       catch (const InputError &error)
         {
-          throw section.placed(error, "Mesh", mesh.source);
+          throw section.placed(error, "Mesh", to_text(mesh.source));
         }
     }
 }

@@ -16,7 +16,7 @@ std::vector<std::string> boundary_names_in(const geometry::BodyMeshParameters &p
 
 mesh::Idealization idealization(const Scene &scene)
 {
-  return {choose(mesh::idealization_table(), scene.model).make(), scene.thickness};
+  return {scene.model.value(), scene.thickness};
 }
 
 std::pair<std::string, std::string> split_face(const std::string &face)

@@ -13,14 +13,13 @@ void add(const double factor, const std::vector<double> &values, std::vector<dou
 template <int dim>
 void add(const double factor, const Gradient<dim> &gradient, Gradient<dim> &sum)
 {
-  const bool begins = sum.method.empty();
-  sum.method        = gradient.method;
-  sum.reason        = gradient.reason;
+  sum.method = gradient.method;
+  sum.reason = gradient.reason;
   sum.differentiable &= gradient.differentiable;
   add(factor, gradient.values, sum.values);
   if (!gradient.shape)
     return;
-  if (begins)
+  if (!sum.shape)
     sum.shape.emplace(gradient.shape->size());
   for (unsigned int node = 0; node < gradient.shape->size(); ++node)
     (*sum.shape)[node] += factor * (*gradient.shape)[node];

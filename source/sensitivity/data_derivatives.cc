@@ -20,15 +20,23 @@ double largest(const Nodes<dim> &V)
   return norm;
 }
 
-/// The differences of a scheme that is not exact.
+/// Of derivatives that are not exact.
+elasticity::Stencil stencil_of(const Derivatives derivatives)
+{
+  const bool forward =
+    derivatives == Derivatives::forward || derivatives == Derivatives::refined_forward;
+  return stencil(forward ? elasticity::Differences::forward : elasticity::Differences::central);
+}
+
+/// The differences of derivatives that are not exact.
 template <int dim>
 elasticity::SemiAnalytic<dim> semi_analytic(const state::StateSolver<dim> &solver,
                                             const GradientParameters      &parameters)
 {
-  const auto scheme = choose(derivatives_table(), parameters.derivatives).make();
-  return elasticity::SemiAnalytic<dim>(choose(elasticity::stencil_table(), scheme.stencil).make(),
-                                       scheme.refined, parameters.semi_analytic_step,
-                                       solver.mesh().idealization());
+  const bool refined = parameters.derivatives == Derivatives::refined_forward ||
+                       parameters.derivatives == Derivatives::refined_central;
+  return elasticity::SemiAnalytic<dim>(stencil_of(parameters.derivatives), refined,
+                                       parameters.semi_analytic_step, solver.mesh().idealization());
 }
 
 /// What the derivatives of one subdomain are taken of.
@@ -163,11 +171,10 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim> &solve
                                             const Nodes<dim>              &V,
                                             const GradientParameters      &parameters)
 {
-  const auto   scheme = choose(derivatives_table(), parameters.derivatives).make();
-  const double time   = time_across_face(solver, X, V);
-  if (scheme.stencil.empty() || time == 0.)
+  const double time = time_across_face(solver, X, V);
+  if (parameters.derivatives == Derivatives::exact || time == 0.)
     return solver.row_derivatives(X, V);
-  const auto                  stencil = choose(elasticity::stencil_table(), scheme.stencil).make();
+  const auto                  stencil = stencil_of(parameters.derivatives);
   const double                step    = parameters.semi_analytic_step * time;
   state::RowCoefficients<dim> result;
   for (unsigned int k = 0; k < stencil.places.size(); ++k)
@@ -201,23 +208,6 @@ void add_row_derivatives(const std::vector<feti::BEntry> &B_derivative,
 }
 } // namespace
 
-const ChoiceTable<DataScheme()> &derivatives_table()
-{
-  const auto scheme = [](const char *stencil, bool refined) {
-    return [=]() { return DataScheme{stencil, refined}; };
-  };
-  static const ChoiceTable<DataScheme()> table = {
-    {"exact", "differentiated by hand", scheme("", false)},
-    {"forward differences", "of element quantities (semi-analytic)", scheme("forward", false)},
-    {"central differences", "the same from both sides", scheme("central", false)},
-    {"refined forward differences",
-     "forward ones that take the rigid motion of each element exactly, for "
-     "slender bodies",
-     scheme("forward", true)},
-    {"refined central differences", "the same from both sides", scheme("central", true)}};
-  return table;
-}
-
 template <int dim>
 KktVectors data_derivatives(const state::StateSolver<dim>                          &solver,
                             const state::ContactState<dim>                         &state,
@@ -235,7 +225,7 @@ KktVectors data_derivatives(const state::StateSolver<dim>                       
   qp::MultiVector Bu(layout.n_local(), k);
   result.dual = qp::MultiVector(layout.n_owned(), k);
   std::unique_ptr<elasticity::SemiAnalytic<dim>> differences;
-  if (parameters.derivatives != "exact")
+  if (parameters.derivatives != Derivatives::exact)
     differences =
       std::make_unique<elasticity::SemiAnalytic<dim>>(semi_analytic(solver, parameters));
   std::vector<feti::BEntry> B_derivative;

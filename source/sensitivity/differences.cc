@@ -1,4 +1,3 @@
-#include <snug/elasticity/finite_difference.h>
 #include <snug/sensitivity/methods.h>
 
 namespace snug::sensitivity {
@@ -38,11 +37,11 @@ Gradients<dim> difference_gradients(const GradientProblem<dim> &problem,
                                     const Responses<dim>       &responses)
 {
   const auto       &parameters = problem.parameters;
-  const auto        stencil    = choose(elasticity::stencil_table(), parameters.differences).make();
+  const auto        stencil    = elasticity::stencil(parameters.differences);
   const Values<dim> here(problem, responses, problem.state);
   Gradients<dim>    result;
   for (unsigned int i = 0; i < responses.size(); ++i)
-    result.of_response.push_back({"finite differences", "", {}});
+    result.of_response.push_back({Method::finite_differences, "", {}});
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
     {
       const double                        step = parameters.step * problem.bound_widths[j];

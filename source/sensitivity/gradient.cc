@@ -6,32 +6,31 @@
 
 namespace snug::sensitivity {
 namespace {
-template <int dim>
-using Method = Gradients<dim>(const GradientProblem<dim> &, const Responses<dim> &);
-
 /// Each response by its method, those of one method together.
 template <int dim>
 Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
                           const Responses<dim>            &responses,
                           const std::vector<MethodChoice> &choices)
 {
-  const std::pair<std::string, Method<dim> *> methods[] = {{"energy", energy_gradients<dim>},
-                                                           {"adjoint", adjoint_gradients<dim>},
-                                                           {"direct", direct_gradients<dim>}};
-  Gradients<dim>                              result;
+  using By = Gradients<dim>(const GradientProblem<dim> &, const Responses<dim> &);
+  const std::pair<Method, By *> methods[] = {{Method::energy, energy_gradients},
+                                             {Method::adjoint, adjoint_gradients},
+                                             {Method::direct, direct_gradients},
+                                             {Method::finite_differences, difference_gradients}};
+  Gradients<dim>                result;
   result.of_response.resize(responses.size());
-  for (const auto &[name, method] : methods)
+  for (const auto &[method, gradients_by] : methods)
     {
       Responses<dim> group;
       for (unsigned int i = 0; i < responses.size(); ++i)
-        if (choices[i].method == name)
+        if (choices[i].method == method)
           group.push_back(responses[i]);
       if (group.empty())
         continue;
-      auto of_group = method(problem, group);
+      auto of_group = gradients_by(problem, group);
       auto next     = of_group.of_response.begin();
       for (unsigned int i = 0; i < responses.size(); ++i)
-        if (choices[i].method == name)
+        if (choices[i].method == method)
           {
             result.of_response[i]        = *next++;
             result.of_response[i].reason = choices[i].reason;
@@ -42,16 +41,20 @@ Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
   return result;
 }
 
-/// All by @p method, but what depends on the geometry alone.
+/// The method of each response: adjoint and direct need none for what
+/// depends on the geometry alone.
 template <int dim>
-std::function<Method<dim>> solving(const std::string &method)
+std::vector<MethodChoice> methods(const GradientProblem<dim> &problem,
+                                  const Responses<dim>       &responses)
 {
-  return [method](const GradientProblem<dim> &problem, const Responses<dim> &responses) {
-    std::vector<MethodChoice> choices;
-    for (const auto *response : responses)
-      choices.push_back({response->needs_solution() ? method : "energy", ""});
-    return by_methods(problem, responses, choices);
-  };
+  const auto &wanted = problem.parameters.method;
+  if (!wanted)
+    return cheapest_methods(responses, problem.basis.n_variables());
+  const bool                solves = wanted == Method::adjoint || wanted == Method::direct;
+  std::vector<MethodChoice> choices;
+  for (const auto *response : responses)
+    choices.push_back({solves && !response->needs_solution() ? Method::energy : *wanted, ""});
+  return choices;
 }
 
 /// The field in the span of the velocities that has the products
@@ -90,41 +93,18 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
   unsigned int n_solves = 0;
   for (const auto *response : responses)
     n_solves += needs_solve(*response);
-  const MethodChoice solving{n_solves < n_variables ? "adjoint" : "direct",
+  const MethodChoice solving{n_solves < n_variables ? Method::adjoint : Method::direct,
                              "solves for " + std::to_string(n_solves) + " responses against " +
                                std::to_string(n_variables) + " variables"};
   std::vector<MethodChoice> choices;
   for (const auto *response : responses)
     if (!response->needs_solution())
-      choices.push_back({"energy", "depends on the geometry alone"});
+      choices.push_back({Method::energy, "depends on the geometry alone"});
     else if (response->stationary())
-      choices.push_back({"energy", "stationary at the state, no solve"});
+      choices.push_back({Method::energy, "stationary at the state, no solve"});
     else
       choices.push_back(solving);
   return choices;
-}
-
-template <int dim>
-const ChoiceTable<Method<dim>> &gradient_table()
-{
-  static const ChoiceTable<Method<dim>> table = {
-    {"auto",
-     "the cheapest exact one: energy where it applies, else adjoint for "
-     "fewer responses than variables, else direct",
-     [](const GradientProblem<dim> &problem, const Responses<dim> &responses) {
-       return by_methods(problem, responses,
-                         cheapest_methods(responses, problem.basis.n_variables()));
-     }},
-    {"energy", "without any solve, for potential energy and volume", energy_gradients<dim>},
-    {"adjoint", "one linear solve per response with the state's factorizations",
-     solving<dim>("adjoint")},
-    {"direct",
-     "the derivatives of the state, one linear solve per variable with the "
-     "state's factorizations",
-     solving<dim>("direct")},
-    {"finite differences", "differences of cold-started states, a baseline",
-     difference_gradients<dim>}};
-  return table;
 }
 
 template <int dim>
@@ -134,7 +114,7 @@ Gradients<dim> gradients(const GradientProblem<dim> &problem, const Responses<di
   const RunContext::Timer timer(context, "gradient");
   const double            start  = context.seconds();
   const Work              before = context.total_work();
-  auto result = choose(gradient_table<dim>(), problem.parameters.method).make(problem, responses);
+  auto                    result = by_methods(problem, responses, methods(problem, responses));
   for (unsigned int i = 0; i < responses.size(); ++i)
     {
       auto &gradient          = result.of_response[i];
@@ -151,10 +131,8 @@ Gradients<dim> gradients(const GradientProblem<dim> &problem, const Responses<di
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                      \
-  template std::vector<MethodChoice> cheapest_methods(const Responses<dim> &, unsigned int);       \
-  template const ChoiceTable<Gradients<dim>(const GradientProblem<dim> &, const Responses<dim> &)> \
-                         &gradient_table<dim>();                                                   \
+#define SNUG_INSTANTIATE(dim)                                                                \
+  template std::vector<MethodChoice> cheapest_methods(const Responses<dim> &, unsigned int); \
   template Gradients<dim> gradients(const GradientProblem<dim> &, const Responses<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -1,23 +1,22 @@
 #include <snug/base/entries.h>
-#include <snug/elasticity/finite_difference.h>
-#include <snug/sensitivity/data_derivatives.h>
-#include <snug/sensitivity/gradient.h>
+#include <snug/sensitivity/gradient_parameters.h>
 
 namespace snug::sensitivity {
 void GradientParameters::declare(Entries &entries)
 {
-  entries.add("Method", method, choice(gradient_table<3>()),
+  entries.add("Method", method,
+              choice_or_auto<sensitivity::Method>(
+                "the cheapest exact one: energy where it applies, else adjoint for fewer responses "
+                "than variables, else direct"),
               "How the objective is differentiated.");
   entries.add(
-    "Solves", solves, choice("block|recycled"),
+    "Solves", solves,
     "How the linear problems of the adjoint and direct methods are solved: block: all at once; "
     "recycled: one after the other, each starting in the search directions of those before.");
-  entries.add("Derivatives", derivatives, choice(derivatives_table()),
-              "Derivatives of stiffness, loads and contact rows.");
+  entries.add("Derivatives", derivatives, "Derivatives of stiffness, loads and contact rows.");
   entries.add("Semi-analytic step", semi_analytic_step, above(0., 0.1),
               "Step of those differences relative to the cell size; above 0, at most 0.1.");
-  entries.add("Differences", differences, choice(elasticity::stencil_table()),
-              "Formula of overall finite differences.");
+  entries.add("Differences", differences, "Formula of overall finite differences.");
   entries.add("Step", step, above(0., 0.1),
               "Step of overall finite differences relative to the width of the bounds; above 0, at "
               "most 0.1.");

@@ -14,8 +14,7 @@ TangentSystem tangent_system(const GradientProblem<dim> &problem)
 {
   return TangentSystem(problem.solver.feti(problem.state),
                        strong_rows(problem.solver, problem.state), problem.solver.model().solver,
-                       problem.parameters.solves == "block" ? Solves::block : Solves::recycled,
-                       problem.state.dual.directions);
+                       problem.parameters.solves, problem.state.dual.directions);
 }
 
 /// values_j += column i of products (adjoint, residual derivatives).
@@ -86,7 +85,7 @@ template <int dim>
 Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
                                 const Responses<dim>       &responses)
 {
-  const bool     exact = problem.parameters.derivatives == "exact";
+  const bool     exact = problem.parameters.derivatives == Derivatives::exact;
   Gradients<dim> result;
   for (const auto *response : responses)
     {
@@ -97,7 +96,7 @@ Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
       auto field = response->partials(problem.solver, problem.state).positions;
       if (response->stationary() && exact)
         state::add_constraint_gradient(problem.solver, problem.state, field);
-      Gradient<dim> gradient{"energy", "", problem.basis.transpose(field)};
+      Gradient<dim> gradient{Method::energy, "", problem.basis.transpose(field)};
       if (response->stationary() && !exact)
         {
           KktVectors adjoint; // w = 0, eta = -lambda
@@ -120,7 +119,7 @@ Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,
 {
   auto            partials = partials_of(problem, responses);
   const auto      adjoint  = tangent_system(problem).solve(state_partials(problem, partials));
-  const bool      exact    = problem.parameters.derivatives == "exact";
+  const bool      exact    = problem.parameters.derivatives == Derivatives::exact;
   qp::MultiVector through_state;
   if (!exact)
     through_state =
@@ -131,7 +130,7 @@ Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,
       auto &field = partials[i].positions;
       if (exact)
         add_residual_gradient(problem.solver, problem.state, adjoint, i, field);
-      Gradient<dim> gradient{"adjoint", "", problem.basis.transpose(field)};
+      Gradient<dim> gradient{Method::adjoint, "", problem.basis.transpose(field)};
       if (exact)
         gradient.shape = field;
       else
@@ -152,7 +151,8 @@ Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
   Gradients<dim> result;
   for (unsigned int i = 0; i < responses.size(); ++i)
     {
-      result.of_response.push_back({"direct", "", problem.basis.transpose(partials[i].positions)});
+      result.of_response.push_back(
+        {Method::direct, "", problem.basis.transpose(partials[i].positions)});
       add_row(through_state, i, result.of_response[i].values);
     }
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)

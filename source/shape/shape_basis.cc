@@ -38,7 +38,9 @@ std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
   auto face = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
   // Modes and interior refer to the face, which keeps its place when the pointer moves.
   auto modes    = make(*face);
-  auto interior = choose(interior_table<dim>(), parameters.interior).make(*face, parameters);
+  auto interior = parameters.interior == InteriorKind::linear_blending
+                    ? linear_blending(*face, parameters)
+                    : solved_interior(*face, parameters);
   return std::make_unique<Shape<dim>>(std::move(face), std::move(modes), std::move(interior));
 }
 

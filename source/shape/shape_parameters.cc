@@ -1,7 +1,6 @@
 #include <snug/base/section_check.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/formula_modes.h>
-#include <snug/shape/interior.h>
 #include <snug/shape/shape_basis.h>
 
 #include <algorithm>
@@ -108,12 +107,12 @@ void check_links(const SectionCheck &section, const ShapeParameters &shape)
 
 void ShapeParameters::declare(Entries &entries)
 {
-  entries.add("Basis", basis, choice(shape_basis_table<3>()),
+  entries.add("Basis", basis, choice(names(shape_basis_table<3>())),
               "How design variables move the nodes.");
   declare_places(entries, *this);
   declare_modes(entries, *this);
   declare_links(entries, *this);
-  entries.add("Interior", interior, choice(interior_table<3>()),
+  entries.add("Interior", interior,
               "How the nodes of the body follow its shaped face. With Laplace and elasticity, "
               "faces that touch the shaped one slide in themselves and the others stay. Boxes and "
               "fields on bodies need none.");
@@ -133,7 +132,7 @@ bool ShapeParameters::reads(const std::string &entry) const
 
 void ShapeParameters::check(const SectionCheck &section) const
 {
-  if (basis == "none")
+  if (!moves())
     return;
   auto read = entries_of(*this);
   read.insert(read.end(), {"Basis", "Bounds", "Initial"});

@@ -2,6 +2,7 @@
 #include <snug/base/petsc_handle.h>
 #include <snug/mesh/shared_nodes.h>
 #include <snug/shape/interior.h>
+#include <snug/shape/interior_matrix.h>
 #include <snug/shape/node_roles.h>
 
 #include <deal.II/base/mpi.h>
@@ -264,14 +265,14 @@ private:
 } // namespace
 
 template <int dim>
-std::unique_ptr<Interior<dim>>
-solved_interior(const ShapedFace<dim> &face, const ShapeParameters &parameters, InteriorKind kind)
+std::unique_ptr<Interior<dim>> solved_interior(const ShapedFace<dim> &face,
+                                               const ShapeParameters &parameters)
 {
-  return std::make_unique<SolvedInterior<dim>>(face, parameters.reach, kind);
+  return std::make_unique<SolvedInterior<dim>>(face, parameters.reach, parameters.interior);
 }
 
-template std::unique_ptr<Interior<2>>
-solved_interior(const ShapedFace<2> &, const ShapeParameters &, InteriorKind);
-template std::unique_ptr<Interior<3>>
-solved_interior(const ShapedFace<3> &, const ShapeParameters &, InteriorKind);
+template std::unique_ptr<Interior<2>> solved_interior(const ShapedFace<2> &,
+                                                      const ShapeParameters &);
+template std::unique_ptr<Interior<3>> solved_interior(const ShapedFace<3> &,
+                                                      const ShapeParameters &);
 } // namespace snug::shape

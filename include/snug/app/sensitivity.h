@@ -31,7 +31,6 @@ private:
   {
     std::string                     name;
     sensitivity::GradientParameters parameters;
-    bool                            is_difference = false;
   };
 
   std::vector<Method> methods() const;
@@ -40,10 +39,10 @@ private:
   void                add_one_sided();
   double              displacement_difference(const std::vector<Field> &derivatives) const;
 
-  ShapeProblem<dim> &problem;
-  Results<dim>      &results;
-  const States      &states;
-  std::string        chosen; ///< never "auto"
+  ShapeProblem<dim>  &problem;
+  Results<dim>       &results;
+  const States       &states;
+  sensitivity::Method chosen;
   /// u'_j by the direct method, of one load case after the other
   std::vector<Field> reference;
 };

@@ -30,17 +30,17 @@ struct Form
 /// Described by @p allowed; the value's from_text() decides.
 Form allowed(const std::string &description);
 
-/// One of "a|b|c".
-Form choice(const std::string &names);
+/// One of these: those of an enum, or of a factory table. Of tables for 2D
+/// and 3D, which have the same names, the one for 3D is passed.
+Form choice(const Names &names);
 
-/// One of a factory table. Of tables for 2D and 3D, which have the same
-/// names, the one for 3D is passed.
-template <typename Make>
-Form choice(const ChoiceTable<Make> &table)
+/// "auto", with this meaning, or a value of the enum E.
+template <typename E>
+Form choice_or_auto(const std::string &meaning)
 {
-  Form form      = choice(names(table));
-  form.explained = " " + meanings(table) + ".";
-  return form;
+  Names all = names(E());
+  all.insert(all.begin(), {"auto", meaning});
+  return choice(all);
 }
 
 /// "must be positive"
@@ -145,7 +145,10 @@ public:
   template <typename T>
   void add(const std::string &name, T &value, const std::string &meaning)
   {
-    add(name, value, Form(), meaning);
+    if constexpr (std::is_enum_v<T>)
+      add(name, value, choice(names(value)), meaning);
+    else
+      add(name, value, Form(), meaning);
   }
 
   template <typename T>

@@ -2,6 +2,7 @@
 #define snug_base_values_h
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -14,6 +15,13 @@ namespace snug {
 using TextMap   = std::map<std::string, std::string>;
 using VectorMap = std::map<std::string, std::vector<double>>;
 using TextPairs = std::vector<std::pair<std::string, std::string>>;
+
+/// What parameter files call a choice, and what it means.
+struct Name
+{
+  std::string name, meaning = {};
+};
+using Names = std::vector<Name>;
 
 /// Without white space at its ends.
 std::string trim(const std::string &text);
@@ -38,6 +46,43 @@ void from_text(const std::string &text, double &value);
 void from_text(const std::string &text, unsigned int &value);
 void from_text(const std::string &text, bool &value);
 void from_text(const std::string &text, std::string &value);
+
+/// An enum that counts from 0 has a function names(E) beside it, which
+/// gives the Names of its values in their order.
+template <typename E, typename = std::enable_if_t<std::is_enum_v<E>>>
+std::string to_text(const E value)
+{
+  return names(value).at(static_cast<std::size_t>(value)).name;
+}
+
+template <typename E, typename = std::enable_if_t<std::is_enum_v<E>>>
+void from_text(const std::string &text, E &value)
+{
+  const Names all = names(value);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].name == text)
+      {
+        value = static_cast<E>(i);
+        return;
+      }
+  throw std::invalid_argument("no such name");
+}
+
+/// "auto" stands for no value.
+template <typename T>
+std::string to_text(const std::optional<T> &value)
+{
+  return value ? to_text(*value) : "auto";
+}
+
+template <typename T>
+void from_text(const std::string &text, std::optional<T> &value)
+{
+  if (text == "auto")
+    value.reset();
+  else
+    from_text(text, value.emplace());
+}
 
 template <typename T>
 std::string to_text(const std::vector<T> &values, char separator = ',');

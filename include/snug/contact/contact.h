@@ -6,11 +6,6 @@
 #include <snug/geometry/formula.h>
 
 namespace snug::contact {
-/// The methods a pair of faces can meet by.
-template <int dim>
-const ChoiceTable<std::unique_ptr<RowGroup<dim>>(const PairGeometry<dim> &)> &
-contact_method_table();
-
 /// Where a row stands.
 struct RowPlace
 {

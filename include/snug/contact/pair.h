@@ -14,12 +14,36 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::contact {
+/// How two faces meet.
+enum class Method
+{
+  nodal,
+  mortar
+};
+inline Names names(Method)
+{
+  return {{"nodal", "slave nodes against the closest points of master faces"},
+          {"mortar",
+           "mean gaps around slave nodes, integrated over both faces: for meshes that do not "
+           "match"}};
+}
+
+enum class Slave
+{
+  finer, ///< the side of the smaller faces, see Contact
+  first  ///< the side that is named first
+};
+inline Names names(Slave)
+{
+  return {{"finer"}, {"first"}};
+}
+
 /// How two sides meet: entries of `subsection Contact`, for all pairs, and
 /// of `subsection Pair SLAVE: MASTER`.
 struct PairParameters
 {
-  std::string method = "nodal"; ///< name in contact_method_table()
-  std::string slave  = "finer"; ///< or "first"
+  Method method = Method::nodal;
+  Slave  slave  = Slave::finer;
   /// slave nodes farther from the master carry no row [length]; 0: any
   double search_distance = 0.;
   /// between the slave's normal and the row's [degrees]

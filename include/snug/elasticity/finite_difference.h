@@ -1,7 +1,7 @@
 #ifndef snug_elasticity_finite_difference_h
 #define snug_elasticity_finite_difference_h
 
-#include <snug/base/choice.h>
+#include <snug/base/values.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -16,8 +16,22 @@ struct Stencil
   std::vector<double> places, weights;
 };
 
-/// Rows "forward", "backward", "central" and "fourth order".
-const ChoiceTable<Stencil()> &stencil_table();
+/// Errors are of order h, h, h^2 and h^4.
+enum class Differences
+{
+  forward,
+  backward,
+  central,
+  fourth_order
+};
+inline Names names(Differences)
+{
+  return {{"forward", "(f(h) - f(0)) / h"},
+          {"backward", "(f(0) - f(-h)) / h"},
+          {"central", "(f(h) - f(-h)) / 2h"},
+          {"fourth order", "(f(-2h) - 8 f(-h) + 8 f(h) - f(2h)) / 12h"}};
+}
+Stencil stencil(Differences differences);
 
 /// f <- a vector per node, computed from the node positions X.
 template <int dim>

@@ -17,7 +17,9 @@ class FactorPool
 public:
   struct Item
   {
-    explicit Item(const CsrMatrix &pattern) : matrix(pattern), factor(matrix, "CHOLMOD") {}
+    explicit Item(const CsrMatrix &pattern)
+      : matrix(pattern), factor(matrix, Factorization::CHOLMOD)
+    {}
 
     CsrMatrix    matrix; ///< fill in values, then factor.factorize()
     SparseFactor factor;

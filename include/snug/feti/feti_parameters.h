@@ -1,19 +1,50 @@
 #ifndef snug_feti_feti_parameters_h
 #define snug_feti_feti_parameters_h
 
-#include <string>
+#include <snug/base/values.h>
 
 namespace snug {
 class Entries;
 }
 
 namespace snug::feti {
+enum class Factorization
+{
+  CHOLMOD,
+  MUMPS
+};
+inline Names names(Factorization)
+{
+  return {{"CHOLMOD"}, {"MUMPS"}};
+}
+
+enum class Preconditioner
+{
+  Dirichlet,
+  lumped,
+  none
+};
+inline Names names(Preconditioner)
+{
+  return {{"Dirichlet"}, {"lumped"}, {"none"}};
+}
+
+enum class Scaling
+{
+  stiffness,
+  multiplicity
+};
+inline Names names(Scaling)
+{
+  return {{"stiffness"}, {"multiplicity"}};
+}
+
 /// Entries of `subsection Solver` that Total FETI reads.
 struct FetiParameters
 {
-  std::string factorization  = "CHOLMOD";   ///< CHOLMOD | MUMPS
-  std::string preconditioner = "Dirichlet"; ///< Dirichlet | lumped | none
-  std::string scaling        = "stiffness"; ///< stiffness | multiplicity
+  Factorization  factorization  = Factorization::CHOLMOD;
+  Preconditioner preconditioner = Preconditioner::Dirichlet;
+  Scaling        scaling        = Scaling::stiffness;
 
   void declare(Entries &entries);
 };

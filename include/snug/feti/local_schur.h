@@ -6,7 +6,6 @@
 #include <snug/feti/subdomain_system.h>
 
 #include <memory>
-#include <string>
 
 namespace snug::feti {
 /**
@@ -22,7 +21,7 @@ public:
   /// @p system must outlive this object.
   LocalSchur(const SubdomainSystem &system,
              bool                   lumped,
-             const std::string     &package,
+             Factorization          package,
              RunContext            &context);
 
   /// For the present K and R.
@@ -50,7 +49,7 @@ private:
   const SubdomainSystem        &system;
   RunContext                   &context;
   const bool                    lumped;
-  const std::string             package;
+  const Factorization           package;
   bool                          has_fixing_dofs = false;
   unsigned int                  n_b = 0, n_i = 0;
   std::vector<unsigned int>     position_b, position_i;

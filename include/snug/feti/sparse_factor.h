@@ -3,8 +3,7 @@
 
 #include <snug/base/petsc_handle.h>
 #include <snug/feti/csr_matrix.h>
-
-#include <string>
+#include <snug/feti/feti_parameters.h>
 
 namespace snug::feti {
 /**
@@ -20,9 +19,8 @@ public:
   /**
    * @param[in] matrix referenced, not copied: it must outlive this object
    *   and keep its arrays. Only its pattern is used here.
-   * @param[in] package "CHOLMOD" or "MUMPS".
    */
-  SparseFactor(const CsrMatrix &matrix, const std::string &package);
+  SparseFactor(const CsrMatrix &matrix, Factorization package);
 
   /**
    * Factorize the present values of the matrix.

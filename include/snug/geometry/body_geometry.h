@@ -1,7 +1,7 @@
 #ifndef snug_geometry_body_geometry_h
 #define snug_geometry_body_geometry_h
 
-#include <snug/base/choice.h>
+#include <snug/base/values.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -20,6 +20,31 @@ class SectionCheck;
 namespace snug::geometry {
 struct ImportedMesh;
 
+enum class Source
+{
+  box,
+  ring,
+  disc,
+  cylinder,
+  sphere,
+  shell,
+  file
+};
+Names names(Source);
+
+/// Each is half of the one before.
+enum class Part
+{
+  full,
+  half,
+  quarter,
+  eighth
+};
+inline Names names(Part)
+{
+  return {{"full"}, {"half"}, {"quarter"}, {"eighth"}};
+}
+
 /**
  * Mesh entries of `subsection Body NAME`. Faces of a box are called left,
  * right (x-, x+), front, back (y-, y+), bottom, top (z-, z+); in 2D left,
@@ -27,7 +52,7 @@ struct ImportedMesh;
  */
 struct BodyMeshParameters
 {
-  std::string               source = "box";
+  Source                    source = Source::box;
   std::vector<double>       corner; ///< [length], default 0
   std::vector<double>       size;   ///< [length], default 1
   std::vector<unsigned int> cells;  ///< per axis
@@ -45,10 +70,10 @@ struct BodyMeshParameters
 
   /// @name Round bodies
   /// @{
-  double      radius       = 1.;     ///< outer [length]
-  double      inner_radius = 0.5;    ///< of rings and shells [length]
-  double      length       = 1.;     ///< of cylinders and rings [length]
-  std::string part         = "full"; ///< full, half, quarter, eighth
+  double radius       = 1.;  ///< outer [length]
+  double inner_radius = 0.5; ///< of rings and shells [length]
+  double length       = 1.;  ///< of cylinders and rings [length]
+  Part   part         = Part::full;
   /// ring: around, across, along; cylinder: across, along; shell: around,
   /// across; disc, sphere: across
   std::vector<unsigned int> round_cells;
@@ -179,15 +204,8 @@ public:
   virtual dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const;
 };
 
-/**
- * Rows "box", "disc" (2D), "ring", "cylinder", "sphere", "shell" (3D),
- * "file". @throws InputError naming the entry.
- */
-template <int dim>
-const ChoiceTable<std::unique_ptr<BodyGeometry<dim>>(const BodyMeshParameters &)> &
-body_geometry_table();
-
 /// The geometry of a body, placed and with the regions its parameters say.
+/// @throws InputError naming the entry.
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_geometry(const BodyMeshParameters &parameters);
 

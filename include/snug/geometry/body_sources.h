@@ -4,7 +4,7 @@
 #include <snug/geometry/body_geometry.h>
 
 namespace snug::geometry {
-/// @name Rows of body_geometry_table()
+/// @name The bodies of each Source
 /// @{
 
 /// Faces left, right (x), bottom, top (y) in 2D; left, right (x), front,

@@ -1,7 +1,7 @@
 #ifndef snug_mesh_idealization_h
 #define snug_mesh_idealization_h
 
-#include <snug/base/choice.h>
+#include <snug/base/values.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/tensor.h>
@@ -51,13 +51,23 @@ struct Idealization
     return gradient;
   }
 
-  /// Rigid motions of a body: 6, 3 in plane sections, and 1,
-  /// along the axis, in axisymmetric ones.
-  unsigned int n_rigid_motions() const;
+  /// Rigid motions of a body, the kernel of its stiffness matrix: 6, 3 in
+  /// plane sections, and 1, along the axis, in axisymmetric ones.
+  unsigned int n_rigid_motions() const
+  {
+    return kind == Kind::solid ? 6 : kind == Kind::axisymmetric ? 1 : 3;
+  }
 };
 
-/// Rows "solid", "plane strain", "plane stress", "axisymmetric".
-const ChoiceTable<Idealization::Kind()> &idealization_table();
+inline Names names(Idealization::Kind)
+{
+  return {{"solid", "3D"},
+          {"plane strain", "2D section of a body that cannot strain across it"},
+          {"plane stress", "2D section of a sheet without stress across it"},
+          {"axisymmetric",
+           "2D section x >= 0 of a body of revolution, x the radius and y the axis; forces, "
+           "energies and volumes are those of the full revolution"}};
+}
 } // namespace snug::mesh
 
 #endif

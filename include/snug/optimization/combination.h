@@ -1,7 +1,7 @@
 #ifndef snug_optimization_combination_h
 #define snug_optimization_combination_h
 
-#include <snug/base/choice.h>
+#include <snug/optimization/optimization_parameters.h>
 
 #include <vector>
 
@@ -14,7 +14,7 @@ struct Combined
 };
 
 /**
- * Rows "sum" and "worst": J from the objectives J_c of load cases, their
+ * J from the objectives J_c of load cases, their
  * weights w_c and the largest abs(w_c J_c) of the first design, s.
  *
  * worst is the smooth maximum of Kreisselmeier and Steinhauser,
@@ -26,9 +26,10 @@ struct Combined
  * Source: Kreisselmeier, Steinhauser, Systematic control design by
  * optimizing a vector performance index, IFAC CADCS (1979).
  */
-const ChoiceTable<
-  Combined(const std::vector<double> &values, const std::vector<double> &weights, double scale)> &
-combination_table();
+Combined combined(Combination                combination,
+                  const std::vector<double> &values,
+                  const std::vector<double> &weights,
+                  double                     scale);
 } // namespace snug::optimization
 
 #endif

@@ -1,7 +1,6 @@
 #ifndef snug_optimization_minimize_h
 #define snug_optimization_minimize_h
 
-#include <snug/base/choice.h>
 #include <snug/optimization/design_problem.h>
 #include <snug/optimization/optimization_parameters.h>
 
@@ -45,6 +44,19 @@ struct Hooks
   std::function<void(const std::string &)> log;
 };
 
+/// Why a search, or one of its runs, ended.
+enum class End
+{
+  none,
+  gradient,
+  objective,
+  design,
+  evaluations,
+  round_off,
+  no_value,
+  interrupted
+};
+
 /**
  * The design found and how the search for it ended: the last accepted one
  * if a tolerance was met, else the best one evaluated (the lowest that
@@ -60,6 +72,7 @@ struct OptimizationResult
   double              objective_final      = 0.;
   double              constraint_violation = 0.; ///< as in Iteration
   double              projected_gradient   = 0.; ///< as in Iteration
+  End                 end                  = End::none;
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
   /// "interrupted" or "restarts exhausted (...)" with what the last design
@@ -76,15 +89,8 @@ struct OptimizationResult
 /// constraints when the evaluations ran out or it was interrupted.
 std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters);
 
-using Algorithm = OptimizationResult(const DesignProblem &,
-                                     const OptimizationParameters &,
-                                     const Hooks &);
-
-/// Rows "SLSQP", "MMA", "CCSAQ", "AUGLAG".
-const ChoiceTable<Algorithm> &algorithm_table();
-
 /// Whether an algorithm can hold equality constraints.
-bool takes_equalities(const std::string &algorithm);
+bool takes_equalities(Algorithm algorithm);
 
 /**
  * Minimize with the algorithm the parameters name. Every rank that shares
@@ -92,13 +98,13 @@ bool takes_equalities(const std::string &algorithm);
  *
  * The start is moved into the bounds. A design without a value (SolveError,
  * TangledMesh, a number that is not finite) ends the step that asked for
- * it; see nlopt_search(). An Interrupted thrown by evaluate() or a hook
+ * it, see nlopt_search.cc. An Interrupted thrown by evaluate() or a hook
  * ends the search with stop reason "interrupted"; any other exception of
  * theirs passes through unchanged.
  *
  * @throws InputError if a lower bound is above its upper bound, a bound or
  *   the start is not finite, a tolerance is not positive, no evaluation is
- *   allowed, the algorithm is unknown or cannot hold equalities.
+ *   allowed, or the algorithm cannot hold equalities.
  * @throws SolveError, TangledMesh or Interrupted if the first evaluation
  *   does: there is no design to return.
  */

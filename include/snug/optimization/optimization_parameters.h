@@ -1,6 +1,8 @@
 #ifndef snug_optimization_optimization_parameters_h
 #define snug_optimization_optimization_parameters_h
 
+#include <snug/base/values.h>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,12 +13,42 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::optimization {
+/// Of NLopt.
+enum class Algorithm
+{
+  SLSQP,
+  MMA,
+  CCSAQ,
+  AUGLAG
+};
+inline Names names(Algorithm)
+{
+  return {{"SLSQP",
+           "sequential quadratic programming (Kraft) of the NLopt library, for all constraints"},
+          {"MMA", "method of moving asymptotes (Svanberg) of NLopt, for inequalities"},
+          {"CCSAQ", "its relative with separable quadratic models, for inequalities"},
+          {"AUGLAG", "augmented Lagrangian of NLopt around its L-BFGS, for all constraints"}};
+}
+
+enum class Combination
+{
+  sum,
+  worst
+};
+inline Names names(Combination)
+{
+  return {{"sum", "the weighted sum"},
+          {"worst",
+           "a smooth maximum of the weighted values, less than ln(n) percent of the first one "
+           "above it for n load cases"}};
+}
+
 /// Entries of `subsection Optimization`.
 struct OptimizationParameters
 {
-  std::string algorithm = "SLSQP";
+  Algorithm   algorithm = Algorithm::SLSQP;
   std::string objective = "potential energy"; ///< name of a response
-  std::string combine   = "sum";              ///< of load cases, a combination
+  Combination combine   = Combination::sum;   ///< of load cases
   /// response, or "load case.response", and its limit, see read_limit()
   std::vector<std::pair<std::string, std::string>> constraints;
   unsigned int                                     maximum_evaluations = 200;

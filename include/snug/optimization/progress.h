@@ -7,19 +7,6 @@
 #include <memory>
 
 namespace snug::optimization {
-/// Why a search, or one of its runs, ended.
-enum class End
-{
-  none,
-  gradient,
-  objective,
-  design,
-  evaluations,
-  round_off,
-  no_value,
-  interrupted
-};
-
 /**
  * The accepted designs of a search, the best design it has seen, and
  * whether that is enough. Knows no algorithm.

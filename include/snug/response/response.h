@@ -44,6 +44,9 @@ public:
   /// then only the positions of a state are read.
   virtual bool needs_solution() const { return true; }
 
+  /// Whether J is zero where no material has a density.
+  virtual bool needs_density() const { return false; }
+
   /**
    * Whether u makes J stationary among the displacements that the rows of
    * contact and supports allow, with multipliers lambda: dJ/du = -B'lambda

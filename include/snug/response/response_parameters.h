@@ -1,6 +1,8 @@
 #ifndef snug_response_response_parameters_h
 #define snug_response_response_parameters_h
 
+#include <snug/base/values.h>
+
 #include <string>
 #include <vector>
 
@@ -10,6 +12,18 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::response {
+enum class Component
+{
+  normal,
+  x,
+  y,
+  z
+};
+inline Names names(Component)
+{
+  return {{"normal"}, {"x"}, {"y"}, {"z"}};
+}
+
 /// Entries of `subsection Response NAME`, or the defaults of a response
 /// that is named by its quantity alone.
 struct ResponseParameters
@@ -20,8 +34,8 @@ struct ResponseParameters
   std::string face;                          ///< "body.boundary"
   /// [length], in the reference geometry
   std::vector<double> point;
-  std::string         component = "normal"; ///< or x, y, z
-  std::string         pair;                 ///< "slave: master"; empty: all
+  Component           component = Component::normal;
+  std::string         pair; ///< "slave: master"; empty: all
   double              exponent  = 8.;
   double              smoothing = 0.1; ///< of contact areas
 

@@ -32,8 +32,9 @@ struct LoadParameters
   /// "component = formula" [length]
   std::vector<std::pair<std::string, std::string>> displacements;
 
-  /// Entries whose keys are called @p key: boundary or body.boundary.
-  void declare(Entries &entries, const std::string &key);
+  /// Entries whose keys are called @p key: boundary or body.boundary, as
+  /// @p where is.
+  void declare(Entries &entries, const std::string &key, const std::string &where);
 
   /// A boundary, "body.boundary", and a component held there.
   using Held = std::set<std::pair<std::string, unsigned int>>;

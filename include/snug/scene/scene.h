@@ -1,8 +1,8 @@
 #ifndef snug_scene_scene_h
 #define snug_scene_scene_h
 
-#include <snug/base/values.h>
 #include <snug/contact/pair.h>
+#include <snug/elasticity/formulation.h>
 #include <snug/elasticity/material.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/geometry/body_geometry.h>
@@ -29,11 +29,10 @@ enum class Task
   sensitivity, ///< its derivatives by all methods, side by side
   optimize     ///< the best shape
 };
-
-using snug::from_text;
-using snug::to_text;
-std::string to_text(Task task);
-void        from_text(const std::string &text, Task &task);
+inline Names names(Task)
+{
+  return {{"state"}, {"sensitivity"}, {"optimize"}};
+}
 
 /// `subsection Material NAME`.
 struct NamedMaterial
@@ -55,7 +54,7 @@ struct Body
   elasticity::Material material;
   /// region -> name of its material; "" is the whole body
   std::map<std::string, std::string> materials;
-  std::string                        formulation = "standard"; ///< see formulation_table()
+  elasticity::Formulation            formulation = elasticity::Formulation::standard;
   /// boundary -> components held at zero: words made of "xyz", "normal"
   std::map<std::string, std::string> supports;
   LoadParameters                     loads;
@@ -75,9 +74,9 @@ struct Scene
 {
   std::string                              file; ///< it was read from, for messages
   Task                                     task      = Task::state;
-  unsigned int                             dimension = 3;      ///< of the meshes
-  std::string                              model     = "auto"; ///< auto or of idealization_table()
-  double                                   thickness = 1.;     ///< of plane models [length]
+  unsigned int                             dimension = 3; ///< of the meshes
+  std::optional<mesh::Idealization::Kind>  model;         ///< none: natural to the dimension
+  double                                   thickness             = 1.; ///< of plane models [length]
   std::string                              output_directory      = "output";
   unsigned int                             degree                = 1;  ///< of the elements, 1 or 2
   double                                   least_scaled_jacobian = 0.; ///< that a cell may have
@@ -115,7 +114,7 @@ std::vector<std::string> names_of(const std::vector<Named> &list)
   return names;
 }
 
-/// What the meshes of the scene stand for; the model must not be auto.
+/// What the meshes of the scene stand for; which must have a model.
 mesh::Idealization idealization(const Scene &scene);
 
 /// "body.boundary" as {body, boundary}; without a dot, boundary is "".

@@ -6,17 +6,6 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::sensitivity {
-/// How the derivatives of K, f, B and g are taken.
-struct DataScheme
-{
-  std::string stencil;         ///< name in stencil_table(); empty: exact
-  bool        refined = false; ///< see SemiAnalytic
-};
-
-/// Rows "exact", "forward differences", "central differences", "refined
-/// forward differences", "refined central differences".
-const ChoiceTable<DataScheme()> &derivatives_table();
-
 /**
  * Right-hand sides of the sensitivity problem for k velocities V_j, one
  * column each (equation 14 of Vondrák, Kozubek, Dostál; its c_w, c_s

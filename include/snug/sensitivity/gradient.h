@@ -7,18 +7,14 @@ namespace snug::sensitivity {
 /// A method and why it was chosen.
 struct MethodChoice
 {
-  std::string method, reason;
+  Method      method;
+  std::string reason;
 };
 
 /// What "auto" takes for each of the responses of @p n_variables.
 template <int dim>
 std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
                                            unsigned int          n_variables);
-
-/// "auto", "energy", "adjoint", "direct", "finite differences".
-template <int dim>
-const ChoiceTable<Gradients<dim>(const GradientProblem<dim> &, const Responses<dim> &)> &
-gradient_table();
 
 /**
  * dJ/dalpha of every response by parameters.method; dJ/dX if

@@ -28,8 +28,8 @@ using Responses = std::vector<const response::Response<dim> *>;
 template <int dim>
 struct Gradient
 {
-  std::string         method; ///< the method used, never "auto"
-  std::string         reason; ///< why "auto" took it; else empty
+  Method              method = Method::energy; ///< the method used
+  std::string         reason;                  ///< why "auto" took it; else empty
   std::vector<double> values;
   /// dJ/dX if the method has it: this rank's share at the local nodes,
   /// hanging ones included; values are its products with the velocities.

@@ -1,6 +1,7 @@
 #ifndef snug_sensitivity_tangent_system_h
 #define snug_sensitivity_tangent_system_h
 
+#include <snug/sensitivity/gradient_parameters.h>
 #include <snug/sensitivity/kkt_vectors.h>
 #include <snug/state/state_solver.h>
 
@@ -9,13 +10,6 @@ namespace snug::sensitivity {
 template <int dim>
 qp::RowSet strong_rows(const state::StateSolver<dim>  &solver,
                        const state::ContactState<dim> &state);
-
-/// How many right-hand sides are solved together.
-enum class Solves
-{
-  block,   ///< all, by block PCPG
-  recycled ///< one after the other; each starts in the directions so far
-};
 
 /**
  * The tangent of the optimality conditions on a set M of rows,

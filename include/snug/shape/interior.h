@@ -1,8 +1,6 @@
 #ifndef snug_shape_interior_h
 #define snug_shape_interior_h
 
-#include <snug/base/choice.h>
-#include <snug/shape/interior_matrix.h>
 #include <snug/shape/shaped_face.h>
 
 #include <memory>
@@ -31,17 +29,14 @@ public:
   virtual FaceField transpose(const Field &gradient) const = 0;
 };
 
-/// Collective. @throws InputError. The face must outlive the interior.
-template <int dim>
-using MakeInterior = std::unique_ptr<Interior<dim>>(const ShapedFace<dim> &,
-                                                    const ShapeParameters &);
-
 /**
  * Nodes of a box follow the point of the shaped face below or above them,
  *   u(x) = b(x) u(face point),  b = max(0, 1 - depth / reach),
  * where depth is measured in the box before its faces are curved and reach
  * is the box's height unless given. The face point is found in logical
- * coordinates, its displacement interpolated as the elements do.
+ * coordinates, its displacement interpolated as the elements do. The frame
+ * of a box, which it needs, is checked with the scene. Collective.
+ * @throws InputError. The face must outlive the interior, here and below.
  */
 template <int dim>
 std::unique_ptr<Interior<dim>> linear_blending(const ShapedFace<dim> &face,
@@ -60,15 +55,11 @@ std::unique_ptr<Interior<dim>> linear_blending(const ShapedFace<dim> &face,
  *
  * One solve per extend() and transpose(): conjugate gradients with
  * algebraic multigrid, down to round-off, so that the two are adjoint.
- * Both throw a SolveError where that fails.
+ * Both throw a SolveError where that fails. Collective.
  */
 template <int dim>
-std::unique_ptr<Interior<dim>>
-solved_interior(const ShapedFace<dim> &face, const ShapeParameters &parameters, InteriorKind kind);
-
-/// Rows "linear blending", "Laplace" and "elasticity".
-template <int dim>
-const ChoiceTable<MakeInterior<dim>> &interior_table();
+std::unique_ptr<Interior<dim>> solved_interior(const ShapedFace<dim> &face,
+                                               const ShapeParameters &parameters);
 } // namespace snug::shape
 
 #endif

@@ -3,15 +3,9 @@
 
 #include <snug/elasticity/element.h>
 #include <snug/mesh/body_mesh.h>
+#include <snug/shape/shape_parameters.h>
 
 namespace snug::shape {
-/// What a body's interior is made of when it follows its shaped face.
-enum class InteriorKind
-{
-  Laplace,   ///< the Laplacian of each component
-  elasticity ///< Young's modulus is the inverse of the cell's volume
-};
-
 /**
  * The blocks of cells of the operator that carries the movement of a face
  * into its body, on the masters of hanging nodes.

@@ -1,6 +1,8 @@
 #ifndef snug_shape_shape_parameters_h
 #define snug_shape_shape_parameters_h
 
+#include <snug/base/values.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +18,22 @@ struct BodyNames
 {
   std::vector<std::string> names;
 };
+
+/// How a body's nodes follow its shaped face, see interior.h.
+enum class InteriorKind
+{
+  linear_blending,
+  Laplace,
+  elasticity
+};
+inline Names names(InteriorKind)
+{
+  return {{"linear blending",
+           "in boxes, a share of the face's move that falls linearly to zero at the opposite "
+           "face"},
+          {"Laplace", "each component of the move is harmonic"},
+          {"elasticity", "the body is elastic, the stiffer the smaller its cells"}};
+}
 
 /// Entries of `subsection Shape` or `subsection Shape NAME`.
 struct ShapeParameters
@@ -34,8 +52,8 @@ struct ShapeParameters
   double                                filter_radius = 0.; ///< [length]
   /// axis -> coordinate [length] of a mirror plane across it
   std::map<std::string, double> symmetry;
-  std::vector<std::string>      fixed;                        ///< "border", control point indices
-  std::string                   interior = "linear blending"; ///< of interior_table()
+  std::vector<std::string>      fixed; ///< "border", control point indices
+  InteriorKind                  interior = InteriorKind::linear_blending;
   double                        reach    = 0.; ///< of the interior [length]; 0: all of it
   std::vector<double>           bounds;        ///< lower, upper
   std::vector<double>           initial;       ///< one for all, one each, or empty: 0
@@ -49,6 +67,9 @@ struct ShapeParameters
 
   /// Whether its basis reads an entry. Of formula modes, Face decides which.
   bool reads(const std::string &entry) const;
+
+  /// Whether its basis moves any nodes: those of a face or of bodies.
+  bool moves() const { return reads("Face") || reads("Bodies"); }
 
   /// Path of an entry, for messages.
   std::string path(const std::string &entry) const { return section() + "/" + entry; }

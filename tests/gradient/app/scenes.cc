@@ -32,8 +32,8 @@ const double design_step     = 0.05;
 
 struct Case
 {
-  std::string file;
-  std::string method; ///< of contact
+  std::string     file;
+  contact::Method method; ///< of the pairs
 };
 
 std::string contents(const std::string &file)
@@ -50,7 +50,7 @@ std::vector<Case> cases()
     for (const auto &entry : std::filesystem::directory_iterator(SNUG_ROOT + folder))
       if (entry.path().extension() == ".prm" &&
           contents(entry.path()).find("set Basis") != std::string::npos)
-        for (const std::string method : {"nodal", "mortar"})
+        for (const auto method : {contact::Method::nodal, contact::Method::mortar})
           result.push_back({entry.path(), method});
   std::sort(result.begin(), result.end(), [](const Case &a, const Case &b) {
     return std::tie(a.file, a.method) < std::tie(b.file, b.method);
@@ -117,7 +117,7 @@ public:
         measured.push_back({response.get(), c});
   }
 
-  void check(const std::string &contact_method)
+  void check(const contact::Method contact_method)
   {
     ASSERT_GT(design.size(), 0u);
     for (const auto &pair : problem.solver->contact().pairs())
@@ -128,8 +128,8 @@ public:
         ASSERT_TRUE(state.active_contacts > 0 || state.contact.empty());
         ASSERT_EQ(state.weak_contacts, 0u);
       }
-    const auto adjoint  = gradients(states, "adjoint");
-    const auto direct   = gradients(states, "direct");
+    const auto adjoint  = gradients(states, sensitivity::Method::adjoint);
+    const auto direct   = gradients(states, sensitivity::Method::direct);
     const auto step     = random_step();
     const auto expected = differences(states, step);
     for (unsigned int i = 0; i < expected.size(); ++i)
@@ -140,7 +140,8 @@ public:
         check_slope(adjoint[i], step, expected[i], difference_tolerance);
       }
     if (!sensitivity::needs_solve(*problem.objective))
-      check_slope(gradients(states, "energy", false)[0], step, expected[0], energy_tolerance);
+      check_slope(gradients(states, sensitivity::Method::energy, false)[0], step, expected[0],
+                  energy_tolerance);
   }
 
 private:
@@ -161,7 +162,7 @@ private:
 
   /// By variables that are relative to the widths of their bounds.
   std::vector<std::vector<double>>
-  gradients(const States &states, const std::string &method, bool all = true)
+  gradients(const States &states, const sensitivity::Method method, bool all = true)
   {
     sensitivity::GradientParameters parameters;
     parameters.method = method;
@@ -275,7 +276,7 @@ TEST_P(EveryScene, WithADesign)
 
 std::ostream &operator<<(std::ostream &out, const Case &given)
 {
-  return out << given.file << ", " << given.method;
+  return out << given.file << ", " << to_text(given.method);
 }
 
 /// "hertz-3d-9" as a name of tests, which have letters and digits only.
@@ -284,7 +285,7 @@ std::string name_of(const testing::TestParamInfo<Case> &info)
   std::string name;
   for (const char c : std::filesystem::path(info.param.file).stem().string() + "_")
     name += std::isalnum(c) ? c : '_';
-  return name + info.param.method;
+  return name + to_text(info.param.method);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gradient, EveryScene, testing::ValuesIn(cases()), name_of);

@@ -19,9 +19,9 @@ std::map<std::string, response::ResponseParameters> all_responses()
       result[row.name].exponent  = 5.;
       result[row.name].smoothing = 0.5;
     }
-  const std::string axis     = dim == 2 ? "y" : "z";
+  const auto axis            = dim == 2 ? response::Component::y : response::Component::z;
   result["force"]            = result.at("contact force");
-  result["force"].component  = "x";
+  result["force"].component  = response::Component::x;
   auto &displacement         = result.at("displacement");
   result["normal on a face"] = displacement;
   result["axial on a face"]  = displacement;

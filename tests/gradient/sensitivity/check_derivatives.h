@@ -50,16 +50,17 @@ double field_error(const Problem<dim>                        &problem,
 
 /// Gradients of all responses by all exact methods that apply.
 template <int dim>
-std::map<std::pair<std::string, std::string>, std::vector<double>>
+std::map<std::pair<std::string, sensitivity::Method>, std::vector<double>>
 all_gradients(GradientScene<dim> &scene, const state::ContactState<dim> &state)
 {
-  std::map<std::pair<std::string, std::string>, std::vector<double>> result;
-  sensitivity::GradientParameters                                    parameters;
-  for (const auto &method : {"adjoint", "direct", "energy"})
+  using sensitivity::Method;
+  std::map<std::pair<std::string, Method>, std::vector<double>> result;
+  sensitivity::GradientParameters                               parameters;
+  for (const auto method : {Method::adjoint, Method::direct, Method::energy})
     {
       std::vector<std::string> names;
       for (const auto &[name, response] : scene.responses)
-        if (method != std::string("energy") || !sensitivity::needs_solve(*response))
+        if (method != Method::energy || !sensitivity::needs_solve(*response))
           names.push_back(name);
       parameters.method = method;
       const auto found  = scene.gradients(state, names, parameters);
@@ -80,7 +81,8 @@ void check_derivatives(GradientScene<dim> &scene)
   const auto derivatives = sensitivity::state_derivatives(scene.at(state, parameters));
   const auto gradients   = all_gradients(scene, state);
   for (const auto &[name, response] : scene.responses)
-    EXPECT_LT(relative_error(gradients.at({name, "adjoint"}), gradients.at({name, "direct"})),
+    EXPECT_LT(relative_error(gradients.at({name, sensitivity::Method::adjoint}),
+                             gradients.at({name, sensitivity::Method::direct})),
               method_tolerance)
       << name;
   for (const auto &direction : test_directions(scene.basis->n_variables()))
@@ -92,8 +94,8 @@ void check_derivatives(GradientScene<dim> &scene)
       for (const auto &[key, gradient] : gradients)
         EXPECT_LT(std::abs(dot(gradient, direction) - exact.responses.at(key.first)) /
                     (norm(gradient) * norm(direction)),
-                  key.second == "energy" ? energy_tolerance : direct_tolerance)
-          << key.first << " by " << key.second;
+                  key.second == sensitivity::Method::energy ? energy_tolerance : direct_tolerance)
+          << key.first << " by " << to_text(key.second);
     }
 }
 } // namespace snug::test

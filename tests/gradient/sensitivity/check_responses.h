@@ -23,9 +23,9 @@ void check_responses(GradientScene<dim> &scene, const std::set<std::string> &sen
   ASSERT_GT(state.active_contacts, 1u);
 
   sensitivity::GradientParameters parameters;
-  parameters.method  = "adjoint";
+  parameters.method  = sensitivity::Method::adjoint;
   const auto adjoint = scene.gradients(state, names, parameters).of_response;
-  parameters.method  = "direct";
+  parameters.method  = sensitivity::Method::direct;
   const auto direct  = scene.gradients(state, names, parameters).of_response;
 
   const auto direction = test_directions(scene.basis->n_variables()).front();

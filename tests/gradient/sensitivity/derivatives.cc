@@ -36,7 +36,7 @@ void check_shape_gradients(GradientScene<dim> &scene)
   auto                           &solver = scene.problem.solver;
   const auto                      state  = scene.solve(scene.design);
   sensitivity::GradientParameters parameters;
-  parameters.method         = "adjoint";
+  parameters.method         = sensitivity::Method::adjoint;
   parameters.shape_gradient = true;
   std::vector<std::string> names;
   std::vector<double>      slopes, sizes, differences;
@@ -175,7 +175,7 @@ TestScene<dim> obstacle_scene(const std::string &shape)
   auto scene = curved_scene<dim>(dim == 2 ? 8 : 5, dim == 2 ? 4 : 3, 0.04);
   narrow_punch(scene);
   contact::Pair punch{{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}};
-  punch.parameters.slave = "first";
+  punch.parameters.slave = contact::Slave::first;
   punch.parameters.gap   = "0.01 + 0.1 * x^2 * sin(y)";
   contact::Pair                pressed{{1, face_index(dim - 1, 1)}, {}};
   contact::ObstacleParameters &obstacle = pressed.obstacle.emplace();
@@ -272,7 +272,7 @@ template <int dim>
 TestScene<dim> mortar_scene(unsigned int n_punch, unsigned int n_foundation)
 {
   auto scene   = two_blocks<dim>(n_punch, n_foundation, 3.);
-  scene.method = "mortar";
+  scene.method = contact::Method::mortar;
   narrow_punch(scene);
   set_design(scene, dim == 2 ? 4 : 3, 0.04);
   scene.bodies[0].refined_below   = 0.4;

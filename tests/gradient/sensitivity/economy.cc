@@ -24,10 +24,10 @@ TEST(GradientCost, DirectSharesFactorizationsAndMults)
   const auto                      state  = scene.solve(scene.design);
   const auto                      before = scene.problem.context.total_work();
   sensitivity::GradientParameters parameters;
-  parameters.method   = "direct";
+  parameters.method   = sensitivity::Method::direct;
   const auto gradient = scene.gradients(state, {"compliance"}, parameters);
   const auto after    = scene.problem.context.total_work();
-  EXPECT_EQ(gradient.of_response[0].method, "direct");
+  EXPECT_EQ(gradient.of_response[0].method, sensitivity::Method::direct);
   EXPECT_EQ(after.numeric_factorizations, before.numeric_factorizations);
   EXPECT_EQ(after.symbolic_factorizations, before.symbolic_factorizations);
   EXPECT_EQ(after.assembled_subdomains, before.assembled_subdomains);
@@ -43,7 +43,7 @@ TEST(GradientCost, AdjointIsOneSolvePerResponse)
   const auto                      state  = scene.solve(scene.design);
   const auto                      before = scene.problem.context.total_work();
   sensitivity::GradientParameters parameters;
-  parameters.method   = "adjoint";
+  parameters.method   = sensitivity::Method::adjoint;
   const auto gradient = scene.gradients(state, {"compliance"}, parameters);
   const auto after    = scene.problem.context.total_work();
   EXPECT_EQ(after.numeric_factorizations, before.numeric_factorizations);
@@ -62,7 +62,7 @@ TEST(GradientCost, EnergyNeedsNoSolve)
       const auto gradient = scene.gradients(state, {response}, {});
       const auto after    = scene.problem.context.total_work();
       EXPECT_EQ(gradient.of_response[0].method,
-                "energy"); // what "auto" chooses
+                sensitivity::Method::energy); // what "auto" chooses
       EXPECT_EQ(gradient.f_mults, 0u);
       EXPECT_EQ(after.f_mults, before.f_mults);
       EXPECT_EQ(after.preconditioner_applications, before.preconditioner_applications);
@@ -79,8 +79,8 @@ TEST(GradientOptions, SemiAnalyticAgreesWithExact)
   GradientScene<3>                scene(given, 0.05);
   const auto                      state = scene.solve(scene.design);
   sensitivity::GradientParameters exact, differences;
-  exact.method = differences.method = "direct";
-  differences.derivatives           = "central differences";
+  exact.method = differences.method = sensitivity::Method::direct;
+  differences.derivatives           = sensitivity::Derivatives::central;
   const std::vector<std::string> responses{"compliance", "probe"};
   const auto                     a = scene.gradients(state, responses, exact);
   const auto                     b = scene.gradients(state, responses, differences);
@@ -95,8 +95,8 @@ TEST(GradientOptions, OverallDifferencesAgreeWithDirect)
   GradientScene<2>                scene(given, 0.05);
   const auto                      state = scene.solve(scene.design);
   sensitivity::GradientParameters direct, differences;
-  direct.method      = "direct";
-  differences.method = "finite differences";
+  direct.method      = sensitivity::Method::direct;
+  differences.method = sensitivity::Method::finite_differences;
   differences.step   = 1e-3; // of the bounds' width, 0.1
   const auto a       = scene.gradients(state, {"compliance"}, direct);
   const auto b       = scene.gradients(state, {"compliance"}, differences);

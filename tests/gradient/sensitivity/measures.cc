@@ -65,7 +65,7 @@ void check_integrals(GradientScene<2> &scene, const std::function<double(unsigne
 {
   const auto                      state = scene.solve(scene.design);
   sensitivity::GradientParameters parameters;
-  parameters.method = "adjoint";
+  parameters.method = sensitivity::Method::adjoint;
   const auto found  = scene.gradients(state, {"volume of a body", "mass"}, parameters).of_response;
   for (unsigned int j = 0; j < 3; ++j)
     {

@@ -47,7 +47,7 @@ shape::ShapeParameters shape_in_foundation(const std::string &basis)
 
 /// All exact methods on all responses with the variables of one basis.
 template <int dim>
-void check_all_responses(const std::string &basis, const std::string &method = "nodal")
+void check_all_responses(const std::string &basis, contact::Method method = contact::Method::nodal)
 {
   auto given                      = two_blocks<dim>(dim == 2 ? 6 : 3, 0, 3.);
   given.bodies[1].cells           = std::vector<unsigned int>(dim, 4);
@@ -57,7 +57,7 @@ void check_all_responses(const std::string &basis, const std::string &method = "
   given.bodies[1].core_from       = 0.5;
   given.solver.relative_tolerance = 1e-12;
   given.method                    = method;
-  if (method == "mortar")
+  if (method == contact::Method::mortar)
     narrow_punch(given);
   GradientScene<dim> scene(given, shape_in_foundation<dim>(basis));
   check_responses(scene);
@@ -79,8 +79,8 @@ TEST_P(EveryResponse, In3D)
 
 TEST(Gradient, EveryResponseOfMortarContact)
 {
-  check_all_responses<2>("Bezier patch", "mortar");
-  check_all_responses<3>("Bezier patch", "mortar");
+  check_all_responses<2>("Bezier patch", contact::Method::mortar);
+  check_all_responses<3>("Bezier patch", contact::Method::mortar);
 }
 
 std::vector<std::string> bases()

@@ -19,7 +19,7 @@ struct MortarBoxes : public TwoBoxes<dim>
 
   MortarBoxes(const Bodies &bodies, unsigned int degree) : TwoBoxes<dim>(bodies, degree)
   {
-    this->method = "mortar";
+    this->method = Method::mortar;
   }
 
   void shift_slave(double distance)
@@ -324,7 +324,7 @@ TEST(MortarRows, LimitsOfThePairHold)
   const TwoBoxes<2> scene(bodies, 1);
   const auto        n_rows = [&](double distance, double angle) {
     Pair pair                       = TwoBoxes<2>::pair();
-    pair.parameters.method          = "mortar";
+    pair.parameters.method          = Method::mortar;
     pair.parameters.search_distance = distance;
     pair.parameters.largest_angle   = angle;
     return Contact<2>(scene.surface, {pair}, 1, scene.positions, scene.held).n_rows();
@@ -353,7 +353,7 @@ TEST(MortarRows, TwoFacesOfABodyShareTheRowsOfTheirEdge)
                              1. + (x[0] + x[1] - 1.) * std::sqrt(0.5));
     }
   Pair bottom              = TwoBoxes<2>::pair();
-  bottom.parameters.method = "mortar";
+  bottom.parameters.method = Method::mortar;
   Pair left                = bottom;
   left.slave               = {0, 0};
   const Contact<2> contact(surface, {bottom, left}, 1, positions,

@@ -126,13 +126,14 @@ TEST(Contact, SlaveIsTheFinerSideWhereAsked)
 {
   const TwoBoxes<3> scene(TwoBoxes<3>::boxes(3, 5), 1);
   Pair              pair = TwoBoxes<3>::pair();
-  for (const std::string slave : {"first", "finer"})
+  for (const Slave slave : {Slave::first, Slave::finer})
     {
       pair.parameters.slave = slave;
       const Contact<3> contact(scene.surface, {pair}, 1, scene.positions, scene.held);
-      EXPECT_EQ(contact.n_rows(), slave == "first" ? 16u : 36u);
-      EXPECT_EQ(contact.pairs()[0].name(), slave == "first" ? "slave: master" : "master: slave");
+      EXPECT_EQ(contact.n_rows(), slave == Slave::first ? 16u : 36u);
+      EXPECT_EQ(contact.pairs()[0].name(),
+                slave == Slave::first ? "slave: master" : "master: slave");
       for (const auto &place : contact.places())
-        EXPECT_EQ(scene.is_master(place.slave), slave == "finer");
+        EXPECT_EQ(scene.is_master(place.slave), slave == Slave::finer);
     }
 }

@@ -54,7 +54,7 @@ struct TwoBoxes
   static snug::contact::Pair pair()
   {
     snug::contact::Pair pair{{0, 2 * dim - 2}, {1, 2 * dim - 1}, "slave", "master"};
-    pair.parameters.slave = "first";
+    pair.parameters.slave = snug::contact::Slave::first;
     return pair;
   }
 
@@ -129,7 +129,7 @@ struct TwoBoxes
   Field                     positions;
 
   snug::faces::HeldDirections<dim> held;
-  std::string                      method = "nodal";
+  snug::contact::Method            method = snug::contact::Method::nodal;
 };
 
 /// a + factor * b

@@ -5,11 +5,6 @@
 using namespace elasticity_cells;
 
 namespace {
-Stencil stencil(const std::string &name)
-{
-  return snug::choose(stencil_table(), name).make();
-}
-
 /// Relative step of the differences of this file.
 const double tiny = 1e-5;
 
@@ -33,7 +28,7 @@ public:
   }
 
   static Nodes<dim> differences(const TestElement<dim> &of,
-                                const std::string      &name,
+                                const Differences       name,
                                 const bool              refined,
                                 const double            step,
                                 const Nodes<dim>       &V,
@@ -70,21 +65,23 @@ TYPED_TEST(SemiAnalyticDerivatives, HaveTheOrderOfTheirStencil)
   // what doubling the step does, above round-off and below higher orders
   struct Order
   {
-    std::string name;
+    Differences differences;
     double      step, ratio;
   };
-  for (const Order &order : {Order{"forward", 1e-4, 2.}, Order{"backward", 1e-4, 2.},
-                             Order{"central", 1e-3, 4.}, Order{"fourth order", 1e-2, 16.}})
+  for (const Order &order :
+       {Order{Differences::forward, 1e-4, 2.}, Order{Differences::backward, 1e-4, 2.},
+        Order{Differences::central, 1e-3, 4.}, Order{Differences::fourth_order, 1e-2, 16.}})
     for (const bool refined : {false, true})
       {
         const auto error = [&](const double step) {
-          return distance<dim>(this->differences(of, order.name, refined, step, this->V, this->u),
+          return distance<dim>(this->differences(of, order.differences, refined, step, this->V,
+                                                 this->u),
                                exact);
         };
         // cells of higher degree are smaller to their nodes
         const double step = order.step / (TestFixture::degree * TestFixture::degree);
         EXPECT_NEAR(error(2. * step) / error(step), order.ratio, 0.05 * order.ratio)
-          << order.name << (refined ? ", refined" : "");
+          << snug::to_text(order.differences) << (refined ? ", refined" : "");
       }
 }
 
@@ -95,7 +92,8 @@ TYPED_TEST(SemiAnalyticDerivatives, ApproachTheExactOnes)
     for (const bool refined : {false, true})
       {
         const auto exact = this->exact(of, this->V, this->u);
-        EXPECT_LT(distance<dim>(this->differences(of, "central", refined, tiny, this->V, this->u),
+        EXPECT_LT(distance<dim>(this->differences(of, Differences::central, refined, tiny, this->V,
+                                                  this->u),
                                 exact),
                   1e-7 * norm<dim>(exact))
           << of.name();
@@ -111,7 +109,8 @@ TYPED_TEST(SemiAnalyticDerivatives, RefinedOnesAreExactForRigidMotions)
       const auto motion = this->rigid(of);
       const auto exact  = this->exact(of, this->V, motion);
       const auto error  = [&](const bool refined) {
-        return distance<dim>(this->differences(of, "forward", refined, 1e-2, this->V, motion),
+        return distance<dim>(this->differences(of, Differences::forward, refined, 1e-2, this->V,
+                                                motion),
                              exact);
       };
       const double size = norm<dim>(this->exact(of, this->V, this->u));
@@ -133,8 +132,10 @@ TYPED_TEST(SemiAnalyticDerivatives, VelocityOfATranslationDoesNotMatter)
         for (unsigned int c = 0; c < dim; ++c)
           if (of.may_translate(c))
             v[c] += 1e3;
-      const auto expected = this->differences(of, "forward", false, tiny, this->V, this->u);
-      EXPECT_LT(distance<dim>(this->differences(of, "forward", false, tiny, V, this->u), expected),
+      const auto expected =
+        this->differences(of, Differences::forward, false, tiny, this->V, this->u);
+      EXPECT_LT(distance<dim>(this->differences(of, Differences::forward, false, tiny, V, this->u),
+                              expected),
                 1e-6 * norm<dim>(expected))
         << of.name();
     }

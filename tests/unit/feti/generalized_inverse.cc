@@ -43,7 +43,7 @@ double largest(const qp::MultiVector &x)
   return value;
 }
 
-class Packages : public ::testing::TestWithParam<std::string>
+class Packages : public ::testing::TestWithParam<feti::Factorization>
 {
 protected:
   std::ostringstream log;
@@ -87,7 +87,10 @@ TEST_P(Packages, FollowsNewNumbers)
   EXPECT_LT(largest(error), 1e-12 * largest(Kx));
 }
 
-INSTANTIATE_TEST_SUITE_P(GeneralizedInverse, Packages, ::testing::Values("CHOLMOD", "MUMPS"));
+INSTANTIATE_TEST_SUITE_P(GeneralizedInverse,
+                         Packages,
+                         ::testing::Values(feti::Factorization::CHOLMOD,
+                                           feti::Factorization::MUMPS));
 
 TEST(LocalSchur, IsTheSchurComplement)
 {
@@ -100,7 +103,7 @@ TEST(LocalSchur, IsTheSchurComplement)
   RunContext         context(MPI_COMM_WORLD, log);
   for (const bool lumped : {false, true})
     {
-      feti::LocalSchur schur(system, lumped, "CHOLMOD", context);
+      feti::LocalSchur schur(system, lumped, feti::Factorization::CHOLMOD, context);
       schur.factorize("test");
       const auto &position = schur.boundary_position();
       const auto  x        = random_columns(schur.n_boundary(), 2);
@@ -143,7 +146,7 @@ TEST(LocalSchur, HoldsWhereRowsLeaveRigidMotions)
       for (unsigned int dof = dim - 1; dof < system.n_dofs(); dof += dim)
         if (dof < system.n_dofs() / 2)
           system.B.push_back({0, dof, 1.});
-      feti::LocalSchur schur(system, false, "CHOLMOD", context);
+      feti::LocalSchur schur(system, false, feti::Factorization::CHOLMOD, context);
       EXPECT_NO_THROW(schur.factorize("the body"));
       EXPECT_GT(schur.n_boundary(), system.B.size());
     }

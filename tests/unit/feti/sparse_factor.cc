@@ -15,7 +15,7 @@ using namespace snug::test;
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// As the program has them: PETSc's default handler would print.
-class Factors : public ::testing::TestWithParam<std::string>
+class Factors : public ::testing::TestWithParam<feti::Factorization>
 {
 protected:
   Factors() { petsc::return_errors(); }
@@ -167,5 +167,8 @@ TEST_P(Factors, OneBadSubdomainIsAnErrorOnAllRanks)
   EXPECT_NO_THROW(truss.make(parameters));
 }
 
-INSTANTIATE_TEST_SUITE_P(SparseFactor, Factors, ::testing::Values("CHOLMOD", "MUMPS"));
+INSTANTIATE_TEST_SUITE_P(SparseFactor,
+                         Factors,
+                         ::testing::Values(feti::Factorization::CHOLMOD,
+                                           feti::Factorization::MUMPS));
 } // namespace

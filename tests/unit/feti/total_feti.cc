@@ -183,10 +183,10 @@ TEST_P(Trusses, FeasibilityTellsWhatAFaceCanHold)
 TEST_P(Trusses, PreconditionerIsTheFormula)
 {
   // M^-1 = W^-1 B D^-1 S D^-1 B' W^-1 on the rows of M, W = B D^-1 B'
-  for (const std::string scaling : {"stiffness", "multiplicity"})
-    for (const std::string kind : {"Dirichlet", "lumped"})
+  for (const auto scaling : {feti::Scaling::stiffness, feti::Scaling::multiplicity})
+    for (const auto kind : {feti::Preconditioner::Dirichlet, feti::Preconditioner::lumped})
       {
-        const auto         feti = truss.make({"CHOLMOD", kind, scaling});
+        const auto         feti = truss.make({feti::Factorization::CHOLMOD, kind, scaling});
         const unsigned int n    = truss.K.m();
         std::vector<bool>  boundary(n, false);
         for (unsigned int i = 0; i < truss.n_rows(); ++i)
@@ -195,7 +195,7 @@ TEST_P(Trusses, PreconditionerIsTheFormula)
         // S x: K times the extension of x that is in balance inside
         Matrix extension = truss.K;
         for (unsigned int i = 0; i < n; ++i)
-          if (boundary[i] || kind == "lumped")
+          if (boundary[i] || kind == feti::Preconditioner::lumped)
             for (unsigned int j = 0; j < n; ++j)
               extension(i, j) = i == j;
         extension.gauss_jordan();
@@ -203,7 +203,7 @@ TEST_P(Trusses, PreconditionerIsTheFormula)
         Matrix BD(truss.n_rows(), n);
         for (unsigned int i = 0; i < truss.n_rows(); ++i)
           for (unsigned int j = 0; j < n; ++j)
-            BD(i, j) = truss.B(i, j) / (scaling == "stiffness" ? truss.K(j, j) : 1.);
+            BD(i, j) = truss.B(i, j) / (scaling == feti::Scaling::stiffness ? truss.K(j, j) : 1.);
         const Matrix BSB   = product(BD, product(S, transposed(BD)));
         const Matrix W_all = product(BD, transposed(truss.B));
         for (const auto &mask : masks(truss))
@@ -251,12 +251,12 @@ TEST_P(Trusses, PreconditionerIsSymmetricPositive)
 
 TEST_P(Trusses, PackagesAgree)
 {
-  const auto cholmod = truss.make({"CHOLMOD", "Dirichlet", "stiffness"});
+  const auto cholmod = truss.make(feti::FetiParameters());
   const auto d       = truss.gathered(cholmod->d());
   const auto x       = truss.owned(random_rows(truss, 2));
   const auto Fx      = truss.gathered(cholmod->apply(x));
   TornTruss  same(GetParam().first, GetParam().second);
-  const auto mumps = same.make({"MUMPS", "Dirichlet", "stiffness"});
+  const auto mumps = same.make({feti::Factorization::MUMPS});
   expect_near(truss.gathered(mumps->d()), d, 1e-11);
   expect_near(truss.gathered(mumps->apply(x)), Fx, 1e-11);
 }

@@ -1,3 +1,4 @@
+#include <snug/base/errors.h>
 #include <snug/geometry/grid_geometry.h>
 
 #include <deal.II/base/tensor.h>
@@ -14,7 +15,7 @@ namespace {
 template <int dim>
 std::unique_ptr<geometry::GridGeometry<dim>> box(const geometry::BodyMeshParameters &parameters)
 {
-  auto body = choose(geometry::body_geometry_table<dim>(), "box").make(parameters);
+  auto body = geometry::make_geometry<dim>(parameters);
   return std::unique_ptr<geometry::GridGeometry<dim>>(
     dynamic_cast<geometry::GridGeometry<dim> *>(body.release()));
 }

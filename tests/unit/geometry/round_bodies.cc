@@ -18,8 +18,8 @@ using dealii::Point;
 using dealii::numbers::PI;
 
 namespace {
-geometry::BodyMeshParameters round_body(const std::string               &source,
-                                        const std::string               &part,
+geometry::BodyMeshParameters round_body(const geometry::Source           source,
+                                        const geometry::Part             part,
                                         const std::vector<unsigned int> &cells)
 {
   geometry::BodyMeshParameters parameters;
@@ -64,7 +64,7 @@ void expect_body(const geometry::BodyMeshParameters &parameters,
                  double                              exact_volume,
                  const Distances<dim>               &boundaries)
 {
-  SCOPED_TRACE(parameters.source + ", " + parameters.part);
+  SCOPED_TRACE(to_text(parameters.source) + ", " + to_text(parameters.part));
   auto refined        = parameters;
   refined.refinements = 1;
   for (const auto &body : {parameters, refined})
@@ -106,7 +106,10 @@ std::function<double(const Point<dim> &)> radius(unsigned int n, double value)
   };
 }
 
-const std::vector<std::string> parts = {"full", "half", "quarter", "eighth"};
+using geometry::Part;
+using geometry::Source;
+
+const std::vector<Part> parts = {Part::full, Part::half, Part::quarter, Part::eighth};
 } // namespace
 
 TEST(RoundBodies, Discs)
@@ -118,7 +121,7 @@ TEST(RoundBodies, Discs)
         faces["bottom"] = coordinate<2>(1);
       if (p >= 2)
         faces["left"] = coordinate<2>(0);
-      expect_body<2>(round_body("disc", parts[p], {2}), 4. * PI / (1 << p), faces);
+      expect_body<2>(round_body(Source::disc, parts[p], {2}), 4. * PI / (1 << p), faces);
     }
 }
 
@@ -141,8 +144,8 @@ TEST(RoundBodies, Rings)
           solid["end"]           = coordinate<3>(end);
         }
       const unsigned int n = 16 >> p;
-      expect_body<2>(round_body("ring", parts[p], {n, 2}), area / (1 << p), flat);
-      expect_body<3>(round_body("ring", parts[p], {n, 2, 2}), 3. * area / (1 << p), solid);
+      expect_body<2>(round_body(Source::ring, parts[p], {n, 2}), area / (1 << p), flat);
+      expect_body<3>(round_body(Source::ring, parts[p], {n, 2, 2}), 3. * area / (1 << p), solid);
     }
 }
 
@@ -157,7 +160,7 @@ TEST(RoundBodies, Cylinders)
         faces["front"] = coordinate<3>(1);
       if (p >= 2)
         faces["left"] = coordinate<3>(0);
-      expect_body<3>(round_body("cylinder", parts[p], {2, 1}), 12. * PI / (1 << p), faces);
+      expect_body<3>(round_body(Source::cylinder, parts[p], {2, 1}), 12. * PI / (1 << p), faces);
     }
 }
 
@@ -170,15 +173,16 @@ TEST(RoundBodies, SpheresAndShells)
       for (unsigned int c = 0; c < p; ++c)
         faces[cuts[c]] = coordinate<3>(2 - c);
       const double ball = 4. / 3. * PI / (1 << p);
-      expect_body<3>(round_body("sphere", parts[p], {2}), 8. * ball, faces);
+      expect_body<3>(round_body(Source::sphere, parts[p], {2}), 8. * ball, faces);
       faces["inner"] = radius<3>(3, 0.75);
-      expect_body<3>(round_body("shell", parts[p], {2, 1}), (8. - std::pow(0.75, 3)) * ball, faces);
+      expect_body<3>(round_body(Source::shell, parts[p], {2, 1}), (8. - std::pow(0.75, 3)) * ball,
+                     faces);
     }
 }
 
 TEST(RoundBodies, PlacedBodiesAreWarpedScaledTurnedAndShiftedInThisOrder)
 {
-  auto body   = round_body("cylinder", "full", {2, 1});
+  auto body   = round_body(Source::cylinder, Part::full, {2, 1});
   body.warp   = {"0", "0", "0.1*z"};
   body.scale  = 0.5;
   body.rotate = {{"x", "90"}, {"z", "90"}};
@@ -206,19 +210,18 @@ TEST(RoundBodies, BadEntriesAreNamed)
       }
   };
   const auto with = [](auto member, auto value) {
-    auto body    = round_body("ring", "half", {4, 1, 1});
+    auto body    = round_body(Source::ring, Part::half, {4, 1, 1});
     body.*member = value;
     return body;
   };
   using P = geometry::BodyMeshParameters;
-  expect_entry("Mesh", round_body("disc", "full", {2}));
-  expect_entry("Part", with(&P::part, "eighth"));
-  expect_entry("Part", with(&P::part, "most"));
+  expect_entry("Mesh", round_body(Source::disc, Part::full, {2}));
+  expect_entry("Part", with(&P::part, Part::eighth));
   expect_entry("Radius", with(&P::radius, -1.));
   expect_entry("Inner radius", with(&P::inner_radius, 2.));
   expect_entry("Length", with(&P::length, 0.));
   expect_entry("Cells", with(&P::round_cells, std::vector<unsigned>{4, 1}));
-  expect_entry("Cells", round_body("ring", "full", {2, 1, 1}));
+  expect_entry("Cells", round_body(Source::ring, Part::full, {2, 1, 1}));
   expect_entry("Scale", with(&P::scale, 0.));
   expect_entry("Shift", with(&P::shift, std::vector<double>{1., 2.}));
   expect_entry("Warp", with(&P::warp, std::vector<std::string>{"x"}));

@@ -28,7 +28,7 @@ inline std::string contents(const std::string &name)
 inline geometry::BodyMeshParameters file_body()
 {
   geometry::BodyMeshParameters parameters;
-  parameters.source = "file";
+  parameters.source = geometry::Source::file;
   parameters.file   = "the.mesh";
   return parameters;
 }

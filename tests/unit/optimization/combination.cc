@@ -7,16 +7,17 @@
 namespace {
 using namespace snug;
 using Numbers = std::vector<double>;
+using optimization::Combination;
 
 optimization::Combined
-combine(const std::string &kind, const Numbers &values, const Numbers &weights)
+combine(const Combination kind, const Numbers &values, const Numbers &weights)
 {
-  return choose(optimization::combination_table(), kind).make(values, weights, 5.);
+  return optimization::combined(kind, values, weights, 5.);
 }
 
 TEST(Combination, OneObjectiveKeepsItsValue)
 {
-  for (const std::string kind : {"sum", "worst"})
+  for (const auto kind : {Combination::sum, Combination::worst})
     {
       const auto one = combine(kind, {-3.}, {1.});
       EXPECT_EQ(one.value, -3.);
@@ -26,7 +27,7 @@ TEST(Combination, OneObjectiveKeepsItsValue)
 
 TEST(Combination, SumIsWeighted)
 {
-  const auto both = combine("sum", {-3., 2.}, {2., 0.5});
+  const auto both = combine(Combination::sum, {-3., 2.}, {2., 0.5});
   EXPECT_EQ(both.value, -5.);
   EXPECT_EQ(both.factors, (Numbers{2., 0.5}));
 }
@@ -38,7 +39,7 @@ TEST(Combination, WorstIsASharpUpperBoundOfTheMaximum)
        {Numbers{-1., -2., -3.}, Numbers{1., 1., 1.}, Numbers{0.1, 0., -50.}, Numbers{1e5, 1e4, 0.}})
     {
       const double largest = *std::max_element(values.begin(), values.end());
-      const auto   worst   = combine("worst", values, {1., 1., 1.});
+      const auto   worst   = combine(Combination::worst, values, {1., 1., 1.});
       EXPECT_GE(worst.value, largest);
       EXPECT_LE(worst.value, largest + bound * (1. + 1e-14));
       double sum = 0.;
@@ -46,22 +47,22 @@ TEST(Combination, WorstIsASharpUpperBoundOfTheMaximum)
         sum += factor;
       EXPECT_NEAR(sum, 1., 1e-14);
     }
-  EXPECT_NEAR(combine("worst", {1., 1., 1.}, {1., 1., 1.}).value, 1. + bound, 1e-14);
+  EXPECT_NEAR(combine(Combination::worst, {1., 1., 1.}, {1., 1., 1.}).value, 1. + bound, 1e-14);
 }
 
 TEST(Combination, FactorsAreTheDerivatives)
 {
   const Numbers values = {1., 1.02, 0.9}, weights = {1., 0.99, 1.1};
   const double  step  = 1e-5;
-  const auto    worst = combine("worst", values, weights);
+  const auto    worst = combine(Combination::worst, values, weights);
   for (unsigned int c = 0; c < 3; ++c)
     {
       Numbers forward = values, backward = values;
       forward[c] += step;
       backward[c] -= step;
-      const double slope =
-        (combine("worst", forward, weights).value - combine("worst", backward, weights).value) /
-        (2. * step);
+      const double slope = (combine(Combination::worst, forward, weights).value -
+                            combine(Combination::worst, backward, weights).value) /
+                           (2. * step);
       EXPECT_NEAR(worst.factors[c], slope, 1e-7);
       EXPECT_GT(worst.factors[c], 0.05);
     }

@@ -70,13 +70,13 @@ TEST(SlsqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
   const auto result              = minimize(rosenbrock_on_circle(), parameters);
   EXPECT_EQ(result.stop_reason, "maximum evaluations");
   for (const double violation : {0., 0.9, 1.1, 1e5})
-    for (const std::string reason : {"interrupted", "maximum evaluations", "round-off"})
+    for (const End end : {End::interrupted, End::evaluations, End::round_off})
       {
         auto other                 = result;
-        other.stop_reason          = reason;
+        other.end                  = end;
         other.constraint_violation = violation * parameters.constraint_tolerance;
         const auto text            = complaint(other, parameters);
-        EXPECT_EQ(text.empty(), violation < 1. && reason != "round-off");
+        EXPECT_EQ(text.empty(), violation < 1. && end != End::round_off);
         EXPECT_EQ(text.find("violates") != std::string::npos, violation > 1.);
       }
   EXPECT_EQ(complaint(minimize(rosenbrock_on_circle(), tight()), tight()), "");

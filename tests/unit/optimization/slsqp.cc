@@ -240,10 +240,7 @@ TEST(Slsqp, RejectsWrongInput)
   problem          = knapsack.problem();
   problem.upper[2] = std::numeric_limits<double>::infinity();
   rejects(problem, OptimizationParameters());
-  auto parameters      = OptimizationParameters();
-  parameters.algorithm = "SLQSP";
-  rejects(knapsack.problem(), parameters);
-  parameters                     = OptimizationParameters();
+  auto parameters                = OptimizationParameters();
   parameters.maximum_evaluations = 0;
   rejects(knapsack.problem(), parameters);
   parameters                     = OptimizationParameters();

@@ -71,7 +71,7 @@ void check_displacements(unsigned int degree)
   response::ResponseParameters at_point;
   at_point.quantity  = "displacement";
   at_point.body      = "foundation";
-  at_point.component = "y";
+  at_point.component = response::Component::y;
   dealii::Tensor<1, dim> x;
   at_point.point.resize(dim);
   for (const double first : {0., 0.123, 0.5, 0.987, 1.})
@@ -87,11 +87,11 @@ void check_displacements(unsigned int degree)
   for (unsigned int d = 0; d < dim; ++d)
     x[d] = d == 0 ? 1. : 0.5;
   EXPECT_NEAR(value(problem, state, on_face), linear(x)[0], 1e-12);
-  on_face.component = "y";
+  on_face.component = response::Component::y;
   EXPECT_NEAR(value(problem, state, on_face), linear(x)[1], 1e-12);
   // its outward normal is -x
   on_face.face      = "foundation.left";
-  on_face.component = "normal";
+  on_face.component = response::Component::normal;
   x[0]              = 0.;
   EXPECT_NEAR(value(problem, state, on_face), -linear(x)[0], 1e-12);
 }
@@ -122,7 +122,7 @@ TEST(Displacement, PointsMustLieInOneBody)
   response::ResponseParameters parameters;
   parameters.name      = "tip";
   parameters.quantity  = "displacement";
-  parameters.component = "x";
+  parameters.component = response::Component::x;
   parameters.point     = {0.5, 2.01};
   EXPECT_EQ(complaint(problem, parameters),
             "entry 'Response tip/Point' = '0.5, 2.01': lies outside the "
@@ -178,17 +178,17 @@ TEST(Response, ContactForceBalancesTheLoad)
   contact::Pair pair{{0, face_index(2, 0)}, {1, face_index(2, 1)}};
   pair.slave_name       = "punch.bottom";
   pair.master_name      = "foundation.top";
-  pair.parameters.slave = "first";
+  pair.parameters.slave = contact::Slave::first;
   scene.pairs           = {pair};
   Problem<3>                   problem(scene);
   const auto                   state = problem.solve();
   response::ResponseParameters parameters;
   parameters.quantity  = "contact force";
   parameters.pair      = "foundation.top: punch.bottom";
-  parameters.component = "z";
+  parameters.component = response::Component::z;
   // pressure 10 on an area of 1; what holds up the slave side
   EXPECT_NEAR(value(problem, state, parameters), 10., 1e-8);
-  parameters.component = "normal";
+  parameters.component = response::Component::normal;
   EXPECT_GE(value(problem, state, parameters), 10. - 1e-8);
   parameters.pair = "punch.top: foundation.top";
   EXPECT_THROW(value(problem, state, parameters), InputError);

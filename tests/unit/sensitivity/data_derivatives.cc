@@ -86,7 +86,7 @@ void add(double factor, const sensitivity::KktVectors &from, sensitivity::KktVec
 }
 
 template <int dim>
-void check_data_derivatives(const std::string &kind, double tolerance)
+void check_data_derivatives(const sensitivity::Derivatives kind, double tolerance)
 {
   Problem<dim>                    problem(loaded_scene<dim>());
   const auto                      state = problem.solve();
@@ -116,17 +116,19 @@ void check_data_derivatives(const std::string &kind, double tolerance)
 
 TEST(DataDerivatives, ExactAgainstDifferencesOfTheWhole)
 {
-  check_data_derivatives<2>("exact", 1e-8);
-  check_data_derivatives<3>("exact", 1e-8);
+  check_data_derivatives<2>(sensitivity::Derivatives::exact, 1e-8);
+  check_data_derivatives<3>(sensitivity::Derivatives::exact, 1e-8);
 }
 
 TEST(DataDerivatives, SemiAnalyticAgainstDifferencesOfTheWhole)
 {
-  for (const std::string refined : {"", "refined "})
+  using sensitivity::Derivatives;
+  for (const auto central : {Derivatives::central, Derivatives::refined_central})
     {
-      check_data_derivatives<2>(refined + "central differences", 1e-6);
-      check_data_derivatives<3>(refined + "central differences", 1e-6);
-      check_data_derivatives<2>(refined + "forward differences", 1e-3);
+      check_data_derivatives<2>(central, 1e-6);
+      check_data_derivatives<3>(central, 1e-6);
     }
+  for (const auto forward : {Derivatives::forward, Derivatives::refined_forward})
+    check_data_derivatives<2>(forward, 1e-3);
 }
 } // namespace

@@ -92,9 +92,9 @@ std::vector<shape::ShapeParameters> all_shapes()
   auto on_face     = formulas<dim>();
   on_face.face     = "foundation.top";
   auto laplace     = on_top<dim>("node-wise");
-  laplace.interior = "Laplace";
+  laplace.interior = shape::InteriorKind::Laplace;
   auto elastic     = on_top<dim>("B-spline patch");
-  elastic.interior = "elasticity";
+  elastic.interior = shape::InteriorKind::elasticity;
   return {on_top<dim>("Bezier patch"),
           on_top<dim>("B-spline patch"),
           on_top<dim>("node-wise"),

@@ -7,10 +7,11 @@
 namespace snug {
 namespace {
 using namespace test;
+using shape::InteriorKind;
 
 /// The top of a cube with an interior.
 template <int dim>
-shape::ShapeParameters cube_top(const std::string &interior)
+shape::ShapeParameters cube_top(const InteriorKind interior)
 {
   auto parameters     = on_top<dim>("Bezier patch", "cube");
   parameters.interior = interior;
@@ -24,7 +25,7 @@ shape::ShapeParameters cube_top(const std::string &interior)
  * here not at all.
  */
 template <int dim>
-void expect_even_stretch(unsigned int degree, const std::string &interior)
+void expect_even_stretch(unsigned int degree, const InteriorKind interior)
 {
   const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, plain_cube<dim>(4), degree);
   const shape::Shapes<dim>  shapes(mesh, {{"cube"}}, {cube_top<dim>(interior)});
@@ -33,13 +34,13 @@ void expect_even_stretch(unsigned int degree, const std::string &interior)
     {
       dealii::Tensor<1, dim> expected;
       expected[dim - 1] = mesh.reference_positions()[node][dim - 1];
-      EXPECT_NEAR((moved[node] - expected).norm(), 0., 1e-12) << interior;
+      EXPECT_NEAR((moved[node] - expected).norm(), 0., 1e-12) << to_text(interior);
     }
 }
 
 TEST(Interior, StretchesACubeEvenly)
 {
-  for (const std::string interior : {"Laplace", "elasticity"})
+  for (const auto interior : {InteriorKind::Laplace, InteriorKind::elasticity})
     for (const unsigned int degree : {1, 2})
       {
         expect_even_stretch<2>(degree, interior);
@@ -55,7 +56,7 @@ double harmonic_error(unsigned int n)
   auto                    parameters = formulas<2>();
   parameters.face                    = "cube.top";
   parameters.modes                   = {{"0", "cos(3.14159265358979323846*x)"}};
-  parameters.interior                = "Laplace";
+  parameters.interior                = InteriorKind::Laplace;
   const shape::Shapes<2> shapes(mesh, {{"cube"}}, {parameters});
   const auto             moved = shapes.apply({1.});
   const double           pi    = dealii::numbers::PI;
@@ -82,14 +83,14 @@ TEST(Interior, LaplaceConvergesToTheHarmonicFunction)
 TEST(Interior, NeighbouringFacesSlideAndOthersAreHeld)
 {
   const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, shape_bodies<3>(), 1);
-  for (const std::string interior : {"Laplace", "elasticity"})
+  for (const auto interior : {InteriorKind::Laplace, InteriorKind::elasticity})
     {
       auto parameters     = on_top<3>("Bezier patch");
       parameters.interior = interior;
       const shape::Shapes<3> shapes(mesh, body_names(), {parameters});
       const auto             alpha = random_numbers(shapes.n_variables(), 9);
       const auto             moved = shapes.apply(alpha);
-      parameters.interior          = "linear blending";
+      parameters.interior          = InteriorKind::linear_blending;
       const auto of_the_face = shape::Shapes<3>(mesh, body_names(), {parameters}).apply(alpha);
       for (const auto &face : mesh.boundary_faces())
         for (const unsigned int node : face.nodes)
@@ -153,7 +154,7 @@ TEST(Interior, BlendsRotatedBoxesToo)
 }
 
 template <int dim>
-void expect_reach(const std::string &interior)
+void expect_reach(const InteriorKind interior)
 {
   const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, plain_cube<dim>(8), 1);
   auto                      parameters = cube_top<dim>(interior);
@@ -163,8 +164,8 @@ void expect_reach(const std::string &interior)
   for (unsigned int node = 0; node < moved.size(); ++node)
     {
       const double depth = 1. - mesh.reference_positions()[node][dim - 1];
-      EXPECT_EQ(moved[node].norm() > 0., depth < 0.4) << interior;
-      if (interior == "linear blending")
+      EXPECT_EQ(moved[node].norm() > 0., depth < 0.4) << to_text(interior);
+      if (interior == InteriorKind::linear_blending)
         {
           EXPECT_NEAR(moved[node][dim - 1], std::max(0., 1. - depth / 0.4), 1e-14);
         }
@@ -173,7 +174,8 @@ void expect_reach(const std::string &interior)
 
 TEST(Interior, ReachesNoFurtherThanAsked)
 {
-  for (const std::string interior : {"linear blending", "Laplace", "elasticity"})
+  for (const auto interior :
+       {InteriorKind::linear_blending, InteriorKind::Laplace, InteriorKind::elasticity})
     {
       expect_reach<2>(interior);
       expect_reach<3>(interior);
@@ -182,7 +184,7 @@ TEST(Interior, ReachesNoFurtherThanAsked)
 
 /// Least quotient of a cell's height after and before, where a bump is
 /// pressed into a layer of thin cells.
-double least_stretch(const std::string &interior)
+double least_stretch(const InteriorKind interior)
 {
   auto bodies       = plain_cube<2>(12);
   bodies[0].grading = {1., 0.02}; // thin cells below the top
@@ -207,8 +209,8 @@ double least_stretch(const std::string &interior)
 
 TEST(Interior, ElasticityWithStiffSmallCellsSparesThem)
 {
-  const double laplace = least_stretch("Laplace");
-  const double elastic = least_stretch("elasticity");
+  const double laplace = least_stretch(InteriorKind::Laplace);
+  const double elastic = least_stretch(InteriorKind::elasticity);
   EXPECT_GT(elastic, 0.5);
   EXPECT_GT(elastic, laplace + 0.1);
 }

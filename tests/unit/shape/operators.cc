@@ -31,7 +31,8 @@ Field<dim> random_gradient(const mesh::BodyMesh<dim> &mesh)
 
 std::string name(const shape::ShapeParameters &parameters)
 {
-  return parameters.basis + ", " + (parameters.face.empty() ? "bodies" : parameters.interior);
+  return parameters.basis + ", " +
+         (parameters.face.empty() ? "bodies" : to_text(parameters.interior));
 }
 
 /// alpha . V'g = g . V alpha, relative to the sizes of the terms.

@@ -76,15 +76,20 @@ TEST(StateInvariance, SubdomainsAndSolvers)
 
 TEST(StateInvariance, PreconditionersAndPackages)
 {
+  using feti::Factorization;
+  using feti::Preconditioner;
+  using feti::Scaling;
   auto                                    scene     = hertz_scene(1e-9);
   const auto                              reference = answer(scene);
-  const std::vector<feti::FetiParameters> choices   = {{"MUMPS", "Dirichlet", "stiffness"},
-                                                       {"CHOLMOD", "Dirichlet", "multiplicity"},
-                                                       {"CHOLMOD", "lumped", "stiffness"},
-                                                       {"CHOLMOD", "none", "stiffness"}};
+  const std::vector<feti::FetiParameters> choices   = {
+      {Factorization::MUMPS, Preconditioner::Dirichlet, Scaling::stiffness},
+      {Factorization::CHOLMOD, Preconditioner::Dirichlet, Scaling::multiplicity},
+      {Factorization::CHOLMOD, Preconditioner::lumped, Scaling::stiffness},
+      {Factorization::CHOLMOD, Preconditioner::none, Scaling::stiffness}};
   for (const auto &choice : choices)
     {
-      SCOPED_TRACE(choice.factorization + " " + choice.preconditioner + " " + choice.scaling);
+      SCOPED_TRACE(to_text(choice.factorization) + " " + to_text(choice.preconditioner) + " " +
+                   to_text(choice.scaling));
       scene.feti = choice;
       expect_same(answer(scene), reference);
     }

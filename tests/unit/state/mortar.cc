@@ -6,9 +6,10 @@
 namespace {
 using namespace snug;
 using namespace snug::test;
+using contact::Method;
 
 template <int dim>
-TestScene<dim> blocks(const std::string &method, unsigned int n, unsigned int m)
+TestScene<dim> blocks(const Method method, unsigned int n, unsigned int m)
 {
   auto scene                      = two_blocks<dim>(n, m, 0.);
   scene.method                    = method;
@@ -64,23 +65,23 @@ template <int dim>
 void expect_uniform_pressure_passes(TestScene<dim> scene)
 {
   scene.bodies[0].supports.clear();
-  if (scene.method == "mortar")
+  if (scene.method == Method::mortar)
     scene.bodies[0].refined_below = 0.4;
   EXPECT_LT(tilted_error(scene, [](double) { return 10.; }), 1e-10)
-    << scene.method << " " << dim << " " << scene.degree;
+    << to_text(scene.method) << " " << dim << " " << scene.degree;
 }
 
 TEST(PatchTest, UniformPressure)
 {
   for (const unsigned int degree : {1, 2})
     {
-      auto matching = blocks<2>("nodal", 4, 4), other = blocks<2>("mortar", 3, 4);
+      auto matching = blocks<2>(Method::nodal, 4, 4), other = blocks<2>(Method::mortar, 3, 4);
       matching.degree = other.degree = degree;
       expect_uniform_pressure_passes(matching);
       expect_uniform_pressure_passes(other);
     }
-  expect_uniform_pressure_passes(blocks<3>("nodal", 3, 3));
-  expect_uniform_pressure_passes(blocks<3>("mortar", 3, 4));
+  expect_uniform_pressure_passes(blocks<3>(Method::nodal, 3, 3));
+  expect_uniform_pressure_passes(blocks<3>(Method::mortar, 3, 4));
 }
 
 const double mean_pressure = 8., slope = 5.;
@@ -93,7 +94,7 @@ double linear_pressure(double x)
 /// The stress -p(x) along the last axis and no other, p linear; with
 /// Poisson's ratio 0, u_x = p' z^2 / 2E, u_z = -p z / E in both blocks.
 template <int dim>
-TestScene<dim> bent_blocks(const std::string &method, unsigned int n, unsigned int m)
+TestScene<dim> bent_blocks(const Method method, unsigned int n, unsigned int m)
 {
   auto scene         = blocks<dim>(method, n, m);
   scene.degree       = 2;
@@ -119,10 +120,10 @@ TestScene<dim> bent_blocks(const std::string &method, unsigned int n, unsigned i
 
 TEST(PatchTest, LinearStress)
 {
-  EXPECT_LT(tilted_error(bent_blocks<2>("nodal", 3, 3), linear_pressure), 1e-10);
-  EXPECT_LT(tilted_error(bent_blocks<2>("mortar", 3, 4), linear_pressure), 1e-10);
-  EXPECT_LT(tilted_error(bent_blocks<3>("nodal", 2, 2), linear_pressure), 1e-10);
-  EXPECT_LT(tilted_error(bent_blocks<3>("mortar", 2, 3), linear_pressure), 1e-10);
+  EXPECT_LT(tilted_error(bent_blocks<2>(Method::nodal, 3, 3), linear_pressure), 1e-10);
+  EXPECT_LT(tilted_error(bent_blocks<2>(Method::mortar, 3, 4), linear_pressure), 1e-10);
+  EXPECT_LT(tilted_error(bent_blocks<3>(Method::nodal, 2, 2), linear_pressure), 1e-10);
+  EXPECT_LT(tilted_error(bent_blocks<3>(Method::mortar, 2, 3), linear_pressure), 1e-10);
 }
 
 /// Largest relative difference of a contact pressure from @p pressure.
@@ -138,7 +139,7 @@ double pressure_error(const state::ContactState<dim> &state, double pressure)
 TEST(PatchTest, WithoutLateralMotion)
 {
   // rollers all round; held nodes of the slave side as well
-  auto scene = blocks<3>("mortar", 3, 4);
+  auto scene = blocks<3>(Method::mortar, 3, 4);
   for (auto &body : scene.bodies)
     {
       body.material.poissons_ratio = 0.3;
@@ -153,7 +154,7 @@ TEST(PatchTest, BodiesOfRevolution)
 {
   for (const unsigned int degree : {1, 2})
     {
-      auto scene         = blocks<2>("mortar", 3, 4);
+      auto scene         = blocks<2>(Method::mortar, 3, 4);
       scene.degree       = degree;
       scene.idealization = {mesh::Idealization::Kind::axisymmetric};
       const auto state   = Problem<2>(scene).solve();
@@ -173,8 +174,8 @@ std::pair<double, double> curved_punch(unsigned int n, bool punch_is_slave)
   const contact::Pair::Side punch(0, face_index(1, 0));
   const contact::Pair::Side foundation(1, face_index(1, 1));
   contact::Pair pair{punch_is_slave ? punch : foundation, punch_is_slave ? foundation : punch};
-  pair.parameters.slave  = "first";
-  pair.parameters.method = "mortar";
+  pair.parameters.slave  = contact::Slave::first;
+  pair.parameters.method = Method::mortar;
   scene.pairs            = {pair};
   const auto state       = Problem<2>(scene).solve();
   return {state.energy, state.max_pressure};
@@ -199,7 +200,7 @@ TEST(Mortar, ExchangeOfSidesVanishesWithRefinement)
 TEST(Mortar, StateDoesNotDependOnRanksAndSubdomains)
 {
   auto scene                      = two_blocks<3>(3, 4, 3.);
-  scene.method                    = "mortar";
+  scene.method                    = Method::mortar;
   scene.bodies[0].refined_below   = 0.4;
   scene.solver.relative_tolerance = 1e-12;
   const auto answer               = [&](unsigned int subdomains, MPI_Comm communicator) {

@@ -58,7 +58,7 @@ struct TestScene
   mesh::Idealization         idealization = mesh::Idealization::natural(dim);
   /// if empty, the punch's bottom on the foundation's top
   std::vector<contact::Pair> pairs;
-  std::string                method         = "nodal"; ///< of that pair
+  contact::Method            method         = contact::Method::nodal; ///< of that pair
   unsigned int               degree         = 1;
   std::vector<unsigned int>  control_points = {1, 1};
   std::vector<double>        design         = {0.};
@@ -263,7 +263,7 @@ public:
     if (scene.pairs.empty() && scene.bodies.size() > 1)
       {
         model.pairs = {{{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
-        model.pairs[0].parameters.slave  = "first";
+        model.pairs[0].parameters.slave  = contact::Slave::first;
         model.pairs[0].parameters.method = scene.method;
       }
     model.feti   = scene.feti;

@@ -23,7 +23,7 @@ unsigned int count_subdomains(const Problem<dim> &problem, unsigned int body)
 TEST(Work, UnmovedBodiesAreLeftAlone)
 {
   auto scene                = two_blocks<3>(4, 4, 3.);
-  scene.feti.preconditioner = "lumped"; // one factorization per subdomain
+  scene.feti.preconditioner = feti::Preconditioner::lumped; // one factorization per subdomain
   set_design(scene, 3, 0.02);
   Problem<3>         problem(scene);
   const unsigned int n     = problem.tearing.n_global;
