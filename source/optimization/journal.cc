@@ -50,7 +50,7 @@ void broadcast(std::string &text, const MPI_Comm communicator)
 }
 } // namespace
 
-Journal::Journal(const JournalSettings &settings) : settings(settings)
+Journal::Journal(const JournalSettings &the_settings) : settings(the_settings)
 {
   MPI_Comm_rank(settings.communicator, &rank);
   MPI_Comm_size(settings.communicator, &n_ranks);

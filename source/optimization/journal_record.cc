@@ -41,7 +41,7 @@ std::vector<std::string> split_lines(const std::string &text)
 class LineReader
 {
 public:
-  explicit LineReader(const std::string &text) : text(text) {}
+  explicit LineReader(const std::string &the_text) : text(the_text) {}
 
   bool get(std::string &line)
   {
@@ -100,8 +100,8 @@ bool parse_line(const std::string &line, JournalRecord &record)
     value.jacobian.push_back(numbers);
   else if (name == "notes" && numbers.size() == 4)
     {
-      value.active_contacts       = numbers[0];
-      value.f_mults               = numbers[1];
+      value.active_contacts       = static_cast<unsigned int>(numbers[0]);
+      value.f_mults               = static_cast<unsigned long>(numbers[1]);
       value.seconds               = numbers[2];
       value.least_scaled_jacobian = numbers[3];
     }

@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/optimization/nlopt_answers.h>
 
 #include <algorithm>
@@ -10,13 +11,13 @@ namespace {
 constexpr unsigned int max_idle_questions = 100;
 } // namespace
 
-NloptAnswers::NloptAnswers(ScaledProblem                &problem,
-                           Progress                     &progress,
-                           const OptimizationParameters &parameters)
-  : progress(progress)
-  , problem(problem)
-  , parameters(parameters)
-  , n_variables(problem.start()->y.size())
+NloptAnswers::NloptAnswers(ScaledProblem                &the_problem,
+                           Progress                     &the_progress,
+                           const OptimizationParameters &the_parameters)
+  : progress(the_progress)
+  , problem(the_problem)
+  , parameters(the_parameters)
+  , n_variables(narrow<unsigned int>(problem.start()->y.size()))
 {}
 
 void NloptAnswers::begin_run()
@@ -37,9 +38,10 @@ void NloptAnswers::asking(const std::vector<double> &, bool) {}
 void NloptAnswers::attach(nlopt::opt &optimizer)
 {
   optimizer.set_min_objective(&NloptAnswers::call_objective, this);
-  const auto        &relations  = problem.relations();
-  const unsigned int n_equal    = std::count(relations.begin(), relations.end(), Relation::equal);
-  const auto         tolerances = [this](const unsigned int n) {
+  const auto &relations = problem.relations();
+  const auto  n_equal =
+    static_cast<std::size_t>(std::count(relations.begin(), relations.end(), Relation::equal));
+  const auto tolerances = [this](const std::size_t n) {
     return std::vector<double>(n, parameters.constraint_tolerance);
   };
   if (n_equal > 0)

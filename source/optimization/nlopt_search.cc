@@ -1,4 +1,5 @@
 #include <snug/base/entries.h>
+#include <snug/base/narrow.h>
 #include <snug/optimization/nlopt_answers.h>
 
 #include <algorithm>
@@ -71,11 +72,11 @@ private:
 };
 
 Search::Search(const DesignProblem          &design_problem,
-               const OptimizationParameters &parameters,
-               const Hooks                  &hooks)
-  : algorithm(parameters.algorithm)
-  , parameters(parameters)
-  , hooks(hooks)
+               const OptimizationParameters &the_parameters,
+               const Hooks                  &the_hooks)
+  : algorithm(the_parameters.algorithm)
+  , parameters(the_parameters)
+  , hooks(the_hooks)
   , problem(design_problem)
   , progress(problem, parameters, hooks)
   , centre(problem.start()->y)
@@ -109,7 +110,7 @@ OptimizationResult Search::run()
 
 nlopt::opt Search::make_optimizer() const
 {
-  const unsigned int n = centre.size();
+  const auto n = narrow<unsigned int>(centre.size());
   if (algorithm == Algorithm::SLSQP)
     return nlopt::opt(nlopt::LD_SLSQP, n);
   const auto with_tolerances = [&](nlopt::opt optimizer, double part) {
@@ -144,7 +145,7 @@ void Search::descend()
 
 void Search::ask_nlopt()
 {
-  const unsigned int  n = centre.size();
+  const std::size_t   n = centre.size();
   std::vector<double> lower(n), upper(n);
   for (unsigned int i = 0; i < n; ++i)
     {

@@ -17,12 +17,12 @@ static Names names(End)
           {"interrupted"}};
 }
 
-Progress::Progress(const ScaledProblem          &problem,
-                   const OptimizationParameters &parameters,
-                   const Hooks                  &hooks)
-  : problem(problem)
-  , parameters(parameters)
-  , hooks(hooks)
+Progress::Progress(const ScaledProblem          &the_problem,
+                   const OptimizationParameters &the_parameters,
+                   const Hooks                  &the_hooks)
+  : problem(the_problem)
+  , parameters(the_parameters)
+  , hooks(the_hooks)
   , last(problem.start())
   , best(last)
   , best_before(last)

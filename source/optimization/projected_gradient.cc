@@ -146,9 +146,9 @@ double projected_gradient_norm(const std::vector<double>      &g,
   AssertDimension(g.size(), at_bounds.size());
   for (;;)
     {
-      double       smallest = 0.;
-      const auto   mu       = minimize_pieces(g, constraint_gradients, at_bounds, smallest);
-      unsigned int worst    = constraint_gradients.size();
+      double      smallest = 0.;
+      const auto  mu       = minimize_pieces(g, constraint_gradients, at_bounds, smallest);
+      std::size_t worst    = constraint_gradients.size();
       for (unsigned int j = 0; j < constraint_gradients.size(); ++j)
         if (constraint_gradients[j].pushes && mu[j] < 0. &&
             (worst == constraint_gradients.size() || mu[j] < mu[worst]))

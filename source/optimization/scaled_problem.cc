@@ -60,7 +60,7 @@ void check_bounds(const DesignProblem &problem)
     }
 }
 
-void check_values(const Evaluation &evaluation, const unsigned int n_variables)
+void check_values(const Evaluation &evaluation, const std::size_t n_variables)
 {
   (void)n_variables;
   AssertDimension(evaluation.gradient.size(), n_variables);
@@ -78,8 +78,8 @@ void check_values(const Evaluation &evaluation, const unsigned int n_variables)
 }
 } // namespace
 
-ScaledProblem::ScaledProblem(const DesignProblem &problem)
-  : problem(problem), scales(problem.constraint_scales), constraint_relations(problem.relations)
+ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
+  : problem(the_problem), scales(problem.constraint_scales), constraint_relations(problem.relations)
 {
   check_bounds(problem);
   for (unsigned int i = 0; i < problem.start.size(); ++i)

@@ -1,6 +1,7 @@
 #ifndef snug_optimization_journal_h
 #define snug_optimization_journal_h
 
+#include <snug/base/narrow.h>
 #include <snug/optimization/design_problem.h>
 #include <snug/optimization/journal_record.h>
 
@@ -72,7 +73,7 @@ public:
   unsigned int n_replayed() const { return replayed; }
 
   /// Complete records, replayed or not.
-  unsigned int n_records() const { return is_live ? next : recorded.size(); }
+  unsigned int n_records() const { return is_live ? next : narrow<unsigned int>(recorded.size()); }
 
 private:
   Evaluation  evaluate(const DesignProblem &problem, const std::vector<double> &x);
