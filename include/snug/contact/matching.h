@@ -5,8 +5,8 @@
 
 namespace snug::contact {
 /// How many slave nodes within the search distance lie opposite to a master
-/// node, up to a part of the master face (matching_tolerance), and of how
-/// many.
+/// node, up to a part of the master face (matching_tolerance) and to how far
+/// the normals of the two sides part over the gap, and of how many.
 struct Matching
 {
   unsigned int n_nodes = 0, n_matching = 0;

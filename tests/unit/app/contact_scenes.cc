@@ -252,11 +252,12 @@ TEST(Warnings, OfOverlapUnlessItIsWanted)
   const SolvedScene<3> solved(two_blocks(true), {"Contact/Gap=-0.1"});
   const auto          &overlaps = solved.solver.contact().overlaps();
   auto                 pairs    = solved.solver.contact().pairs();
-  EXPECT_NEAR(overlaps[0], 0.4, 1e-12);
+  EXPECT_NEAR(overlaps[0].length, 0.1, 1e-13);
+  EXPECT_NEAR(overlaps[0].faces, 0.4, 1e-12);
   EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 1u);
   EXPECT_NO_THROW(state::check_overlaps(pairs, overlaps));
-  EXPECT_THROW(state::check_overlaps(pairs, {2.1}), InputError);
+  EXPECT_THROW(state::check_overlaps(pairs, {{1., 2.1}}), InputError);
   pairs[0].parameters.interference = true;
   EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 0u);
-  EXPECT_NO_THROW(state::check_overlaps(pairs, {2.1}));
+  EXPECT_NO_THROW(state::check_overlaps(pairs, {{1., 2.1}}));
 }

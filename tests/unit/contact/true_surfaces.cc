@@ -8,10 +8,7 @@ namespace {
 template <int dim>
 struct Socket : public TwoBoxes<dim>
 {
-  Socket(unsigned int       n_slave,
-         unsigned int       n_master,
-         unsigned int       degree,
-         const std::string &used_method)
+  Socket(unsigned int n_slave, unsigned int n_master, unsigned int degree, Method used_method)
     : TwoBoxes<dim>(TwoBoxes<dim>::ball_and_socket(n_slave, n_master, 2.), degree)
   {
     this->method = used_method;
@@ -30,7 +27,7 @@ struct Socket : public TwoBoxes<dim>
 
 /// Derivatives where nodes and samples of both sides have moved at random.
 template <int dim>
-void expect_derivatives(const std::string &method, unsigned int degree)
+void expect_derivatives(Method method, unsigned int degree)
 {
   Socket<dim> scene(5, 3, degree, method);
   ASSERT_GT(scene.surface.n_points(), scene.surface.n_nodes());
@@ -39,14 +36,14 @@ void expect_derivatives(const std::string &method, unsigned int degree)
     scene.positions[i] += 2e-3 * moves[i];
   const auto contact = scene.contact();
   // of fourth order: (h / face)^4 against rounding / h
-  EXPECT_LT(derivative_error(scene, contact, 1e-5), 3e-8) << method << degree << dim;
-  EXPECT_LT(reverse_error(scene, contact), 1e-12) << method << degree << dim;
+  EXPECT_LT(derivative_error(scene, contact, 1e-5), 3e-8) << to_text(method) << degree << dim;
+  EXPECT_LT(reverse_error(scene, contact), 1e-12) << to_text(method) << degree << dim;
 }
 } // namespace
 
 TEST(TrueSurfaces, DerivativesByNodesAndSamples)
 {
-  for (const std::string method : {"nodal", "mortar"})
+  for (const auto method : {Method::nodal, Method::mortar})
     for (const unsigned int degree : {1, 2})
       {
         expect_derivatives<2>(method, degree);
@@ -65,8 +62,8 @@ TEST(TrueSurfaces, NodalGapsAreThoseOfTheSpheres)
   };
   for (const unsigned int degree : {1, 2})
     {
-      expect_gaps(Socket<2>(5, 4, degree, "nodal"));
-      expect_gaps(Socket<3>(5, 4, degree, "nodal"));
+      expect_gaps(Socket<2>(5, 4, degree, Method::nodal));
+      expect_gaps(Socket<3>(5, 4, degree, Method::nodal));
     }
 }
 
@@ -83,8 +80,8 @@ TEST(TrueSurfaces, MortarGapsAreMeansOfThoseOfTheSpheres)
     // The mean over the faces at a node is not the value there.
     EXPECT_LT(worst, tolerance);
   };
-  expect_gaps(Socket<2>(8, 6, 1, "mortar"), 2e-4);
-  expect_gaps(Socket<3>(8, 6, 1, "mortar"), 4e-4);
+  expect_gaps(Socket<2>(8, 6, 1, Method::mortar), 2e-4);
+  expect_gaps(Socket<3>(8, 6, 1, Method::mortar), 4e-4);
 }
 
 namespace {

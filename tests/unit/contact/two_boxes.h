@@ -74,7 +74,8 @@ struct TwoBoxes
   static snug::contact::Pair pair()
   {
     snug::contact::Pair pair{{0, 2 * dim - 2}, {1, 2 * dim - 1}, "slave", "master"};
-    pair.parameters.slave = snug::contact::Slave::first;
+    pair.parameters.slave  = snug::contact::Slave::first;
+    pair.parameters.method = snug::contact::Method::nodal;
     return pair;
   }
 

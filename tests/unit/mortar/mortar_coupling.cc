@@ -1,3 +1,4 @@
+#include <snug/mesh/lagrange.h>
 #include <snug/mortar/integral_gradient.h>
 
 #include <gtest/gtest.h>
@@ -17,19 +18,31 @@ double uniform(double bound)
 }
 
 /// A slave face and master faces above it, all curved, the slave face
-/// covered in part: nodes in the plane moved by @p noise.
+/// covered in part: nodes in the plane moved by @p noise, and offsets of the
+/// true surfaces of the same size on the slave and the first master face.
 template <int dim>
 struct Faces
 {
-  FaceNodes<dim, double>              slave;
-  std::vector<FaceNodes<dim, double>> masters;
+  MortarFace<dim, double>              slave;
+  std::vector<MortarFace<dim, double>> masters;
 
   explicit Faces(unsigned int degree, double noise)
   {
-    slave   = face(degree, {0., 0., 1., 1.}, false, noise);
-    masters = {face(degree, {-0.43, 0.25, 0.52, 1.37}, true, noise),
-               face(degree, {0.52, 0.25, 1.3, 1.37}, true, noise),
-               face(degree, {-0.43, -0.6, 0.52, 0.25}, true, noise)};
+    slave   = {face(degree, {0., 0., 1., 1.}, false, noise), offsets(noise)};
+    masters = {{face(degree, {-0.43, 0.25, 0.52, 1.37}, true, noise), offsets(noise)},
+               {face(degree, {0.52, 0.25, 1.3, 1.37}, true, noise), {}},
+               {face(degree, {-0.43, -0.6, 0.52, 0.25}, true, noise), {}}};
+  }
+
+  static FaceNodes<dim, double> offsets(double noise)
+  {
+    FaceNodes<dim, double> result(dim == 2
+                                    ? mesh::surface_degree + 1
+                                    : (mesh::surface_degree + 1) * (mesh::surface_degree + 1));
+    for (auto &offset : result)
+      for (double &x : offset)
+        x = uniform(noise);
+    return result;
   }
 
   /// Corners x_0, y_0, x_1, y_1 in the plane.
@@ -57,9 +70,10 @@ struct Faces
   std::vector<double> coordinates() const
   {
     std::vector<double> result;
-    const auto          add = [&](const FaceNodes<dim, double> &nodes) {
-      for (const auto &node : nodes)
-        result.insert(result.end(), node.begin(), node.end());
+    const auto          add = [&](const MortarFace<dim, double> &face) {
+      for (const auto *points : {&face.nodes, &face.offsets})
+        for (const auto &point : *points)
+          result.insert(result.end(), point.begin(), point.end());
     };
     add(slave);
     for (const auto &master : masters)
@@ -70,10 +84,11 @@ struct Faces
   void move(double factor, const std::vector<double> &velocity)
   {
     unsigned int next = 0;
-    const auto   add  = [&](FaceNodes<dim, double> &nodes) {
-      for (auto &node : nodes)
-        for (double &x : node)
-          x += factor * velocity[next++];
+    const auto   add  = [&](MortarFace<dim, double> &face) {
+      for (auto *points : {&face.nodes, &face.offsets})
+        for (auto &point : *points)
+          for (double &x : point)
+            x += factor * velocity[next++];
     };
     add(slave);
     for (auto &master : masters)
@@ -89,11 +104,13 @@ std::vector<double> random_vector(std::size_t n)
   return v;
 }
 
+/// Of the coupling of @p integrals, and the weights that corrections take from these.
 template <typename Number>
-std::vector<Number> entries(const FaceCoupling<Number> &coupling)
+std::vector<Number> entries(const FaceIntegrals<Number> &integrals, bool biorthogonal)
 {
-  std::vector<Number> result = coupling.multiplier;
-  const auto          add    = [&](const dealii::Table<2, Number> &m) {
+  const auto          coupling = couple(integrals, biorthogonal);
+  std::vector<Number> result   = coupling.multiplier;
+  const auto          add      = [&](const dealii::Table<2, Number> &m) {
     for (unsigned int i = 0; i < m.n_rows(); ++i)
       for (unsigned int j = 0; j < m.n_cols(); ++j)
         result.push_back(m(i, j));
@@ -101,14 +118,18 @@ std::vector<Number> entries(const FaceCoupling<Number> &coupling)
   add(coupling.multiplier_slave);
   for (const auto &m : coupling.multiplier_master)
     add(m);
+  add(coupling.multiplier_offset);
+  for (const auto &m : integrals.weights)
+    add(m);
   return result;
 }
 
-/// A coupling with the given entries.
-FaceCoupling<double> coupling_of(const std::vector<double>  &values,
-                                 const FaceCoupling<double> &shape)
+/// The gradient by the integrals where that by the entries is @p values.
+FaceIntegrals<double> by_integrals(const std::vector<double>   &values,
+                                   const FaceIntegrals<double> &integrals,
+                                   bool                         biorthogonal)
 {
-  FaceCoupling<double> result = shape;
+  FaceCoupling<double> result = couple(integrals, biorthogonal);
   unsigned int         next   = 0;
   for (double &value : result.multiplier)
     value = values[next++];
@@ -120,20 +141,18 @@ FaceCoupling<double> coupling_of(const std::vector<double>  &values,
   take(result.multiplier_slave);
   for (auto &m : result.multiplier_master)
     take(m);
-  return result;
+  take(result.multiplier_offset);
+  auto gradient    = couple_transpose(integrals, biorthogonal, result);
+  gradient.weights = integrals.weights;
+  for (auto &m : gradient.weights)
+    take(m);
+  return gradient;
 }
 
 template <int dim>
 SegmentQuadrature<dim> rule(unsigned int degree)
 {
   return {degree, mesh::Idealization::natural(dim)};
-}
-
-template <int dim>
-FaceCoupling<double> coupling(unsigned int degree, const Faces<dim> &faces, bool biorthogonal)
-{
-  const auto quadrature = rule<dim>(degree);
-  return couple(integrate<dim>(quadrature, faces.slave, faces.masters), biorthogonal);
 }
 
 /// Entries of the coupling, differentiated along @p velocity by differences
@@ -150,7 +169,8 @@ std::vector<double> differences(unsigned int               degree,
     {
       Faces<dim> moved = faces;
       moved.move(term.first * h, velocity);
-      const auto values = entries(coupling(degree, moved, biorthogonal));
+      const auto values =
+        entries(integrate<dim>(rule<dim>(degree), moved.slave, moved.masters), biorthogonal);
       slope.resize(values.size(), 0.);
       for (unsigned int i = 0; i < values.size(); ++i)
         slope[i] += term.second / (12. * h) * values[i];
@@ -159,17 +179,21 @@ std::vector<double> differences(unsigned int               degree,
 }
 
 template <int dim>
-FaceNodes<dim, Differential<1>>
-moving(const FaceNodes<dim, double> &nodes, const std::vector<double> &velocity, unsigned int &next)
+MortarFace<dim, Differential<1>>
+moving(const MortarFace<dim, double> &face, const std::vector<double> &velocity, unsigned int &next)
 {
-  FaceNodes<dim, Differential<1>> result(nodes.size());
-  for (unsigned int k = 0; k < nodes.size(); ++k)
-    for (int i = 0; i < dim; ++i)
-      {
-        result[k][i]          = nodes[k][i];
-        result[k][i].slope[0] = velocity[next++];
-      }
-  return result;
+  const auto move = [&](const FaceNodes<dim, double> &points) {
+    FaceNodes<dim, Differential<1>> result(points.size());
+    for (unsigned int k = 0; k < points.size(); ++k)
+      for (int i = 0; i < dim; ++i)
+        {
+          result[k][i]          = points[k][i];
+          result[k][i].slope[0] = velocity[next++];
+        }
+    return result;
+  };
+  // Braced, so that the nodes come first.
+  return {move(face.nodes), move(face.offsets)};
 }
 
 template <int dim>
@@ -178,15 +202,14 @@ std::vector<double> exact_derivative(unsigned int               degree,
                                      const std::vector<double> &velocity,
                                      bool                       biorthogonal)
 {
-  unsigned int                                 next  = 0;
-  const auto                                   slave = moving<dim>(faces.slave, velocity, next);
-  std::vector<FaceNodes<dim, Differential<1>>> masters;
+  unsigned int                                  next  = 0;
+  const auto                                    slave = moving<dim>(faces.slave, velocity, next);
+  std::vector<MortarFace<dim, Differential<1>>> masters;
   for (const auto &master : faces.masters)
     masters.push_back(moving<dim>(master, velocity, next));
   const auto          quadrature = rule<dim>(degree);
   std::vector<double> slope;
-  for (const auto &entry :
-       entries(couple(integrate<dim>(quadrature, slave, masters), biorthogonal)))
+  for (const auto &entry : entries(integrate<dim>(quadrature, slave, masters), biorthogonal))
     slope.push_back(entry.slope[0]);
   return slope;
 }
@@ -211,15 +234,12 @@ void expect_derivatives(unsigned int degree, bool biorthogonal)
   const auto quadrature = rule<dim>(degree);
   const auto integrals  = integrate<dim>(quadrature, faces.slave, faces.masters);
   const auto weights    = random_vector(exact.size());
-  const auto gradient =
-    integrate_transpose<dim>(quadrature, faces.slave, faces.masters,
-                             couple_transpose(integrals, biorthogonal,
-                                              coupling_of(weights,
-                                                          couple(integrals, biorthogonal))));
-  Faces<dim> reverse = faces;
-  reverse.slave      = gradient.slave;
-  reverse.masters    = gradient.masters;
-  const auto slopes  = reverse.coordinates();
+  const auto gradient   = integrate_transpose<dim>(quadrature, faces.slave, faces.masters,
+                                                 by_integrals(weights, integrals, biorthogonal));
+  Faces<dim> reverse    = faces;
+  reverse.slave         = gradient.slave;
+  reverse.masters       = gradient.masters;
+  const auto slopes     = reverse.coordinates();
   double     direct = 0., transposed = 0.;
   for (unsigned int i = 0; i < exact.size(); ++i)
     direct += weights[i] * exact[i];
@@ -260,7 +280,7 @@ TEST(MortarCoupling, MultipliersSumToOneAndAreBiorthogonal)
         const auto         quadrature = rule<3>(degree);
         const auto         integrals  = integrate<3>(quadrature, faces.slave, faces.masters);
         const auto         result     = couple(integrals, biorthogonal);
-        const unsigned int n          = faces.slave.size();
+        const unsigned int n          = faces.slave.nodes.size();
         for (unsigned int l = 0; l < n; ++l)
           {
             double on_slave = 0., on_master = 0.;
@@ -295,13 +315,13 @@ TEST(MortarCoupling, CoveredAreaIsExact)
     {
       const Faces<3> plane(degree, 0.);
       double         area = 0.;
-      for (const double d : coupling(degree, plane, false).multiplier)
+      for (const double d : integrate<3>(rule<3>(degree), plane.slave, plane.masters).slave)
         area += d;
       // all of the unit square but its lower right part
       EXPECT_NEAR(area, 1. - 0.48 * 0.25, 1e-14);
       const Faces<2> line(degree, 0.);
       double         length = 0.;
-      for (const double d : coupling(degree, line, false).multiplier)
+      for (const double d : integrate<2>(rule<2>(degree), line.slave, line.masters).slave)
         length += d;
       // the third master covers the first again
       EXPECT_NEAR(length, 1. + 0.52, 1e-14);
