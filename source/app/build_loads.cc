@@ -200,9 +200,12 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
   const auto support = [&](const std::string &entry, const std::string &face,
                            unsigned int component) {
     const auto where = find_face(scene, mesh, face);
-    return supports::Support<dim>{where.first, where.second, component,
+    return supports::Support<dim>{where.first,
+                                  where.second,
+                                  component,
                                   std::vector<ScalarFunction<dim>>(n_cases),
-                                  "'" + entry + "' of '" + face + "'", face};
+                                  "'" + entry + "' of '" + face + "'",
+                                  face};
   };
   const auto prescribe = [&](const std::string &section, const std::string &prefix,
                              const scene::LoadParameters &loads, const auto &is_in_case) {

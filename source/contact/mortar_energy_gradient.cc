@@ -89,6 +89,58 @@ void MortarRows<dim>::add_area_gradient(const Field               &positions,
     add_face_gradient(face, energy, gradient);
 }
 
+/// Of the corrections of rows by what stands in them for psi_j N of two nodes.
+template <int dim>
+double MortarRows<dim>::correction_slope(const std::vector<std::vector<double>> &slopes,
+                                         unsigned int                            slave_node,
+                                         unsigned int                            node,
+                                         bool                                    absolute) const
+{
+  double sum = 0.;
+  if (!slopes.empty())
+    for (const auto &share : multipliers.shares[slave_node])
+      for_each_place(share.first, node, [&](unsigned int place, double weight) {
+        const double factor = weight * share.second;
+        sum += (absolute ? std::abs(factor) : factor) * slopes[share.first][place];
+      });
+  return sum;
+}
+
+template <int dim>
+void MortarRows<dim>::add_to_points(unsigned int                           face,
+                                    const mortar::MortarFace<dim, double> &values,
+                                    Field                                 &gradient) const
+{
+  const auto &of = surface.faces()[face];
+  for (unsigned int k = 0; k < of.nodes.size(); ++k)
+    for (int d = 0; d < dim; ++d)
+      gradient[of.nodes[k]][d] += values.nodes[k][d];
+  mortar::add_offset_gradient<dim>(of, shape, values.offsets, gradient);
+}
+
+/// By the integrals, from those by the coupling and of the corrections' weights.
+template <int dim>
+mortar::FaceIntegrals<double>
+MortarRows<dim>::integral_slopes(const SlaveFace                     &face,
+                                 const Energy                        &energy,
+                                 const mortar::FaceIntegrals<double> &of_shapes,
+                                 const mortar::FaceCoupling<double>  &to_coupling) const
+{
+  const auto        &nodes = surface.faces()[face.face].nodes;
+  const unsigned int n     = nodes.size();
+  auto to_integrals        = mortar::couple_transpose(of_shapes, face.biorthogonal, to_coupling);
+  for (const unsigned int master : face.masters)
+    {
+      to_integrals.weights.emplace_back(n, n);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int k = 0; k < n; ++k)
+          to_integrals.weights.back()(j, k) =
+            correction_slope(energy.weight_slopes, nodes[j], surface.faces()[master].nodes[k],
+                             true);
+    }
+  return to_integrals;
+}
+
 template <int dim>
 void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
                                         const Energy    &energy,
@@ -121,18 +173,6 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   const auto coupling    = mortar::couple(of_shapes, face.biorthogonal);
   auto       to_coupling = coupling;
   to_coupling.multiplier = area_slope;
-  // of the corrections by what stands for psi_j N_k in the rows
-  const auto corrections = [&](const std::vector<std::vector<double>> &slopes, unsigned int j,
-                               unsigned int node, bool absolute) {
-    double sum = 0.;
-    if (!slopes.empty())
-      for (const auto &share : multipliers.shares[nodes[j]])
-        for_each_place(share.first, node, [&](unsigned int place, double weight) {
-          const double factor = weight * share.second;
-          sum += (absolute ? std::abs(factor) : factor) * slopes[share.first][place];
-        });
-    return sum;
-  };
   // sum_j direction_j . int psi_j N_k y_k: by the positions of node k, and by the integral itself.
   const auto add = [&](double sign, const dealii::Table<2, double> &integral,
                        const std::vector<unsigned int> &others, dealii::Table<2, double> &slope) {
@@ -143,7 +183,8 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
           slope(j, k) = sign * (direction[j] * (energy.deformed[others[k]] - origin));
           // Of the slave side only the node itself is in the rows of biorthogonal functions.
           if (sign < 0. || !face.biorthogonal || j == k)
-            slope(j, k) += sign * corrections(energy.coefficient_slopes, j, others[k], false);
+            slope(j, k) +=
+              sign * correction_slope(energy.coefficient_slopes, nodes[j], others[k], false);
         }
   };
   add(1., coupling.multiplier_slave, nodes, to_coupling.multiplier_slave);
@@ -157,28 +198,14 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
           to_coupling.multiplier_master[f]);
       masters.push_back(mortar::mortar_face<dim>(surface, shape, face.masters[f], x));
     }
-  auto to_integrals = mortar::couple_transpose(of_shapes, face.biorthogonal, to_coupling);
-  for (unsigned int f = 0; f < face.masters.size(); ++f)
-    {
-      to_integrals.weights.emplace_back(n, n);
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int k = 0; k < n; ++k)
-          to_integrals.weights[f](j, k) =
-            corrections(energy.weight_slopes, j, surface.faces()[face.masters[f]].nodes[k], true);
-    }
-  const auto to_nodes =
+  const auto to_integrals = integral_slopes(face, energy, of_shapes, to_coupling);
+  const auto to_points =
     mortar::integrate_transpose<dim>(quadrature,
                                      mortar::mortar_face<dim>(surface, shape, face.face, x),
                                      masters, to_integrals);
-  const auto add_nodes = [&](unsigned int on, const mortar::MortarFace<dim, double> &values) {
-    for (unsigned int k = 0; k < n; ++k)
-      for (int d = 0; d < dim; ++d)
-        gradient[surface.faces()[on].nodes[k]][d] += values.nodes[k][d];
-    mortar::add_offset_gradient<dim>(surface.faces()[on], shape, values.offsets, gradient);
-  };
-  add_nodes(face.face, to_nodes.slave);
+  add_to_points(face.face, to_points.slave, gradient);
   for (unsigned int f = 0; f < face.masters.size(); ++f)
-    add_nodes(face.masters[f], to_nodes.masters[f]);
+    add_to_points(face.masters[f], to_points.masters[f], gradient);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                     \

@@ -11,21 +11,21 @@
 
 namespace snug::mesh {
 namespace {
-/// {body, boundary, logical centre in units of 2^-32, known surface, has
-/// samples, global nodes}: as integers, so that sorting gives an order that
-/// does not depend on how cells and nodes are distributed.
-using FaceRecord = std::vector<long long>;
+/// Entries of a face record before its nodes.
+template <int dim>
+constexpr unsigned int n_leading = 4 + dim;
 
 /// Hanging global node and its masters.
 using HangingRecord = std::pair<unsigned int, std::vector<std::pair<unsigned int, double>>>;
 
 template <int dim>
-FaceRecord face_record(const BodyMesh<dim> &mesh, const typename BodyMesh<dim>::Face &face)
+typename Surface<dim>::FaceRecord face_record(const BodyMesh<dim>                &mesh,
+                                              const typename BodyMesh<dim>::Face &face)
 {
   dealii::Tensor<1, dim> centre;
   for (const unsigned int node : face.nodes)
     centre += mesh.logical_positions()[node] / double(face.nodes.size());
-  FaceRecord record = {face.body, face.boundary};
+  typename Surface<dim>::FaceRecord record = {face.body, face.boundary};
   for (unsigned int d = 0; d < dim; ++d)
     record.push_back(std::llround(std::ldexp(centre[d], 32)));
   record.push_back(face.known_surface);
@@ -59,9 +59,9 @@ std::vector<T> gathered(MPI_Comm communicator, const std::vector<T> &mine)
 
 /// The global nodes of all records, ascending.
 /// @p n_leading entries of a face record come before its nodes.
-std::vector<unsigned int> nodes_of(const std::vector<FaceRecord>    &faces,
-                                   const std::vector<HangingRecord> &hanging,
-                                   unsigned int                      n_leading)
+std::vector<unsigned int> nodes_of(const std::vector<std::vector<long long>> &faces,
+                                   const std::vector<HangingRecord>          &hanging,
+                                   unsigned int                               n_leading)
 {
   std::vector<unsigned int> nodes;
   for (const auto &face : faces)
@@ -81,9 +81,9 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
   : mesh(mesh)
 {
   // A face belongs to the rank of its cell, but its nodes may be owned by others.
-  std::vector<FaceRecord>                                 faces;
-  std::vector<HangingRecord>                              hanging;
-  std::map<FaceRecord, const std::vector<unsigned int> *> samples; // of this rank's faces
+  std::vector<FaceRecord>    faces;
+  std::vector<HangingRecord> hanging;
+  OwnSamples                 samples;
   for (const auto &face : mesh.boundary_faces())
     if (std::find(boundaries.begin(), boundaries.end(), std::make_pair(face.body, face.boundary)) !=
         boundaries.end())
@@ -99,37 +99,12 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
   faces   = gathered(mesh.communicator(), faces);
   hanging = gathered(mesh.communicator(), hanging);
 
-  const unsigned int n_leading = 4 + dim;
   // masters too, which need not be nodes of the given faces
-  global_nodes = nodes_of(faces, hanging, n_leading);
+  global_nodes = nodes_of(faces, hanging, n_leading<dim>);
   std::map<unsigned int, unsigned int> index;
   for (unsigned int node = 0; node < global_nodes.size(); ++node)
     index[global_nodes[node]] = node;
-  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
-    known_surfaces.push_back(mesh.geometry(body).known_surfaces());
-  const unsigned int samples_per_face =
-    dealii::Utilities::pow(surface_degree + 1, dim - 1);
-  unsigned int n_samples = 0;
-  for (const auto &record : faces)
-    {
-      Face face{static_cast<unsigned int>(record[0]),
-                static_cast<unsigned int>(record[1]),
-                {},
-                {},
-                nullptr};
-      if (record[2 + dim] < static_cast<long long>(known_surfaces[face.body].size()))
-        face.known = &known_surfaces[face.body][record[2 + dim]];
-      for (unsigned int i = n_leading; i < record.size(); ++i)
-        face.nodes.push_back(index.at(record[i]));
-      const auto mine = samples.find(record);
-      for (unsigned int k = 0; k < record[3 + dim] * samples_per_face; ++k)
-        {
-          face.samples.push_back(n_nodes() + n_samples++);
-          if (mine != samples.end())
-            owned_samples.emplace_back(face.samples.back(), (*mine->second)[k]);
-        }
-      surface_faces.push_back(face);
-    }
+  add_faces(faces, index, samples);
   node_masters.resize(global_nodes.size());
   for (const auto &record : hanging)
     {
@@ -139,9 +114,49 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
       for (const auto &master : record.second)
         masters.emplace_back(index.at(master.first), master.second);
     }
+  find_owned(index);
+  reference = gather(mesh.reference_positions());
+}
+
+/// Samples are numbered in the order of the faces, which is the same on all ranks.
+template <int dim>
+void Surface<dim>::add_faces(const std::vector<FaceRecord>              &records,
+                             const std::map<unsigned int, unsigned int> &index,
+                             const OwnSamples                           &samples)
+{
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+    known_surfaces.push_back(mesh.geometry(body).known_surfaces());
+  const unsigned int samples_per_face = dealii::Utilities::pow(surface_degree + 1, dim - 1);
+  unsigned int       point            = n_nodes();
+  for (const auto &record : records)
+    {
+      Face face{static_cast<unsigned int>(record[0]),
+                static_cast<unsigned int>(record[1]),
+                {},
+                {},
+                nullptr};
+      if (record[2 + dim] < static_cast<long long>(known_surfaces[face.body].size()))
+        face.known = &known_surfaces[face.body][record[2 + dim]];
+      for (unsigned int i = n_leading<dim>; i < record.size(); ++i)
+        face.nodes.push_back(index.at(record[i]));
+      const auto mine = samples.find(record);
+      for (unsigned int k = 0; k < record[3 + dim] * samples_per_face; ++k)
+        {
+          face.samples.push_back(point++);
+          if (mine != samples.end())
+            owned_samples.emplace_back(face.samples.back(), (*mine->second)[k]);
+        }
+      surface_faces.push_back(face);
+    }
+  reference.resize(point);
+}
+
+/// Every surface node has one owner, so gather() gets each value once.
+template <int dim>
+void Surface<dim>::find_owned(const std::map<unsigned int, unsigned int> &index)
+{
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-    // every surface node has one owner, so gather() gets each value once
     if (mesh.owner(node) == rank)
       {
         const auto found = index.find(mesh.global_node(node));
@@ -149,8 +164,6 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
           owned.emplace_back(found->second, node);
       }
   std::sort(owned.begin(), owned.end());
-  reference.resize(n_nodes() + n_samples);
-  reference = gather(mesh.reference_positions());
 }
 
 template <int dim>

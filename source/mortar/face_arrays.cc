@@ -28,9 +28,9 @@ node_arrays(const typename mesh::Surface<dim>::Field &positions,
 
 template <int dim, typename Number>
 MortarFace<dim, Number> mortar_face(const mesh::Surface<dim>     &surface,
-                                         const faces::FaceShape<dim>  &shape,
-                                         unsigned int                  face,
-                                         const FaceNodes<dim, Number> &points)
+                                    const faces::FaceShape<dim>  &shape,
+                                    unsigned int                  face,
+                                    const FaceNodes<dim, Number> &points)
 {
   const auto             &of = surface.faces()[face];
   MortarFace<dim, Number> result;

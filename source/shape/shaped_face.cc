@@ -35,9 +35,7 @@ template <int dim>
 ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
                             const BodyNames           &bodies,
                             const ShapeParameters     &parameters)
-  : body_mesh(mesh)
-  , place(find_face(mesh, bodies, parameters))
-  , nodes(mesh, {place})
+  : body_mesh(mesh), place(find_face(mesh, bodies, parameters)), nodes(mesh, {place})
 {
   // On all ranks: surfaces are replicated.
   if (nodes.n_nodes() == 0)
@@ -132,8 +130,8 @@ typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
 {
   if (parameters.direction.empty())
     return face.normals();
-  return typename ShapedFace<dim>::Field(face.surface().n_points(),
-                                         unit_direction<dim>(parameters));
+  return
+    typename ShapedFace<dim>::Field(face.surface().n_points(), unit_direction<dim>(parameters));
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                \

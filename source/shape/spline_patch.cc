@@ -74,8 +74,7 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
     std::vector<double> place; // s, t
     for (const unsigned int d : axes)
       // Samples of a face with curved edges may lie outside of the nodes' rectangle.
-      place.push_back(
-        std::clamp((positions[node][d] - lower[d]) / (upper[d] - lower[d]), 0., 1.));
+      place.push_back(std::clamp((positions[node][d] - lower[d]) / (upper[d] - lower[d]), 0., 1.));
     typename Modes<dim>::Row row;
     for (const auto &value : net.values(place))
       row.emplace_back(value.first, value.second * directions[node]);

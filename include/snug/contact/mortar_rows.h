@@ -128,8 +128,20 @@ private:
     std::vector<std::vector<double>> coefficient_slopes, weight_slopes;
   };
 
-  Field deformed(const Field &positions, const Field &displacement) const;
-  void  add_face_gradient(const SlaveFace &face, const Energy &energy, Field &gradient) const;
+  Field  deformed(const Field &positions, const Field &displacement) const;
+  double correction_slope(const std::vector<std::vector<double>> &slopes,
+                          unsigned int                            slave_node,
+                          unsigned int                            node,
+                          bool                                    absolute) const;
+  void   add_to_points(unsigned int                           face,
+                       const mortar::MortarFace<dim, double> &values,
+                       Field                                 &gradient) const;
+  mortar::FaceIntegrals<double>
+       integral_slopes(const SlaveFace                     &face,
+                       const Energy                        &energy,
+                       const mortar::FaceIntegrals<double> &of_shapes,
+                       const mortar::FaceCoupling<double>  &to_coupling) const;
+  void add_face_gradient(const SlaveFace &face, const Energy &energy, Field &gradient) const;
 };
 } // namespace snug::contact
 

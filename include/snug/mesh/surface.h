@@ -3,6 +3,8 @@
 
 #include <snug/mesh/body_mesh.h>
 
+#include <map>
+
 namespace snug::mesh {
 /**
  * A set of boundary faces gathered on every rank, for contact search.
@@ -54,7 +56,20 @@ public:
     return owned_samples;
   }
 
+  /// {body, boundary, logical centre in units of 2^-32, known surface, has
+  /// samples, global nodes} of a face: as integers, so that sorting gives an
+  /// order that does not depend on how cells and nodes are distributed.
+  using FaceRecord = std::vector<long long>;
+
 private:
+  /// Local numbers of the samples of this rank's faces.
+  using OwnSamples = std::map<FaceRecord, const std::vector<unsigned int> *>;
+
+  void add_faces(const std::vector<FaceRecord>              &records,
+                 const std::map<unsigned int, unsigned int> &index,
+                 const OwnSamples                           &samples);
+  void find_owned(const std::map<unsigned int, unsigned int> &index);
+
   const BodyMesh<dim>                                      &mesh;
   std::vector<Face>                                         surface_faces;
   std::vector<unsigned int>                                 global_nodes;
