@@ -169,8 +169,12 @@ void Surface<dim>::find_owned(const std::map<unsigned int, unsigned int> &index)
 template <int dim>
 typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
 {
-  const bool with_samples = field.size() == mesh.n_points();
-  AssertThrow(with_samples || field.size() == mesh.n_local_nodes(), dealii::ExcInternalError());
+  Assert(field.size() == mesh.n_points() || field.size() == mesh.n_local_nodes(),
+         dealii::ExcDimensionMismatch(field.size(), mesh.n_points()));
+  // On a rank without samples both sizes are the same: those with samples tell.
+  const bool with_samples =
+    n_points() > n_nodes() &&
+    dealii::Utilities::MPI::min(int(field.size() == mesh.n_points()), mesh.communicator()) == 1;
   // in ascending surface nodes, as owned is sorted
   std::vector<double> mine;
   for (const auto &node : owned)
@@ -188,7 +192,7 @@ typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::
         ++position;
       }
   AssertDimension(position, dim * n_nodes());
-  if (with_samples && n_points() > n_nodes())
+  if (with_samples)
     {
       // One rank has each: the others add zeros.
       std::vector<double> values(dim * (n_points() - n_nodes()), 0.);
