@@ -40,7 +40,7 @@ constexpr double steep = 1e-2;
  * penalties all mislead it). Such a design ends NLopt's run; a new one
  * begins at the last accepted design, its moves limited to half the move
  * that failed, and is re-centred as long as it ends at such a limit. After
- * five failures the search ends. When NLopt ends by round-off, it is
+ * five failures in a row without a gain the search ends. When NLopt ends by round-off, it is
  * begun again as long as that gains anything.
  *
  * Where a constraint that holds the start has no gradient there, as that
@@ -222,6 +222,9 @@ bool Search::begins_again()
   switch (answers->end)
     {
       case End::no_value:
+        // a run that has gained is worth as many more
+        if (progress.has_gained())
+          failures = 0;
         if (failures == max_failures)
           return false;
         ++failures;
