@@ -125,9 +125,10 @@ Shape<dim>::Shape(std::unique_ptr<ShapedFace<dim>> face,
   , interior(std::move(interior))
 {}
 
-/// Modes that know their moves anywhere on the face give those of its samples, others those of nodes,
-/// between which samples lie. Modes are free to move hanging nodes anywhere; C puts them back on the lines or faces of their
-/// masters, and H those of the mesh, or it would tear open there.
+/// Modes that know their moves anywhere on the face give those of its samples, others those of
+/// nodes, between which samples lie. Modes are free to move hanging nodes anywhere; C puts them
+/// back on the lines or faces of their masters, and H those of the mesh, or it would tear open
+/// there.
 template <int dim>
 typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) const
 {
