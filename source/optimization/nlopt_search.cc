@@ -65,11 +65,14 @@ public:
 private:
   nlopt::opt make_optimizer() const;
   void       step_off_blind_start();
-  void       descend();
-  void       ask_nlopt();
-  bool       begins_again();
-  void       shrink();
-  bool       is_at_move_limit() const;
+
+  OptimizationResult result();
+
+  void descend();
+  void ask_nlopt();
+  bool begins_again();
+  void shrink();
+  bool is_at_move_limit() const;
 
   const Algorithm               algorithm;
   const OptimizationParameters &parameters;
@@ -113,12 +116,29 @@ OptimizationResult Search::run()
         do
           descend();
         while (begins_again());
-      return progress.finish(answers->end, answers->failure);
+      return result();
     }
   catch (const Interrupted &)
     {
       return progress.finish(End::interrupted, "");
     }
+}
+
+/// A search that came back to a start where a constraint has no gradient has found nothing: where
+/// the constraint is an equality, that start may be the only design that meets it.
+OptimizationResult Search::result()
+{
+  auto result = progress.finish(answers->end, answers->failure);
+  if (!problem.is_blind(*problem.start()) || result.projected_gradient <= steep)
+    return result;
+  double move = 0.;
+  for (const double y : problem.scaled(result.x))
+    move = std::max(move, std::abs(y));
+  if (move > first_step)
+    return result;
+  result.success     = false;
+  result.stop_reason = "a constraint without a gradient at the first design";
+  return result;
 }
 
 /// If that design has no value, the search begins at the start after all.

@@ -135,6 +135,14 @@ std::vector<double> ScaledProblem::design(const std::vector<double> &y) const
   return x;
 }
 
+std::vector<double> ScaledProblem::scaled(const std::vector<double> &x) const
+{
+  std::vector<double> y(x.size());
+  for (unsigned int i = 0; i < x.size(); ++i)
+    y[i] = (x[i] - x_start[i]) / width[i];
+  return y;
+}
+
 std::shared_ptr<const ScaledProblem::Point> ScaledProblem::find(const std::vector<double> &y) const
 {
   for (const auto &point : recent)

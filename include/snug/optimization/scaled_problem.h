@@ -50,6 +50,9 @@ public:
   /// Whether at() would answer without an evaluation.
   bool is_known(const std::vector<double> &y) const { return find(y) != nullptr; }
 
+  /// y of a design.
+  std::vector<double> scaled(const std::vector<double> &x) const;
+
   /// w_i df/dx_i / F.
   std::vector<double> gradient(const Evaluation &evaluation) const;
 

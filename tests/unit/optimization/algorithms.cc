@@ -179,6 +179,14 @@ TEST(Algorithms, NoSuccessAtAStartThatCannotBeLeft)
     }
 }
 
+/// x^2 + y^2 = 0 holds at the start alone.
+TEST(Algorithms, NoSuccessWhereOnlyTheStartMeetsAnEquality)
+{
+  const auto result = minimize(blind({0.5, 0.2}, 1., 1., Relation::equal), with(Algorithm::SLSQP));
+  EXPECT_FALSE(result.success) << result.stop_reason;
+  EXPECT_NE(complaint(result, with(Algorithm::SLSQP)), "");
+}
+
 /// A limit of round-off, as of a displacement that symmetry forbids.
 TEST(Algorithms, ScaleConstraintsByTheirSlopesWhereLimitsAreRoundOff)
 {
