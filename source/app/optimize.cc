@@ -164,11 +164,11 @@ void measure_paired_anew(Observer<dim> &observer, const OptimizationResult &resu
   std::ostringstream line;
   line << "with contact paired anew, the final design has " << problem.scene.optimization.objective
        << ' ' << values.objective << " instead of " << result.objective_final;
-  if (!values.constraints.empty())
-    line << " and violates a constraint by " << values.violation << " of its limit instead of "
-         << result.constraint_violation;
   const bool breaks = values.violation > std::max(most_violation, result.constraint_violation) &&
                       values.violation > problem.scene.optimization.constraint_tolerance;
+  if (breaks)
+    line << " and violates a constraint by " << values.violation << " of its limit instead of "
+         << result.constraint_violation;
   if (breaks || change > most_change * std::abs(result.objective_final))
     results.warn({line.str() + "; 'Contact/Update pairing' goes on from there"});
   else

@@ -33,7 +33,11 @@ ChoiceTable<MakeResponse<dim>> body_responses()
     {"least scaled Jacobian",
      "quality of the cells of a body or all, to be held by a constraint as >= 0.2: 1 less the "
      "p-norm of 1 - scaled Jacobian, below the least one",
-     least_scaled_jacobian<dim>}};
+     least_scaled_jacobian<dim>},
+    {"least cell size",
+     "of a body or all, relative to the reference mesh: 1 less the p-norm of what points of cells "
+     "have lost of it, below the least one",
+     least_cell_size<dim>}};
 }
 
 template <int dim>

@@ -58,6 +58,13 @@ template <int dim>
 std::unique_ptr<Response<dim>> least_scaled_jacobian(const ResponseParameters &parameters);
 
 /**
+ * The same with q = det J / det J_0, J_0 of the reference mesh, at most 1:
+ * cells that are squeezed keep their angles until they tangle.
+ */
+template <int dim>
+std::unique_ptr<Response<dim>> least_cell_size(const ResponseParameters &parameters);
+
+/**
  * J = -sum_i p_i n_i . e [force]: component e of the force of a pair, or
  * of all pairs, on the slave side, with the normals n_i into the master.
  * For the component normal J = sum_i p_i.
