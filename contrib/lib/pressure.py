@@ -28,13 +28,21 @@ class Side:
         return self.pressure[self.nodes].max()
 
     def normal(self):
-        """Coordinate axis closest to the normal: 0, 1 or 2."""
+        """Coordinate axis closest to the normal, where a 3D face is loaded if it
+        is: 0, 1 or 2."""
         edge = self.points[self.faces[:, 1]] - self.points[self.faces[:, 0]]
         if self.flat:
             return int(np.argmin(np.abs(edge[:, :2]).sum(axis=0)))
         normals = np.cross(edge, self.points[self.faces[:, 2]] -
                            self.points[self.faces[:, 0]])
-        return int(np.argmax(np.abs(normals).sum(axis=0)))
+        force = self.pressure[self.faces].sum(axis=1)
+        weight = force if force.any() else np.ones(len(force))
+        return int(np.argmax(weight @ np.abs(normals)))
+
+    def peaks(self):
+        """Where the pressure is largest, or as good as that."""
+        high = self.pressure[self.nodes] >= 0.98 * self.peak()
+        return self.points[self.nodes[high]]
 
     def curve(self):
         """Where to draw the two ends of the faces of a 2D side, and what the
@@ -101,18 +109,37 @@ def draw_pressure(directory, states, peak):
         draw_faces(directory, states, list(sides.values()), names, peak)
 
 
+def window(row, plane):
+    """Least and largest coordinates in a plane of the faces of a side or, where
+    less than half of them is loaded, of that part and its surroundings."""
+    places = np.concatenate([side.points[side.nodes] for side in row])[:, plane]
+    loaded = np.concatenate([side.pressure[side.nodes] for side in row]) > 0.
+    low, high = places.min(axis=0), places.max(axis=0)
+    if loaded.any():
+        first, last = (places[loaded].min(axis=0), places[loaded].max(axis=0))
+        width = (last - first).max()
+        if 0. < width < (high - low).max() / 2.:
+            low = np.maximum(low, first - width / 2.)
+            high = np.minimum(high, last + width / 2.)
+    return low, high
+
+
 def draw_faces(directory, states, sides, names, peak):
     peak = max(peak, *(side.peak() for row in sides for side in row))
-    planes = [[k for k in range(3) if k != row[0].normal()] for row in sides]
-    extents = [np.ptp(row[0].points[row[0].nodes], axis=0) for row in sides]
-    figure, axes = panels([extent[up] / extent[across] for extent, (across, up)
-                           in zip(extents, planes)], len(states))
-    for row, name, plane, line in zip(sides, names, planes, axes):
+    planes = [[k for k in range(3) if k != row[-1].normal()] for row in sides]
+    windows = [window(row, plane) for row, plane in zip(sides, planes)]
+    figure, axes = panels([(high - low)[1] / (high - low)[0]
+                           for low, high in windows], len(states))
+    for row, name, plane, (low, high), line in zip(sides, names, planes,
+                                                   windows, axes):
+        margin = 0.03 * (high - low)
         for side, title, axis in zip(row, titles(states), line):
             image = paint(axis, side.points[:, plane], side.faces.tolist(),
                           side.pressure, peak)
             axis.plot(*side.points[side.active][:, plane].T, ".",
                       color="white", markersize=1.5)
+            axis.set_xlim(low[0] - margin[0], high[0] + margin[0])
+            axis.set_ylim(low[1] - margin[1], high[1] + margin[1])
             axis.set_title(f"{name} {title}\nlargest {side.peak():.4g}"
                            .strip())
             axis.set_xlabel(f"{'xyz'[plane[0]]} (scene's length)")
@@ -147,7 +174,8 @@ def draw_curves(directory, states, sides, names):
                       markersize=3, label=title)
         axis.set_xlabel(label)
         axis.set_ylabel("pressure\n(scene's force / length²)")
-        axis.set_ylim(bottom=0.)
+        # a uniform pressure is off the frame, too
+        axis.set_ylim(0., 1.15 * max(side.peak() for side in row) or 1.)
         show_small_contact(axis, places, loaded)
         axis.set_title(name)
         axis.grid(True, alpha=0.3)

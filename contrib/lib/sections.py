@@ -39,17 +39,18 @@ def bodies_of(grid):
     return result
 
 
-def cut(grid, axis):
-    """The bodies in the middle plane across axis; with axis None the bodies
-    themselves, which are flat. Points keep their fields."""
+def cut(grid, axis, place):
+    """The bodies in the plane across axis at the coordinate place; with axis None
+    the bodies themselves, which are flat. Points keep their fields."""
     if axis is None:
         return bodies_of(grid)
     bounds = np.reshape(grid.GetBounds(), (3, 2))
     extent = np.ptp(bounds, axis=1).max()
     plane = vtk_data.vtkPlane()
-    # a little off the middle, where faces of cells may lie
+    # a little towards the middle, as faces of cells may lie there
     origin = bounds.mean(axis=1)
-    origin[axis] += 1e-4 * np.ptp(bounds[axis])
+    inwards = 1. if place <= origin[axis] else -1.
+    origin[axis] = place + inwards * 1e-4 * np.ptp(bounds[axis])
     plane.SetOrigin(origin)
     plane.SetNormal([float(k == axis) for k in range(3)])
     sections = []

@@ -1,4 +1,7 @@
 #include <snug/app/build_model.h>
+#include <snug/sensitivity/methods.h>
+
+#include <algorithm>
 
 namespace snug::app {
 namespace {
@@ -18,6 +21,25 @@ contact::Pair find_pair(const scene::Scene                      &scene,
   if (!pair.obstacle)
     pair.master = find_face(scene, mesh, entry.master);
   return pair;
+}
+
+/// An error e of the state changes the potential energy, which it makes least, by e^2, and all else
+/// by e: errors above the optimizer's tolerance would keep it from ever meeting that.
+template <int dim>
+double state_tolerance(const scene::Scene &scene)
+{
+  const double usual = qp::SolverParameters().relative_tolerance, least = 1e-10;
+  if (scene.state_tolerance || scene.task != scene::Task::optimize)
+    return scene.state_tolerance.value_or(usual);
+  const auto feels_errors = [&scene](const std::string &name) {
+    const auto parameters =
+      scene::response_called(scene, scene::constraint_name(scene, name).response);
+    return sensitivity::needs_solve(*response::make_response<dim>(*parameters));
+  };
+  bool sharp = feels_errors(scene.optimization.objective);
+  for (const auto &constraint : scene.optimization.constraints)
+    sharp = sharp || feels_errors(constraint.first);
+  return sharp ? std::clamp(scene.optimization.objective_tolerance, least, usual) : usual;
 }
 } // namespace
 
@@ -62,9 +84,10 @@ template <int dim>
 state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
 {
   state::Model<dim> model;
-  model.least_scaled_jacobian = scene.least_scaled_jacobian;
-  model.feti                  = scene.feti;
-  model.solver                = scene.solver;
+  model.least_scaled_jacobian     = scene.least_scaled_jacobian;
+  model.feti                      = scene.feti;
+  model.solver                    = scene.solver;
+  model.solver.relative_tolerance = state_tolerance<dim>(scene);
   for (unsigned int b = 0; b < scene.bodies.size(); ++b)
     {
       const auto &body = scene.bodies[b];

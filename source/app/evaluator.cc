@@ -1,5 +1,6 @@
 #include <snug/app/evaluator.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -61,16 +62,14 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
                                               *problem.objective, objective.factors, measured);
 
   optimization::Evaluation evaluation;
-  evaluation.objective = objective.value;
-  evaluation.gradient  = gradients.of_response.front().values;
+  evaluation.objective   = objective.value;
+  evaluation.gradient    = gradients.of_response.front().values;
+  evaluation.constraints = values(states).constraints;
   for (unsigned int i = 0; i < constraints.size(); ++i)
     {
-      const Constraint &constraint = constraints[i];
-      const double J = constraint.response->value(*problem.solver, states[constraint.load_case]);
-      evaluation.constraints.push_back(constraint.sign() * (J - constraint.target));
       evaluation.jacobian.push_back(gradients.of_response[1 + i].values);
       for (double &entry : evaluation.jacobian.back())
-        entry *= constraint.sign();
+        entry *= constraints[i].sign();
     }
   evaluation.f_mults = gradients.f_mults;
   for (const auto &state : states)
@@ -81,6 +80,25 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
   evaluation.least_scaled_jacobian = states.front().least_scaled_jacobian;
   evaluation.seconds               = problem.context.seconds();
   return evaluation;
+}
+
+template <int dim>
+typename Evaluator<dim>::Values Evaluator<dim>::values(const States &states)
+{
+  Values result;
+  result.objective = problem.combined_objective(states).value;
+  for (const Constraint &constraint : constraints)
+    {
+      const double J = constraint.response->value(*problem.solver, states[constraint.load_case]);
+      const double c = constraint.sign() * (J - constraint.target);
+      result.constraints.push_back(c);
+      const double size =
+        constraint.side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
+      result.violation =
+        std::max(result.violation,
+                 size / (constraint.target == 0. ? 1. : std::abs(constraint.target)));
+    }
+  return result;
 }
 
 template <int dim>
@@ -95,8 +113,7 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
   result.remember = [this](const std::string &bytes) { return remember(bytes); };
   for (const Constraint &constraint : constraints)
     {
-      result.constraint_scales.push_back(constraint.target == 0. ? 1.
-                                                                 : std::abs(constraint.target));
+      result.constraint_scales.push_back(std::abs(constraint.target));
       result.relations.push_back(constraint.side == optimization::Limit::Side::equal
                                    ? optimization::Relation::equal
                                    : optimization::Relation::at_most);

@@ -1,10 +1,12 @@
 #include <snug/app/evaluator.h>
 #include <snug/app/interrupt.h>
 #include <snug/app/optimize.h>
+#include <snug/base/errors.h>
 #include <snug/io/history.h>
 #include <snug/optimization/journal.h>
 #include <snug/scene/read_scene.h>
 
+#include <cmath>
 #include <ostream>
 #include <sstream>
 
@@ -15,6 +17,13 @@ using optimization::OptimizationResult;
 
 /// Moves of slave nodes off their pairing below this, in faces, are none.
 const double unmoved = 1e-3;
+
+/// Drifts of round-off alone: paired anew, the state is the same.
+const double no_drift = 1e-12;
+
+/// Changes of the objective, and violations of constraints, from which on it is
+/// said that the pairing matters; both relative.
+const double most_change = 1e-3, most_violation = 1e-6;
 
 /// Everything that decides the numbers: the scene but where results go and
 /// when to stop, and of mesh files what is in them, wherever they are.
@@ -128,6 +137,44 @@ void print_end(const ShapeProblem<dim>                  &problem,
   out << std::endl;
 }
 
+/// The design found is the best for the pairing it was searched with: say what it is worth where
+/// contact is paired anew. Ends all states.
+template <int dim>
+void measure_paired_anew(Observer<dim> &observer, const OptimizationResult &result)
+{
+  auto &[problem, results, evaluator, history] = observer;
+  if (result.end == optimization::End::interrupted || problem.drift(result.x) < no_drift)
+    return;
+  evaluator.pair(result.x);
+  typename Evaluator<dim>::Values values;
+  try
+    {
+      values = evaluator.values(problem.solve(result.x));
+    }
+  catch (const SolveError &no_state)
+    {
+      results.warn({"with contact paired anew, the final design has no state: " +
+                    std::string(no_state.what())});
+      return;
+    }
+  auto &summary                            = *results.summary.optimization;
+  summary.objective_paired_anew            = values.objective;
+  summary.constraint_violation_paired_anew = values.violation;
+  const double       change                = std::abs(values.objective - result.objective_final);
+  std::ostringstream line;
+  line << "with contact paired anew, the final design has " << problem.scene.optimization.objective
+       << ' ' << values.objective << " instead of " << result.objective_final;
+  const bool breaks = values.violation > std::max(most_violation, result.constraint_violation) &&
+                      values.violation > problem.scene.optimization.constraint_tolerance;
+  if (breaks)
+    line << " and violates a constraint by " << values.violation << " of its limit instead of "
+         << result.constraint_violation;
+  if (breaks || change > most_change * std::abs(result.objective_final))
+    results.warn({line.str() + "; 'Contact/Update pairing' goes on from there"});
+  else
+    observer.log(line.str());
+}
+
 /// Draw and summarize the design found.
 template <int dim>
 void finish(Observer<dim> &observer, const OptimizationResult &result)
@@ -154,8 +201,9 @@ void finish(Observer<dim> &observer, const OptimizationResult &result)
   gradient.seconds             = evaluator.gradients.seconds;
   gradient.values              = result.evaluation.gradient;
   results.summary.optimization = {{result}, to_text(problem.scene.optimization.algorithm)};
-  results.write_summary();
   print_end(problem, result, results.first(), states);
+  measure_paired_anew(observer, result);
+  results.write_summary();
 }
 
 /// One search from @p start; counts and the first objective go on from

@@ -140,6 +140,8 @@ void Results<dim>::add_last(const double                time,
                             const std::optional<Field> &shape_gradient)
 {
   draw(time, states, shape_gradient);
+  // contact may be paired anew before the summary is written
+  count_rows();
   summary.state = summarize(states.front());
   if (!first_states.empty())
     summary.initial_state = first_states.front();
@@ -175,16 +177,21 @@ void Results<dim>::export_shape(const std::vector<double> &design)
 }
 
 template <int dim>
-void Results<dim>::write_summary()
+void Results<dim>::count_rows()
 {
-  const auto &context           = problem.context;
-  summary.program               = io::program_info(context);
   summary.mesh                  = io::summarize(*problem.mesh, problem.tearing);
   summary.mesh.dual_rows        = problem.solver->gluing().n_rows();
   summary.mesh.contact_rows     = problem.solver->gluing().n_contact_rows();
   summary.mesh.kernel_dimension = problem.solver->n_kernel();
-  summary.work                  = context.total_work();
-  summary.times                 = io::collect_times(context);
+}
+
+template <int dim>
+void Results<dim>::write_summary()
+{
+  const auto &context = problem.context;
+  summary.program     = io::program_info(context);
+  summary.work        = context.total_work();
+  summary.times       = io::collect_times(context);
   if (!io::blas_warning(summary.program).empty())
     summary.warnings.push_back(io::blas_warning(summary.program));
   summary.warnings.insert(summary.warnings.end(), warnings.begin(), warnings.end());

@@ -176,6 +176,16 @@ double Element<dim>::quality(const Nodes &X) const
   return mean > 0. ? smallest / mean : 0.;
 }
 
+/// det J / prod_d |J e_d|
+template <int dim>
+static double scaled_determinant(const dealii::Tensor<2, dim> &J)
+{
+  double volume = 1.; // of the box with these edges
+  for (int d = 0; d < dim; ++d)
+    volume *= (transpose(J)[d]).norm();
+  return determinant(J) / volume;
+}
+
 template <int dim>
 double Element<dim>::scaled_jacobian(const Nodes &X) const
 {
@@ -183,16 +193,52 @@ double Element<dim>::scaled_jacobian(const Nodes &X) const
   for (const auto *points : {&gauss, &nodes})
     for (const auto &shape : *points)
       {
-        const auto J      = jacobian(shape, X);
-        double     volume = 1.; // of the box with these edges
-        for (int d = 0; d < dim; ++d)
-          volume *= (transpose(J)[d]).norm();
-        const double ratio = determinant(J) / volume;
+        const double ratio = scaled_determinant(jacobian(shape, X));
         // NaN compares false and counts as 0.
         if (!(ratio > smallest))
           smallest = std::isnan(ratio) ? 0. : ratio;
       }
   return smallest;
+}
+
+template <int dim>
+double Element<dim>::distortion(const Nodes &X, const double p, const double scale) const
+{
+  double sum = 0.;
+  for (const auto *points : {&gauss, &nodes})
+    for (const auto &shape : *points)
+      // Of right angles to rounding: not below 0, which has no power p.
+      sum += std::pow(std::max(0., 1. - scaled_determinant(jacobian(shape, X))) / scale, p);
+  return sum;
+}
+
+/// With q = det J / prod_d |J e_d|, q' = q tr(J^-1 J') - q sum_d J e_d . J' e_d / |J e_d|^2.
+template <int dim>
+void Element<dim>::add_distortion_gradient(const Nodes &X,
+                                           const double p,
+                                           const double scale,
+                                           const double factor,
+                                           Nodes       &gradient) const
+{
+  for (const auto *points : {&gauss, &nodes})
+    for (const auto &shape : *points)
+      {
+        const auto   J = jacobian(shape, X);
+        const double q = scaled_determinant(J);
+        const double weight =
+          -factor * p * q / scale * std::pow(std::max(0., 1. - q) / scale, p - 1.);
+        if (weight == 0.)
+          continue;
+        const auto inverse = invert(J);
+        for (unsigned int a = 0; a < n_nodes(); ++a)
+          for (int d = 0; d < dim; ++d)
+            {
+              // J' e_d = V N_a,d
+              const dealii::Tensor<1, dim> edge = transpose(J)[d];
+              gradient[a] += weight * shape.gradient[a][d] *
+                             (dealii::Tensor<1, dim>(inverse[d]) - edge / edge.norm_square());
+            }
+      }
 }
 
 template class Element<2>;

@@ -128,6 +128,8 @@ Json summary_part(const Summary::Optimization &optimization)
           {"objective_initial", optimization.objective_initial},
           {"objective_final", optimization.objective_final},
           {"constraint_violation", optimization.constraint_violation},
+          {"objective_paired_anew", optimization.objective_paired_anew},
+          {"constraint_violation_paired_anew", optimization.constraint_violation_paired_anew},
           {"projected_gradient", optimization.projected_gradient},
           {"stop_reason", optimization.stop_reason},
           {"design", optimization.x}};

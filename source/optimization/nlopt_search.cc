@@ -13,6 +13,12 @@ namespace {
 constexpr unsigned int max_failures         = 5;
 constexpr unsigned int max_round_off_starts = 5;
 
+/// Of the bound widths: out of a design at which a constraint has no gradient.
+constexpr double first_step = 1e-3;
+
+/// A projected gradient above this is no solution: NLopt could not leave the start.
+constexpr double steep = 1e-2;
+
 /**
  * Its runs, and what leads from one to the next, in variables scaled by
  * their bound widths and with objective and constraints scaled to order one
@@ -34,8 +40,13 @@ constexpr unsigned int max_round_off_starts = 5;
  * penalties all mislead it). Such a design ends NLopt's run; a new one
  * begins at the last accepted design, its moves limited to half the move
  * that failed, and is re-centred as long as it ends at such a limit. After
- * five failures the search ends. When NLopt ends by round-off, it is
+ * five failures in a row without a gain the search ends. When NLopt ends by round-off, it is
  * begun again as long as that gains anything.
+ *
+ * Where a constraint that holds the start has no gradient there, as that
+ * of the volume of a symmetric body, NLopt would not leave it: its models
+ * of that constraint allow no step, or any. The search then begins a small
+ * step of steepest descent away.
  *
  * Sources: Kraft, A software package for sequential quadratic programming,
  * DFVLR-FB 88-28 (1988); Svanberg, SIAM J. Optim. 12 (2002) for MMA and
@@ -53,11 +64,15 @@ public:
 
 private:
   nlopt::opt make_optimizer() const;
-  void       descend();
-  void       ask_nlopt();
-  bool       begins_again();
-  void       shrink();
-  bool       is_at_move_limit() const;
+  void       step_off_blind_start();
+
+  OptimizationResult result();
+
+  void descend();
+  void ask_nlopt();
+  bool begins_again();
+  void shrink();
+  bool is_at_move_limit() const;
 
   const Algorithm               algorithm;
   const OptimizationParameters &parameters;
@@ -96,16 +111,58 @@ OptimizationResult Search::run()
   try
     {
       progress.report();
+      step_off_blind_start();
       if (!centre.empty())
         do
           descend();
         while (begins_again());
-      return progress.finish(answers->end, answers->failure);
+      return result();
     }
   catch (const Interrupted &)
     {
       return progress.finish(End::interrupted, "");
     }
+}
+
+/// A search that came back to a start where a constraint has no gradient has found nothing: where
+/// the constraint is an equality, that start may be the only design that meets it.
+OptimizationResult Search::result()
+{
+  auto result = progress.finish(answers->end, answers->failure);
+  if (!problem.is_blind(*problem.start()) || result.projected_gradient <= steep)
+    return result;
+  double move = 0.;
+  for (const double y : problem.scaled(result.x))
+    move = std::max(move, std::abs(y));
+  if (move > first_step)
+    return result;
+  result.success     = false;
+  result.stop_reason = "a constraint without a gradient at the first design";
+  return result;
+}
+
+/// If that design has no value, the search begins at the start after all.
+void Search::step_off_blind_start()
+{
+  const auto &start   = *problem.start();
+  const auto  g       = problem.gradient(start.evaluation);
+  double      largest = 0.;
+  for (const double entry : g)
+    largest = std::max(largest, std::abs(entry));
+  if (largest == 0. || parameters.maximum_evaluations < 2 || !problem.is_blind(start))
+    return;
+  auto y = start.y;
+  for (unsigned int i = 0; i < y.size(); ++i)
+    y[i] = std::clamp(-first_step * g[i] / largest, problem.lower()[i], problem.upper()[i]);
+  try
+    {
+      const auto point = problem.at(y);
+      progress.consider(point);
+      progress.accept(point, true);
+      centre = y;
+    }
+  catch (const SolveError &)
+    {}
 }
 
 nlopt::opt Search::make_optimizer() const
@@ -161,7 +218,9 @@ void Search::ask_nlopt()
   try
     {
       const auto why = optimizer.optimize(y, f);
-      if (algorithm != Algorithm::SLSQP && progress.is_feasible(*progress.iterate()))
+      const bool is_stuck =
+        progress.n_iterations() == 0 && problem.projected_gradient(*problem.start()) > steep;
+      if (algorithm != Algorithm::SLSQP && progress.is_feasible(*progress.iterate()) && !is_stuck)
         answers->end = why == nlopt::FTOL_REACHED   ? End::objective
                        : why == nlopt::XTOL_REACHED ? End::design
                                                     : End::round_off;
@@ -183,6 +242,9 @@ bool Search::begins_again()
   switch (answers->end)
     {
       case End::no_value:
+        // a run that has gained is worth as many more
+        if (progress.has_gained())
+          failures = 0;
         if (failures == max_failures)
           return false;
         ++failures;

@@ -19,6 +19,10 @@ constexpr double at_bound = 1e-8;
 /// An inequality with less left, relative to its scale, is active.
 constexpr double at_limit = 1e-6;
 
+/// A constraint that changes by less between the bounds, relative to its
+/// scale, has no gradient: what is there is round-off, or as good as that.
+constexpr double no_slope = 1e-8;
+
 /// Designs closer than this, relative to the widths, are one design: in
 /// vain, SLSQP likes to ask for many that differ in their last bits.
 constexpr double resolution = 1e-13;
@@ -79,7 +83,7 @@ void check_values(const Evaluation &evaluation, const std::size_t n_variables)
 } // namespace
 
 ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
-  : problem(the_problem), scales(problem.constraint_scales), constraint_relations(problem.relations)
+  : problem(the_problem), constraint_relations(problem.relations)
 {
   check_bounds(problem);
   for (unsigned int i = 0; i < problem.start.size(); ++i)
@@ -90,7 +94,9 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
       y_lower.push_back((lower - x_start[i]) / width[i]);
       y_upper.push_back((upper - x_start[i]) / width[i]);
     }
-  start_point = at(std::vector<double>(x_start.size(), 0.));
+  const auto start = evaluated(std::vector<double>(x_start.size(), 0.));
+  scale_constraints(start->evaluation);
+  start_point = remembered(start);
 
   const double slope = norm(gradient(start_point->evaluation));
   scale              = std::abs(start_point->evaluation.objective);
@@ -99,6 +105,21 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
   else if (scale == 0.)
     scale = 1.;
   start_gradient_norm = slope / scale;
+}
+
+/// A limit that is round-off itself, as of a displacement that symmetry forbids, would make large
+/// numbers of the errors of states: as for the objective, the slope over 100 is the least scale.
+void ScaledProblem::scale_constraints(const Evaluation &start)
+{
+  const auto slopes = jacobian(start); // with scales 1
+  scales            = problem.constraint_scales;
+  for (unsigned int j = 0; j < scales.size(); ++j)
+    {
+      const double slope = norm(slopes[j]);
+      scales[j]          = scales[j] > 0. ? std::max(scales[j], slope / 100.) : slope;
+      if (scales[j] == 0.)
+        scales[j] = 1.;
+    }
 }
 
 std::vector<double> ScaledProblem::design(const std::vector<double> &y) const
@@ -114,6 +135,14 @@ std::vector<double> ScaledProblem::design(const std::vector<double> &y) const
   return x;
 }
 
+std::vector<double> ScaledProblem::scaled(const std::vector<double> &x) const
+{
+  std::vector<double> y(x.size());
+  for (unsigned int i = 0; i < x.size(); ++i)
+    y[i] = (x[i] - x_start[i]) / width[i];
+  return y;
+}
+
 std::shared_ptr<const ScaledProblem::Point> ScaledProblem::find(const std::vector<double> &y) const
 {
   for (const auto &point : recent)
@@ -126,12 +155,23 @@ std::shared_ptr<const ScaledProblem::Point> ScaledProblem::at(const std::vector<
 {
   if (auto known = find(y))
     return known;
+  return remembered(evaluated(y));
+}
+
+std::shared_ptr<ScaledProblem::Point> ScaledProblem::evaluated(const std::vector<double> &y)
+{
   const auto point = std::make_shared<Point>();
   point->y         = y;
   point->x         = design(y);
   ++evaluations;
   point->evaluation = problem.evaluate(point->x);
   check_values(point->evaluation, y.size());
+  return point;
+}
+
+std::shared_ptr<const ScaledProblem::Point>
+ScaledProblem::remembered(const std::shared_ptr<Point> &point)
+{
   const auto c = constraints(point->evaluation);
   if (constraint_relations.empty()) // the first design
     constraint_relations.resize(c.size(), Relation::equal);
@@ -168,11 +208,24 @@ std::vector<double> ScaledProblem::constraints(const Evaluation &evaluation) con
   Assert(scales.empty() || scales.size() == result.size(),
          dealii::ExcDimensionMismatch(scales.size(), result.size()));
   for (unsigned int j = 0; j < scales.size(); ++j)
-    {
-      Assert(scales[j] > 0., dealii::ExcMessage("scales are positive"));
-      result[j] /= scales[j];
-    }
+    result[j] /= scales[j];
   return result;
+}
+
+/// Whether a constraint holds the design at @p point.
+bool ScaledProblem::is_active(const Point &point, const unsigned int j) const
+{
+  return constraint_relations[j] == Relation::equal ||
+         constraints(point.evaluation)[j] >= -at_limit;
+}
+
+bool ScaledProblem::is_blind(const Point &point) const
+{
+  const auto A = jacobian(point.evaluation);
+  for (unsigned int j = 0; j < A.size(); ++j)
+    if (is_active(point, j) && norm(A[j]) <= no_slope)
+      return true;
+  return false;
 }
 
 double ScaledProblem::projected_gradient(const Point &point) const
@@ -191,14 +244,12 @@ double ScaledProblem::projected_gradient(const Point &point) const
   const double size = std::max(norm(g), start_gradient_norm);
   if (size == 0.)
     return 0.;
-  const auto                      c = constraints(point.evaluation);
   const auto                      A = jacobian(point.evaluation);
   std::vector<ConstraintGradient> constraint_gradients;
   for (unsigned int j = 0; j < A.size(); ++j)
-    if (constraint_relations[j] == Relation::equal)
-      constraint_gradients.push_back({A[j], false});
-    else if (c[j] >= -at_limit)
-      constraint_gradients.push_back({A[j], true});
+    // a direction made of round-off would take its part of the gradient
+    if (is_active(point, j) && norm(A[j]) > no_slope)
+      constraint_gradients.push_back({A[j], constraint_relations[j] == Relation::at_most});
   return projected_gradient_norm(g, constraint_gradients, at_bounds) / size;
 }
 } // namespace snug::optimization

@@ -7,9 +7,6 @@ void SolverParameters::declare(Entries &entries)
 {
   entries.add("Method", method, choice(names(solver_table())),
               "Solver of the dual quadratic program.");
-  entries.add("Relative tolerance", relative_tolerance, between(1e-14, 0.1),
-              "What the relative errors of equilibrium, continuity, penetration, negative pressure "
-              "and complementarity may be; between 1e-14 and 0.1.");
   entries.add("Maximum F-mults", max_iterations, at_least(1),
               "Largest number of applications of the dual operator in one solve; a state that "
               "needs more is an error.");

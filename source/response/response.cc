@@ -9,26 +9,35 @@ template <int dim>
 ChoiceTable<MakeResponse<dim>> body_responses()
 {
   using State = state::ContactState<dim>;
-  return {{"potential energy",
-           "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
-           "spreads the contact pressure evenly",
-           [](const Parameters &) { return work<dim>(&State::energy, 1., -1.); }},
-          {"compliance",
-           "f'u, the work of the loads [force length]; with a body held by "
-           "contact alone it rewards lifting that body",
-           [](const Parameters &) { return work<dim>(&State::compliance, 0., 1.); }},
-          {"strain energy", "1/2 u'Ku [force length]",
-           [](const Parameters &) { return work<dim>(&State::strain_energy, 1., 0.); }},
-          {"volume", "volume of a body or all [length^3]",
-           [](const Parameters &parameters) { return body_integral<dim>(parameters, false); }},
-          {"mass", "density times volume of a body or all [mass]",
-           [](const Parameters &parameters) { return body_integral<dim>(parameters, true); }},
-          {"displacement", "a component of that of a point or averaged over a face [length]",
-           displacement<dim>},
-          {"von Mises norm",
-           "p-norm of the von Mises stress over a body or all, divided by that "
-           "of 1 [force/length^2]",
-           von_mises_norm<dim>}};
+  return {
+    {"potential energy",
+     "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
+     "spreads the contact pressure evenly",
+     [](const Parameters &) { return work<dim>(&State::energy, 1., -1.); }},
+    {"compliance",
+     "f'u, the work of the loads [force length]; with a body held by "
+     "contact alone it rewards lifting that body",
+     [](const Parameters &) { return work<dim>(&State::compliance, 0., 1.); }},
+    {"strain energy", "1/2 u'Ku [force length]",
+     [](const Parameters &) { return work<dim>(&State::strain_energy, 1., 0.); }},
+    {"volume", "volume of a body or all [length^3]",
+     [](const Parameters &parameters) { return body_integral<dim>(parameters, false); }},
+    {"mass", "density times volume of a body or all [mass]",
+     [](const Parameters &parameters) { return body_integral<dim>(parameters, true); }},
+    {"displacement", "a component of that of a point or averaged over a face [length]",
+     displacement<dim>},
+    {"von Mises norm",
+     "p-norm of the von Mises stress over a body or all, divided by that "
+     "of 1 [force/length^2]",
+     von_mises_norm<dim>},
+    {"least scaled Jacobian",
+     "quality of the cells of a body or all, to be held by a constraint as >= 0.2: 1 less the "
+     "p-norm of 1 - scaled Jacobian, below the least one",
+     least_scaled_jacobian<dim>},
+    {"least cell size",
+     "of a body or all, relative to the reference mesh: 1 less the p-norm of what points of cells "
+     "have lost of it, below the least one",
+     least_cell_size<dim>}};
 }
 
 template <int dim>

@@ -68,10 +68,24 @@ void declare_named(Entries &entries, std::vector<Named> &list, const std::string
     }
 }
 
+Access number_or_auto(std::optional<double> &value)
+{
+  Access result  = access(value);
+  result.numbers = [&value]() { return std::vector<double>(value ? 1 : 0, value.value_or(0.)); };
+  return result;
+}
+
 void declare_solver(Entries &entries, Scene &scene)
 {
   entries.begin_section("Solver", "Solving the contact problem.");
   scene.solver.declare(entries);
+  Form form    = between(1e-14, 0.1);
+  form.allowed = "auto or a number";
+  entries.add("Relative tolerance", number_or_auto(scene.state_tolerance), form,
+              "What the relative errors of equilibrium, continuity, penetration, negative pressure "
+              "and complementarity may be; between 1e-14 and 0.1. auto: 1e-6, but no more than "
+              "'Objective tolerance' in optimizations whose objective or constraints feel these "
+              "errors, as all that depend on the state but the potential energy do.");
   entries.add("Report linear reference", scene.report_linear_reference,
               "Also solve the linear problem on the final contacts from zero and report its number "
               "of F-mults.");

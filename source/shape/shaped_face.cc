@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/faces/held_directions.h>
 #include <snug/faces/nodal_normals.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/shaped_face.h>
@@ -7,8 +8,60 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <set>
 
 namespace snug::shape {
+namespace {
+/// Nodes this close to a plane, relative to its extent, lie in it.
+const double in_plane = 1e-6;
+
+/// Sine of 25 degrees: a normal that leans more on a plane means it.
+const double most_lean = 0.42;
+
+/// A plane boundary.
+template <int dim>
+struct Plane
+{
+  dealii::Tensor<1, dim> normal, point;
+  double                 tolerance; ///< of distances [length]
+  std::set<unsigned int> nodes;     ///< global
+
+  bool holds(const dealii::Tensor<1, dim> &x) const
+  {
+    return std::abs(normal * (x - point)) <= tolerance;
+  }
+};
+
+/// That of a boundary, unless it is curved or the mesh has none such. Collective.
+template <int dim>
+std::optional<Plane<dim>> plane_of(const mesh::BodyMesh<dim>                   &mesh,
+                                   const std::pair<unsigned int, unsigned int> &boundary)
+{
+  const mesh::Surface<dim>    surface(mesh, {boundary});
+  const auto                 &x = surface.reference_positions();
+  const faces::FaceShape<dim> shape(mesh.degree());
+  Plane<dim>                  plane;
+  double                      extent = 0.;
+  for (const auto &face : surface.faces())
+    plane.normal += faces::area_vector(faces::tangents<dim>(shape.at_node(0), face.nodes, x));
+  if (plane.normal.norm() == 0.)
+    return {};
+  plane.normal /= plane.normal.norm();
+  plane.point = x[0];
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    {
+      plane.nodes.insert(surface.global_node(node));
+      extent = std::max(extent, (x[node] - x[0]).norm());
+    }
+  plane.tolerance = in_plane * extent;
+  for (const auto &position : x)
+    if (!plane.holds(position))
+      return {};
+  return plane;
+}
+} // namespace
+
 template <int dim>
 std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
                                                 const BodyNames           &bodies,
@@ -42,6 +95,7 @@ ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
     throw bad_entry(parameters.path("Face"), parameters.face, "the mesh has no such faces");
   measure();
   find_border();
+  keep_to_planes();
 }
 
 /// At the reference, once: bases are linear in the design and do not follow what they move.
@@ -95,6 +149,43 @@ void ShapedFace<dim>::find_border()
   // A face of the other boundary may be on another rank than this node.
   dealii::Utilities::MPI::max(marks, body_mesh.communicator(), marks);
   on_border.assign(marks.begin(), marks.end());
+}
+
+/// At the edge of a curved face the mean over its faces is one-sided: it would tilt off a symmetry
+/// plane by half of the angle between two faces, and designs with it.
+template <int dim>
+void ShapedFace<dim>::keep_to_planes()
+{
+  faces::HeldDirections<dim> held(nodes.n_points());
+  for (unsigned int b = 0; b < body_mesh.geometry(place.first).boundary_names().size(); ++b)
+    {
+      if (b == place.second)
+        continue;
+      const auto plane = plane_of<dim>(body_mesh, {place.first, b});
+      if (!plane)
+        continue;
+      std::set<unsigned int> points; // of faces that touch it
+      for (const auto &face : nodes.faces())
+        if (std::any_of(face.nodes.begin(), face.nodes.end(), [&](unsigned int node) {
+              return plane->nodes.count(nodes.global_node(node)) > 0;
+            }))
+          for (const auto *of_face : {&face.nodes, &face.samples})
+            points.insert(of_face->begin(), of_face->end());
+      for (const unsigned int point : points)
+        if (plane->holds(positions()[point]) &&
+            std::abs(plane->normal * unit_normals[point]) < most_lean)
+          {
+            const auto q = faces::free_part(plane->normal, held[point]);
+            if (q.norm() > most_lean) // else it is one of those before
+              held[point].push_back(q / q.norm());
+          }
+    }
+  for (unsigned int point = 0; point < held.size(); ++point)
+    if (!held[point].empty())
+      {
+        unit_normals[point] = faces::free_part(unit_normals[point], held[point]);
+        unit_normals[point] /= unit_normals[point].norm();
+      }
 }
 
 /// On surface nodes, as BodyMesh does on local nodes. Masters of hanging nodes are surface nodes.

@@ -126,9 +126,12 @@ std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<doubl
           // Several variables may move one point. Controls come in the order of their points, so
           // that a new point has the next index.
           if (first + control.point == points.size())
-            points.push_back({part.name, control.point, control.position, {}});
+            points.push_back({part.name,
+                              control.point,
+                              control.shown ? control.shown->first : control.position,
+                              {}});
           auto      &point = points[first + control.point];
-          const auto move  = values[i] * control.direction;
+          const auto move = values[i] * (control.shown ? control.shown->second : control.direction);
           point.position += move;
           point.move += move;
         }

@@ -1,9 +1,11 @@
 #include <snug/base/errors.h>
+#include <snug/faces/closest_point.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/make_modes.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace snug::shape {
 namespace {
@@ -47,6 +49,54 @@ std::vector<unsigned int> patch_axes(const ShapedFace<dim> &face, const ShapePar
       axes.push_back(d);
   return axes;
 }
+
+/// The point of the face that is nearest to @p place along @p axes, and the unit direction there.
+template <int dim>
+std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
+point_above(const ShapedFace<dim>                 &face,
+            const typename ShapedFace<dim>::Field &directions,
+            const std::vector<unsigned int>       &axes,
+            const dealii::Point<dim>              &place)
+{
+  const auto flattened = [&axes](const dealii::Tensor<1, dim> &x) {
+    dealii::Tensor<1, dim> result;
+    for (const unsigned int d : axes)
+      result[d] = x[d];
+    return result;
+  };
+  const faces::FaceShape<dim> of_nodes(face.mesh().degree()), of_samples(mesh::surface_degree);
+  const auto                  target  = flattened(place);
+  double                      nearest = std::numeric_limits<double>::max();
+  dealii::Tensor<1, dim>      position, direction;
+  for (const auto &cell : face.surface().faces())
+    {
+      const auto                         &points = cell.samples.empty() ? cell.nodes : cell.samples;
+      const auto                         &shape  = cell.samples.empty() ? of_nodes : of_samples;
+      std::vector<dealii::Tensor<1, dim>> flat;
+      double                              radius = 0.;
+      for (const unsigned int point : points)
+        {
+          flat.push_back(flattened(face.positions()[point]));
+          radius = std::max(radius, (flat.back() - flat.front()).norm());
+        }
+      // Faces that are farther off than the nearest one so far; edges may bulge between points.
+      if ((flat.front() - target).norm() - 1.5 * radius > std::sqrt(nearest))
+        continue;
+      const auto found = faces::closest_point(shape, flat, target);
+      if (found.squared_distance >= nearest)
+        continue;
+      nearest           = found.squared_distance;
+      position          = 0.;
+      direction         = 0.;
+      const auto values = shape.at(found.xi);
+      for (unsigned int k = 0; k < points.size(); ++k)
+        {
+          position += values.value[k] * face.positions()[points[k]];
+          direction += values.value[k] * directions[points[k]];
+        }
+    }
+  return {dealii::Point<dim>(position), direction / direction.norm()};
+}
 } // namespace
 
 template <int dim>
@@ -80,7 +130,8 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
       row.emplace_back(value.first, value.second * directions[node]);
     return row;
   };
-  // Nodes move along their own normals; a control point, which is none of them, along their mean.
+  // Symmetry compares control points, which are no nodes: at one height, moving along the mean
+  // direction, images are found whatever the mesh.
   const auto mean = mean_direction(face, directions);
   for (unsigned int i = 0; i < net.n_points(); ++i)
     {
@@ -89,7 +140,8 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
       const auto         fractions = net.greville(i);
       for (unsigned int t = 0; t < axes.size(); ++t)
         position[axes[t]] = lower[axes[t]] + fractions[t] * (upper[axes[t]] - lower[axes[t]]);
-      modes.controls.push_back({i, position, mean, net.on_border(i), false});
+      modes.controls.push_back({i, position, mean, net.on_border(i), false,
+                                point_above(face, directions, axes, position)});
     }
   return modes;
 }

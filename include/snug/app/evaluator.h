@@ -29,6 +29,15 @@ public:
   /// The problem of an optimizer that begins at @p start; refers to this.
   optimization::DesignProblem design_problem(const Design &start);
 
+  /// Objective and constraints of @p states, without derivatives, and what
+  /// the largest violation is relative to its limit. Collective.
+  struct Values
+  {
+    double              objective = 0., violation = 0.;
+    std::vector<double> constraints; ///< c(x)
+  };
+  Values values(const States &states);
+
   /// Pair contact anew at @p design, which ends all states of before.
   /// Collective.
   void pair(const Design &design);

@@ -67,6 +67,8 @@ public:
   io::Summary summary; ///< its task, gradient and optimization are the task's
 
 private:
+  /// For the summary.
+  void               count_rows();
   io::Summary::State summarize(const state::ContactState<dim> &state) const;
 
   /// Writers of one load case.

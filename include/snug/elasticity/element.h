@@ -126,6 +126,18 @@ public:
    */
   double scaled_jacobian(const Nodes &X) const;
 
+  /// sum ((1 - q) / scale)^p over Gauss points and nodes with
+  /// q = det J / prod_d |J e_d|, p >= 1: 0 where the coordinate lines meet
+  /// at right angles.
+  double distortion(const Nodes &X, double p, double scale) const;
+
+  /// gradient_a += factor * d distortion / dX_a.
+  void add_distortion_gradient(const Nodes &X,
+                               double       p,
+                               double       scale,
+                               double       factor,
+                               Nodes       &gradient) const;
+
 private:
   /// What a displacement makes at a point.
   struct PointState

@@ -103,6 +103,9 @@ struct Summary
   struct Optimization : optimization::OptimizationResult
   {
     std::string algorithm;
+    /// of the design found with contact paired anew there, if that is
+    /// another pairing
+    double objective_paired_anew = none, constraint_violation_paired_anew = none;
   };
 
   /// One of several load cases.

@@ -43,7 +43,8 @@ struct DesignProblem
   std::function<bool(const std::string &)> remember;
   /// of each constraint; empty: all are equalities
   std::vector<Relation> relations;
-  /// |c| is measured relative to these
+  /// |c| is measured relative to these, or to its slope where that is far
+  /// steeper, see ScaledProblem; 0: to its slope
   std::vector<double> constraint_scales;
 };
 } // namespace snug::optimization

@@ -75,7 +75,8 @@ struct OptimizationResult
   End                 end                  = End::none;
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
-  /// "interrupted" or "restarts exhausted (...)" with what the last design
+  /// "interrupted", "a constraint without a gradient at the first design"
+  /// (where the search came back to it) or "restarts exhausted (...)" with what the last design
   /// without a value lacked
   std::string stop_reason;
   /// Stopped by a tolerance at a design that meets the constraints, or by

@@ -18,7 +18,9 @@ namespace snug::optimization {
  * | F      | objective_scale(): abs(f(start)), but not further than a|
  * |        | factor 100 from norm(w df/dx(start)), so that the first |
  * |        | step, which is steepest descent, has a sensible length  |
- * | s_j    | constraint scales; 1 if the problem gives none          |
+ * | s_j    | constraint scales, but at least a hundredth of          |
+ * |        | norm(w dc_j/dx(start)); this norm for a scale of 0, and |
+ * |        | 1 if that is 0, too, or the problem gives no scales     |
  *
  * The optimizer sees f / F and c_j / s_j as functions of y.
  */
@@ -48,6 +50,9 @@ public:
   /// Whether at() would answer without an evaluation.
   bool is_known(const std::vector<double> &y) const { return find(y) != nullptr; }
 
+  /// y of a design.
+  std::vector<double> scaled(const std::vector<double> &x) const;
+
   /// w_i df/dx_i / F.
   std::vector<double> gradient(const Evaluation &evaluation) const;
 
@@ -56,6 +61,10 @@ public:
 
   /// c_j / s_j.
   std::vector<double> constraints(const Evaluation &evaluation) const;
+
+  /// Whether a constraint that holds the design has no gradient there, but
+  /// round-off: then no first-order method knows where it leads.
+  bool is_blind(const Point &point) const;
 
   /// As defined at Iteration.
   double projected_gradient(const Point &point) const;
@@ -72,6 +81,10 @@ public:
 private:
   std::shared_ptr<const Point> find(const std::vector<double> &y) const;
   std::vector<double>          design(const std::vector<double> &y) const;
+  std::shared_ptr<Point>       evaluated(const std::vector<double> &y);
+  std::shared_ptr<const Point> remembered(const std::shared_ptr<Point> &point);
+  void                         scale_constraints(const Evaluation &start);
+  bool                         is_active(const Point &point, unsigned int j) const;
 
   const DesignProblem                     &problem;
   std::vector<double>                      x_start, width, y_lower, y_upper;

@@ -49,6 +49,22 @@ template <int dim>
 std::unique_ptr<Response<dim>> von_mises_norm(const ResponseParameters &parameters);
 
 /**
+ * J = 1 - (sum (1 - q)^p)^(1/p) with the scaled Jacobians q at the nodes and
+ * Gauss points of the cells of one body or all, see Element: below the
+ * least q, the nearer to it the larger p, and 1 where all angles are right
+ * ones. Depends on the geometry alone.
+ */
+template <int dim>
+std::unique_ptr<Response<dim>> least_scaled_jacobian(const ResponseParameters &parameters);
+
+/**
+ * The same with q = det J / det J_0, J_0 of the reference mesh, at most 1:
+ * cells that are squeezed keep their angles until they tangle.
+ */
+template <int dim>
+std::unique_ptr<Response<dim>> least_cell_size(const ResponseParameters &parameters);
+
+/**
  * J = -sum_i p_i n_i . e [force]: component e of the force of a pair, or
  * of all pairs, on the slave side, with the normals n_i into the master.
  * For the component normal J = sum_i p_i.

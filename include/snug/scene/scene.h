@@ -95,6 +95,7 @@ struct Scene
   std::vector<shape::ShapeParameters>       shapes{1}; ///< unnamed, or named
   feti::FetiParameters                      feti;
   qp::SolverParameters                      solver;
+  std::optional<double>                     state_tolerance; ///< none: see declare()
   sensitivity::GradientParameters           gradient;
   std::vector<response::ResponseParameters> responses; ///< named ones
   optimization::OptimizationParameters      optimization;

@@ -13,8 +13,8 @@ namespace snug::shape {
  * the face must be a graph over them. d: the given unit direction or the
  * face's normal.
  *
- * Control points stand over their Greville abscissae, at the mean height
- * of the face.
+ * Control points stand at their Greville abscissae: for Symmetry at the mean
+ * height of the face; shown where the face is there.
  * @throws InputError naming the entry Face, Control points, Degree or
  *   Direction.
  */

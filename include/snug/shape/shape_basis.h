@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Control
   dealii::Tensor<1, dim> direction;      ///< move of the point per variable
   bool                   border = false; ///< on the rim of the shape
   bool                   frozen = false; ///< must not move
+  /// Where it is shown and how it moves there, if that is not the above.
+  std::optional<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>> shown = {};
 };
 
 /**

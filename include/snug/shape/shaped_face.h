@@ -28,7 +28,9 @@ public:
 
   /// Reference positions of the surface points [length].
   const Field &positions() const { return nodes.reference_positions(); }
-  /// Unit outward normals at the surface points.
+  /// Unit outward normals at the surface points. Where the face meets a
+  /// plane boundary of the body that they leave by less than 25 degrees,
+  /// they lie in that plane, so that shapes stay in symmetry planes.
   const Field &normals() const { return unit_normals; }
   /// The face's area spread over its nodes, hanging ones and samples have
   /// none [length^(dim-1)].
@@ -45,6 +47,7 @@ public:
 private:
   void measure();
   void find_border();
+  void keep_to_planes();
 
   const mesh::BodyMesh<dim>            &body_mesh;
   std::pair<unsigned int, unsigned int> place; ///< body, boundary

@@ -59,6 +59,32 @@ TYPED_TEST(Quality, ScaledJacobianIsTheSineOfParallelograms)
               std::cos(dealii::numbers::PI / 3.), 1e-14);
 }
 
+TYPED_TEST(Quality, DistortionHasItsDerivatives)
+{
+  constexpr int dim   = TestFixture::dim;
+  const auto    X     = distorted<dim>(TestFixture::degree, 42);
+  const auto    V     = distorted<dim>(TestFixture::degree, 43);
+  const double  worst = 1. - this->element.scaled_jacobian(X);
+  // the p-norm of values from 0 to 1: the larger p, the nearer to the largest
+  EXPECT_NEAR(std::pow(this->element.distortion(X, 900., worst), 1. / 900.), 1., 1e-2);
+  for (const double p : {1., 2., 8.})
+    {
+      const double value = this->element.distortion(X, p, worst);
+      EXPECT_GE(value, 1. - 1e-12);
+      EXPECT_NEAR(this->element.distortion(X, p, 2. * worst), value / std::pow(2., p),
+                  1e-12 * value);
+      Nodes<dim> gradient(X.size());
+      this->element.add_distortion_gradient(X, p, worst, 3., gradient);
+      const double h          = 1e-5;
+      const double difference = this->element.distortion(sum<dim>(X, h, V), p, worst) -
+                                this->element.distortion(sum<dim>(X, -h, V), p, worst);
+      EXPECT_NEAR(dot<dim>(gradient, V), 3. * difference / (2. * h),
+                  1e-6 * (1. + std::abs(difference) / h))
+        << p;
+    }
+  EXPECT_NEAR(this->element.distortion(this->cube, 2., 1.), 0., 1e-28);
+}
+
 TYPED_TEST(Quality, FindsTangledCells)
 {
   constexpr int dim      = TestFixture::dim;

@@ -121,6 +121,94 @@ TEST(Algorithms, StepBackFromDesignsWithoutAValue)
     }
 }
 
+/// min |x - t|^2 / 2 from 0, where the gradient of c = a x^2 + b y^2 is
+/// @p slope, round-off.
+static DesignProblem blind(const std::vector<double> &t,
+                           const double               a,
+                           const double               b,
+                           const Relation             relation,
+                           const double               slope = 1e-17)
+{
+  DesignProblem problem;
+  problem.lower             = {-1., -1.};
+  problem.upper             = {1., 1.};
+  problem.start             = {0., 0.};
+  problem.relations         = {relation};
+  problem.constraint_scales = {1.};
+  problem.evaluate          = [=](const std::vector<double> &x) {
+    Evaluation value;
+    value.gradient  = {x[0] - t[0], x[1] - t[1]};
+    value.objective = 10. + (std::pow(value.gradient[0], 2) + std::pow(value.gradient[1], 2)) / 2.;
+    value.constraints = {a * x[0] * x[0] + b * x[1] * x[1]};
+    value.jacobian    = {{slope + 2. * a * x[0], 2. * b * x[1]}};
+    return value;
+  };
+  return problem;
+}
+
+/// As the volume of a symmetric body: the least over all slopes of a
+/// constraint says nothing at the start.
+TEST(Algorithms, LeaveAStartWhereAConstraintHasNoGradient)
+{
+  const std::vector<double> t = {0.5, 0.2};
+  for (const Algorithm algorithm : all)
+    {
+      const auto free = minimize(blind(t, -1., -1., Relation::at_most), with(algorithm));
+      EXPECT_TRUE(free.success) << to_text(algorithm) << ": " << free.stop_reason;
+      EXPECT_LT(distance(free.x, t), 1e-3) << to_text(algorithm);
+      const auto held = minimize(blind(t, 1., -1., Relation::at_most), with(algorithm));
+      EXPECT_TRUE(held.success) << to_text(algorithm) << ": " << held.stop_reason;
+      EXPECT_LT(distance(held.x, {0.35, 0.35}), 1e-3) << to_text(algorithm);
+      if (!takes_equalities(algorithm))
+        continue;
+      const auto equal = minimize(blind(t, 1., -1., Relation::equal), with(algorithm));
+      EXPECT_TRUE(equal.success) << to_text(algorithm) << ": " << equal.stop_reason;
+      EXPECT_LT(distance(equal.x, {0.35, 0.35}), 1e-3) << to_text(algorithm);
+    }
+}
+
+/// A slope that is small, but none: MMA's first model allows no step.
+TEST(Algorithms, NoSuccessAtAStartThatCannotBeLeft)
+{
+  for (const Algorithm algorithm : all)
+    {
+      const auto result =
+        minimize(blind({-0.5, 0.2}, 1., 1., Relation::at_most, -1e-7), with(algorithm));
+      EXPECT_TRUE(result.iterations > 0 || !result.success)
+        << to_text(algorithm) << ": " << result.stop_reason;
+    }
+}
+
+/// x^2 + y^2 = 0 holds at the start alone.
+TEST(Algorithms, NoSuccessWhereOnlyTheStartMeetsAnEquality)
+{
+  const auto result = minimize(blind({0.5, 0.2}, 1., 1., Relation::equal), with(Algorithm::SLSQP));
+  EXPECT_FALSE(result.success) << result.stop_reason;
+  EXPECT_NE(complaint(result, with(Algorithm::SLSQP)), "");
+}
+
+/// A limit of round-off, as of a displacement that symmetry forbids.
+TEST(Algorithms, ScaleConstraintsByTheirSlopesWhereLimitsAreRoundOff)
+{
+  for (const double scale : {0., 1e-17})
+    {
+      auto problem              = blind({0.5, 0.2}, 0., 0., Relation::at_most);
+      problem.constraint_scales = {scale};
+      problem.evaluate          = [inner = problem.evaluate](const std::vector<double> &x) {
+        auto value        = inner(x);
+        value.constraints = {1e-3 * (x[0] - x[1]) + 1e-13 * std::sin(1e9 * x[0])};
+        value.jacobian    = {{1e-3, -1e-3}};
+        return value;
+      };
+      for (const Algorithm algorithm : all)
+        {
+          const auto result = minimize(problem, with(algorithm));
+          EXPECT_TRUE(result.success) << to_text(algorithm) << ": " << result.stop_reason;
+          EXPECT_LT(distance(result.x, {0.35, 0.35}), 1e-3) << to_text(algorithm);
+        }
+    }
+}
+
 TEST(Limit, ReadsSidesValuesAndMultiples)
 {
   const auto expect = [](const std::string &text, Limit::Side side, double value, bool of_initial) {

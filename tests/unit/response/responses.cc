@@ -57,6 +57,37 @@ std::unique_ptr<response::Response<dim>> of_quantity(const std::string &name)
   return response::make_response<dim>(parameters);
 }
 
+/// Below the least scaled Jacobian of all cells, and next to it for large p.
+template <int dim>
+void expect_least_scaled_jacobian(unsigned int degree)
+{
+  Problem<dim>             problem(loaded_scene<dim>(degree));
+  state::ContactState<dim> state;
+  state.positions     = problem.positions(problem.scene.design);
+  const double least  = problem.solver.solve(state.positions, {}).least_scaled_jacobian;
+  double       before = -1e9;
+  for (const double p : {2., 8., 30., 1000.})
+    {
+      response::ResponseParameters parameters;
+      parameters.quantity = "least scaled Jacobian";
+      parameters.exponent = p;
+      const double J      = response::make_response<dim>(parameters)->value(problem.solver, state);
+      EXPECT_LE(J, least + 1e-12);
+      EXPECT_GT(J, before);
+      before = J;
+    }
+  EXPECT_NEAR(before, least, 0.02 * (1. - least));
+}
+
+TEST(Responses, LeastScaledJacobianIsNextToTheLeast)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      expect_least_scaled_jacobian<2>(degree);
+      expect_least_scaled_jacobian<3>(degree);
+    }
+}
+
 double sum(double mine)
 {
   return dealii::Utilities::MPI::sum(mine, MPI_COMM_WORLD);

@@ -314,7 +314,7 @@ TEST(Check, FindsNumbersThatAreNoneInScenesFromPrograms)
       +[](scene::Scene &s, double x) { s.shapes[0].bounds[1] = x; },
       +[](scene::Scene &s, double x) { s.shapes[0].initial.assign(6, x); },
       +[](scene::Scene &s, double x) { s.shapes[0].direction[2] = x; },
-      +[](scene::Scene &s, double x) { s.solver.relative_tolerance = x; },
+      +[](scene::Scene &s, double x) { s.state_tolerance = x; },
       +[](scene::Scene &s, double x) { s.gradient.step = x; },
       +[](scene::Scene &s, double x) { s.optimization.design_tolerance = x; }};
   const scene::Scene good = read_with({});

@@ -141,7 +141,7 @@ TEST(PrintScene, ReadsBackToTheSameScene)
   ASSERT_EQ(again.contact.pairs.size(), scene.contact.pairs.size());
   EXPECT_EQ(again.contact.pairs[0].master, scene.contact.pairs[0].master);
   EXPECT_EQ(again.shapes[0].initial, scene.shapes[0].initial);
-  EXPECT_EQ(again.solver.relative_tolerance, 1e-9);
+  EXPECT_EQ(again.state_tolerance, 1e-9);
   EXPECT_TRUE(again.report_linear_reference);
   EXPECT_EQ(again.tearing.subdomains, 7U);
   EXPECT_EQ(again.degree, 2U);

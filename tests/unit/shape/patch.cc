@@ -102,6 +102,86 @@ TEST(Patch, BSplineOfOneSpanEqualsBezier)
     EXPECT_NEAR((a[node] - b[node]).norm(), 0., 1e-15);
 }
 
+/// Quarter of a ring, its outer face of 6 chords or parabolas, or the true arc where it has
+/// samples.
+geometry::BodyMeshParameters quarter_ring(bool sampled)
+{
+  geometry::BodyMeshParameters ring;
+  ring.source       = geometry::Source::ring;
+  ring.inner_radius = 1.;
+  ring.radius       = 2.;
+  ring.part         = geometry::Part::quarter;
+  ring.round_cells  = {6, 2};
+  if (sampled)
+    ring.sampled_boundaries = {"outer"};
+  return ring;
+}
+
+/// The ends of the ring lie in the planes y = 0 and x = 0.
+TEST(Patch, StaysInThePlanesThatTheFaceMeets)
+{
+  for (const std::string basis : {"Bezier patch", "B-spline patch", "node-wise"})
+    for (const unsigned int degree : {1, 2})
+      for (const bool sampled : {false, true})
+        {
+          const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, {quarter_ring(sampled)}, degree);
+          auto                    parameters = on_top<2>(basis, "ring");
+          parameters.face                    = "ring.outer";
+          parameters.interior                = shape::InteriorKind::Laplace;
+          const shape::Shapes<2> shapes(mesh, {{"ring"}}, {parameters});
+          const auto moved = shapes.apply(std::vector<double>(shapes.n_variables(), 0.1));
+          for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+            for (unsigned int d = 0; d < 2; ++d)
+              {
+                const auto &x = mesh.reference_positions()[node];
+                if (std::abs(x[d]) > 1e-9)
+                  continue;
+                EXPECT_NEAR(moved[node][d], 0., 1e-12) << basis << " at " << x;
+                if (std::abs(x.norm() - 2.) < 1e-9)
+                  EXPECT_NEAR(moved[node].norm(), 0.1, 1e-12) << basis << " at " << x;
+              }
+        }
+}
+
+/// A wedge's slope of 45 degrees is no symmetry plane of its top.
+TEST(Patch, LeavesPlanesThatNormalsLeanOn)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, plain_cube<2>(4), 1);
+  auto                    parameters = on_top<2>("B-spline patch", "cube");
+  parameters.direction               = {0.1, 1.};
+  const shape::Shapes<2> shapes(mesh, {{"cube"}}, {parameters});
+  const auto             moved = shapes.apply(std::vector<double>(shapes.n_variables(), 1.));
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    if (mesh.reference_positions()[node][1] == 1.)
+      EXPECT_NEAR(moved[node][0] / moved[node][1], 0.1, 1e-14); // given: kept
+}
+
+/// Control points of a patch stand where the face is: on the arc, or on its chords.
+TEST(Patch, ControlPointsLieOnTheFace)
+{
+  for (const unsigned int degree : {1, 2})
+    for (const bool sampled : {false, true})
+      {
+        const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, {quarter_ring(sampled)}, degree);
+        auto                    parameters = on_top<2>("B-spline patch", "ring");
+        parameters.face                    = "ring.outer";
+        parameters.interior                = shape::InteriorKind::Laplace;
+        const shape::Shapes<2>    shapes(mesh, {{"ring"}}, {parameters});
+        const std::vector<double> heights(shapes.n_variables(), 0.1);
+        const double sagitta = sampled ? 1e-7 : degree == 1 ? 0.018 : 2e-4; // of 15 degrees
+        const auto   at_rest = shapes.control_points(std::vector<double>(heights.size(), 0.));
+        const auto   moved   = shapes.control_points(heights);
+        for (unsigned int i = 0; i < moved.size(); ++i)
+          {
+            EXPECT_NEAR(at_rest[i].position.norm(), 2., sagitta) << degree << sampled;
+            EXPECT_NEAR(moved[i].position.norm(), 2.1, sagitta + 1e-3) << degree << sampled;
+            EXPECT_NEAR(moved[i].move.norm(), 0.1, 1e-12);
+          }
+        EXPECT_NEAR(at_rest.front().position[0], 0., 1e-9);
+        EXPECT_NEAR(at_rest.back().position[0], 2., 1e-9);
+      }
+}
+
 /// A cylinder's side: its nodes move along the radius.
 TEST(Patch, FollowsTheNormalsOfACurvedFace)
 {
