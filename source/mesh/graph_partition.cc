@@ -1,14 +1,14 @@
+#include <snug/base/narrow.h>
 #include <snug/mesh/partition.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
+#include <metis.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace snug::mesh {
 namespace {
@@ -33,14 +33,24 @@ std::vector<unsigned int> metis_parts(const CellGraph &graph, unsigned int n_par
       std::iota(part.begin(), part.end(), 0);
       return part;
     }
-  dealii::DynamicSparsityPattern dynamic(graph.size(), graph.size());
-  for (unsigned int i = 0; i < graph.size(); ++i)
-    for (const unsigned int j : graph[i])
-      dynamic.add(i, j);
-  dealii::SparsityPattern pattern;
-  pattern.copy_from(dynamic);
-  dealii::SparsityTools::partition(pattern, n_parts, part,
-                                   dealii::SparsityTools::Partitioner::metis);
+  // Not through deal.II's SparsityTools: the diagonal that its square patterns store reaches METIS
+  // as loops, and worsens the cuts by up to a fifth.
+  std::vector<idx_t> start(1, 0), neighbours, parts(graph.size());
+  for (auto of_cell : graph)
+    {
+      std::sort(of_cell.begin(), of_cell.end());
+      neighbours.insert(neighbours.end(), of_cell.begin(), of_cell.end());
+      start.push_back(narrow<idx_t>(neighbours.size()));
+    }
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  idx_t n = narrow<idx_t>(graph.size()), k = n_parts, one = 1, cut = 0;
+  // The methods METIS recommends for few and for many parts.
+  const auto method = k <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  if (method(&n, &one, start.data(), neighbours.data(), nullptr, nullptr, nullptr, &k, nullptr,
+             nullptr, options, &cut, parts.data()) != METIS_OK)
+    throw std::runtime_error("METIS could not partition the cells");
+  part.assign(parts.begin(), parts.end());
   return part;
 }
 
