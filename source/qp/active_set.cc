@@ -112,7 +112,7 @@ void ActiveSetRun::begin(const WarmStart &from)
       residual = equality.residual;
       free_set = std::move(equality.free_set);
     }
-  krylov = std::make_unique<Pcpg>(problem, *free_set);
+  krylov = std::make_unique<Pcpg>(problem, *free_set, from.directions.off(complement(mask), comm));
   history.enter(fingerprint(mask, comm), std::numeric_limits<double>::max());
 }
 

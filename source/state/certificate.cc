@@ -175,7 +175,9 @@ bool is_nearly_unloaded(const feti::TotalFeti &feti, const qp::MultiVector &lamb
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
     {
       largest[0] = std::max(largest[0], feti.diagonal()[i] * std::abs(lambda(i)));
-      largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
+      // Gaps far from where bodies touch, however wide, do not tell how much they deform.
+      if (!feti.bounded()[i] || lambda(i) != 0.)
+        largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
     }
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
   // By the estimates F_ii, which are of the right size but for nearly incompressible bodies.

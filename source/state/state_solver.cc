@@ -42,8 +42,7 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
           state.f_mults               = context().work.f_mults - mults;
           return;
         }
-      from.lambda = state.dual.lambda;
-      from.active = state.dual.active;
+      from = {state.dual.lambda, state.dual.active, state.dual.directions};
       if (is_nearly_unloaded(feti, from.lambda))
         from.lambda = qp::MultiVector(feti.n_owned());
       parameters.relative_tolerance *=

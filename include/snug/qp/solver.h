@@ -26,13 +26,15 @@ struct WarmStart
 {
   MultiVector lambda; ///< n_owned x 1
   RowSet      active; ///< free contact rows and all equality rows
+  /// Of an earlier solve with the same F; may be empty.
+  DirectionBasis directions = {};
 };
 
 /**
  * The natural KKT residual, one measure for every solver:
  * r_E = w_E, r_i = -min(lambda_i F_ii, -w_i) with
  * w = d - F lambda + G' alpha, relative to ||P (d - F lambda_Im)||, plus
- * ||G lambda - e|| / (||e|| + max_s ||R_s' f_s|| + ||G|| ||lambda||).
+ * ||G lambda - e|| / (||e|| + max_s || |R_s|' |f_s| || + ||G|| ||lambda||).
  */
 struct DualSolution
 {
