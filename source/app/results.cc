@@ -74,7 +74,10 @@ template <int dim>
 void Results<dim>::warn(const States &states)
 {
   for (const auto &state : states)
-    warn(state::warnings(state.assumptions));
+    {
+      warn(state::warnings(state.assumptions));
+      warn(state.free_bodies);
+    }
 }
 
 template <int dim>

@@ -9,8 +9,14 @@
 
 namespace snug::feti {
 namespace {
-/// Rigid loads below this part of all loads are round-off.
-const double balance_tolerance = 1e-8;
+/// Rigid loads below this part of all loads, before they cancel, are round-off.
+const double balance_tolerance = 1e-10;
+
+/// So are parts of a row's wrench below this part of it: the moment of round faces, say.
+const double wrench_cut = 1e-10;
+
+/// Squares of a body's share in a free motion below which it is at rest.
+const double rest_cut = 1e-6;
 
 /// Columns Z'g_i of all contact rows, on all ranks in rank order.
 qp::MultiVector contact_columns(const CoarseSpace &coarse, const RowLayout &layout)
@@ -48,91 +54,116 @@ qp::MultiVector free_motions(const CoarseSpace &coarse, const RowLayout &layout)
   return coarse.unseen_motions(A);
 }
 
-/// "body punch: translation (0 0 1), rotation (0 0 0)" of the body that
-/// moves most under @p motion in body mode coordinates.
-std::string describe_motion(const qp::MultiVector &motion, const SubdomainTable &table)
+/// "translation (0 0 1), rotation (0 0 0)": one body's motion of any length.
+std::string describe_motion(const std::vector<double> &motion)
 {
-  const unsigned int m    = table.n_modes;
-  unsigned int       body = 0;
-  double             best = -1.;
-  for (unsigned int b = 0; b < table.body_names.size(); ++b)
-    {
-      double square = 0.;
-      for (unsigned int i = 0; i < m; ++i)
-        square += motion(b * m + i) * motion(b * m + i);
-      if (square > best)
-        {
-          best = square;
-          body = b;
-        }
-    }
+  const auto m = narrow<unsigned int>(motion.size());
   // Space, plane section, axisymmetric section.
   const unsigned int n_translations = m == 6 ? 3 : (m == 3 ? 2 : 1);
+  double             square         = 0.;
+  for (const double part : motion)
+    square += part * part;
   std::ostringstream text;
   text.precision(2);
-  text << "body " << table.body_names[body] << " escapes: ";
   for (unsigned int i = 0; i < m; ++i)
     {
       // In orthonormal modes of the body: directions mean something, amounts of rotations do not.
-      const double part = motion(body * m + i) / std::sqrt(best);
+      const double part = motion[i] / std::sqrt(square);
       text << (i == 0                ? "translation ("
                : i == n_translations ? "), rotation ("
                                      : " ")
-           << (std::abs(part) < 5e-3 ? 0. : part);
+           << (std::abs(part) < 2e-2 ? 0. : part);
     }
   text << ")";
   return text.str();
+}
+
+/// "body punch escapes: translation (0 0 1), rotation (0 0 0)" of the body
+/// that moves most under @p motion in body mode coordinates.
+std::string describe_escape(const qp::MultiVector &motion, const SubdomainTable &table)
+{
+  const unsigned int  m = table.n_modes;
+  std::vector<double> squares(table.body_names.size(), 0.);
+  for (unsigned int i = 0; i < motion.n_rows(); ++i)
+    squares[i / m] += motion(i) * motion(i);
+  const auto body = std::max_element(squares.begin(), squares.end()) - squares.begin();
+  return "body " + table.body_names[body] + " escapes: " +
+         describe_motion({motion.column(0) + body * m, motion.column(0) + (body + 1) * m});
+}
+
+/// The motions that span the range of the projector @p P of one body, "; "
+/// between them; empty if it is at rest. Steps of a Cholesky factorization
+/// with pivots: a body that may move along an axis alone gets that axis.
+std::string describe_range(qp::MultiVector P)
+{
+  const unsigned int m = P.n_rows();
+  std::string        text;
+  for (unsigned int step = 0; step < m; ++step)
+    {
+      unsigned int pivot = 0;
+      for (unsigned int i = 1; i < m; ++i)
+        // Of equal ones the first, whatever rounding makes of them.
+        if (P(i, i) > 1.001 * P(pivot, pivot))
+          pivot = i;
+      if (P(pivot, pivot) <= rest_cut)
+        break;
+      const std::vector<double> motion(P.column(pivot), P.column(pivot) + m);
+      text += (text.empty() ? "" : "; ") + describe_motion(motion);
+      for (unsigned int j = 0; j < m; ++j)
+        for (unsigned int i = 0; i < m; ++i)
+          P(i, j) -= motion[i] * motion[j] / motion[pivot];
+    }
+  return text;
 }
 } // namespace
 
 /// Is there lambda with G lambda = e, lambda_I >= 0? The multipliers of equality rows are free, so
 /// only the motions Z Y that no equality row sees matter: Y'Z'G_I lambda_I = Y'Z'e. All ranks hold
 /// the same numbers and solve the same small problem, so that all come to the same answer.
-std::string TotalFeti::escaping_body() const
+void TotalFeti::check_equilibrium() const
 {
-  const auto free    = free_motions(coarse, layout);
-  const auto columns = contact_columns(coarse, layout);
+  const RunContext::Timer timer(run, "solve");
+  const auto              free = free_motions(coarse, layout);
   // Supports hold all bodies: every load can be balanced.
   if (free.n_columns() == 0)
-    return "";
-  const auto wrenches = transpose_times(free, columns);
+    return;
+  const auto columns  = contact_columns(coarse, layout);
+  auto       wrenches = transpose_times(free, columns);
+  const auto whole = qp::norms(columns, MPI_COMM_SELF), part = qp::norms(wrenches, MPI_COMM_SELF);
+  for (unsigned int k = 0; k < wrenches.n_columns(); ++k)
+    if (part[k] < wrench_cut * whole[k])
+      std::fill_n(wrenches.column(k), wrenches.n_rows(), 0.);
   const auto load     = transpose_times(free, transpose_times(coarse.body_modes(), rigid_load));
-  // Loads of single subdomains, before they cancel within a body: rounding is of their size.
-  double scale = 0.;
-  for (unsigned int i = 0; i < rigid_load.n_rows(); ++i)
-    scale = std::max(scale, std::abs(rigid_load(i)));
   const auto balance  = qp::nnls(wrenches, load);
   double     residual = 0.;
   for (unsigned int i = 0; i < balance.residual.n_rows(); ++i)
     residual = std::max(residual, std::abs(balance.residual(i)));
-  // The residual is the load that no contact resists, hence also the direction of the escape.
-  if (residual > balance_tolerance * scale)
-    return describe_motion(times(free, balance.residual), coarse.subdomains());
-  // A body that nothing touches and nothing loads is balanced, but its position is not determined.
-  return unheld_body(free, columns);
+  // The residual is the load that no contact resists, hence also the direction of the escape. Loads
+  // of one body may cancel: rounding is of the size they have before.
+  if (residual > balance_tolerance * gross_load)
+    throw SolveError("no equilibrium: " +
+                     describe_escape(times(free, balance.residual), coarse.subdomains()));
 }
 
-std::string TotalFeti::unheld_body(const qp::MultiVector &free,
-                                   const qp::MultiVector &columns) const
+std::vector<std::string> TotalFeti::free_bodies(const qp::RowSet &rows) const
 {
-  const unsigned int m = coarse.subdomains().n_modes;
+  CsrMatrix A                = coarse.pattern();
+  A.values                   = coarse.gram_values(rows);
+  const auto               Y = coarse.unseen_motions(A);
+  const auto               m = coarse.subdomains().n_modes;
+  std::vector<std::string> lines;
   for (unsigned int body = 0; body < n_bodies(); ++body)
     {
-      double held = 0., touched = 0.;
-      // all its motions are free if the rows of `free` are orthonormal
-      for (unsigned int i = 0; i < m; ++i)
-        {
-          double square = 0.;
-          for (unsigned int j = 0; j < free.n_columns(); ++j)
-            square += free(body * m + i, j) * free(body * m + i, j);
-          // 1 - |row of free|^2: how much of body mode i the equality rows hold.
-          held = std::max(held, 1. - square);
-          for (unsigned int k = 0; k < columns.n_columns(); ++k)
-            touched = std::max(touched, std::abs(columns(body * m + i, k)));
-        }
-      if (held < 1e-8 && touched == 0.)
-        return "body " + coarse.subdomains().body_names[body] + " has neither supports nor contact";
+      qp::MultiVector P(m, m); // Y_b Y_b'
+      for (unsigned int k = 0; k < Y.n_columns(); ++k)
+        for (unsigned int j = 0; j < m; ++j)
+          for (unsigned int i = 0; i < m; ++i)
+            P(i, j) += Y(body * m + i, k) * Y(body * m + j, k);
+      const auto motions = describe_range(P);
+      if (!motions.empty())
+        lines.push_back("body " + coarse.subdomains().body_names[body] +
+                        " is free to move: " + motions);
     }
-  return "";
+  return lines;
 }
 } // namespace snug::feti

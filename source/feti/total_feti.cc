@@ -50,6 +50,7 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
   , run(context)
   , coarse(the_layout, table)
   , gram(the_layout)
+  , outdated(the_systems.size(), true)
 {
   for (const SubdomainSystem &system : systems)
     {
@@ -71,14 +72,24 @@ void TotalFeti::update(const std::vector<bool> &changed)
     for (unsigned int s = 0; s < systems.size(); ++s)
       if (changed[s])
         {
-          const auto name = name_of_subdomain(coarse.subdomains(), coarse.subdomains().first + s);
-          inverses[s]->factorize(name);
-          if (!schur.empty())
-            schur[s]->factorize(name);
+          inverses[s]->factorize(
+            name_of_subdomain(coarse.subdomains(), coarse.subdomains().first + s));
+          outdated[s] = true;
         }
   });
   const RunContext::Timer timer(run, "solve");
   gather_rows();
+}
+
+void TotalFeti::update_preconditioner()
+{
+  everywhere(run.communicator(), [&]() {
+    const RunContext::Timer timer(run, "factorization");
+    for (unsigned int s = 0; s < schur.size(); ++s)
+      if (outdated[s])
+        schur[s]->factorize(name_of_subdomain(coarse.subdomains(), coarse.subdomains().first + s));
+  });
+  outdated.assign(systems.size(), false);
   weight_rows();
 }
 
@@ -86,10 +97,14 @@ void TotalFeti::update(const std::vector<bool> &changed)
 /// stay, so that load cases share them.
 void TotalFeti::set_loads(const qp::MultiVector &g)
 {
-  const RunContext::Timer timer(run, "solve");
   gap        = g;
   rigid_load = rigid_part(loads());
-  dual_load  = multiply_B(apply_inverse(loads()));
+  gross_load = gross_rigid_part(loads())[0];
+  // First, as bodies that nothing holds may be what the preconditioner would fail at.
+  check_equilibrium();
+  update_preconditioner();
+  const RunContext::Timer timer(run, "solve");
+  dual_load = multiply_B(apply_inverse(loads()));
   dual_load.add(-1., gap);
 }
 
@@ -244,20 +259,29 @@ PrimalVectors TotalFeti::loads() const
   return f;
 }
 
-double TotalFeti::feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const
+/// The largest over subdomains, as the forces that glue them are of the size of their own loads
+/// even where those of the body cancel.
+std::vector<double> TotalFeti::gross_rigid_part(const PrimalVectors &b) const
 {
-  // The largest over subdomains, as the forces that glue them are of the size of their own loads
-  // even where those of the body cancel.
-  double             largest = 0.;
-  const unsigned int m       = coarse.subdomains().n_modes;
-  for (unsigned int s = 0; s < coarse.n_kernel() / m; ++s)
-    {
-      double square = 0.;
-      for (unsigned int i = 0; i < m; ++i)
-        square += e(s * m + i) * e(s * m + i);
-      largest = std::max(largest, square);
-    }
-  return std::sqrt(largest) + coarse.norm() * qp::norms(lambda, run.communicator())[0];
+  unsigned int k = b.empty() ? 0 : b.front().n_columns();
+  MPI_Allreduce(MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
+  std::vector<double> largest(k, 0.);
+  for (unsigned int s = 0; s < b.size(); ++s)
+    for (unsigned int j = 0; j < k; ++j)
+      {
+        double square = 0.;
+        for (unsigned int mode = 0; mode < systems[s].R.n_columns(); ++mode)
+          {
+            double sum = 0.;
+            for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+              sum += std::abs(systems[s].R(i, mode) * b[s](i, j));
+            square += sum * sum;
+          }
+        largest[j] = std::max(largest[j], std::sqrt(square));
+      }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), narrow<int>(k), MPI_DOUBLE, MPI_MAX,
+                run.communicator());
+  return largest;
 }
 
 /// x <- B D^-1 S D^-1 B' x, without the W^-1 on both sides, which belong to a face.

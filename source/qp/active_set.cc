@@ -75,6 +75,7 @@ private:
   std::unique_ptr<FreeSet> free_set;
   std::unique_ptr<Pcpg>    krylov; // of the face
   KktResidual              kkt;
+  std::vector<double>      negligible; // forces, see force_rounding()
   double                   scale = 0.;
   double                   inner_tolerance;
   double                   last_kkt    = 0.; // on the same set
@@ -125,8 +126,8 @@ void ActiveSetRun::balance_load()
       free_set                = problem.free_set(mask);
       MultiVector  next       = lambda;
       const double unbalanced = free_set->make_feasible(next, problem.e())[0];
-      if (unbalanced <= balance_tolerance *
-                          (norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(next)))
+      if (unbalanced <= balance_tolerance * (norms(problem.e(), MPI_COMM_SELF)[0] +
+                                             problem.feasibility_scale(norms(next, comm)[0])))
         {
           lambda = next;
           return;
@@ -172,7 +173,8 @@ void ActiveSetRun::solve_on_set()
   recurrences += inner.iterations;
   solved = inner.converged;
   // w of the rows off the set, which decides who enters, needs the rigid amplitudes of this set.
-  kkt = kkt_residual(problem, *free_set, lambda, residual, scale);
+  kkt        = kkt_residual(problem, *free_set, lambda, residual, scale);
+  negligible = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
   ++outer;
   std::ostringstream line;
   line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", " << f_mults()
@@ -187,7 +189,7 @@ bool ActiveSetRun::finished()
   if (kkt.relative > parameters.relative_tolerance)
     return false;
   const MPI_Comm comm = context.communicator();
-  clip_rounding(problem.bounded(), lambda, comm);
+  clip_rounding(problem.bounded(), negligible, lambda);
   if (any(has_negative(problem.bounded(), lambda), comm))
     return false;
   MultiVector parts = problem.d();
@@ -213,10 +215,10 @@ RowSet ActiveSetRun::next_set() const
   const bool only_drop = kkt.relative <= parameters.relative_tolerance;
   for (unsigned int i = 0; i < next.size(); ++i)
     if (problem.bounded()[i])
-      // The sign of lambda on the set, of w off it; why not lambda + c w is said at ActiveSet.
-      next[i] = only_drop         ? mask[i] && lambda(i) >= 0.
-                : lambda(i) != 0. ? lambda(i) > 0.
-                                  : kkt.w(i) > 0.;
+      // The sign of lambda on the set, of w off it; why not lambda + c w is said at ActiveSet. A
+      // row with neither force nor gap stays where it is: its signs are rounding, and would drop it
+      // and let it in by turns.
+      next[i] = mask[i] ? lambda(i) >= -negligible[i] : !only_drop && kkt.w(i) > kkt.rounding;
   if (care == SetHistory::single && !only_drop)
     return with_one_change(mask, next, context.communicator());
   return next;

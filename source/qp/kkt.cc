@@ -6,6 +6,10 @@
 
 namespace snug::qp {
 namespace {
+/// The scale of residuals is no smaller part of the residual before its
+/// projection.
+const double least_part = 1e-10;
+
 /// Row i of the natural residual: w_i of equalities, -min(lambda_i F_ii, -w_i) of contacts, which
 /// is zero where lambda_i, -w_i >= 0 and one of them vanishes. lambda_i F_ii is a length like w_i,
 /// and all rows count alike.
@@ -43,27 +47,47 @@ KktResidual kkt_residual(const DualProblem &problem,
   const auto sizes = norms(both, comm);
   // w = (d - F lambda) + G'alpha: where nearly all of d - F lambda is rigid motion the two cancel,
   // and what is left is rounding of their size.
-  const double rounding = projection_rounding * sizes[1];
+  kkt.rounding = projection_rounding * sizes[1];
 
   MultiVector missing = problem.e();
   missing.add(-1., problem.apply_G(lambda));
   // Coarse vectors are equal on all ranks: a sum over the ranks would count them repeatedly.
   const double imbalance = norms(missing, MPI_COMM_SELF)[0];
-  const double load      = norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(lambda);
-  kkt.feasibility        = imbalance > 0. ? imbalance / load : 0.;
-  kkt.relative           = kkt.feasibility + (sizes[0] <= rounding ? 0. : sizes[0] / scale);
+  // Forces that move no row by as much as the scale count as zero: their rounding is no imbalance.
+  double softest = 0.;
+  for (const double F_ii : problem.diagonal())
+    softest = std::max(softest, F_ii);
+  MPI_Allreduce(MPI_IN_PLACE, &softest, 1, MPI_DOUBLE, MPI_MAX, comm);
+  const double force = norms(lambda, comm)[0] + (softest > 0. ? scale / softest : 0.);
+  const double load  = norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(force);
+  kkt.feasibility    = imbalance > 0. ? imbalance / load : 0.;
+  kkt.relative       = kkt.feasibility + (sizes[0] <= kkt.rounding ? 0. : sizes[0] / scale);
   if (!std::isfinite(kkt.relative))
     throw SolveError("the contact forces are not finite numbers; check "
                      "stiffness, loads and gaps");
   return kkt;
 }
 
+std::vector<double> force_rounding(const DualProblem &problem,
+                                   const MultiVector &lambda,
+                                   const KktResidual &kkt,
+                                   double             scale,
+                                   double             tolerance)
+{
+  const double part    = std::clamp(1e-3 * tolerance, 1e-15, 1e-12);
+  double       largest = 0.;
+  for (unsigned int i = 0; i < lambda.n_rows(); ++i)
+    largest = std::max(largest, std::abs(lambda(i)));
+  // Over all rows and ranks: the forces of different contacts compare.
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, problem.context().communicator());
+  std::vector<double> rounding;
+  for (const double F_ii : problem.diagonal())
+    rounding.push_back(std::max(part * largest, std::max(part * scale, kkt.rounding) / F_ii));
+  return rounding;
+}
+
 EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
 {
-  const std::string escaping = problem.escaping_body();
-  if (!escaping.empty())
-    throw SolveError("no equilibrium: " + escaping);
-
   EqualityPart part;
   const RowSet all(problem.n_owned(), 1);
   part.free_set = problem.free_set(all);
@@ -85,9 +109,11 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
   both.append(part.residual);
   both.append(x);
   auto sizes = norms(both, problem.context().communicator());
-  // a projected residual that is rounding is no measure
+  // A projected residual that is rounding is no measure, as where bodies only move or deform
+  // evenly: the tolerance of it would be far below the rounding of the residual itself.
   if (sizes[0] <= projection_rounding * sizes[1])
     sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
+  sizes[0] = std::max(sizes[0], least_part * sizes[1]);
   // Without loads and gaps the solution is zero, and any scale will do.
   part.scale = sizes[0] == 0. ? 1. : sizes[0];
   if (!std::isfinite(part.scale))

@@ -88,15 +88,10 @@ bool has_negative(const RowSet &bounded, const MultiVector &lambda)
   return false;
 }
 
-void clip_rounding(const RowSet &bounded, MultiVector &lambda, MPI_Comm comm)
+void clip_rounding(const RowSet &bounded, const std::vector<double> &rounding, MultiVector &lambda)
 {
-  double largest = 0.;
   for (unsigned int i = 0; i < lambda.n_rows(); ++i)
-    largest = std::max(largest, std::abs(lambda(i)));
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm);
-  for (unsigned int i = 0; i < lambda.n_rows(); ++i)
-    // Relative to the largest force over all ranks: the forces of different contacts compare.
-    if (bounded[i] && lambda(i) < 0. && lambda(i) >= -1e-15 * largest)
+    if (bounded[i] && std::abs(lambda(i)) <= rounding[i])
       lambda(i) = 0.;
 }
 } // namespace snug::qp

@@ -69,11 +69,10 @@ private:
   void begin(const WarmStart &start);
   bool certified();
 
-  double residual_here() const
+  KktResidual kkt_here() const
   {
     return kkt_residual(problem, inner->free_set(), inner->feasible_lambda(), inner->residual(),
-                        equality.scale)
-      .relative;
+                        equality.scale);
   }
 
   unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
@@ -123,11 +122,13 @@ bool SmalseRun::certified()
   MultiVector              lambda = inner->feasible_lambda();
   RowSet                   rows   = inner->free_rows();
   std::unique_ptr<FreeSet> free_set;
+  const auto               rounding =
+    force_rounding(problem, lambda, kkt_here(), equality.scale, parameters.relative_tolerance);
   do
     {
       free_set = problem.free_set(rows);
       free_set->make_feasible(lambda, problem.e());
-      clip_rounding(problem.bounded(), lambda, comm);
+      clip_rounding(problem.bounded(), rounding, lambda);
       for (unsigned int i = 0; i < rows.size(); ++i)
         if (problem.bounded()[i] && lambda(i) < 0.)
           rows[i] = 0;
@@ -160,7 +161,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
     {
       inner->minimize(stop);
       ++solution.outer_iterations;
-      solution.kkt_residual = residual_here();
+      solution.kkt_residual = kkt_here().relative;
       std::ostringstream line;
       line << "SMALSE-M, step " << solution.outer_iterations << ": KKT residual "
            << solution.kkt_residual << ", " << f_mults() << " F-mults";
@@ -184,7 +185,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
       inner->update_multipliers();
       last_value = value;
     }
-  throw not_converged("SMALSE-M", residual_here(), parameters.relative_tolerance, f_mults());
+  throw not_converged("SMALSE-M", kkt_here().relative, parameters.relative_tolerance, f_mults());
 }
 } // namespace
 

@@ -72,6 +72,7 @@ SensitivityQp::SensitivityQp(const feti::TotalFeti &feti,
   d.add(-1., data.dual);
   dual_load  = restricted(d);
   rigid_load = feti.rigid_part(data.primal);
+  gross_load = feti.gross_rigid_part(data.primal)[0];
 }
 
 qp::MultiVector SensitivityQp::restricted(const qp::MultiVector &x) const

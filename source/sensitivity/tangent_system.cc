@@ -35,16 +35,17 @@ TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
   , known(known.off(qp::complement(rows), feti.context().communicator()))
 {}
 
-/// ||G mu - e|| of every column within the tolerance of ||mu||; B and R
-/// are orthonormal but for a few rows, so ||G|| is near 1.
-bool TangentSystem::balanced(const qp::MultiVector &load, const qp::MultiVector &mu) const
+/// ||G mu - e|| of every column within the tolerance of ||mu|| and the loads
+/// before they cancel; B and R are orthonormal but for a few rows, so ||G|| is near 1.
+bool TangentSystem::balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const
 {
-  auto missing = load;
+  auto missing = feti.rigid_part(b);
   missing.add(-1., feti.apply_G(mu));
   const auto errors = qp::norms(missing, MPI_COMM_SELF);
+  const auto gross  = feti.gross_rigid_part(b);
   const auto sizes  = qp::norms(mu, feti.context().communicator());
   for (unsigned int j = 0; j < errors.size(); ++j)
-    if (errors[j] > parameters.relative_tolerance * sizes[j])
+    if (errors[j] > parameters.relative_tolerance * (sizes[j] + gross[j]))
       return false;
   return true;
 }
@@ -87,11 +88,10 @@ qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_
 
 KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
 {
-  const auto &b    = right_hand_sides.primal;
-  const auto  load = feti.rigid_part(b);
+  const auto &b = right_hand_sides.primal;
   KktVectors  result;
   result.dual = qp::MultiVector(feti.n_owned(), right_hand_sides.dual.n_columns());
-  free_set->make_feasible(result.dual, load);
+  free_set->make_feasible(result.dual, feti.rigid_part(b));
   auto            residual  = start_residual(right_hand_sides, result.dual);
   qp::MultiVector projected = residual;
   free_set->project(projected);
@@ -99,7 +99,7 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   const auto sizes      = qp::norms(residual, feti.context().communicator());
   for (unsigned int j = 0; j < sizes.size(); ++j)
     tolerances[j] = std::max(parameters.relative_tolerance * tolerances[j], rounding * sizes[j]);
-  if (!minimize(result.dual, residual, tolerances) || !balanced(load, result.dual))
+  if (!minimize(result.dual, residual, tolerances) || !balanced(b, result.dual))
     throw SolveError("the sensitivities were not solved to the relative "
                      "tolerance; allow a larger 'Solver/Relative "
                      "tolerance' or more 'Solver/Maximum F-mults'");

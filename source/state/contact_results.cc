@@ -116,6 +116,17 @@ void describe_contact(const StateSolver<dim>     &solver,
     }
 }
 
+template <int dim>
+std::vector<std::string> free_bodies(const StateSolver<dim> &solver, const ContactState<dim> &state)
+{
+  const auto &feti       = solver.feti(state);
+  const auto &of_contact = solver.gluing().contact_of_row();
+  qp::RowSet  rows       = feti.bounded();
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
+  return feti.free_bodies(rows);
+}
+
 /// Contact points are replicated: the same sums on all ranks without communication.
 template <int dim>
 void sum_up_contact(const contact::Contact<dim> &contact,
@@ -168,6 +179,7 @@ void recover_contact_results(const StateSolver<dim>     &solver,
   sum_up_contact(solver.contact(), rows, state);
   add_reactions(solver, rows, state);
   state.assumptions = assess(solver, rows.contact, state);
+  state.free_bodies = free_bodies(solver, state);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                   \

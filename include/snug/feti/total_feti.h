@@ -30,13 +30,15 @@ public:
             const FetiParameters               &parameters,
             RunContext                         &context);
 
-  /// Take new matrices from the systems; set_loads() must follow.
-  /// Collective.
+  /// Take new matrices from the systems; set_loads() must follow, which
+  /// brings the preconditioner. Collective.
   /// @param[in] changed subdomains of this rank whose K and R changed.
   void update(const std::vector<bool> &changed);
 
   /// Take the loads f from the systems. Collective.
   /// @param[in] g right-hand side of the owned rows [length].
+  /// @throws SolveError if no contact forces balance them: names the body
+  ///   that escapes, and its motion.
   void set_loads(const qp::MultiVector &g);
 
   RunContext            &context() const override { return run; }
@@ -58,14 +60,17 @@ public:
   {
     return coarse.transpose_multiply(alpha, nullptr);
   }
-  double feasibility_scale(const qp::MultiVector &lambda) const override
+  double feasibility_scale(double force) const override
   {
-    return feasibility_scale(rigid_load, lambda);
+    return gross_load + coarse_norm() * force;
   }
-  /// The same for another rigid part @p e of the loads, one column.
-  double feasibility_scale(const qp::MultiVector &e, const qp::MultiVector &lambda) const;
+  /// ||G||. Collective.
+  double                       coarse_norm() const { return coarse.norm(); }
   std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
-  std::string                  escaping_body() const override;
+
+  /// One line for each body that the equality rows and those of @p rows
+  /// leave free to move, with its motions. Collective.
+  std::vector<std::string> free_bodies(const qp::RowSet &rows) const;
 
   /// B v of primal vectors, owned rows. Collective.
   qp::MultiVector multiply_B(const PrimalVectors &v) const;
@@ -78,6 +83,10 @@ public:
 
   /// R' b of primal vectors, n_kernel x k on all ranks. Collective.
   qp::MultiVector rigid_part(const PrimalVectors &b) const;
+
+  /// max_s || |R_s|' |b_s| || of every column: what the rounding of the rigid
+  /// part is measured by, however much of it cancels. Collective.
+  std::vector<double> gross_rigid_part(const PrimalVectors &b) const;
 
   /// u = K^+ (b - B' lambda) + R alpha. Collective.
   PrimalVectors
@@ -101,10 +110,11 @@ public:
 private:
   class FetiFreeSet;
 
-  void        gather_rows();
-  void        weight_rows();
-  std::string unheld_body(const qp::MultiVector &free, const qp::MultiVector &columns) const;
-  void        precondition(qp::MultiVector &x) const;
+  void gather_rows();
+  void weight_rows();
+  void check_equilibrium() const;
+  void update_preconditioner();
+  void precondition(qp::MultiVector &x) const;
 
   const std::vector<SubdomainSystem>              &systems;
   const RowLayout                                 &layout;
@@ -116,7 +126,9 @@ private:
   std::vector<std::unique_ptr<LocalSchur>>         schur;
   /// B D^{-1} of each subdomain on the boundary positions of its schur
   std::vector<std::vector<BEntry>> weighted_B;
+  std::vector<bool>                outdated; ///< preconditioners of subdomains
   qp::MultiVector                  gap, dual_load, rigid_load;
+  double                           gross_load = 0.;
   std::vector<double>              F_diagonal;
 };
 } // namespace snug::feti

@@ -5,7 +5,6 @@
 #include <snug/qp/multi_vector.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace snug::qp {
@@ -98,18 +97,12 @@ public:
   /// G' alpha.
   virtual MultiVector apply_Gt(const MultiVector &alpha) const = 0;
 
-  /// max_s ||R_s' f_s|| + ||G|| ||lambda||: the size ||G lambda - e|| is
-  /// compared with. Collective.
-  virtual double feasibility_scale(const MultiVector &lambda) const = 0;
+  /// max_s || |R_s|' |f_s| || + ||G|| @p force, loads before they cancel: the
+  /// size ||G lambda - e|| is compared with, force being that of lambda.
+  /// Collective.
+  virtual double feasibility_scale(double force) const = 0;
 
   virtual std::unique_ptr<FreeSet> free_set(const RowSet &free) const = 0;
-
-  /**
-   * Name and motion of a floating body the contacts cannot hold, or ""
-   * when an equilibrium exists: the non-negative least squares test on
-   * the bodies' rigid motions. Collective.
-   */
-  virtual std::string escaping_body() const = 0;
 };
 } // namespace snug::qp
 

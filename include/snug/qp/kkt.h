@@ -16,6 +16,7 @@ struct KktResidual
 {
   MultiVector w;                ///< d - F lambda + G' alpha, n_owned x 1
   MultiVector amplitudes;       ///< alpha, n_kernel x 1, on all ranks
+  double      rounding    = 0.; ///< of w
   double      relative    = 0.; ///< the natural residual of DualSolution
   double      feasibility = 0.; ///< its part of G lambda = e
 };
@@ -24,7 +25,7 @@ struct KktResidual
  * The natural KKT residual of the dual problem,
  * @f[ r_E = w_E, \quad r_i = -\min(\lambda_i F_{ii}, -w_i), \quad
  *     \frac{\|r\|}{s} + \frac{\|G\lambda - e\|}
- *     {\|e\| + \max_s \|R_s^T f_s\| + \|G\| \|\lambda\|}, \qquad
+ *     {\|e\| + \max_s \||R_s|^T |f_s|\| + \|G\| (\|\lambda\| + s / \max F_{ii})}, \qquad
  *     w = d - F\lambda + G^T\alpha, @f]
  * with alpha from the rows of the face. An @f$\|r\|@f$ below the rounding
  * error of @f$d - F\lambda@f$ is zero.
@@ -41,6 +42,18 @@ KktResidual kkt_residual(const DualProblem &problem,
                          const MultiVector &lambda,
                          const MultiVector &residual,
                          double             scale);
+
+/**
+ * What forces of the owned rows may be by rounding alone: a part of the
+ * largest force, and what moves the row by as much of @p scale or by the
+ * rounding of w. The part is 1e-12, less for tolerances below 1e-9.
+ * Collective.
+ */
+std::vector<double> force_rounding(const DualProblem &problem,
+                                   const MultiVector &lambda,
+                                   const KktResidual &kkt,
+                                   double             scale,
+                                   double             tolerance);
 
 /**
  * What every solve starts from: the least squares solution
@@ -61,8 +74,8 @@ struct EqualityPart
  *
  * @param[in,out] x a start, replaced by d - F x; no columns if there is
  *   none besides lambda_Im.
- * @throws SolveError if there is no equilibrium (names the body) or the
- *   data are not finite. Collective, 1 + x.n_columns F-mults.
+ * @throws SolveError if the data are not finite. Collective,
+ *   1 + x.n_columns F-mults.
  */
 EqualityPart equality_part(const DualProblem &problem, MultiVector &x);
 

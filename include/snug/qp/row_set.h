@@ -26,9 +26,9 @@ RowSet loaded_rows(const RowSet &bounded, const MultiVector &lambda);
 /// lambda_i < 0 on a bounded row of this rank.
 bool has_negative(const RowSet &bounded, const MultiVector &lambda);
 
-/// Set negative entries on bounded rows to zero that are rounding of the
-/// largest entry. Collective.
-void clip_rounding(const RowSet &bounded, MultiVector &lambda, MPI_Comm comm);
+/// Set entries on bounded rows to zero that are not larger than
+/// @p rounding, one number per row.
+void clip_rounding(const RowSet &bounded, const std::vector<double> &rounding, MultiVector &lambda);
 } // namespace snug::qp
 
 #endif

@@ -58,8 +58,8 @@ public:
 
   /**
    * Solve to the relative tolerance of the KKT residual. Collective.
-   * @throws SolveError if there is no equilibrium (names the body) or the
-   *   tolerance is not met within the allowed F-mults.
+   * @throws SolveError if the tolerance is not met within the allowed
+   *   F-mults.
    */
   virtual DualSolution solve(const DualProblem &problem, const WarmStart &start) const = 0;
 };

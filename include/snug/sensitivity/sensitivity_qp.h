@@ -52,13 +52,11 @@ public:
   {
     return restricted(feti.apply_Gt(alpha));
   }
-  double feasibility_scale(const qp::MultiVector &mu) const override
+  double feasibility_scale(double force) const override
   {
-    return feti.feasibility_scale(rigid_load, extended(mu));
+    return gross_load + feti.coarse_norm() * force;
   }
   std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
-  /// Never names one: the state is an equilibrium.
-  std::string escaping_body() const override { return ""; }
 
 private:
   class PartOfFreeSet;
@@ -68,6 +66,7 @@ private:
   qp::RowSet                is_weak;
   std::vector<double>       F_diagonal;
   qp::MultiVector           dual_load, rigid_load;
+  double                    gross_load;
 };
 } // namespace snug::sensitivity
 

@@ -49,7 +49,7 @@ private:
   bool            minimize(qp::MultiVector           &mu,
                            qp::MultiVector           &residual,
                            const std::vector<double> &tolerances) const;
-  bool            balanced(const qp::MultiVector &load, const qp::MultiVector &mu) const;
+  bool            balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const;
 
   const feti::TotalFeti             &feti;
   const qp::SolverParameters         parameters;

@@ -117,6 +117,9 @@ struct ContactState
   unsigned long linear_f_mults      = 0;  ///< 0: not asked for
   Certificate   certificate;
   Assumptions   assumptions;
+  /// one line per body that supports and strong contacts leave free to move:
+  /// balanced, but where it is along these motions is not determined
+  std::vector<std::string> free_bodies;
 };
 } // namespace snug::state
 

@@ -63,19 +63,6 @@ std::string stack(unsigned int n)
   return "set Dimension = 2\nset Bodies = " + bodies + "\nset Obstacles = floor\n" + sections +
          "subsection Contact\nset Slave = first\nset Pairs = " + pairs + "\nend\n";
 }
-
-std::string error_of_solving(const std::string &text)
-{
-  try
-    {
-      SolvedScene<2> solved(text);
-    }
-  catch (const SolveError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
 } // namespace
 
 TEST(FloatingBlock, ClosesFlatAndWedgeGaps)

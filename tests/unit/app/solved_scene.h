@@ -2,6 +2,7 @@
 #define tests_unit_app_solved_scene_h
 
 #include <snug/app/build_model.h>
+#include <snug/base/errors.h>
 #include <snug/mesh/tearing.h>
 #include <snug/scene/read_scene.h>
 
@@ -134,6 +135,20 @@ private:
     return x;
   }
 };
+
+/// The message of the SolveError that solving @p text ends with, or "".
+inline std::string error_of_solving(const std::string &text)
+{
+  try
+    {
+      SolvedScene<2> solved(text);
+    }
+  catch (const SolveError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
 } // namespace snug::test
 
 #endif

@@ -14,7 +14,6 @@ struct DenseData
   dense::Matrix    F, G, d, e;
   dense::Matrix    preconditioner; ///< M^{-1} of all rows; none if empty
   snug::qp::RowSet bounded;
-  std::string      escaping;
 };
 
 /// A dual problem with dense matrices; every rank owns a slice of the rows.
@@ -108,18 +107,16 @@ public:
     return slice(dense::product(dense::transpose(data.G), alpha));
   }
 
-  double feasibility_scale(const MultiVector &lambda) const override
+  double feasibility_scale(double force) const override
   {
     double square = 0.;
     for (unsigned int j = 0; j < data.G.n_columns(); ++j)
       for (unsigned int i = 0; i < data.G.n_rows(); ++i)
         square += data.G(i, j) * data.G(i, j);
-    return dense::largest(data.e) + std::sqrt(square) * norms(lambda, MPI_COMM_WORLD)[0];
+    return dense::largest(data.e) + std::sqrt(square) * force;
   }
 
   std::unique_ptr<snug::qp::FreeSet> free_set(const RowSet &free) const override;
-
-  std::string escaping_body() const override { return data.escaping; }
 
   const DenseData            data;
   mutable std::ostringstream log;
