@@ -2,6 +2,7 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/total_feti.h>
 #include <snug/qp/nnls.h>
+#include <snug/qp/row_set.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,39 +19,40 @@ const double wrench_cut = 1e-10;
 /// Squares of a body's share in a free motion below which it is at rest.
 const double rest_cut = 1e-6;
 
-/// Columns Z'g_i of all contact rows, on all ranks in rank order.
-qp::MultiVector contact_columns(const CoarseSpace &coarse, const RowLayout &layout)
+/// Columns Z'g_i of @p rows, then what they have in @p values, on all ranks in rank order.
+qp::MultiVector row_columns(const CoarseSpace     &coarse,
+                            const RowLayout       &layout,
+                            const qp::RowSet      &rows,
+                            const qp::MultiVector &values)
 {
-  const unsigned int n_modes = coarse.body_modes().n_columns();
   // Row i of G'Z is the wrench, in body mode coordinates, that a unit force of contact i exerts.
-  const auto          rows = coarse.transpose_multiply(coarse.body_modes(), nullptr);
+  auto all = coarse.transpose_multiply(coarse.body_modes(), nullptr);
+  all.append(values);
   std::vector<double> mine;
   for (unsigned int i = 0; i < layout.n_owned(); ++i)
-    if (layout.bounded()[i])
-      for (unsigned int mode = 0; mode < n_modes; ++mode)
-        mine.push_back(rows(i, mode));
+    if (rows[i])
+      for (unsigned int k = 0; k < all.n_columns(); ++k)
+        mine.push_back(all(i, k));
   int n_ranks, count = narrow<int>(mine.size());
   MPI_Comm_size(layout.communicator(), &n_ranks);
   std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, layout.communicator());
   for (int r = 0; r < n_ranks; ++r)
     starts[r + 1] = starts[r] + counts[r];
-  // Columns contiguous in memory: the gathered numbers are the matrix already.
-  qp::MultiVector columns(n_modes, starts.back() / n_modes);
+  // Columns are contiguous in memory: the gathered numbers are the matrix already.
+  qp::MultiVector columns(all.n_columns(), starts.back() / all.n_columns());
   MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, columns.column(0), counts.data(), starts.data(),
                  MPI_DOUBLE, layout.communicator());
   return columns;
 }
 
-/// Orthonormal basis of the body motions no equality row sees.
-qp::MultiVector free_motions(const CoarseSpace &coarse, const RowLayout &layout)
+/// Orthonormal basis of the body motions that no row of @p rows sees, equality rows and some of
+/// contact.
+qp::MultiVector motions_unseen_by(const CoarseSpace &coarse, const qp::RowSet &rows)
 {
   // Gluing is among these rows, but sees no motion that moves each body rigidly.
-  qp::RowSet equality = layout.bounded();
-  for (auto &flag : equality)
-    flag = !flag;
   CsrMatrix A = coarse.pattern();
-  A.values    = coarse.gram_values(equality);
+  A.values    = coarse.gram_values(rows);
   return coarse.unseen_motions(A);
 }
 
@@ -123,11 +125,11 @@ std::string describe_range(qp::MultiVector P)
 void TotalFeti::check_equilibrium() const
 {
   const RunContext::Timer timer(run, "solve");
-  const auto              free = free_motions(coarse, layout);
+  const auto              free = motions_unseen_by(coarse, qp::complement(layout.bounded()));
   // Supports hold all bodies: every load can be balanced.
   if (free.n_columns() == 0)
     return;
-  const auto columns  = contact_columns(coarse, layout);
+  const auto columns = row_columns(coarse, layout, layout.bounded(), qp::MultiVector(n_owned(), 0));
   auto       wrenches = transpose_times(free, columns);
   const auto whole = qp::norms(columns, MPI_COMM_SELF), part = qp::norms(wrenches, MPI_COMM_SELF);
   for (unsigned int k = 0; k < wrenches.n_columns(); ++k)
@@ -145,11 +147,42 @@ void TotalFeti::check_equilibrium() const
                      describe_escape(times(free, balance.residual), coarse.subdomains()));
 }
 
+/// In coordinates y of the motions N = Z Y that the loaded rows do not see, R'N y = N'R'u: the
+/// shortest y that keeps the other contacts open, or closed as far as they are, w_i <= max(w_i, 0).
+void TotalFeti::settle(const qp::RowSet &loaded, PrimalVectors &u, qp::MultiVector &alpha) const
+{
+  const auto Y = motions_unseen_by(coarse, loaded);
+  if (Y.n_columns() == 0)
+    return;
+  qp::RowSet rows = layout.bounded();
+  for (unsigned int i = 0; i < n_owned(); ++i)
+    rows[i] = rows[i] && !loaded[i];
+  auto w = multiply_B(u);
+  w.add(-1., gap);
+  const auto         columns = row_columns(coarse, layout, rows, w);
+  const auto         before  = transpose_times(times(coarse.body_modes(), Y), rigid_part(u));
+  const unsigned int n       = columns.n_columns();
+  qp::MultiVector    A(Y.n_columns(), n), b(n);
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      b(j) = std::min(0., columns(Y.n_rows(), j));
+      for (unsigned int k = 0; k < Y.n_columns(); ++k)
+        {
+          for (unsigned int i = 0; i < Y.n_rows(); ++i)
+            A(k, j) -= Y(i, k) * columns(i, j);
+          b(j) += A(k, j) * before(k);
+        }
+    }
+  auto y = qp::shortest(A, b);
+  y.add(-1., before);
+  const auto shift = times(coarse.body_modes(), times(Y, y));
+  alpha.add(1., shift);
+  add_rigid(shift, u);
+}
+
 std::vector<std::string> TotalFeti::free_bodies(const qp::RowSet &rows) const
 {
-  CsrMatrix A                = coarse.pattern();
-  A.values                   = coarse.gram_values(rows);
-  const auto               Y = coarse.unseen_motions(A);
+  const auto               Y = motions_unseen_by(coarse, rows);
   const auto               m = coarse.subdomains().n_modes;
   std::vector<std::string> lines;
   for (unsigned int body = 0; body < n_bodies(); ++body)

@@ -235,7 +235,14 @@ PrimalVectors TotalFeti::recover(PrimalVectors          b,
   const PrimalVectors forces = multiply_Bt(lambda);
   for (unsigned int s = 0; s < systems.size(); ++s)
     b[s].add(-1., forces[s]);
-  PrimalVectors      u = apply_inverse(b);
+  PrimalVectors u = apply_inverse(b);
+  add_rigid(alpha, u);
+  return u;
+}
+
+/// u += R alpha
+void TotalFeti::add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const
+{
   const unsigned int m = coarse.subdomains().n_modes;
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (unsigned int j = 0; j < u[s].n_columns(); ++j)
@@ -245,7 +252,6 @@ PrimalVectors TotalFeti::recover(PrimalVectors          b,
           for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
             u[s](i, j) += systems[s].R(i, mode) * amplitude;
         }
-  return u;
 }
 
 PrimalVectors TotalFeti::loads() const

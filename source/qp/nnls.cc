@@ -159,4 +159,28 @@ NnlsResult nnls(const MultiVector &A, const MultiVector &b)
                      "is not finite");
   return NonNegativeLeastSquares(A, b).solve();
 }
+
+MultiVector shortest(const MultiVector &A, const MultiVector &b)
+{
+  const unsigned int m = A.n_rows(), n = A.n_columns();
+  double             length = 0.;
+  for (unsigned int j = 0; j < n; ++j)
+    length = std::max(length, std::abs(b(j)));
+  MultiVector y(m);
+  if (length == 0.)
+    return y;
+  // min_{x >= 0} ||(A; b') x - (0; 1)||, b in units of its largest entry: the residual (r, s) has
+  // y = -r / s.
+  MultiVector E(m + 1, n), f(m + 1);
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      std::copy_n(A.column(j), m, E.column(j));
+      E(m, j) = b(j) / length;
+    }
+  f(m)            = 1.;
+  const auto rest = nnls(E, f).residual;
+  for (unsigned int i = 0; i < m; ++i)
+    y(i) = -length * rest(i) / rest(m);
+  return y;
+}
 } // namespace snug::qp

@@ -33,7 +33,8 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
       const auto this_solver = choose(qp::solver_table(), parameters.method).make(parameters);
       state.dual             = this_solver->solve(feti, from);
       outer += state.dual.outer_iterations;
-      state.u           = feti.recover(feti.loads(), state.dual.lambda, state.dual.amplitudes);
+      state.u = feti.recover(feti.loads(), state.dual.lambda, state.dual.amplitudes);
+      feti.settle(state.dual.active, state.u, state.dual.amplitudes);
       state.certificate = certify(feti, state.dual.lambda, state.u);
       if (state.certificate.worst() <= wanted)
         {

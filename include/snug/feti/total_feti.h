@@ -92,6 +92,14 @@ public:
   PrimalVectors
   recover(PrimalVectors b, const qp::MultiVector &lambda, const qp::MultiVector &alpha) const;
 
+  /**
+   * Of the motions that the rows @p loaded leave free (equality rows and
+   * contacts with a force) take the least: u += R d and @p alpha += d, so that
+   * R'u has the least part in them that keeps the other contacts from
+   * closing further. Collective.
+   */
+  void settle(const qp::RowSet &loaded, PrimalVectors &u, qp::MultiVector &alpha) const;
+
   /// The loads f of the systems.
   PrimalVectors loads() const;
 
@@ -115,6 +123,7 @@ private:
   void check_equilibrium() const;
   void update_preconditioner();
   void precondition(qp::MultiVector &x) const;
+  void add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const;
 
   const std::vector<SubdomainSystem>              &systems;
   const RowLayout                                 &layout;

@@ -27,6 +27,14 @@ struct NnlsResult
  * (1974).
  */
 NnlsResult nnls(const MultiVector &A, const MultiVector &b);
+
+/**
+ * The shortest y (m x 1) with @f$A^T y \ge b@f$, n conditions, on this rank
+ * alone. Some y has to meet them.
+ *
+ * Source: Lawson, Hanson, as nnls(): problem LDP.
+ */
+MultiVector shortest(const MultiVector &A, const MultiVector &b);
 } // namespace snug::qp
 
 #endif
