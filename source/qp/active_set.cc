@@ -114,7 +114,7 @@ void ActiveSetRun::begin(const WarmStart &from)
       free_set = std::move(equality.free_set);
     }
   krylov = std::make_unique<Pcpg>(problem, *free_set, from.directions.off(complement(mask), comm));
-  history.enter(fingerprint(mask, comm), std::numeric_limits<double>::max());
+  history.enter(fingerprint(mask, comm), std::numeric_limits<double>::max(), false);
 }
 
 /// Make lambda feasible on the set; let the set grow until it is.
@@ -263,8 +263,12 @@ bool ActiveSetRun::change_set(const RowSet &next)
       }
   inner_tolerance = std::min(inner_tolerance, options.forcing * kkt.relative);
   RowSet leaving  = mask;
+  bool   enters   = false;
   for (unsigned int i = 0; i < next.size(); ++i)
-    leaving[i] = mask[i] && !next[i];
+    {
+      leaving[i] = mask[i] && !next[i];
+      enters     = enters || (next[i] && !mask[i]);
+    }
   // Directions that vanish on the rows that leave lie in the new face as well, with F P known.
   // Rows that enter do not matter: balance_load() only adds rows, so they stay in the face.
   DirectionBasis known = krylov->directions().off(leaving, comm);
@@ -284,7 +288,7 @@ bool ActiveSetRun::change_set(const RowSet &next)
     stalls = 0;
   else
     count_stall();
-  care = history.enter(fingerprint(mask, comm), kkt.relative);
+  care = history.enter(fingerprint(mask, comm), kkt.relative, !any(enters, comm));
   if (care != SetHistory::none)
     inner_tolerance *= 0.01;
   return care != SetHistory::give_up;

@@ -5,10 +5,11 @@
 namespace snug::qp {
 SetHistory::SetHistory(const ActiveSetOptions &the_options) : options(the_options) {}
 
-SetHistory::Care SetHistory::enter(const std::uint64_t set, const double kkt_residual)
+SetHistory::Care
+SetHistory::enter(const std::uint64_t set, const double kkt_residual, const bool shrinks)
 {
   count_visits(set);
-  watch_residual(kkt_residual);
+  watch_residual(kkt_residual, shrinks);
   return care;
 }
 
@@ -30,15 +31,16 @@ void SetHistory::count_visits(const std::uint64_t set)
     }
 }
 
-/// A slow crawl gives up as well, but for changes of single rows, which have their own limit.
-void SetHistory::watch_residual(const double kkt_residual)
+/// A slow crawl gives up as well, but for changes of single rows, which have their own limit, and
+/// sets that only shrink, which end: a slender body peels off its base by its thickness at a time.
+void SetHistory::watch_residual(const double kkt_residual, const bool shrinks)
 {
   if (kkt_residual < 0.9 * least_residual)
     {
       least_residual = kkt_residual;
       idle_steps     = 0;
     }
-  else if (care < single && ++idle_steps >= options.patience)
+  else if (care < single && !shrinks && ++idle_steps >= options.patience)
     {
       care = give_up;
       std::ostringstream text;

@@ -99,7 +99,10 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   const auto sizes      = qp::norms(residual, feti.context().communicator());
   for (unsigned int j = 0; j < sizes.size(); ++j)
     tolerances[j] = std::max(parameters.relative_tolerance * tolerances[j], rounding * sizes[j]);
-  if (!minimize(result.dual, residual, tolerances) || !balanced(b, result.dual))
+  if (!balanced(b, result.dual))
+    throw SolveError("no derivative: the response sees, or the design unbalances, a motion that a "
+                     "body is free to make");
+  if (!minimize(result.dual, residual, tolerances))
     throw SolveError("the sensitivities were not solved to the relative "
                      "tolerance; allow a larger 'Solver/Relative "
                      "tolerance' or more 'Solver/Maximum F-mults'");

@@ -24,8 +24,8 @@ public:
   explicit SetHistory(const ActiveSetOptions &options);
 
   /// The set with this fingerprint is entered once more, coming from one
-  /// with @p kkt_residual.
-  Care enter(std::uint64_t set, double kkt_residual);
+  /// with @p kkt_residual; @p shrinks: which has all its rows.
+  Care enter(std::uint64_t set, double kkt_residual, bool shrinks);
 
   /// What the sets do, for the log, when it is time to give up.
   const std::string &reason() const;
@@ -36,11 +36,11 @@ private:
   Care                                  care           = none;
   unsigned int                          single_steps   = 0;
   double                                least_residual = std::numeric_limits<double>::max();
-  unsigned int                          idle_steps     = 0; ///< since it fell by a tenth
-  std::string                           why;
+  unsigned int idle_steps = 0; ///< with rows that enter, since it fell by a tenth
+  std::string  why;
 
   void count_visits(std::uint64_t set);
-  void watch_residual(double kkt_residual);
+  void watch_residual(double kkt_residual, bool shrinks);
 };
 } // namespace snug::qp
 
