@@ -17,8 +17,8 @@ struct ActiveSetOptions
   unsigned int visits = 3;
   /// Steps of one row each before the fall-back to SMALSE-M.
   unsigned int single_steps = 50;
-  /// Steps without a KKT residual a tenth smaller than all before, after
-  /// which SMALSE-M takes over. Contact problems that are solved take 5 to
+  /// Steps in which rows enter, without a KKT residual a tenth smaller than
+  /// all before, after which SMALSE-M takes over. Contact problems that are solved take 5 to
   /// 30 steps in all.
   unsigned int patience = 30;
 };
@@ -28,10 +28,10 @@ struct ActiveSetOptions
  * rows of the active set M are equations, the others carry no force, and
  * the linear problem on M is solved by Pcpg only as exactly as the set is
  * known: to a part of the last KKT residual. Then
- * @f[ M \leftarrow E \cup \{ i : \lambda_i > 0, \text{ or }
- *     \lambda_i = 0 \text{ and } w_i > 0 \}, @f]
- * the set @f$\lambda_i + c w_i > 0@f$ as c goes to 0. Exact solutions give
- * the same for every c > 0, as @f$\lambda_i w_i = 0@f$; of rough ones
+ * @f[ M \leftarrow E \cup \{ i : i \in M \text{ and } \lambda_i > 0, \text{ or }
+ *     i \notin M \text{ and } w_i > 0 \}, @f]
+ * zero being meant up to rounding (force_rounding()): the set @f$\lambda_i + c w_i > 0@f$ as c goes
+ * to 0. Exact solutions give the same for every c > 0, as @f$\lambda_i w_i = 0@f$; of rough ones
  * @f$w_i@f$ on the active rows is the error of the inner solve, which has
  * no say this way.
  * The start is lambda_Im on all rows, or that of an earlier solve. A set

@@ -34,7 +34,7 @@ struct WarmStart
  * The natural KKT residual, one measure for every solver:
  * r_E = w_E, r_i = -min(lambda_i F_ii, -w_i) with
  * w = d - F lambda + G' alpha, relative to ||P (d - F lambda_Im)||, plus
- * ||G lambda - e|| / (||e|| + max_s || |R_s|' |f_s| || + ||G|| ||lambda||).
+ * ||G lambda - e|| over the loads and forces, see kkt_residual().
  */
 struct DualSolution
 {

@@ -13,7 +13,7 @@ namespace snug::state {
  * Errors of a solution, recomputed from K, f, B and g, all relative:
  * equilibrium ||K u - f + B' lambda|| / (||f|| + ||B' lambda||), the worst
  * body; continuity max|B_E u - g_E| and penetration max(B_I u - g_I)+
- * over max_i(F_ii |lambda_i|); negative pressure max(-lambda_I)+ over
+ * over max_i(F_ii |lambda_i|, |f_i| / K_ii); negative pressure max(-lambda_I)+ over
  * max lambda_I; complementarity |lambda' w| over the strain energy.
  */
 struct Certificate

@@ -149,3 +149,99 @@ TEST(Slider, IsNamedWithItsDirection)
                             exact);
   EXPECT_EQ(held.state.free_bodies.size(), 0u);
 }
+
+TEST(Tie, DoesNotMakeTheActiveSetCycle)
+{
+  // The load on b3 has its resultant on one contact node; the other has neither force nor gap.
+  const std::string stack = R"(
+set Dimension = 2
+set Bodies = b0, b1, b2, b3
+subsection Body b0
+ set Box corner = 0.0, 0.0
+ set Box size = 1.7370253484580278, 0.9633372344667204
+ set Box cells = 5, 4
+ set Young's modulus = 276.27677443940064
+ set Poisson's ratio = 0.30099538432832695
+ set Supports = bottom: xy
+end
+subsection Body b1
+ set Box corner = 0.0, 0.9695277286371133
+ set Box size = 0.7706457685668399, 0.8550145052776028
+ set Box cells = 5, 5
+ set Young's modulus = 3305.6739664733523
+ set Poisson's ratio = 0.40453956860430107
+ set Supports = left: x
+ set Body force = 0.0 -0.000288699496058732
+end
+subsection Body b2
+ set Box corner = 0.0, 1.8245422339147161
+ set Box size = 0.8628306700976596, 1.1455139479852392
+ set Box cells = 8, 6
+ set Young's modulus = 3.0484803261850293
+ set Poisson's ratio = 0.3099652100556735
+ set Supports = left: x
+end
+subsection Body b3
+ set Box corner = 0.0, 2.9753994092002496
+ set Box size = 1.209590232956877, 0.43962590015877584
+ set Box cells = 2, 2
+ set Young's modulus = 6015.240891581059
+ set Poisson's ratio = 0.17252075973635805
+ set Traction = top: 0.0 -0.0007007639772097399
+end
+subsection Contact
+ set Pairs = b0.top: b1.bottom, b1.top: b2.bottom, b3.bottom: b2.top
+ set Slave = first
+end
+)";
+  for (const unsigned int n : {1, 9, 27, 29, 30})
+    {
+      const SolvedScene<2> solved(stack, {"Solver/Relative tolerance=1e-9", "Contact/Method=nodal",
+                                          "Decomposition/Subdomains=" + std::to_string(n)});
+      EXPECT_EQ(solved.state.dual.method, "active set") << n;
+      EXPECT_LE(solved.state.f_mults, 30u) << n;
+    }
+}
+
+TEST(PrescribedMotion, WithoutForcesIsSolvedBySmalse)
+{
+  for (const unsigned int n : {1, 3, 8, 15})
+    {
+      const SolvedScene<2> solved(
+        block_on_block("set Supports = left: x\n  set Displacement = top: "
+                       "y = -0.001",
+                       "set Gap = 0.002 + 0.001 * sin(3 * x)"),
+        {"Solver/Method=SMALSE-M", "Solver/Relative tolerance=1e-8",
+         "Decomposition/Subdomains=" + std::to_string(n)});
+      EXPECT_EQ(solved.state.active_contacts, 0u) << n;
+      EXPECT_LE(solved.state.f_mults, 100u) << n;
+    }
+}
+
+TEST(SlenderBeam, PeelsOffItsBase)
+{
+  // Half of it lifts off, by a third of its thickness per step.
+  const SolvedScene<2> solved(R"(
+set Dimension = 2
+set Model = plane stress
+set Bodies = beam
+set Obstacles = floor
+subsection Body beam
+  set Box size = 40, 1
+  set Box cells = 320, 4
+  set Young's modulus = 1e5
+  set Body force = 0, -0.01
+  set Supports = left: x
+  set Force = right: 0 0.1
+end
+subsection Obstacle floor
+  set Normal = 0, 1
+end
+subsection Contact
+  set Pairs = beam.bottom: floor
+end
+)");
+  EXPECT_EQ(solved.state.dual.method, "active set");
+  EXPECT_NEAR(solved.state.contact_force[1], 0.3, 1e-5);
+  EXPECT_LE(solved.state.f_mults, 280u);
+}

@@ -130,3 +130,31 @@ TEST(Nnls, EmptyAndNotFinite)
   b(0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(nnls(MultiVector(3, 4), b), snug::SolveError);
 }
+
+TEST(Shortest, MeetsItsConditionsWithTheLeastLength)
+{
+  // y_1 >= 2, y_1 + y_2 >= 3, y_2 >= -1 and their multiples: (2, 1)
+  for (const double unit : {1e-9, 1., 1e6})
+    {
+      MultiVector  A(2, 3), b(3);
+      const double rows[3][3] = {{1., 0., 2.}, {5., 5., 15.}, {0., 0.1, -0.1}};
+      for (unsigned int j = 0; j < 3; ++j)
+        {
+          A(0, j) = rows[j][0];
+          A(1, j) = rows[j][1];
+          b(j)    = unit * rows[j][2];
+        }
+      const auto y = snug::qp::shortest(A, b);
+      EXPECT_NEAR(y(0), 2. * unit, 1e-12 * unit);
+      EXPECT_NEAR(y(1), 1. * unit, 1e-12 * unit);
+    }
+}
+
+TEST(Shortest, IsZeroWhereThatMeetsAllConditions)
+{
+  MultiVector A(3, 2), b(2);
+  A(0, 0) = A(2, 1) = 1.;
+  b(0)              = -0.5;
+  EXPECT_EQ(norm(snug::qp::shortest(A, b)), 0.);
+  EXPECT_EQ(norm(snug::qp::shortest(MultiVector(3, 0), MultiVector(0))), 0.);
+}
