@@ -81,7 +81,7 @@ scene::Scene coarse_scene(const Case &given)
                                           std::filesystem::path(given.file).stem().string()});
   coarsen(scene);
   // those of degree 2 are slender: round-off does not let them reach 1e-11
-  scene.solver.relative_tolerance = scene.degree == 1 ? 1e-11 : 1e-10;
+  scene.state_tolerance = scene.degree == 1 ? 1e-11 : 1e-10;
   for (auto &pair : scene.contact.pairs)
     pair.parameters.method = given.method;
   return scene;
