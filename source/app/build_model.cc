@@ -43,10 +43,35 @@ double state_tolerance(const scene::Scene &scene)
 }
 } // namespace
 
+namespace {
+/// "body.boundary" of the faces that are held along their normal.
+std::vector<std::string> held_along_normals(const scene::Scene &scene)
+{
+  const unsigned int       dim = scene.dimension; // the component of the normal
+  std::vector<std::string> faces;
+  const auto add = [&](const std::string &prefix, const scene::LoadParameters &loads) {
+    for (const auto &[face, motion] : loads.displacements)
+      if (scene::component_number(scene::split_displacement(motion).first, dim) == dim)
+        faces.push_back(prefix + face);
+  };
+  for (const auto &body : scene.bodies)
+    {
+      for (const auto &[face, components] : body.supports)
+        for (const unsigned int component : scene::component_list(components, dim))
+          if (component == dim)
+            faces.push_back(body.name + "." + face);
+      add(body.name + ".", body.loads);
+    }
+  for (const auto &load_case : scene.load_cases)
+    add("", load_case.loads);
+  return faces;
+}
+} // namespace
+
 /// True surfaces are asked for where contact, normal supports and shaped faces are.
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene)
 {
-  std::vector<std::string> faces; // body.boundary
+  auto faces = held_along_normals(scene);
   for (const auto &pair : scene.contact.pairs)
     faces.insert(faces.end(), {pair.slave, pair.master});
   bool is_designed = false;
@@ -59,14 +84,10 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
   for (const auto &body : scene.bodies)
     {
       parameters.push_back(body.mesh);
-      auto &sampled = parameters.back().sampled_boundaries;
+      parameters.back().is_designed = is_designed;
       for (const auto &face : faces)
         if (face.rfind(body.name + ".", 0) == 0)
-          sampled.push_back(face.substr(body.name.size() + 1));
-      for (const auto &support : body.supports)
-        if (support.second.find("normal") != std::string::npos)
-          sampled.push_back(support.first);
-      parameters.back().is_designed = is_designed;
+          parameters.back().sampled_boundaries.push_back(face.substr(body.name.size() + 1));
     }
   return parameters;
 }

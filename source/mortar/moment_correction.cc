@@ -4,15 +4,6 @@
 
 namespace snug::mortar {
 namespace {
-template <typename Number, std::size_t dim>
-Number inner(const std::array<Number, dim> &a, const std::array<Number, dim> &b)
-{
-  Number sum = a[0] * b[0];
-  for (std::size_t i = 1; i < dim; ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /// a + factor b
 template <typename Number, std::size_t dim>
 void add(const Number &factor, const std::array<Number, dim> &b, std::array<Number, dim> &a)
@@ -25,7 +16,7 @@ void add(const Number &factor, const std::array<Number, dim> &b, std::array<Numb
 template <typename Number, std::size_t dim>
 std::array<Number, dim> tangential(std::array<Number, dim> v, const std::array<Number, dim> &n)
 {
-  add(-inner(v, n), n, v);
+  add(-faces::dot(v, n), n, v);
   return v;
 }
 
@@ -100,7 +91,7 @@ MomentCorrection<dim, Number>::MomentCorrection(const std::vector<Vector> &x,
     add(Number(-1.), middle, distance);
   solve_for_c();
   for (std::size_t k = 0; k < x.size(); ++k)
-    dM[k] = weights[k] * inner(c, d[k]);
+    dM[k] = weights[k] * faces::dot(c, d[k]);
 }
 
 template <int dim, typename Number>
@@ -113,7 +104,7 @@ void MomentCorrection<dim, Number>::solve_for_c()
       const Vector t = tangential(d[k], n);
       for (int i = 0; i < dim; ++i)
         add(weights[k] * t[i], t, A[i]);
-      trace += weights[k] * inner(t, t);
+      trace += weights[k] * faces::dot(t, t);
     }
   // c is at right angles to n whatever stands there in that direction.
   for (int i = 0; i < dim; ++i)
@@ -155,22 +146,23 @@ MomentCorrection<dim, Number>::gradient(const std::vector<Number> &q) const
   for (std::size_t k = 0; k < x.size(); ++k)
     {
       add(weights[k] * (q[k] - mean_q), d[k], b);
-      add(weights[k] * inner(d[k], c), d[k], Sc);
+      add(weights[k] * faces::dot(d[k], c), d[k], Sc);
     }
   Vector e = solve(A, tangential(b, n));
   for (auto &component : e)
     component *= -1.;
   for (std::size_t k = 0; k < x.size(); ++k)
     {
-      const Number along_c = inner(c, d[k]), along_e = inner(e, d[k]), apart = q[k] - mean_q;
+      const Number along_c = faces::dot(c, d[k]), along_e = faces::dot(e, d[k]),
+                   apart = q[k] - mean_q;
       add(weights[k] * along_e, d[k], Se);
       result.weights[k]      = along_c * (along_e + apart);
-      result.coefficients[k] = -inner(e, x[k]);
+      result.coefficients[k] = -faces::dot(e, x[k]);
       add(weights[k] * (along_e + apart), c, result.x[k]);
       add(weights[k] * along_c - coefficients[k], e, result.x[k]);
     }
-  add(-(inner(n, b) + inner(n, Se)), c, result.n);
-  add(-(inner(n, G) + inner(n, Sc)), e, result.n);
+  add(-(faces::dot(n, b) + faces::dot(n, Se)), c, result.n);
+  add(-(faces::dot(n, G) + faces::dot(n, Sc)), e, result.n);
   return result;
 }
 

@@ -11,15 +11,6 @@ namespace {
 template <int dim, typename Number>
 using Vectors = std::array<std::array<Number, dim>, dim - 1>;
 
-template <typename Number, std::size_t n>
-Number dot(const std::array<Number, n> &a, const std::array<Number, n> &b)
-{
-  Number sum = a[0] * b[0];
-  for (std::size_t i = 1; i < n; ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /// x,_1 (and x,_2) of a face.
 template <int dim, typename Number, typename ShapeNumber>
 Vectors<dim, Number> tangents(const faces::FaceValues<dim, ShapeNumber> &shape,
@@ -37,15 +28,15 @@ template <typename Number>
 Number area(const Vectors<2, Number> &t)
 {
   using std::sqrt;
-  return sqrt(dot(t[0], t[0]));
+  return sqrt(faces::dot(t[0], t[0]));
 }
 
 template <typename Number>
 Number area(const Vectors<3, Number> &t)
 {
   using std::sqrt;
-  const Number mixed = dot(t[0], t[1]);
-  return sqrt(dot(t[0], t[0]) * dot(t[1], t[1]) - mixed * mixed);
+  const Number mixed = faces::dot(t[0], t[1]);
+  return sqrt(faces::dot(t[0], t[0]) * faces::dot(t[1], t[1]) - mixed * mixed);
 }
 
 /// sum_k values_k points_k
@@ -96,7 +87,7 @@ public:
       offset[i] -= centre[i];
     faces::FaceCoordinates<dim, Number> y;
     for (int a = 0; a < dim - 1; ++a)
-      y[a] = dot(dual[a], offset);
+      y[a] = faces::dot(dual[a], offset);
     return y;
   }
 
@@ -106,15 +97,15 @@ private:
 
   void set_dual(const Vectors<2, Number> &t)
   {
-    const Number square = dot(t[0], t[0]);
+    const Number square = faces::dot(t[0], t[0]);
     for (int i = 0; i < 2; ++i)
       dual[0][i] = t[0][i] / square;
   }
 
   void set_dual(const Vectors<3, Number> &t)
   {
-    const Number g00 = dot(t[0], t[0]), g01 = dot(t[0], t[1]), g11 = dot(t[1], t[1]),
-                 det = g00 * g11 - g01 * g01;
+    const Number g00 = faces::dot(t[0], t[0]), g01 = faces::dot(t[0], t[1]),
+                 g11 = faces::dot(t[1], t[1]), det = g00 * g11 - g01 * g01;
     for (int i = 0; i < 3; ++i)
       {
         dual[0][i] = (g11 * t[0][i] - g01 * t[1][i]) / det;

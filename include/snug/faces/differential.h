@@ -95,6 +95,16 @@ inline double value_of(double a)
 {
   return a;
 }
+
+/// The inner product of two vectors of such numbers.
+template <typename Number, std::size_t n>
+Number dot(const std::array<Number, n> &a, const std::array<Number, n> &b)
+{
+  Number sum = a[0] * b[0];
+  for (std::size_t i = 1; i < n; ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
 } // namespace snug::faces
 
 #endif
