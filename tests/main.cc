@@ -2,14 +2,44 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
+#include <sstream>
+
+namespace {
+
+using dealii::Utilities::MPI::this_mpi_process;
+
+/// What fails on a rank that prints nothing else.
+class Failures : public ::testing::EmptyTestEventListener
+{
+  void OnTestPartResult(const ::testing::TestPartResult &result) override
+  {
+    if (!result.failed())
+      return;
+    const auto        *test = ::testing::UnitTest::GetInstance()->current_test_info();
+    std::ostringstream line;
+    line << "rank " << this_mpi_process(MPI_COMM_WORLD);
+    if (test)
+      line << ", " << test->test_suite_name() << "." << test->name();
+    line << ": " << (result.file_name() ? result.file_name() : "") << ":" << result.line_number()
+         << ": " << result.message() << "\n";
+    std::cerr << line.str() << std::flush;
+  }
+};
+
+} // namespace
+
 /// Every rank runs every test; the program fails if any rank does. Only rank 0
-/// prints, so that the log reads as one program's.
+/// prints, so that the log reads as one program's; others print their failures.
 int main(int argc, char *argv[])
 {
   ::testing::InitGoogleTest(&argc, argv);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   auto &listeners = ::testing::UnitTest::GetInstance()->listeners();
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-    delete listeners.Release(listeners.default_result_printer());
+  if (this_mpi_process(MPI_COMM_WORLD) != 0)
+    {
+      delete listeners.Release(listeners.default_result_printer());
+      listeners.Append(new Failures);
+    }
   return dealii::Utilities::MPI::max(RUN_ALL_TESTS(), MPI_COMM_WORLD);
 }
