@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <sstream>
+#include <string>
 
 namespace {
 
@@ -12,19 +13,23 @@ using dealii::Utilities::MPI::this_mpi_process;
 /// What fails on a rank that prints nothing else.
 class Failures : public ::testing::EmptyTestEventListener
 {
+  void OnTestStart(const ::testing::TestInfo &test) override
+  {
+    name_ = std::string(test.test_suite_name()) + "." + test.name();
+  }
+
   void OnTestPartResult(const ::testing::TestPartResult &result) override
   {
     if (!result.failed())
       return;
-    const auto        *test = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::ostringstream line;
-    line << "rank " << this_mpi_process(MPI_COMM_WORLD);
-    if (test)
-      line << ", " << test->test_suite_name() << "." << test->name();
-    line << ": " << (result.file_name() ? result.file_name() : "") << ":" << result.line_number()
-         << ": " << result.message() << "\n";
-    std::cerr << line.str() << std::flush;
+    std::ostringstream lines;
+    lines << "rank " << this_mpi_process(MPI_COMM_WORLD) << ", " << name_ << ": "
+          << (result.file_name() ? result.file_name() : "") << ":" << result.line_number() << ":\n"
+          << result.message() << "\n";
+    std::cerr << lines.str() << std::flush;
   }
+
+  std::string name_;
 };
 
 } // namespace
