@@ -1,7 +1,6 @@
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/fitted_surface.h>
 
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 namespace snug::geometry {
@@ -49,6 +48,18 @@ KnownSurface<dim> SurfaceSample<dim>::faced(KnownSurface<dim> surface) const
   return surface;
 }
 
+// deal.II's inverse asserts a regular matrix in Debug and divides by zero in Release.
+dealii::FullMatrix<double> inverse_of_squares(dealii::FullMatrix<double> A)
+{
+  const double shift = 1e-14 * A.trace();
+  if (!(shift > 0. && std::isfinite(shift)))
+    return dealii::FullMatrix<double>(A.m(), A.m());
+  for (unsigned int i = 0; i < A.m(); ++i)
+    A(i, i) += shift;
+  A.gauss_jordan();
+  return A;
+}
+
 template <int dim>
 KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::Tensor<1, dim> &axis)
 {
@@ -79,13 +90,9 @@ KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::T
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
       A(i, j) += axis[i] * axis[j] * points.size();
-  // Flat boundaries give a singular matrix; the shift makes that a huge radius, which callers
-  // reject.
-  for (unsigned int i = 0; i <= dim; ++i)
-    A(i, i) *= 1. + 1e-14;
-  // A x = b: the normal equations of 2 c.y + (R^2 - |c|^2) = |y|^2 over all points
-  A.gauss_jordan();
-  A.vmult(x, b);
+  // A x = b: the normal equations of 2 c.y + (R^2 - |c|^2) = |y|^2 over all points. Of flat
+  // boundaries A is singular, and callers reject what comes of it.
+  inverse_of_squares(A).vmult(x, b);
   KnownSurface<dim> result;
   result.kind =
     axis.norm() > 0. ? KnownSurface<dim>::Kind::cylinder : KnownSurface<dim>::Kind::sphere;

@@ -1,6 +1,5 @@
 #include <snug/geometry/fitted_surface.h>
 
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
@@ -14,22 +13,16 @@ using Vector = dealii::Tensor<1, 3>;
 using Point  = dealii::Point<3>;
 
 /// The vector with the least x'Ax, of length 1: inverse iteration.
-dealii::Vector<double> smallest_eigenvector(dealii::FullMatrix<double> A)
+dealii::Vector<double> smallest_eigenvector(const dealii::FullMatrix<double> &A)
 {
   const unsigned int     n = A.m();
   dealii::Vector<double> x(n), next(n);
-  double                 trace = 0.;
   for (unsigned int i = 0; i < n; ++i)
-    {
-      x(i) = 1. + 0.3 * i; // in no symmetry plane of likely parts
-      trace += A(i, i);
-    }
-  for (unsigned int i = 0; i < n; ++i)
-    A(i, i) += 1e-13 * trace;
-  A.gauss_jordan();
+    x(i) = 1. + 0.3 * i; // in no symmetry plane of likely parts
+  const auto inverse = inverse_of_squares(A);
   for (unsigned int turn = 0; turn < 30; ++turn)
     {
-      A.vmult(next, x);
+      inverse.vmult(next, x);
       x.equ(1. / next.l2_norm(), next);
     }
   return x;
@@ -91,10 +84,7 @@ KnownSurface<3> start_cone(const SurfaceSample<3> &sample)
           A(i, j) += sample.normals[k][i] * sample.normals[k][j];
         b(i) += sample.normals[k][i] * (sample.normals[k] * (sample.at[k] - mean));
       }
-  for (unsigned int i = 0; i < 3; ++i)
-    A(i, i) += 1e-13 * sample.at.size();
-  A.gauss_jordan();
-  A.vmult(apex, b);
+  inverse_of_squares(A).vmult(apex, b);
   cone.centre = mean + Vector({apex(0), apex(1), apex(2)});
   if (cone.axis * (mean - cone.centre) < 0.)
     cone.axis *= -1.;
@@ -194,10 +184,7 @@ KnownSurface<dim> polished(const SurfaceSample<dim> &sample, KnownSurface<dim> s
       for (unsigned int i = 0; i < d.size(); ++i)
         d(i) = -surface.distance(sample.points[i]) / size;
       J.Tvmult(b, d);
-      for (unsigned int j = 0; j < n; ++j)
-        A(j, j) += 1e-13 * sample.points.size();
-      A.gauss_jordan();
-      A.vmult(step, b);
+      inverse_of_squares(A).vmult(step, b);
       const double change = step.l2_norm();
       for (unsigned int j = 0; j < n; ++j)
         step(j) *= unit[j];

@@ -32,11 +32,16 @@ def entries(build):
 
 
 def flags(entry):
-    """Its compiler with options, without input and output."""
+    """Its compiler with options, without input, output and precompiled headers."""
     words = shlex.split(entry["command"])
-    drop = words.index("-o")
-    return [word for word in words[:drop] + words[drop + 2:]
-            if word not in ("-c", entry["file"]) and not word.endswith("ccache")]
+    drop = {"-o": 2, "-include": 2, "-c": 1, "-Winvalid-pch": 1, entry["file"]: 1}
+    kept = []
+    while words:
+        skip = drop.get(words[0], 0)
+        if not skip and not words[0].endswith("ccache"):
+            kept.append(words[0])
+        words = words[max(skip, 1):]
+    return kept
 
 
 def module_of(root, path):

@@ -3,6 +3,8 @@
 
 #include <snug/geometry/known_surface.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,10 @@ struct SurfaceSample
   /// @p surface, convex or not as the normals say.
   KnownSurface<dim> faced(KnownSurface<dim> surface) const;
 };
+
+/// (A + 1e-14 tr(A) I)^-1 for the matrix @p A of normal equations, which may be singular: what the
+/// points do not tell stays small. Zeros if A is zero or not finite.
+dealii::FullMatrix<double> inverse_of_squares(dealii::FullMatrix<double> A);
 
 /**
  * The sphere or, with a unit vector @p axis, the cylinder that fits the points best: least squares
