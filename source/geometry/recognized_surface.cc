@@ -23,7 +23,10 @@ dealii::Vector<double> smallest_eigenvector(const dealii::FullMatrix<double> &A)
   for (unsigned int turn = 0; turn < 30; ++turn)
     {
       inverse.vmult(next, x);
-      x.equ(1. / next.l2_norm(), next);
+      const double length = next.l2_norm();
+      if (!(length > 0.))
+        break;
+      x.equ(1. / length, next);
     }
   return x;
 }
@@ -159,7 +162,8 @@ KnownSurface<dim> polished(const SurfaceSample<dim> &sample, KnownSurface<dim> s
   const double       size = surface.kind == Kind<dim>::cone
                               ? surface.centre.distance(sample.points.front())
                               : surface.radius + surface.tube;
-  for (unsigned int turn = 0; turn < 20; ++turn)
+  // none from a start that failed
+  for (unsigned int turn = 0; turn < 20 && std::isfinite(sample.largest_distance(surface)); ++turn)
     {
       dealii::FullMatrix<double> J(sample.points.size(), n);
       dealii::Vector<double>     step(n), b(n);

@@ -174,3 +174,21 @@ TEST(SecondOrder, StraightElementsAreLeftAsTheyAre)
   body.imported         = mesh_file::import_mesh(replaced(vtk, "0.55 0 0", "0.6 0 0"), body, 2);
   EXPECT_TRUE(body.imported->flat->pieces.empty());
 }
+
+TEST(SecondOrder, OneRegionOfAFileHasTheMiddleNodesOfItsOwnCells)
+{
+  const std::string msh =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"left\"\n2 2 \"right\"\n"
+    "$EndPhysicalNames\n$Nodes\n13\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n6 1 0.5 0\n"
+    "7 0.5 1.2 0\n8 0 0.5 0\n9 2 0 0\n10 2 1 0\n11 1.5 0 0\n12 2 0.5 0\n13 1.5 0.9 0\n"
+    "$EndNodes\n$Elements\n2\n1 16 2 1 1 1 2 3 4 5 6 7 8\n2 16 2 2 2 2 9 10 3 11 12 13 6\n"
+    "$EndElements\n";
+  for (const auto &[region, top] : {std::pair("left", 1.2), std::pair("right", 0.9)})
+    {
+      auto body     = file_body();
+      body.regions  = {region};
+      body.imported = mesh_file::import_mesh(msh, body, 2);
+      EXPECT_NEAR(geometry::make_geometry<2>(body)->position({0, Point<2>(0.5, 1.)})[1], top, 1e-14)
+        << region;
+    }
+}
