@@ -30,8 +30,9 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
   if (r == 0)
     return;
   // The mean of diag A is of the size of A: a much smaller rho loses digits of A^+, a much larger
-  // one worsens the condition number. Neither changes A A^+ A = A.
-  const double                     rho = A.mean_diagonal();
+  // one worsens the condition number. Neither changes A A^+ A = A. A is zero, and any rho will do,
+  // where no row is left: bodies in one piece that nothing holds or touches.
+  const double                     mean = A.mean_diagonal(), rho = mean > 0. ? mean : 1.;
   dealii::LAPACKFullMatrix<double> N_f(n, r), N_f_transposed(r, n), gram(r, r), Q(n, n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < r; ++j)

@@ -119,6 +119,31 @@ TYPED_TEST(NoEquilibrium, NothingHoldsABodyThatNothingLoads)
     }
 }
 
+TYPED_TEST(NoEquilibrium, BodiesInOnePieceThatNothingTouches)
+{
+  // squeezed and apart: no row is left, neither of gluing nor of supports or contact
+  for (auto &body : this->scene.bodies)
+    {
+      body.supports.clear();
+      body.loads.clear();
+      for (const unsigned int side : {0, 1})
+        body.loads[face_index(0, side)].pressure = 10.;
+    }
+  const int up = TestFixture::dim - 1;
+  this->scene.bodies[0].corner[up] += 0.2;
+  this->scene.subdomains = 2;
+  for (const std::string method : {"active set", "SMALSE-M"})
+    {
+      this->scene.solver.method = method;
+      Problem<TestFixture::dim> problem(this->scene);
+      const auto                state = problem.solve();
+      EXPECT_EQ(state.active_contacts, 0u) << method;
+      EXPECT_EQ(state.free_bodies.size(), 2u) << method;
+      EXPECT_GT(state.strain_energy, 0.) << method;
+      EXPECT_NEAR(state.compliance, 2. * state.strain_energy, 1e-8 * state.compliance) << method;
+    }
+}
+
 TYPED_TEST(NoEquilibrium, LoadWithinTheContactIsCarried)
 {
   // the counterpart of Tipping: the resultant inside the contact
