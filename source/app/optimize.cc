@@ -200,7 +200,7 @@ void finish(Observer<dim> &observer, const OptimizationResult &result)
   gradient.f_mults             = evaluator.gradients.f_mults;
   gradient.seconds             = evaluator.gradients.seconds;
   gradient.values              = result.evaluation.gradient;
-  results.summary.optimization = {{result}, to_text(problem.scene.optimization.algorithm)};
+  results.summary.optimization = {{result}, to_text(result.algorithm)};
   print_end(problem, result, results.first(), states);
   measure_paired_anew(observer, result);
   results.write_summary();

@@ -3,12 +3,19 @@
 #include <snug/optimization/nlopt_answers.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace snug::optimization {
 namespace {
 /// NLopt may repeat a question for ever. More than SLSQP's six line
 /// searches of at most eleven designs before it gives up by itself.
 constexpr unsigned int max_idle_questions = 100;
+
+/// An algorithm that takes more evaluations than this for a gain crawls: of the objective by
+/// `gain`, or of the violation by half. MMA's separable models see no curvature across
+/// variables, and near a minimum of a peak it may need hundreds.
+constexpr unsigned int patience = 30;
+constexpr double       gain     = 0.01;
 } // namespace
 
 NloptAnswers::NloptAnswers(ScaledProblem                &the_problem,
@@ -199,10 +206,35 @@ void SlsqpAnswers::accept(const Progress::Point &point, const bool full)
     stop(reached);
 }
 
+void BetterDesigns::begin_run()
+{
+  NloptAnswers::begin_run();
+  milestone = progress.iterate();
+  reached   = problem.n_evaluations();
+}
+
 void BetterDesigns::asked(const std::vector<double> &, const Progress::Point &point, bool)
 {
   if (progress.is_better(*point, *progress.iterate()) &&
       progress.accept(point, true) == End::gradient)
     stop(End::gradient);
+  watch();
+}
+
+/// End a run that crawls.
+void BetterDesigns::watch()
+{
+  const auto  &best    = *progress.iterate();
+  const double f       = best.evaluation.objective;
+  const bool   is_gain = progress.is_feasible(*milestone)
+                           ? milestone->evaluation.objective - f > gain * std::abs(f)
+                           : progress.is_feasible(best) || best.violation < milestone->violation / 2.;
+  if (is_gain)
+    {
+      milestone = progress.iterate();
+      reached   = problem.n_evaluations();
+    }
+  else if (problem.n_evaluations() > reached + patience)
+    stop(End::round_off);
 }
 } // namespace snug::optimization

@@ -16,7 +16,7 @@ constexpr unsigned int max_round_off_starts = 5;
 /// Of the bound widths: out of a design at which a constraint has no gradient.
 constexpr double first_step = 1e-3;
 
-/// A projected gradient above this is no solution: NLopt could not leave the start.
+/// A projected gradient above this is no solution, whatever NLopt's tests say.
 constexpr double steep = 1e-2;
 
 /**
@@ -34,14 +34,17 @@ constexpr double steep = 1e-2;
  * constraints, so they are switched off. The other algorithms do not tell
  * their iterations: each design that is better than all before counts as
  * accepted, NLopt's tests end the search with the same tolerances, and a
- * design that violates the constraints is no success.
+ * design that violates the constraints is no success. They are of first order:
+ * where they crawl, or end at a design with a large projected gradient, SLSQP goes on.
  *
  * NLopt has no value for "this design cannot be solved" (NaN, infinity and
  * penalties all mislead it). Such a design ends NLopt's run; a new one
  * begins at the last accepted design, its moves limited to half the move
  * that failed, and is re-centred as long as it ends at such a limit. After
  * five failures in a row without a gain the search ends. When NLopt ends by round-off, it is
- * begun again as long as that gains anything.
+ * begun again as long as that gains anything; where it ends so at a design that violates the
+ * constraints, as in a kink beyond a hump of one of them, though it has met some that do not,
+ * the best of these is begun from as after a failure.
  *
  * Where a constraint that holds the start has no gradient there, as that
  * of the volume of a symmetric body, NLopt would not leave it: its models
@@ -63,6 +66,7 @@ public:
   OptimizationResult run();
 
 private:
+  void       use(Algorithm algorithm);
   nlopt::opt make_optimizer() const;
   void       step_off_blind_start();
 
@@ -71,10 +75,10 @@ private:
   void descend();
   void ask_nlopt();
   bool begins_again();
-  void shrink();
+  bool steps_back(const std::string &why);
   bool is_at_move_limit() const;
 
-  const Algorithm               algorithm;
+  Algorithm                     algorithm;
   const OptimizationParameters &parameters;
   const Hooks                  &hooks;
   ScaledProblem                 problem;
@@ -100,6 +104,12 @@ Search::Search(const DesignProblem          &design_problem,
   if (!takes_equalities(algorithm) &&
       std::count(relations.begin(), relations.end(), Relation::equal) > 0)
     throw InputError(to_text(algorithm) + " takes no equality constraints");
+  use(algorithm);
+}
+
+void Search::use(const Algorithm the_algorithm)
+{
+  algorithm = the_algorithm;
   if (algorithm == Algorithm::SLSQP)
     answers = std::make_unique<SlsqpAnswers>(problem, progress, parameters);
   else
@@ -120,7 +130,9 @@ OptimizationResult Search::run()
     }
   catch (const Interrupted &)
     {
-      return progress.finish(End::interrupted, "");
+      auto result      = progress.finish(End::interrupted, "");
+      result.algorithm = algorithm;
+      return result;
     }
 }
 
@@ -128,7 +140,8 @@ OptimizationResult Search::run()
 /// the constraint is an equality, that start may be the only design that meets it.
 OptimizationResult Search::result()
 {
-  auto result = progress.finish(answers->end, answers->failure);
+  auto result      = progress.finish(answers->end, answers->failure);
+  result.algorithm = algorithm;
   if (!problem.is_blind(*problem.start()) || result.projected_gradient <= steep)
     return result;
   double move = 0.;
@@ -136,8 +149,10 @@ OptimizationResult Search::result()
     move = std::max(move, std::abs(y));
   if (move > first_step)
     return result;
-  result.success     = false;
-  result.stop_reason = "a constraint without a gradient at the first design";
+  result.success = false;
+  result.stop_reason =
+    "a constraint without a gradient at the first design, near which no other was found to meet "
+    "it: begin elsewhere, by 'Initial' of the shape, or hold it by <= or >=";
   return result;
 }
 
@@ -217,10 +232,10 @@ void Search::ask_nlopt()
   double f = 0.;
   try
     {
-      const auto why = optimizer.optimize(y, f);
-      const bool is_stuck =
-        progress.n_iterations() == 0 && problem.projected_gradient(*problem.start()) > steep;
-      if (algorithm != Algorithm::SLSQP && progress.is_feasible(*progress.iterate()) && !is_stuck)
+      const auto  why   = optimizer.optimize(y, f);
+      const auto &found = *progress.iterate();
+      const bool is_end = progress.is_feasible(found) && problem.projected_gradient(found) <= steep;
+      if (algorithm != Algorithm::SLSQP && is_end)
         answers->end = why == nlopt::FTOL_REACHED   ? End::objective
                        : why == nlopt::XTOL_REACHED ? End::design
                                                     : End::round_off;
@@ -242,14 +257,7 @@ bool Search::begins_again()
   switch (answers->end)
     {
       case End::no_value:
-        // a run that has gained is worth as many more
-        if (progress.has_gained())
-          failures = 0;
-        if (failures == max_failures)
-          return false;
-        ++failures;
-        shrink();
-        return true;
+        return steps_back("design without a value (" + answers->failure + ")");
       case End::objective:
       case End::design:
         if (!is_at_move_limit())
@@ -257,6 +265,17 @@ bool Search::begins_again()
         centre = progress.iterate()->y;
         return true;
       case End::round_off:
+        if (algorithm != Algorithm::SLSQP)
+          {
+            if (hooks.log)
+              hooks.log(to_text(algorithm) + " makes no progress: SLSQP goes on from iteration " +
+                        std::to_string(progress.n_iterations()));
+            centre = progress.iterate()->y;
+            use(Algorithm::SLSQP);
+            return true;
+          }
+        if (progress.return_to_feasible(answers->failed_design))
+          return steps_back("stuck at a design that violates a constraint");
         if (!progress.has_gained() || round_off_starts == max_round_off_starts)
           return false;
         ++round_off_starts;
@@ -275,21 +294,27 @@ bool Search::begins_again()
   return false;
 }
 
-/// Limit the moves to half the one that led to a design without value.
-void Search::shrink()
+/// Limit the moves to half the one that led to a design without a value. Back from a design that
+/// violates the constraints, where many steps may have led, to less.
+bool Search::steps_back(const std::string &why)
 {
+  // a run that has gained is worth as many more
+  if (progress.has_gained())
+    failures = 0;
+  if (failures == max_failures)
+    return false;
+  ++failures;
   centre      = progress.iterate()->y;
   double move = 0.;
   for (unsigned int i = 0; i < centre.size(); ++i)
     move = std::max(move, std::abs(answers->failed_design[i] - centre[i]));
-  reach = move / 2.;
-  if (!hooks.log)
-    return;
+  reach = answers->end == End::no_value ? move / 2. : std::min(reach, move) / 8.;
   std::ostringstream line;
-  line << "design without a value (" << answers->failure << "): restart " << failures << " of "
-       << max_failures << " from iteration " << progress.n_iterations() << ", moves limited to "
-       << reach << " of the bound widths";
-  hooks.log(line.str());
+  line << why << ": restart " << failures << " of " << max_failures << " from iteration "
+       << progress.n_iterations() << ", moves limited to " << reach << " of the bound widths";
+  if (hooks.log)
+    hooks.log(line.str());
+  return true;
 }
 
 bool Search::is_at_move_limit() const

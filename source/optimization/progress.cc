@@ -73,6 +73,15 @@ End Progress::accept(const Point &point, const bool full)
   return is_stuck ? End::round_off : by_objective ? End::objective : End::design;
 }
 
+bool Progress::return_to_feasible(std::vector<double> &left)
+{
+  if (is_feasible(*last) || !is_feasible(*best))
+    return false;
+  left = last->y;
+  accept(best, true);
+  return true;
+}
+
 void Progress::report() const
 {
   if (!hooks.on_iteration)

@@ -65,9 +65,10 @@ enum class End
 struct OptimizationResult
 {
   std::vector<double> x;
-  Evaluation          evaluation;               ///< at x
-  unsigned int        iterations           = 0; ///< accepted designs after the start
-  unsigned int        evaluations          = 0; ///< calls of the design problem
+  Algorithm           algorithm = Algorithm::SLSQP; ///< that finished
+  Evaluation          evaluation;                   ///< at x
+  unsigned int        iterations           = 0;     ///< accepted designs after the start
+  unsigned int        evaluations          = 0;     ///< calls of the design problem
   double              objective_initial    = 0.;
   double              objective_final      = 0.;
   double              constraint_violation = 0.; ///< as in Iteration
@@ -75,7 +76,7 @@ struct OptimizationResult
   End                 end                  = End::none;
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
-  /// "interrupted", "a constraint without a gradient at the first design"
+  /// "interrupted", "a constraint without a gradient at the first design..."
   /// (where the search came back to it) or "restarts exhausted (...)" with what the last design
   /// without a value lacked
   std::string stop_reason;

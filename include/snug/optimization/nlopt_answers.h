@@ -46,7 +46,8 @@ protected:
 
   [[noreturn]] void stop(End reason);
 
-  Progress &progress;
+  Progress      &progress;
+  ScaledProblem &problem;
 
 private:
   double          objective(const double *y, double *gradient);
@@ -64,7 +65,6 @@ private:
                                double       *jacobian,
                                void         *answers);
 
-  ScaledProblem                &problem;
   const OptimizationParameters &parameters;
   unsigned int                  n_variables;
   unsigned int                  idle_questions = 0; ///< answered by known values
@@ -97,15 +97,21 @@ private:
 };
 
 /// Those of other algorithms: a design better than the last accepted one
-/// is accepted.
+/// is accepted. Where that gains little for many evaluations, the run ends by round-off.
 class BetterDesigns : public NloptAnswers
 {
 public:
   using NloptAnswers::NloptAnswers;
 
+  void begin_run() override;
+
 private:
   void
   asked(const std::vector<double> &y, const Progress::Point &point, bool with_gradient) override;
+  void watch();
+
+  Progress::Point milestone; ///< the last design that was a gain, accepted
+  unsigned int    reached;   ///< by so many evaluations
 };
 } // namespace snug::optimization
 

@@ -34,6 +34,10 @@ public:
    */
   End accept(const Point &point, bool full);
 
+  /// Where the last accepted design violates the constraints, and the best one does not, accept
+  /// that. @return whether it was so; @p left is the y that was left.
+  bool return_to_feasible(std::vector<double> &left);
+
   /// Call the hook with the last accepted design.
   void report() const;
 

@@ -179,6 +179,35 @@ TEST(Algorithms, NoSuccessAtAStartThatCannotBeLeft)
     }
 }
 
+/// A narrow valley across the axes, which separable models see badly.
+TEST(Algorithms, EndByATolerance)
+{
+  for (const Relation relation : {Relation::at_most, Relation::equal})
+    {
+      auto problem     = blind({0.6, 0.1}, -1., -1., relation);
+      problem.start    = {-0.5, 0.5};
+      problem.evaluate = [inner = problem.evaluate](const std::vector<double> &x) {
+        auto         value = inner(x);
+        const double along = x[0] - 0.6 + x[1] - 0.1, across = x[0] - 0.6 - x[1] + 0.1;
+        value.objective   = 10. + (along * along + 1e4 * across * across) / 2.;
+        value.gradient    = {along + 1e4 * across, along - 1e4 * across};
+        value.constraints = {x[0] + 2. * x[1] - 0.8};
+        value.jacobian    = {{1., 2.}};
+        return value;
+      };
+      for (const Algorithm algorithm : all)
+        {
+          if (relation == Relation::equal && !takes_equalities(algorithm))
+            continue;
+          OptimizationParameters parameters;
+          parameters.algorithm = algorithm;
+          const auto result    = minimize(problem, parameters);
+          EXPECT_TRUE(result.success) << to_text(algorithm) << ": " << result.stop_reason;
+          EXPECT_LT(distance(result.x, {0.6, 0.1}), 1e-3) << to_text(algorithm);
+        }
+    }
+}
+
 /// x^2 + y^2 = 0 holds at the start alone.
 TEST(Algorithms, NoSuccessWhereOnlyTheStartMeetsAnEquality)
 {

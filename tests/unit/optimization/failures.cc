@@ -101,6 +101,29 @@ TEST(SlsqpFailures, TheDesignFoundIsAlwaysOneOfTheIterations)
     }
 }
 
+/// Beyond a hump of the constraint is a kink, above the limit, that the first step ends in.
+TEST(SlsqpFailures, StepsBackFromKinksThatViolateTheConstraints)
+{
+  DesignProblem problem;
+  problem.lower             = {0.};
+  problem.upper             = {10.};
+  problem.start             = {0.01};
+  problem.relations         = {Relation::at_most};
+  problem.constraint_scales = {1.};
+  problem.evaluate          = [](const std::vector<double> &x) {
+    Evaluation   value;
+    const double kink = x[0] - 6.;
+    value.objective   = 20. - x[0];
+    value.gradient    = {-1.};
+    value.constraints = {x[0] < 2. ? x[0] * x[0] - 0.25 : 0.5 + 0.8125 * std::abs(kink)};
+    value.jacobian    = {{x[0] < 2. ? 2. * x[0] : std::copysign(0.8125, kink)}};
+    return value;
+  };
+  const auto result = minimize(problem, tight());
+  EXPECT_TRUE(result.success) << result.stop_reason;
+  EXPECT_NEAR(result.x[0], 0.5, 1e-6);
+}
+
 TEST(SlsqpFailures, AStartWithoutValueIsTheCallersError)
 {
   auto problem = with_hole(rosenbrock_on_circle(), -10., 10.);
