@@ -213,6 +213,28 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
     }
 }
 
+/// Bodies share no vertices, so that one which is refined further does not refine another.
+template <int dim>
+std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+{
+  std::vector<double> n_cells(scene.bodies.size(), 0.);
+  for (const auto &cell : mesh.cells())
+    n_cells[cell.body] += 1.;
+  dealii::Utilities::MPI::sum(n_cells, mesh.communicator(), n_cells);
+  std::vector<std::string> lines;
+  for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+    {
+      const auto  &body = scene.bodies[b];
+      const double even =
+        mesh.geometry(b).n_coarse_cells() * std::pow(2., double(dim) * body.mesh.refinements);
+      if (!body.mesh.refine_where.empty() && body.mesh.local_refinements > 0 && n_cells[b] == even)
+        lines.push_back("'Refine where' of body " + body.name +
+                        " is positive at the centre of none of its " + to_text(n_cells[b]) +
+                        " cells: none is refined; 'Refinements' make them smaller first");
+    }
+  return lines;
+}
+
 void print_import_notes(const scene::Scene &scene, std::ostream &out)
 {
   for (const auto &body : scene.bodies)
@@ -221,10 +243,12 @@ void print_import_notes(const scene::Scene &scene, std::ostream &out)
         out << "body " << body.name << ", " << body.mesh.file << ": " << note << '\n';
 }
 
-template Inventory<2> take_inventory(const scene::Scene &, const mesh::BodyMesh<2> &);
-template void         print(const Inventory<2> &, std::ostream &);
-template void         check_distances(const scene::Scene &, const mesh::BodyMesh<2> &);
-template Inventory<3> take_inventory(const scene::Scene &, const mesh::BodyMesh<3> &);
-template void         print(const Inventory<3> &, std::ostream &);
-template void         check_distances(const scene::Scene &, const mesh::BodyMesh<3> &);
+template Inventory<2>             take_inventory(const scene::Scene &, const mesh::BodyMesh<2> &);
+template void                     print(const Inventory<2> &, std::ostream &);
+template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<2> &);
+template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<2> &);
+template Inventory<3>             take_inventory(const scene::Scene &, const mesh::BodyMesh<3> &);
+template void                     print(const Inventory<3> &, std::ostream &);
+template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<3> &);
+template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<3> &);
 } // namespace snug::app

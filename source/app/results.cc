@@ -1,5 +1,6 @@
 #include <snug/app/inventory.h>
 #include <snug/app/results.h>
+#include <snug/contact/pair_geometry.h>
 #include <snug/io/shape_export.h>
 #include <snug/state/assumptions.h>
 
@@ -40,23 +41,49 @@ void Results<dim>::print_header()
       << solver.gluing().n_rows() << " dual rows, " << problem.shapes->n_variables()
       << " design variables, " << problem.context.n_ranks() << " ranks" << std::endl;
   print_import_notes(problem.scene, out);
-  const auto               &pairs = solver.contact().pairs();
+  print_pairs();
+  warn(unrefined(problem.scene, *problem.mesh));
+  warn(state::matching_warnings(solver.contact().pairs(), solver.contact().matchings()));
+  warn(state::overlap_warnings(solver.contact().pairs(), solver.contact().paired_gaps()));
+}
+
+template <int dim>
+void Results<dim>::print_pairs() const
+{
+  auto                     &out     = problem.context.out();
+  const auto               &contact = problem.solver->contact();
+  const auto               &surface = problem.solver->surface();
+  const auto               &pairs   = contact.pairs();
   std::vector<unsigned int> rows(pairs.size(), 0);
-  for (const auto &place : solver.contact().places())
+  for (const auto &place : contact.places())
     ++rows[place.pair];
+  const faces::FaceShape<dim> shape(problem.mesh->degree());
+  const auto                  print_side = [&](const contact::Pair::Side &side) {
+    const auto   kind = problem.mesh->geometry(side.first).boundary_shape(side.second);
+    const double height = std::max(kind.facet_height, contact::face_height(surface, shape, side));
+    out << kind.name;
+    if (height > 0.)
+      out << ", faces " << height << " off";
+  };
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {
       out << "contact " << pairs[p].name() << ", ";
-      const auto &matching = solver.contact().matchings()[p];
+      const auto &matching = contact.matchings()[p];
       if (pairs[p].obstacle)
         out << "obstacle";
       else
         out << to_text(*pairs[p].parameters.method) << ", " << matching.n_matching << " of "
             << matching.n_nodes << " slave nodes meet master nodes";
-      out << ", " << rows[p] << " rows" << std::endl;
+      out << ", " << rows[p] << " rows, gaps from " << contact.paired_gaps()[p].least << " to "
+          << contact.paired_gaps()[p].largest << "\n  " << pairs[p].slave_name << ": ";
+      print_side(pairs[p].slave);
+      out << "; " << pairs[p].master_name << ": ";
+      if (pairs[p].obstacle)
+        out << pairs[p].obstacle->shape;
+      else
+        print_side(pairs[p].master);
+      out << std::endl;
     }
-  warn(state::matching_warnings(pairs, solver.contact().matchings()));
-  warn(state::overlap_warnings(pairs, solver.contact().overlaps()));
 }
 
 template <int dim>
@@ -78,6 +105,10 @@ void Results<dim>::warn(const States &states)
       warn(state::warnings(state.assumptions));
       warn(state.free_bodies);
     }
+  if (std::all_of(states.begin(), states.end(),
+                  [](const auto &state) { return state.assumptions.displacement == 0.; }))
+    warn({"nothing moves: no force, pressure, moment or weight, no prescribed displacement and no "
+          "overlap in any load case"});
 }
 
 template <int dim>

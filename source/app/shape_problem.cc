@@ -29,7 +29,7 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
                                                      positions(shapes->start()), context);
   });
   made_of(scene, [&]() {
-    state::check_overlaps(solver->contact().pairs(), solver->contact().overlaps());
+    state::check_overlaps(solver->contact().pairs(), solver->contact().paired_gaps());
   });
   objective = make_response(scene.optimization.objective);
   for (const auto &response : scene.responses)

@@ -129,6 +129,8 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   auto mesh = timed_mesh<dim>(context, scene);
   print_import_notes(scene, context.out());
   print(take_inventory(scene, *mesh), context.out());
+  for (const auto &line : unrefined(scene, *mesh))
+    context.out() << "warning: " << line << '\n';
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
   const auto              positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.

@@ -160,14 +160,21 @@ void Contact<dim>::measure_pairing(const Field &positions)
   const auto paired = rows(positions);
   const auto sizes  = node_face_sizes(surface, positions);
   paired_offsets.clear();
-  deepest.assign(groups.size(), {});
+  gaps.assign(groups.size(), {});
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
+      const auto &[p, slave] = row_places[i];
       paired_offsets.push_back(slave_minus_master(paired[i], positions));
-      Overlap &depth = deepest[row_places[i].pair];
-      // A negative gap is an overlap.
-      depth.length = std::max(depth.length, -paired[i].gap);
-      depth.faces  = std::max(depth.faces, -paired[i].gap / sizes[row_places[i].slave]);
+      double gap = paired[i].gap;
+      // An obstacle that moves into a body is a load, not a body at the wrong place.
+      if (chosen[p].obstacle)
+        {
+          const dealii::Tensor<1, dim> motion = to_point<dim>(chosen[p].obstacle->displacement);
+          gap -= paired[i].normal * motion;
+        }
+      gaps[p].least   = std::min(gaps[p].least, gap);
+      gaps[p].largest = std::max(gaps[p].largest, gap);
+      gaps[p].overlap = std::max(gaps[p].overlap, -gap / sizes[slave]);
     }
 }
 

@@ -35,6 +35,25 @@ double mean_face_size(const mesh::Surface<dim>                 &surface,
 }
 
 template <int dim>
+double face_height(const mesh::Surface<dim>    &surface,
+                   const faces::FaceShape<dim> &shape,
+                   const Pair::Side            &side)
+{
+  const auto &X       = surface.reference_positions();
+  double      largest = 0.;
+  for (const auto &face : surface.faces())
+    if (Pair::Side(face.body, face.boundary) == side)
+      for (unsigned int k = 0; k < face.samples.size(); ++k)
+        {
+          auto offset = X[face.samples[k]];
+          for (unsigned int a = 0; a < face.nodes.size(); ++a)
+            offset -= shape.at_sample(k).value[a] * X[face.nodes[a]];
+          largest = std::max(largest, offset.norm());
+        }
+  return largest;
+}
+
+template <int dim>
 std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &surface,
                                     const typename mesh::Surface<dim>::Field &positions)
 {
@@ -62,6 +81,8 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
 #define SNUG_INSTANTIATE(dim)                                                                   \
   template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
                                  const mesh::Surface<dim>::Field &);                            \
+  template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,        \
+                              const Pair::Side &);                                              \
   template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                      \
                                                const mesh::Surface<dim>::Field &);              \
   template struct PairGeometry<dim>;                                                            \

@@ -59,6 +59,7 @@ void set_known(BlockMesh<dim> &mesh, const unsigned int index, const KnownSurfac
     if (face.second == index)
       mesh.known[face.first] = mesh.known_surfaces.size();
   mesh.known_surfaces.push_back(surface);
+  mesh.shapes[index].name = surface.name();
 }
 
 template <int dim>

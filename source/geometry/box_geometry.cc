@@ -103,6 +103,14 @@ public:
     return this->no_surface;
   }
 
+  BoundaryShape boundary_shape(unsigned int boundary) const override
+  {
+    for (const auto &face : curved_faces)
+      if (face.boundary() == boundary)
+        return {face.known() ? face.known()->name() : "formula"};
+    return {};
+  }
+
 private:
   using GridGeometry<dim>::cells;
   std::array<double, dim>      corner, size;

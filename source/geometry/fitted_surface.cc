@@ -136,20 +136,13 @@ std::string describe(const KnownSurface<dim> &surface)
 {
   using Kind = typename KnownSurface<dim>::Kind;
   std::ostringstream text;
-  switch (surface.kind)
-    {
-      case Kind::sphere:
-        text << (dim == 2 ? "circle" : "sphere") << " of radius " << surface.radius;
-        break;
-      case Kind::cylinder:
-        text << "cylinder of radius " << surface.radius;
-        break;
-      case Kind::cone:
-        text << "cone of " << surface.angle * 180. / M_PI << " degrees to its axis";
-        break;
-      case Kind::torus:
-        text << "torus of radii " << surface.radius << " and " << surface.tube;
-    }
+  text << surface.name() << " of ";
+  if (surface.kind == Kind::cone)
+    text << surface.angle * 180. / M_PI << " degrees to its axis";
+  else if (surface.kind == Kind::torus)
+    text << "radii " << surface.radius << " and " << surface.tube;
+  else
+    text << "radius " << surface.radius;
   return text.str();
 }
 

@@ -4,6 +4,23 @@
 
 namespace snug::geometry {
 template <int dim>
+std::string KnownSurface<dim>::name() const
+{
+  switch (kind)
+    {
+      case Kind::cylinder:
+        return "cylinder";
+      case Kind::cone:
+        return "cone";
+      case Kind::torus:
+        return "torus";
+      case Kind::sphere:
+        break;
+    }
+  return dim == 2 ? "circle" : "sphere";
+}
+
+template <int dim>
 typename KnownSurface<dim>::Vector KnownSurface<dim>::lever(const Point &x) const
 {
   Vector r = x - centre;

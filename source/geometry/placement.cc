@@ -101,6 +101,12 @@ public:
     return warp.empty() ? this->body->known_surface(coarse_cell, face) : this->no_surface;
   }
 
+  BoundaryShape boundary_shape(unsigned int boundary) const override
+  {
+    const auto shape = this->body->boundary_shape(boundary);
+    return {(warp.empty() ? "" : "warped ") + shape.name, scale * shape.facet_height};
+  }
+
   // Interiors follow faces by lengths in the frame, so it is placed like the body.
   Point box_position(const Point &fraction) const override
   {

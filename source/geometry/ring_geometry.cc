@@ -114,6 +114,13 @@ public:
     return face / 2 == dim - 2 && this->at_side(coarse_cell, face) ? face % 2 : this->no_surface;
   }
 
+  BoundaryShape boundary_shape(unsigned int boundary) const override
+  {
+    if (boundary / 2 == dim - 2)
+      return {known_surfaces()[boundary % 2].name()};
+    return {};
+  }
+
 private:
   double inner, outer, length, angle;
 };

@@ -238,6 +238,7 @@ private:
     BodySurface<dim> surface({mesh.vertices.begin(), mesh.vertices.begin() + file.points.size()},
                              middles(), facets(), whole);
     const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes);
+    mesh.shapes = shapes.of_boundaries();
     curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
   }
 

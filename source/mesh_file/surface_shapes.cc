@@ -64,6 +64,7 @@ SurfaceShapes<dim>::SurfaceShapes(BodySurface<dim>                   &the_surfac
   read_entries();
   for (const auto &part : surface.parts)
     shapes.push_back(shape_of(part));
+  name_boundaries();
   move_nodes();
 }
 
@@ -191,6 +192,62 @@ double SurfaceShapes<dim>::largest_kink(const std::vector<unsigned int> &part) c
       if (!surface.ridges.at(ridge).is_feature)
         largest = std::max(largest, surface.kink(ridge));
   return largest;
+}
+
+/// The arc through the centres of two facets that turn by an angle t rises above each of these by
+/// t/8 of their distance.
+template <int dim>
+double SurfaceShapes<dim>::facet_height(const std::vector<unsigned int> &part) const
+{
+  double largest = 0.;
+  for (const unsigned int f : part)
+    for (const Corners &ridge : surface.ridges_of(f))
+      {
+        const auto &at = surface.ridges.at(ridge);
+        if (at.is_feature)
+          continue;
+        const unsigned int a = at.facets[0], b = at.facets[1];
+        const double       turn =
+          2. * std::asin(std::min(1., (surface.normal(a) - surface.normal(b)).norm() / 2.));
+        largest = std::max(largest, turn / 8. * surface.centre(a).distance(surface.centre(b)));
+      }
+  return largest;
+}
+
+template <int dim>
+void SurfaceShapes<dim>::name_boundaries()
+{
+  std::map<unsigned int, std::set<std::string>> found;
+  for (unsigned int p = 0; p < shapes.size(); ++p)
+    {
+      const unsigned int boundary = surface.facets[surface.parts[p][0]].boundary;
+      switch (shapes[p].kind)
+        {
+          case Kind::plane:
+            found[boundary].insert("plane");
+            break;
+          case Kind::known:
+            found[boundary].insert(surfaces[shapes[p].known_index].name());
+            break;
+          case Kind::quadratic:
+            found[boundary].insert("quadratic elements");
+            break;
+          case Kind::smooth:
+            found[boundary].insert("smooth");
+            break;
+          case Kind::facets:
+            found[boundary].insert("facets");
+            double &height = boundary_shapes[boundary].facet_height;
+            height         = std::max(height, facet_height(surface.parts[p]));
+        }
+    }
+  for (const auto &[boundary, kinds] : found)
+    {
+      std::string &name = boundary_shapes[boundary].name;
+      name.clear();
+      for (const auto &kind : kinds)
+        name += (name.empty() ? "" : " and ") + kind;
+    }
 }
 
 template <int dim>

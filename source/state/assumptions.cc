@@ -83,6 +83,44 @@ double contact_width(const StateSolver<dim>                   &solver,
     }
   return at_support * (upper - lower) / size + 1.;
 }
+
+/// Of nodes that meet, gaps and normals have no facets between them.
+template <int dim>
+double seen_facets(const StateSolver<dim> &solver, const unsigned int p)
+{
+  const contact::Pair &pair = solver.contact().pairs()[p];
+  if (pair.obstacle || (pair.parameters.method == contact::Method::nodal &&
+                        solver.contact().matchings()[p].complete()))
+    return 0.;
+  const auto height = [&](const contact::Pair::Side &side) {
+    return solver.mesh().geometry(side.first).boundary_shape(side.second).facet_height;
+  };
+  return std::max(height(pair.slave), height(pair.master));
+}
+
+template <int dim>
+void assess_facets(const StateSolver<dim>               &solver,
+                   const std::vector<contact::Row<dim>> &contact_rows,
+                   const ContactState<dim>              &state,
+                   Assumptions                          &result)
+{
+  std::vector<double> closed(solver.contact().pairs().size(), 0.);
+  for (unsigned int i = 0; i < contact_rows.size(); ++i)
+    if (state.contact[i].strong)
+      {
+        double &largest = closed[solver.contact().places()[i].pair];
+        largest         = std::max(largest, std::abs(contact_rows[i].gap));
+      }
+  for (unsigned int p = 0; p < closed.size(); ++p)
+    {
+      const double height = seen_facets(solver, p);
+      if (closed[p] > 0. && height * result.closed_gap >= result.facet_height * closed[p])
+        {
+          result.facet_height = height;
+          result.closed_gap   = closed[p];
+        }
+    }
+}
 } // namespace
 
 template <int dim>
@@ -102,9 +140,11 @@ Assumptions assess(const StateSolver<dim>               &solver,
         result.strain   = std::max(result.strain, part(1.));
         result.rotation = std::max(result.rotation, part(-1.) / std::sqrt(2.));
       }
+  for (const auto &u : state.displacement)
+    result.displacement = std::max(result.displacement, u.norm());
   const MPI_Comm comm = solver.context().communicator();
-  result.strain       = dealii::Utilities::MPI::max(result.strain, comm);
-  result.rotation     = dealii::Utilities::MPI::max(result.rotation, comm);
+  for (double *of_rank : {&result.strain, &result.rotation, &result.displacement})
+    *of_rank = dealii::Utilities::MPI::max(*of_rank, comm);
 
   const auto &surface = solver.surface();
   const auto  x       = surface.gather(state.positions);
@@ -121,6 +161,7 @@ Assumptions assess(const StateSolver<dim>               &solver,
   const auto sizes = contact::node_face_sizes(surface, x);
   for (unsigned int pair = 0; pair < solver.contact().pairs().size(); ++pair)
     result.width = std::min(result.width, contact_width(solver, pair, state, x, sizes));
+  assess_facets(solver, contact_rows, state, result);
   return result;
 }
 
@@ -147,41 +188,49 @@ std::vector<std::string> warnings(const Assumptions &assumptions)
            << " faces wide: its pressures need finer meshes there, of 8 faces or more";
       lines.push_back(text.str());
     }
+  if (assumptions.facet_height > large_facets * assumptions.closed_gap)
+    {
+      std::ostringstream text;
+      text.precision(2);
+      text << "facets that contact sees are " << assumptions.facet_height
+           << " high, but the largest gap or overlap it closes is " << assumptions.closed_gap
+           << ": pressures follow the facets; see 'Surface', or take a finer mesh file";
+      lines.push_back(text.str());
+    }
   return lines;
 }
 
 namespace {
 /// ", 0.3 of a face"
-std::string of_a_face(const contact::Overlap &overlap)
+std::string of_a_face(const contact::PairedGaps &gaps)
 {
   std::ostringstream text;
   text.precision(2);
-  text << ", " << overlap.faces << " of a face";
+  text << ", " << gaps.overlap << " of a face";
   return text.str();
 }
 } // namespace
 
-void check_overlaps(const std::vector<contact::Pair>    &pairs,
-                    const std::vector<contact::Overlap> &overlaps)
+void check_overlaps(const std::vector<contact::Pair>       &pairs,
+                    const std::vector<contact::PairedGaps> &gaps)
 {
   for (unsigned int p = 0; p < pairs.size(); ++p)
-    // Overlaps are replicated like all contact data: all ranks throw, or none.
-    if (overlaps[p].faces > absurd_overlap && !pairs[p].parameters.interference)
+    // Gaps are replicated like all contact data: all ranks throw, or none.
+    if (gaps[p].overlap > absurd_overlap && !pairs[p].parameters.interference)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
-                      line("the sides overlap at first by", overlaps[p].length,
-                           of_a_face(overlaps[p]),
+                      line("the sides overlap at first by", -gaps[p].least, of_a_face(gaps[p]),
                            ": if they are the right ones, set the pair's "
                            "'Interference'"));
 }
 
-std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>    &pairs,
-                                          const std::vector<contact::Overlap> &overlaps)
+std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>       &pairs,
+                                          const std::vector<contact::PairedGaps> &gaps)
 {
   std::vector<std::string> lines;
   for (unsigned int p = 0; p < pairs.size(); ++p)
-    if (overlaps[p].faces > large_overlap && !pairs[p].parameters.interference)
-      lines.push_back(line("'" + pairs[p].name() + "' overlaps at first by", overlaps[p].length,
-                           of_a_face(overlaps[p]), ": if that is wanted, set its 'Interference'"));
+    if (gaps[p].overlap > large_overlap && !pairs[p].parameters.interference)
+      lines.push_back(line("'" + pairs[p].name() + "' overlaps at first by", -gaps[p].least,
+                           of_a_face(gaps[p]), ": if that is wanted, set its 'Interference'"));
   return lines;
 }
 

@@ -213,6 +213,9 @@ def check_good(runner, scene):
         if not (results / name).is_file():
             runner.failed += 1
             print(f"FAILED a state: leaves no {name}")
+    runner.expect_success("a state without a load", [
+        scene, "--output", results, "--set", "Task=state",
+        "--set", "Body upper/Pressure="], "warning: nothing moves")
     check_pictures(runner, scene)
     runner.expect_success("what was read reads again",
                           ["--validate", results / "parameters.prm"])

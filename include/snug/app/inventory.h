@@ -59,6 +59,10 @@ void print(const Inventory<dim> &inventory, std::ostream &out);
 template <int dim>
 void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
+/// One line for each body whose 'Refine where' catches no cell. Collective.
+template <int dim>
+std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
 /// One line for each body whose mesh file was changed on reading.
 void print_import_notes(const scene::Scene &scene, std::ostream &out);
 } // namespace snug::app

@@ -83,6 +83,8 @@ private:
   double                          drawn = 0.; ///< the time drawn last
   std::vector<std::string>        warnings;
   std::vector<io::Summary::State> first_states; ///< per load case
+
+  void print_pairs() const;
 };
 } // namespace snug::app
 

@@ -5,6 +5,8 @@
 #include <snug/contact/row_group.h>
 #include <snug/geometry/formula.h>
 
+#include <limits>
+
 namespace snug::contact {
 /// Where a row stands.
 struct RowPlace
@@ -13,11 +15,12 @@ struct RowPlace
   unsigned int slave; ///< surface node
 };
 
-/// How deep slave nodes lie in the master.
-struct Overlap
+/// The gaps of a pair, without the motion of an obstacle.
+struct PairedGaps
 {
-  double length = 0.; ///< [length]
-  double faces  = 0.; ///< as a part of the slave node's largest face
+  double least   = std::numeric_limits<double>::infinity();  ///< below 0: an overlap [length]
+  double largest = -std::numeric_limits<double>::infinity(); ///< [length]
+  double overlap = 0.; ///< the deepest as a part of the slave node's largest face
 };
 
 /**
@@ -78,8 +81,8 @@ public:
   /// How far slave nodes have moved along the master off the points they
   /// were paired with; 0 for obstacles, whose points follow.
   std::vector<double> drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
-  /// The deepest overlap of each pair where it was paired.
-  const std::vector<Overlap> &overlaps() const { return deepest; }
+  /// Of each pair where it was paired.
+  const std::vector<PairedGaps> &paired_gaps() const { return gaps; }
   /// @}
 
 private:
@@ -99,7 +102,7 @@ private:
   std::vector<RowPlace>       row_places;
   std::vector<SharedNode>     shared;
   Field                       paired_offsets; ///< of each row, when paired
-  std::vector<Overlap>        deepest;        ///< of each pair, when paired
+  std::vector<PairedGaps>     gaps;           ///< of each pair, when paired
 
   void  collect_shared_nodes();
   void  measure_pairing(const Field &positions);

@@ -14,6 +14,12 @@ double mean_face_size(const mesh::Surface<dim>                 &surface,
                       const std::vector<unsigned int>          &faces,
                       const typename mesh::Surface<dim>::Field &positions);
 
+/// How far the true surface of @p side lies off its faces at most, at the reference [length].
+template <int dim>
+double face_height(const mesh::Surface<dim>    &surface,
+                   const faces::FaceShape<dim> &shape,
+                   const Pair::Side            &side);
+
 /// The two sides of a pair: indices of surface faces.
 struct PairFaces
 {

@@ -40,6 +40,12 @@ public:
 
   unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override;
 
+  BoundaryShape boundary_shape(unsigned int boundary) const override
+  {
+    const auto found = mesh->shapes.find(boundary);
+    return found == mesh->shapes.end() ? BoundaryShape() : found->second;
+  }
+
   dealii::Point<dim> position(const MeshPoint<dim> &point) const override;
 
   dealii::Point<dim> logical(const MeshPoint<dim> &point) const override

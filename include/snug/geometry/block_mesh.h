@@ -48,6 +48,8 @@ struct BlockMesh
   /// shapes of boundary faces that lie on one of them to rounding
   std::vector<KnownSurface<dim>> known_surfaces;
   std::map<Face, unsigned int>   known; ///< indices into these
+  /// of boundaries that are not plane
+  std::map<unsigned int, BoundaryShape> shapes;
   /// coordinates in which the inside of all blocks is straight; null:
   /// Cartesian ones, blended between the faces
   Surface inside;

@@ -199,6 +199,9 @@ public:
     return no_surface;
   }
 
+  /// Of an index of boundary_names().
+  virtual BoundaryShape boundary_shape(unsigned int /*boundary*/) const { return {}; }
+
   static constexpr unsigned int no_surface = static_cast<unsigned int>(-1);
 
   /// Reference position. @throws InputError where a formula is not finite.

@@ -4,7 +4,17 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <string>
+
 namespace snug::geometry {
+/// What the surface of a boundary is, for the log.
+struct BoundaryShape
+{
+  std::string name = "plane";
+  /// How far facets, where contact sees them as they are, lie off what they stand for [length].
+  double facet_height = 0.;
+};
+
 /**
  * A surface of revolution that faces may lie on: a sphere, in 3D also a
  * cylinder, a cone or a torus. In 2D a sphere is a circle. Normals at its
@@ -32,6 +42,9 @@ public:
   double tube   = 0.;   ///< radius of a torus' section [length]
   double angle  = 0.;   ///< between a cone's axis and its lines [radian]
   bool   convex = true; ///< the body is inside
+
+  /// "circle", "cylinder", ...
+  std::string name() const;
 
   /// Signed distance of @p x, positive outside of the body [length].
   double distance(const Point &x) const;

@@ -33,6 +33,11 @@ public:
     return body->known_surface(coarse_cell, face);
   }
 
+  BoundaryShape boundary_shape(unsigned int boundary) const override
+  {
+    return body->boundary_shape(boundary);
+  }
+
   Point position(const MeshPoint<dim> &point) const override { return body->position(point); }
 
   Point logical(const MeshPoint<dim> &point) const override { return body->logical(point); }

@@ -55,25 +55,34 @@ public:
 
   const std::vector<geometry::KnownSurface<dim>> &known() const { return surfaces; }
 
+  /// By boundary; the names of parts of several kinds one after the other.
+  const std::map<unsigned int, geometry::BoundaryShape> &of_boundaries() const
+  {
+    return boundary_shapes;
+  }
+
   /// What a node or an edge of these facets lies on.
   geometry::Guides<dim> guides(const std::vector<unsigned int> &facets) const;
 
 private:
-  BodySurface<dim>                        &surface;
-  const geometry::BodyMeshParameters      &parameters;
-  const std::vector<std::string>          &names;
-  std::vector<std::string>                &notes;
-  double                                   digit; ///< see last_digit()
-  std::vector<geometry::KnownSurface<dim>> surfaces;
-  std::vector<Shape>                       shapes; ///< of parts
-  std::map<unsigned int, unsigned int>     said;   ///< boundary -> index of its surface
-  std::map<unsigned int, std::string>      wanted; ///< boundary -> facets or smooth
+  BodySurface<dim>                               &surface;
+  const geometry::BodyMeshParameters             &parameters;
+  const std::vector<std::string>                 &names;
+  std::vector<std::string>                       &notes;
+  double                                          digit; ///< see last_digit()
+  std::vector<geometry::KnownSurface<dim>>        surfaces;
+  std::vector<Shape>                              shapes; ///< of parts
+  std::map<unsigned int, unsigned int>            said;   ///< boundary -> index of its surface
+  std::map<unsigned int, std::string>             wanted; ///< boundary -> facets or smooth
+  std::map<unsigned int, geometry::BoundaryShape> boundary_shapes;
 
   void                         read_entries();
   geometry::SurfaceSample<dim> sample(const std::vector<unsigned int> &facets, bool middles) const;
   Shape                        shape_of(const std::vector<unsigned int> &part);
   bool is_plane(const geometry::SurfaceSample<dim> &sample, double tolerance, Vector &normal) const;
   double largest_kink(const std::vector<unsigned int> &part) const;
+  double facet_height(const std::vector<unsigned int> &part) const;
+  void   name_boundaries();
   unsigned int
   recognized(const geometry::SurfaceSample<dim> &sample, double tolerance, const std::string &name);
   void move_nodes();

@@ -49,6 +49,10 @@ struct Assumptions
   /// least of a pair, across where it is narrowest, in faces; infinite where
   /// all of the slave side is in contact
   double width = std::numeric_limits<double>::infinity();
+  /// of the pair that sees the highest facets instead of what they stand for, by the gaps it
+  /// closes: their height and these [length]
+  double facet_height = 0., closed_gap = 0.;
+  double displacement = 0.; ///< largest of a node [length]
 };
 
 /// A force and a moment, which in the plane has one component, the last

@@ -1,3 +1,4 @@
+#include <snug/app/inventory.h>
 #include <snug/base/errors.h>
 #include <snug/state/assumptions.h>
 
@@ -237,14 +238,94 @@ TEST(Warnings, OfDesignsThatLeaveTheirPairing)
 TEST(Warnings, OfOverlapUnlessItIsWanted)
 {
   const SolvedScene<3> solved(two_blocks(true), {"Contact/Gap=-0.1"});
-  const auto          &overlaps = solved.solver.contact().overlaps();
-  auto                 pairs    = solved.solver.contact().pairs();
-  EXPECT_NEAR(overlaps[0].length, 0.1, 1e-13);
-  EXPECT_NEAR(overlaps[0].faces, 0.4, 1e-12);
-  EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 1u);
-  EXPECT_NO_THROW(state::check_overlaps(pairs, overlaps));
-  EXPECT_THROW(state::check_overlaps(pairs, {{1., 2.1}}), InputError);
+  const auto          &gaps  = solved.solver.contact().paired_gaps();
+  auto                 pairs = solved.solver.contact().pairs();
+  EXPECT_NEAR(gaps[0].least, -0.1, 1e-13);
+  EXPECT_NEAR(gaps[0].overlap, 0.4, 1e-12);
+  const auto lines = state::overlap_warnings(pairs, gaps);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("overlaps at first by up to 0.1, 0.4 of a face"), std::string::npos)
+    << lines[0];
+  EXPECT_NO_THROW(state::check_overlaps(pairs, gaps));
+  EXPECT_THROW(state::check_overlaps(pairs, {{-1., 0., 2.1}}), InputError);
   pairs[0].parameters.interference = true;
-  EXPECT_EQ(state::overlap_warnings(pairs, overlaps).size(), 0u);
-  EXPECT_NO_THROW(state::check_overlaps(pairs, {{1., 2.1}}));
+  EXPECT_EQ(state::overlap_warnings(pairs, gaps).size(), 0u);
+  EXPECT_NO_THROW(state::check_overlaps(pairs, {{-1., 0., 2.1}}));
+}
+
+TEST(Warnings, OfFacetsThatContactSees)
+{
+  state::Assumptions assumptions;
+  assumptions.facet_height = 0.0049;
+  assumptions.closed_gap   = 0.1;
+  EXPECT_EQ(state::warnings(assumptions).size(), 0u);
+  assumptions.facet_height = 0.0051;
+  const auto lines         = state::warnings(assumptions);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("are 0.0051 high"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("closes is 0.1:"), std::string::npos) << lines[0];
+}
+
+TEST(Warnings, OfRefineWhereThatCatchesNothing)
+{
+  const auto unrefined = [](const std::string &where) {
+    const SolvedScene<3> solved(two_blocks(true),
+                                {"Body lower/Refine where=" + where,
+                                 "Body lower/Local refinements=2", "Body lower/Refinements=1"});
+    return app::unrefined(solved.scene, solved.mesh);
+  };
+  EXPECT_EQ(unrefined("0.1 - x").size(), 0u);
+  // no centre of a cell is as near to the face
+  const auto lines = unrefined("0.01 - x");
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].find("'Refine where' of body lower"), 0u) << lines[0];
+  EXPECT_NE(lines[0].find("none of its 512 cells"), std::string::npos) << lines[0];
+}
+
+TEST(Unloaded, NothingMoves)
+{
+  const SolvedScene<3> solved(two_blocks(true), {"Body upper/Pressure="});
+  EXPECT_EQ(solved.state.assumptions.displacement, 0.);
+  EXPECT_GT(SolvedScene<3>(two_blocks(true)).state.assumptions.displacement, 0.);
+}
+
+TEST(EdgeOfTheMaster, ForcesFadeAsItShrinks)
+{
+  // The outer node of the block stands on the end of its base, which shrinks by up to 5 % of a
+  // face; a plate holds the block upright.
+  const auto force_at_end = [](const double shrunk) {
+    const SolvedScene<2> solved("set Dimension = 2\nset Bodies = up, lo\nsubsection Body up\n"
+                                "set Box corner = 0, 1\nset Box cells = 4, 4\n"
+                                "set Young's modulus = 1000\nset Supports = left: x, right: x\n"
+                                "set Pressure = top: 1\nend\nsubsection Body lo\nset Box size = " +
+                                  to_text(1. - shrunk) +
+                                  ", 1\nset Box cells = 4, 4\nset Young's modulus = 1000\n"
+                                  "set Supports = bottom: xy\nend\nsubsection Contact\n"
+                                  "set Pairs = up.bottom: lo.top\nset Slave = first\n"
+                                  "set Method = nodal\nend\n",
+                                exact);
+    const auto          &contact = solved.solver.contact();
+    const auto           x       = solved.solver.surface().gather(solved.positions);
+    double               sum = 0., at_end = 0.;
+    for (unsigned int i = 0; i < contact.places().size(); ++i)
+      {
+        sum += solved.state.contact[i].force;
+        if (x[contact.places()[i].slave][0] > 1. - 1e-9)
+          at_end = solved.state.contact[i].force;
+      }
+    EXPECT_NEAR(sum, 1., 1e-9);
+    return at_end;
+  };
+  const double first = force_at_end(0.);
+  double       last  = first;
+  EXPECT_GT(first, 0.05);
+  EXPECT_NEAR(force_at_end(1e-6), first, 1e-4 * first);
+  for (double shrunk = 5e-4; shrunk < 0.0125; shrunk *= 1.02)
+    {
+      const double now = force_at_end(shrunk);
+      EXPECT_LE(now, last + 1e-9) << shrunk;
+      EXPECT_GT(now, last - 0.15 * first) << shrunk;
+      last = now;
+    }
+  EXPECT_EQ(last, 0.);
 }

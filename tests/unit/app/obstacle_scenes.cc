@@ -1,3 +1,5 @@
+#include <snug/state/assumptions.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -150,4 +152,19 @@ TEST(Obstacles, PowersOfTwoTakeTheSameIterations)
   EXPECT_EQ(small.state.dual.outer_iterations, large.state.dual.outer_iterations);
   for (unsigned int i = 0; i < small.state.contact.size(); ++i)
     EXPECT_EQ(small.state.contact[i].pressure, large.state.contact[i].pressure);
+}
+
+TEST(Obstacles, MoveIntoBodiesWithoutAWord)
+{
+  const auto overlap_of = [](const std::vector<std::string> &sets) {
+    const SolvedScene<3> solved(punched_block, sets);
+    const auto          &contact = solved.solver.contact();
+    EXPECT_GT(solved.state.active_contacts, 0u);
+    EXPECT_EQ(state::overlap_warnings(contact.pairs(), contact.paired_gaps()).empty(),
+              contact.paired_gaps()[0].overlap < state::large_overlap);
+    return contact.paired_gaps()[0].overlap;
+  };
+  EXPECT_LT(overlap_of({"Obstacle ball/Displacement=0, 0, -0.02"}), 1e-12);
+  // where the ball is placed counts
+  EXPECT_GT(overlap_of({"Obstacle ball/Point=0, 0, 8.48"}), 0.1);
 }

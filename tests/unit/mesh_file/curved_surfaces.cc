@@ -117,6 +117,34 @@ TEST(CurvedSurfaces, CirclesAreRecognized)
   });
 }
 
+TEST(CurvedSurfaces, BoundariesAreNamedAndFacetsMeasured)
+{
+  const auto shape = [](const GridText &grid, const std::string &surface, double scale = 1.) {
+    auto body = grid.body();
+    if (!surface.empty())
+      body.surfaces["top"] = surface;
+    body.scale = scale;
+    return make<2>(grid, body)->boundary_shape(0);
+  };
+  const auto circle = ellipse(40, 2., 2., true);
+  EXPECT_EQ(shape(circle, "").name, "circle");
+  EXPECT_EQ(shape(circle, "").facet_height, 0.);
+  EXPECT_EQ(shape(ellipse(40, 2., 1.3, true), "smooth").name, "smooth");
+  const auto facets = shape(circle, "facets");
+  EXPECT_EQ(facets.name, "facets");
+  // The largest sagitta; the formula takes neighbours for equally long, which they are not here.
+  auto body            = circle.body();
+  body.surfaces["top"] = "facets";
+  const double highest = error<2>(*make<2>(circle, body), [](const Point<2> &x) {
+    return x.distance(Point<2>(1., 2.)) - 2.;
+  });
+  EXPECT_NEAR(facets.facet_height, highest, 0.4 * highest);
+  EXPECT_NEAR(shape(circle, "facets", 5.).facet_height, 5. * facets.facet_height, 1e-14);
+  // Of fewer than 16 facets the program itself makes facets.
+  EXPECT_EQ(shape(ellipse(14, 2., 2., true), "").name, "facets");
+  EXPECT_GT(shape(ellipse(14, 2., 2., true), "").facet_height, 0.02);
+}
+
 TEST(CurvedSurfaces, DigitsAreForgivenNoiseIsNot)
 {
   auto grid   = ellipse(40, 20., 20., true);
