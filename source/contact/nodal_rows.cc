@@ -126,7 +126,7 @@ public:
       {
         const auto n = row_normal<dim>(found[i], normals.normals()).n;
         // With the positions of the hanging nodes themselves: the gap is that of the mesh as it is.
-        const double gap = n * to_master<dim>(found[i], positions);
+        const double gap = n * to_master<dim>(found[i], positions) + found[i].relief;
         result.push_back(make_row(factors[i], n, gap));
       }
     return result;

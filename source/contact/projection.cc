@@ -1,155 +1,68 @@
+#include <snug/contact/face_tree.h>
 #include <snug/contact/projection.h>
 #include <snug/faces/closest_point.h>
 #include <snug/faces/outer_edges.h>
 
-#include <deal.II/base/bounding_box.h>
-
-#include <deal.II/numerics/rtree.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace snug::contact {
 namespace {
 /// Weights below this are round-off of nodes that do not take part.
 const double least_weight = 1e-12;
 
-/**
- * Bézier control points of the face with Lagrange @p nodes: their hull
- * contains the face, also a quadratic one that bulges beyond its nodes.
- */
-template <int dim>
-std::vector<dealii::Tensor<1, dim>> hull_points(const faces::FaceShape<dim>        &shape,
-                                                std::vector<dealii::Tensor<1, dim>> nodes)
-{
-  if (shape.degree() == 1)
-    return nodes;
-  // middle control point of a parabola: 2 x_1 - (x_0 + x_2)/2
-  const unsigned int n_lines = nodes.size() / 3;
-  for (int direction = 0; direction < dim - 1; ++direction)
-    for (unsigned int line = 0; line < n_lines; ++line)
-      {
-        const unsigned int stride = direction == 0 ? 1 : 3;
-        const unsigned int first  = direction == 0 ? 3 * line : line;
-        auto              &middle = nodes[first + stride];
-        middle                    = 2. * middle - 0.5 * (nodes[first] + nodes[first + 2 * stride]);
-      }
-  return nodes;
-}
-
-/// The master side of a pair, searched by a tree of face boxes.
+/// The nearest face of a master side.
 template <int dim>
 class MasterSide
 {
 public:
-  using Field = typename mesh::Surface<dim>::Field;
-
   struct Found
   {
     unsigned int             face; ///< surface index
     faces::ClosestPoint<dim> point;
   };
 
-  MasterSide(const mesh::Surface<dim>        &surface,
-             const std::vector<unsigned int> &faces,
-             const faces::FaceShape<dim>     &shape,
-             const Field                     &positions)
-    : shape(shape)
-    , faces(faces)
-    , nodes(node_positions(surface, faces, positions))
-    , boxes(face_boxes(shape, nodes))
-    , tree(dealii::pack_rtree_of_indices(boxes))
+  MasterSide(const mesh::Surface<dim>                 &surface,
+             const std::vector<unsigned int>          &faces,
+             const faces::FaceShape<dim>              &shape,
+             const typename mesh::Surface<dim>::Field &positions)
+    : shape(shape), faces(faces), tree(surface, faces, shape, positions)
   {}
 
   Found closest(const dealii::Tensor<1, dim> &p) const
   {
-    namespace bgi = boost::geometry::index;
-    const dealii::Point<dim> centre(p);
-    // An upper bound of the distance from the faces of the nearest boxes,
-    // then all faces whose boxes meet the cube of that size around p.
-    double bound = std::numeric_limits<double>::infinity();
-    // Four, as the face of the nearest box need not be the nearest face; any number gives a bound.
-    for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 4)))
-      bound = std::min(bound, faces::closest_point(shape, nodes[i], p).squared_distance);
-    double reach = 0.;
-    for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(centre, 1)))
-      reach = extent(i);
     // A little more than the bound, so that faces which are equally close are candidates, too, and
     // also where the distance is zero.
-    reach                    = std::sqrt(bound) * (1. + 1e-6) + 1e-6 * reach;
-    dealii::Point<dim> lower = centre, upper = centre;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] -= reach;
-        upper[d] += reach;
-      }
-    const dealii::BoundingBox<dim> cube({lower, upper});
-
-    std::vector<std::size_t> candidates;
-    for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(cube)))
-      candidates.push_back(i);
+    dealii::BoundingBox<dim> cube({dealii::Point<dim>(p), dealii::Point<dim>(p)});
+    cube.extend(tree.bound(p) * (1. + 1e-6) + 1e-6 * tree.extent(tree.nearest_box(p)));
     // By index, as the first of those that tie is taken: on matching meshes the closest point is
     // often a corner of four faces, and rounding must not choose between them.
-    std::sort(candidates.begin(), candidates.end());
+    const auto                            candidates = tree.meeting(cube);
     std::vector<faces::ClosestPoint<dim>> points;
     std::size_t                           best = 0;
     for (const std::size_t i : candidates)
       {
-        points.push_back(faces::closest_point(shape, nodes[i], p));
+        points.push_back(faces::closest_point(shape, tree.nodes(i), p));
         if (points.back().squared_distance < points[best].squared_distance)
           best = points.size() - 1;
       }
     std::size_t first = 0;
     // Ends at `best` at the latest, which ties with itself.
-    while (!ties(points[first], points[best], extent(candidates[best])))
+    while (!ties(points[first], points[best], tree.extent(candidates[best])))
       ++first;
     return {faces[candidates[first]], points[first]};
   }
 
 private:
-  using Nodes = std::vector<dealii::Tensor<1, dim>>;
-  using Boxes = std::vector<dealii::BoundingBox<dim>>;
-
-  const faces::FaceShape<dim>                                                 &shape;
-  const std::vector<unsigned int>                                             &faces;
-  const std::vector<Nodes>                                                     nodes;
-  const Boxes                                                                  boxes;
-  const decltype(dealii::pack_rtree_of_indices(std::declval<const Boxes &>())) tree;
-
-  std::vector<Nodes> node_positions(const mesh::Surface<dim>        &surface,
-                                    const std::vector<unsigned int> &faces,
-                                    const Field                     &positions)
-  {
-    std::vector<Nodes> result(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      for (const unsigned int node : surface.faces()[faces[i]].nodes)
-        result[i].push_back(positions[node]);
-    return result;
-  }
-
-  Boxes face_boxes(const faces::FaceShape<dim> &shape, const std::vector<Nodes> &nodes)
-  {
-    Boxes result;
-    for (const Nodes &face : nodes)
-      {
-        std::vector<dealii::Point<dim>> points;
-        for (const auto &point : hull_points<dim>(shape, face))
-          points.emplace_back(point);
-        result.emplace_back(points);
-      }
-    return result;
-  }
-
-  /// The diagonal of the box: the length that rounding of positions is compared with.
-  double extent(std::size_t i) const
-  {
-    const auto &corners = boxes[i].get_boundary_points();
-    return corners.first.distance(corners.second);
-  }
+  const faces::FaceShape<dim>     &shape;
+  const std::vector<unsigned int> &faces;
+  const FaceTree<dim>              tree;
 
   /// Equally close: the same point, which faces share, or another one at
   /// the same distance but for round-off. Points in between are different
-  /// answers, of which the closer is right.
+  /// answers, of which the closer is right. @p extent: of a face, with which
+  /// rounding of positions is compared.
   bool
   ties(const faces::ClosestPoint<dim> &a, const faces::ClosestPoint<dim> &best, double extent) const
   {
@@ -203,9 +116,9 @@ public:
         at_node[node].push_back(face);
   }
 
-  /// Face and coordinates where the ray to @p p begins, near those of the closest point; there
-  /// itself if no ray is found, as where the side ends.
-  std::pair<unsigned int, Xi>
+  /// Face and coordinates where the ray to @p p begins, near those of the closest point; none
+  /// where the side ends.
+  std::optional<std::pair<unsigned int, Xi>>
   find(const dealii::Tensor<1, dim> &p, const unsigned int face, const Xi &closest) const
   {
     std::vector<unsigned int> candidates = {face};
@@ -220,9 +133,9 @@ public:
           for (int a = 0; a < dim - 1; ++a)
             xi[a] = 0.5;
         if (solve(p, surface.faces()[candidate].nodes, xi))
-          return {candidate, xi};
+          return std::make_pair(candidate, xi);
       }
-    return {face, closest};
+    return {};
   }
 
   /// Where the ray from @p xi of @p face meets the true surface: coordinates of its samples.
@@ -344,17 +257,22 @@ std::vector<Projection> project(const mesh::Surface<dim>                 &surfac
         const auto closest = master.closest(positions[slave]);
         // Beyond the end of the master side the closest point stays on its edge, and the row would
         // hold back a node that passes by the master side.
-        if (edges.excess(closest.face, closest.point.xi, positions[slave] - closest.point.position,
-                         positions) > edge_tolerance)
+        const double excess = edges.excess(closest.face, closest.point.xi,
+                                           positions[slave] - closest.point.position, positions);
+        if (excess >= edge_tolerance)
           continue;
-        const auto [face, xi] = rays.find(positions[slave], closest.face, closest.point.xi);
+        const auto ray        = rays.find(positions[slave], closest.face, closest.point.xi);
+        const auto [face, xi] = ray.value_or(std::make_pair(closest.face, closest.point.xi));
         const auto &of        = surface.faces()[face];
         const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
+        // Where the ray begins on the side, as in a symmetry plane, nothing ends.
+        const double beyond = ray ? 0. : std::max(0., excess);
         result.push_back(
           {slave, face, masters,
            of.samples.empty()
              ? masters
-             : nonzero(shape.samples_at(rays.on_surface(face, xi)).value, of.samples)});
+             : nonzero(shape.samples_at(rays.on_surface(face, xi)).value, of.samples),
+           edge_relief(beyond, mean_face_size(surface, {face}, positions))});
       }
   return result;
 }

@@ -22,7 +22,9 @@ enum class Method
 };
 inline Names names(Method)
 {
-  return {{"nodal", "slave nodes against the closest points of master faces"},
+  return {{"nodal",
+           "slave nodes against the closest points of master faces; beyond the end of the master "
+           "side forces fade, to zero at 5 % of a face"},
           {"mortar",
            "mean gaps around slave nodes, integrated over both faces: for meshes that do not "
            "match"}};

@@ -10,7 +10,7 @@ namespace snug::contact {
 /**
  * Nodal (node to face) contact of one pair. The row of slave node s with
  * the weights w_k of its Projection to a master face is
- * c_s = n, c_k = -w_k n, gap = n . (x_m - x_s),
+ * c_s = n, c_k = -w_k n, gap = n . (x_m - x_s) + its relief,
  * n = -v/|v|, v = sum_k w_k n_k by the SupportedNormals n_k of the master,
  * x_m the point of the true surface of the face over its point sum_k w_k
  * x_k; hanging master nodes are replaced by their masters. Faces and

@@ -25,20 +25,36 @@ struct Projection
   unsigned int face;    ///< of the surface
   Weights      masters; ///< the nodes of the face
   Weights      surface; ///< the points that give the true surface where the ray meets it
+  double       relief;  ///< edge_relief() beyond the end of the master side, else 0 [length]
 };
 
 /**
  * A slave node whose closest point lies on the outer edge of the master
- * side is paired if it is beyond that edge by at most this fraction of
+ * side is paired if it is beyond that edge by less than this fraction of
  * the master face's extent.
  */
 constexpr double edge_tolerance = 0.05;
 
 /**
+ * How far the master gives way to a node that is beyond its edge by
+ * @p excess, a part of the face, of size h [length]:
+ *   r t^4 / (2 (1 - t^2)),  t = excess / edge_tolerance,  r = edge_tolerance h.
+ * Next to nothing where sides end together but for their facets, without a
+ * kink, and infinite where nodes carry no row any more, so that forces fade
+ * as nodes leave the master side.
+ */
+constexpr double edge_relief(double excess, double h)
+{
+  const double t = excess / edge_tolerance;
+  return 0.5 * edge_tolerance * h * t * t * t * t / (1. - t * t);
+}
+
+/**
  * Projections of the slave nodes that do not hang, in the order of the
  * slave faces and their nodes, without the nodes beyond the edge of the
  * master side, by the @p normals of the master's nodes. The search starts
- * from the closest point. The faces to be tried come from a tree of boxes
+ * from the closest point, which is taken where no ray is found, as beyond the
+ * edge. The faces to be tried come from a tree of boxes
  * that contain them, so none is missed. Where faces are equally close, the
  * one with the lowest index is taken; weights below 1e-12 become 0.
  */

@@ -157,6 +157,33 @@ TEST(Projection, SlaveNodesBeyondTheEdgeCarryNoRow)
     }
 }
 
+TEST(Projection, TheMasterGivesWayBeyondItsEdge)
+{
+  // a column of slave nodes 0.01 beyond master faces of 0.25
+  auto bodies         = TwoBoxes<3>::boxes(6, 4);
+  bodies[0].corner[0] = -0.26;
+  bodies[0].size[0]   = 1.5;
+  bodies[0].cells[1]  = 4;
+  const TwoBoxes<3> scene(bodies, 1);
+  const auto        contact = scene.contact();
+  const auto        rows    = contact.rows(scene.positions);
+  unsigned int      beyond  = 0;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      const bool   is_beyond = scene.positions[contact.places()[i].slave][0] < 0.;
+      const double t = 0.8, radius = 0.0125;
+      beyond += is_beyond;
+      EXPECT_NEAR(rows[i].gap, is_beyond ? radius * t * t * t * t / (2. * (1. - t * t)) : 0.,
+                  1e-14);
+    }
+  EXPECT_EQ(beyond, 5u);
+  // without a kink at the edge, without a limit where rows end
+  EXPECT_EQ(edge_relief(0., 1.), 0.);
+  EXPECT_LT(edge_relief(0.01 * edge_tolerance, 1.), 3e-10);
+  EXPECT_GT(edge_relief((1. - 1e-9) * edge_tolerance, 1.), 1e6);
+  EXPECT_LT(derivative_error(scene, contact, 1e-4), 1e-9);
+}
+
 TEST(Projection, HangingSlaveNodesCarryNoRow)
 {
   const TwoBoxes<3>      scene(TwoBoxes<3>::hanging_boxes(), 2);
