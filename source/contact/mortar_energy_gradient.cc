@@ -128,7 +128,7 @@ MortarRows<dim>::integral_slopes(const SlaveFace                     &face,
 {
   const auto        &nodes = surface.faces()[face.face].nodes;
   const unsigned int n     = nodes.size();
-  auto to_integrals        = mortar::couple_transpose(of_shapes, face.biorthogonal, to_coupling);
+  auto to_integrals        = mortar::couple_transpose(of_shapes, face.functions, to_coupling);
   for (const unsigned int master : face.masters)
     {
       to_integrals.weights.emplace_back(n, n);
@@ -170,7 +170,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   const auto origin      = energy.deformed[nodes[0]];
   const auto x           = mortar::node_arrays<dim>(energy.positions);
   const auto of_shapes   = integrals(face, x);
-  const auto coupling    = mortar::couple(of_shapes, face.biorthogonal);
+  const auto coupling    = mortar::couple(of_shapes, face.functions);
   auto       to_coupling = coupling;
   to_coupling.multiplier = area_slope;
   // sum_j direction_j . int psi_j N_k y_k: by the positions of node k, and by the integral itself.
@@ -182,7 +182,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
           gradient[others[k]] += sign * integral(j, k) * direction[j];
           slope(j, k) = sign * (direction[j] * (energy.deformed[others[k]] - origin));
           // Of the slave side only the node itself is in the rows of biorthogonal functions.
-          if (sign < 0. || !face.biorthogonal || j == k)
+          if (sign < 0. || !face.functions.are_nodal() || j == k)
             slope(j, k) +=
               sign * correction_slope(energy.coefficient_slopes, nodes[j], others[k], false);
         }

@@ -14,6 +14,10 @@ namespace {
 /// Faces covered less than this have standard multiplier functions.
 const double least_biorthogonal_cover = 0.25;
 
+/// Covered but for this part of its extent a face counts as covered there, so that its nodes keep
+/// rows of their own where curved sides end together.
+const double uncovered_edge = 0.01;
+
 /// A node is held if its supports leave less than this of its normal.
 const double held_part = 0.1;
 
@@ -60,7 +64,7 @@ MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
   const auto opposite = opposite_faces(pair);
   for (unsigned int i = 0; i < sides.slave.size(); ++i)
     if (!opposite[i].empty())
-      faces.push_back({sides.slave[i], opposite[i], false});
+      faces.push_back({sides.slave[i], opposite[i], {}});
   choose_multipliers(pair);
   collect_row_nodes();
   leave_out_far_rows(pair);
@@ -78,16 +82,37 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
   std::vector<mortar::FaceCover> covers;
   for (SlaveFace &face : faces)
     {
-      const mortar::FaceCover cover = {face.face, integrals(face, x).slave,
-                                       whole_integrals(surface, face.face, shape, pair.positions)};
-      // The Gram matrix of shape functions over a sliver of a face is nearly singular: its inverse
-      // would give multiplier functions with large values of both signs.
-      face.biorthogonal = sum(cover.covered) >= least_biorthogonal_cover * sum(cover.whole);
+      const mortar::FaceCover cover = choose_functions(face, x, pair.positions);
       // Opposite within the margin of the pairing, but not covered yet: no multipliers.
       if (sum(cover.covered) > 0.)
         covers.push_back(cover);
     }
   multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, pair.positions);
+}
+
+/// The cover of a face, by the functions it gets.
+template <int dim>
+mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                            &face,
+                                                    const mortar::FaceNodes<dim, double> &x,
+                                                    const Field &positions) const
+{
+  const auto        of_nodes = integrals(face, x);
+  mortar::FaceCover cover    = {face.face, of_nodes.slave,
+                                whole_integrals(surface, face.face, shape, positions)};
+  // The Gram matrix of shape functions over a sliver of a face is nearly singular: its inverse
+  // would give multiplier functions with large values of both signs.
+  if (sum(cover.covered) < least_biorthogonal_cover * sum(cover.whole))
+    {
+      face.functions.biorthogonal = false;
+      return cover;
+    }
+  mortar::CoverBox<dim> box;
+  const auto            slave = mortar::mortar_face<dim>(surface, shape, face.face, x).nodes;
+  for (const unsigned int master : face.masters)
+    quadrature.add_cover(slave, mortar::mortar_face<dim>(surface, shape, master, x).nodes, box);
+  face.functions = mortar::functions_on(box, shape.degree(), uncovered_edge);
+  cover.covered  = mortar::in_box(of_nodes, face.functions).slave;
+  return cover;
 }
 
 /// All nodes that a row may reach while the pairing stays, those with zero coefficients included:
@@ -111,7 +136,7 @@ void MortarRows<dim>::collect_row_nodes()
             auto &row = reached[share.first];
             row.insert(masters.begin(), masters.end());
             // int psi_j N_l = 0 for l != j: of the slave side only the node itself.
-            if (face.biorthogonal)
+            if (face.functions.are_nodal())
               row.insert(node);
             else
               row.insert(nodes.begin(), nodes.end());
@@ -182,7 +207,7 @@ void MortarRows<dim>::add_face(const SlaveFace                      &face,
                                std::vector<RowSum<Number>>          &sums) const
 {
   const auto  of_shapes = integrals(face, x);
-  const auto  coupling  = mortar::couple(of_shapes, face.biorthogonal);
+  const auto  coupling  = mortar::couple(of_shapes, face.functions);
   const auto &nodes     = surface.faces()[face.face].nodes;
   // int psi_j N at one node of a face: coefficient and part of the gap
   const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
@@ -209,7 +234,7 @@ void MortarRows<dim>::add_face(const SlaveFace                      &face,
         }
       for (unsigned int l = 0; l < nodes.size(); ++l)
         // The other integrals are zero up to rounding, and their nodes may not be in the row.
-        if (!face.biorthogonal || l == j)
+        if (!face.functions.are_nodal() || l == j)
           add(j, nodes[l], coupling.multiplier_slave(j, l));
       for (unsigned int f = 0; f < face.masters.size(); ++f)
         {

@@ -1,4 +1,3 @@
-#include <snug/mesh/lagrange.h>
 #include <snug/mortar/integral_gradient.h>
 
 namespace snug::mortar {
@@ -73,44 +72,23 @@ FaceNodes<dim, faces::Differential<n>> independent(const FaceNodes<dim, double> 
   return result;
 }
 
-/// The true surface over a face at one point, which counts in delta with a sign.
+/// By the coordinates of a point, and by the offsets at the samples, of a scalar whose derivative
+/// by the offset there is @p to_offset.
 template <int dim>
-struct OffsetPoint
+void add_offset_slopes(const OffsetPoint<dim, double>      &at,
+                       const std::array<double, dim>       &to_offset,
+                       const double                         weight,
+                       faces::FaceCoordinates<dim, double> &to_xi,
+                       FaceNodes<dim, double>              &to_samples)
 {
-  static constexpr unsigned int                degree = mesh::surface_degree;
-  const faces::FaceValues<dim, double, degree> values;
-  std::array<double, dim>                      offset{};
-  std::array<std::array<double, dim>, dim - 1> slopes{};
-
-  OffsetPoint(const FaceNodes<dim, double> &offsets, const faces::FaceCoordinates<dim, double> &xi)
-    : values(degree, xi)
-  {
-    for (unsigned int k = 0; k < offsets.size(); ++k)
-      for (int d = 0; d < dim; ++d)
-        {
-          offset[d] += values.value[k] * offsets[k][d];
-          for (int a = 0; a < dim - 1; ++a)
-            slopes[a][d] += values.gradient[k][a] * offsets[k][d];
-        }
-  }
-
-  /// By xi, and by the offsets at the samples, of a scalar whose derivative by the offset is
-  /// @p to_offset, times @p factor.
-  void add(const double                         factor,
-           const std::array<double, dim>       &to_offset,
-           const double                         weight,
-           faces::FaceCoordinates<dim, double> &to_xi,
-           FaceNodes<dim, double>              &to_samples) const
-  {
-    for (int d = 0; d < dim; ++d)
-      {
-        for (int a = 0; a < dim - 1; ++a)
-          to_xi[a] += factor * to_offset[d] * slopes[a][d];
-        for (unsigned int k = 0; k < to_samples.size(); ++k)
-          to_samples[k][d] += factor * to_offset[d] * weight * values.value[k];
-      }
-  }
-};
+  for (int d = 0; d < dim; ++d)
+    {
+      for (int a = 0; a < dim - 1; ++a)
+        to_xi[a] += to_offset[d] * at.slopes[a][d];
+      for (unsigned int k = 0; k < to_samples.size(); ++k)
+        to_samples[k][d] += to_offset[d] * weight * at.values.value[k];
+    }
+}
 
 /// int f of one pair of faces, differentiated by the positions of their
 /// nodes, those of the slave face first; by their offsets into @p to_slave and @p to_master.
@@ -132,13 +110,16 @@ std::array<double, n> pair_gradient(const SegmentQuadrature<dim>  &quadrature,
           xi[a]  = point.slave[a].value;
           eta[a] = point.master[a].value;
         }
-      const OffsetPoint<dim>  on_slave(slave.offsets, xi), on_master(master.offsets, eta);
-      std::array<double, dim> delta = on_master.offset;
+      const OffsetPoint<dim, double> on_slave(slave.offsets, xi), on_master(master.offsets, eta);
+      std::array<double, dim>        delta = on_master.offset;
       for (int d = 0; d < dim; ++d)
         delta[d] -= on_slave.offset[d];
       Integrand<dim> f(weights, quadrature.shape(xi), quadrature.shape(eta), delta);
-      on_slave.add(-1., f.to_offset, point.weight.value, f.to_slave, to_slave);
-      on_master.add(1., f.to_offset, point.weight.value, f.to_master, to_master);
+      add_offset_slopes<dim>(on_master, f.to_offset, point.weight.value, f.to_master, to_master);
+      // The slave's offset counts with a minus.
+      for (double &slope : f.to_offset)
+        slope = -slope;
+      add_offset_slopes<dim>(on_slave, f.to_offset, point.weight.value, f.to_slave, to_slave);
       for (int v = 0; v < n; ++v)
         {
           double slope = 0.;

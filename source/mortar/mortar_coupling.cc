@@ -56,10 +56,10 @@ Matrix<Number> dual_coefficients(const FaceIntegrals<Number> &integrals)
 }
 
 /// dealii::FullMatrix knows no Differential; these are small.
-template <typename Number>
-Matrix<Number> product(const Matrix<Number> &A, const Matrix<Number> &B)
+template <typename NumberA, typename NumberB>
+auto product(const Matrix<NumberA> &A, const Matrix<NumberB> &B)
 {
-  Matrix<Number> C(A.n_rows(), B.n_cols());
+  Matrix<decltype(NumberA() * NumberB())> C(A.n_rows(), B.n_cols());
   for (unsigned int i = 0; i < A.n_rows(); ++i)
     for (unsigned int j = 0; j < B.n_cols(); ++j)
       for (unsigned int k = 0; k < A.n_cols(); ++k)
@@ -76,6 +76,24 @@ Matrix<double> transpose(const Matrix<double> &A)
   return result;
 }
 
+/// The offset at @p xi, whose first derivatives value and slopes carry exactly.
+template <int dim, typename Number>
+std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &offsets,
+                                  const faces::FaceCoordinates<dim, Number> &xi)
+{
+  if (offsets.empty())
+    return {};
+  faces::FaceCoordinates<dim, double> at;
+  for (int a = 0; a < dim - 1; ++a)
+    at[a] = faces::value_of(xi[a]);
+  const OffsetPoint<dim, Number> point(offsets, at);
+  auto                           result = point.offset;
+  for (int d = 0; d < dim; ++d)
+    for (int a = 0; a < dim - 1; ++a)
+      result[d] += point.slopes[a][d] * (xi[a] - at[a]);
+  return result;
+}
+
 /// Is there nothing to build dual functions on?
 template <typename Number>
 bool uncovered(const FaceIntegrals<Number> &integrals)
@@ -87,27 +105,61 @@ bool uncovered(const FaceIntegrals<Number> &integrals)
 }
 } // namespace
 
-template <int dim, typename Number>
-std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &offsets,
-                                  const faces::FaceCoordinates<dim, Number> &xi)
+template <int dim>
+MultiplierFunctions
+functions_on(CoverBox<dim> box, const unsigned int degree, const double tolerance)
 {
-  std::array<Number, dim> result{};
-  if (offsets.empty())
-    return result;
-  faces::FaceCoordinates<dim, double> at;
+  bool whole = true;
   for (int a = 0; a < dim - 1; ++a)
-    at[a] = faces::value_of(xi[a]);
-  constexpr unsigned int                       degree = mesh::surface_degree;
-  const faces::FaceValues<dim, double, degree> values(degree, at);
-  // The polynomial's value and slope carry first derivatives exactly.
-  for (unsigned int k = 0; k < offsets.size(); ++k)
     {
-      Number value = values.value[k];
-      for (int a = 0; a < dim - 1; ++a)
-        value += values.gradient[k][a] * (xi[a] - at[a]);
-      for (int d = 0; d < dim; ++d)
-        result[d] += value * offsets[k][d];
+      box.lower[a] = box.lower[a] <= tolerance ? 0. : box.lower[a];
+      box.upper[a] = box.upper[a] >= 1. - tolerance ? 1. : box.upper[a];
+      whole        = whole && box.lower[a] == 0. && box.upper[a] == 1.;
     }
+  MultiplierFunctions functions;
+  if (whole)
+    return functions;
+  const auto         nodes = mesh::lagrange_nodes<dim - 1>(degree);
+  const unsigned int n     = nodes.size();
+  functions.at.reinit(n, n);
+  functions.box.reinit(n, n);
+  for (unsigned int k = 0; k < n; ++k)
+    {
+      dealii::Point<dim - 1> on_face, scaled;
+      for (int a = 0; a < dim - 1; ++a)
+        {
+          const double length = box.upper[a] - box.lower[a];
+          on_face[a]          = box.lower[a] + length * nodes[k].point[a];
+          scaled[a]           = (nodes[k].point[a] - box.lower[a]) / length;
+        }
+      const auto at = mesh::lagrange_point<dim - 1>(degree, on_face).value;
+      const auto of = mesh::lagrange_point<dim - 1>(degree, scaled).value;
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          functions.at(k, j)  = at[j];
+          functions.box(j, k) = of[j];
+        }
+    }
+  return functions;
+}
+
+template <typename Number>
+FaceIntegrals<Number> in_box(const FaceIntegrals<Number> &integrals,
+                             const MultiplierFunctions   &functions)
+{
+  if (functions.box.empty())
+    return integrals;
+  const auto           &C = functions.box;
+  const unsigned int    n = integrals.slave.size();
+  FaceIntegrals<Number> result;
+  result.slave.resize(n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int l = 0; l < n; ++l)
+      result.slave[j] += C(j, l) * integrals.slave[l];
+  result.slave_slave = product(product(C, integrals.slave_slave), transpose(C));
+  for (const auto &P : integrals.slave_master)
+    result.slave_master.push_back(product(C, P));
+  result.offset = product(C, integrals.offset);
   return result;
 }
 
@@ -156,36 +208,40 @@ FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quad
 }
 
 template <typename Number>
-FaceCoupling<Number> couple(const FaceIntegrals<Number> &integrals, bool biorthogonal)
+FaceCoupling<Number> couple(const FaceIntegrals<Number> &of_nodes,
+                            const MultiplierFunctions   &functions)
 {
-  if (!biorthogonal || uncovered(integrals))
-    return {integrals.slave, integrals.slave_slave, integrals.slave_master, integrals.offset};
-  const unsigned int   n = integrals.slave.size();
-  const Matrix<Number> A = dual_coefficients(integrals);
+  if (!functions.biorthogonal || uncovered(of_nodes))
+    return {of_nodes.slave, of_nodes.slave_slave, of_nodes.slave_master, of_nodes.offset};
+  const auto           integrals = in_box(of_nodes, functions);
+  const unsigned int   n         = integrals.slave.size();
+  const Matrix<Number> A         = dual_coefficients(integrals);
   FaceCoupling<Number> result;
   result.multiplier = integrals.slave;
   result.multiplier_slave.reinit(n, n);
   for (unsigned int j = 0; j < n; ++j)
-    result.multiplier_slave(j, j) = integrals.slave[j];
+    {
+      if (functions.are_nodal())
+        result.multiplier_slave(j, j) = integrals.slave[j];
+      else
+        for (unsigned int l = 0; l < n; ++l)
+          result.multiplier_slave(j, l) = functions.at(j, l) * integrals.slave[j];
+    }
   for (const auto &P : integrals.slave_master)
     result.multiplier_master.push_back(product(A, P));
   result.multiplier_offset = product(A, integrals.offset);
   return result;
 }
 
-FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
-                                       bool                         biorthogonal,
-                                       const FaceCoupling<double>  &gradient)
+namespace {
+/// Reverse mode of couple() for biorthogonal functions: a star marks the derivative of the scalar
+/// by a matrix.
+/// with M = A P: P* = A' M*, A* = sum M* P', as for the offset; with A = diag(d) m^-1:
+/// d* = diag(A* m^-1), m* = -A' A* m^-1
+FaceIntegrals<double> dual_transpose(const FaceIntegrals<double> &integrals,
+                                     const MultiplierFunctions   &functions,
+                                     const FaceCoupling<double>  &gradient)
 {
-  if (!biorthogonal || uncovered(integrals))
-    return {gradient.multiplier,
-            gradient.multiplier_slave,
-            gradient.multiplier_master,
-            {},
-            gradient.multiplier_offset};
-  // Reverse mode of couple(): a star marks the derivative of the scalar by a matrix.
-  // with M = A P: P* = A' M*, A* = sum M* P', as for the offset; with A = diag(d) m^-1:
-  // d* = diag(A* m^-1), m* = -A' A* m^-1
   const unsigned int    n         = integrals.slave.size();
   const Matrix<double>  m_inverse = inverse(integrals.slave_slave);
   const Matrix<double>  A         = dual_coefficients(integrals);
@@ -210,15 +266,34 @@ FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
   result.slave_slave = product(At, A_m);
   result.slave       = gradient.multiplier;
   for (unsigned int j = 0; j < n; ++j)
-    {
-      result.slave[j] += gradient.multiplier_slave(j, j);
-      for (unsigned int l = 0; l < n; ++l)
-        {
-          result.slave[j] += A_gradient(j, l) * m_inverse(l, j);
-          result.slave_slave(j, l) *= -1.;
-        }
-    }
+    for (unsigned int l = 0; l < n; ++l)
+      {
+        const double at = functions.are_nodal() ? j == l : functions.at(j, l);
+        result.slave[j] +=
+          at * gradient.multiplier_slave(j, l) + A_gradient(j, l) * m_inverse(l, j);
+        result.slave_slave(j, l) *= -1.;
+      }
   return result;
+}
+} // namespace
+
+FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
+                                       const MultiplierFunctions   &functions,
+                                       const FaceCoupling<double>  &gradient)
+{
+  if (!functions.biorthogonal || uncovered(integrals))
+    return {gradient.multiplier,
+            gradient.multiplier_slave,
+            gradient.multiplier_master,
+            {},
+            gradient.multiplier_offset};
+  const auto to_box = dual_transpose(in_box(integrals, functions), functions, gradient);
+  if (functions.are_nodal())
+    return to_box;
+  // in_box() with C is linear; backwards it is the same with C'.
+  MultiplierFunctions backwards;
+  backwards.box = transpose(functions.box);
+  return in_box(to_box, backwards);
 }
 
 #define SNUG_INSTANTIATE(dim, Number)                                            \
@@ -230,11 +305,13 @@ SNUG_INSTANTIATE(2, faces::Differential<1>)
 SNUG_INSTANTIATE(3, double)
 SNUG_INSTANTIATE(3, faces::Differential<1>)
 #undef SNUG_INSTANTIATE
-template std::array<double, 2>                offset_at<2>(const FaceNodes<2, double> &,
-                                            const faces::FaceCoordinates<2, double> &);
-template std::array<double, 3>                offset_at<3>(const FaceNodes<3, double> &,
-                                            const faces::FaceCoordinates<3, double> &);
-template FaceCoupling<double>                 couple(const FaceIntegrals<double> &, bool);
-template FaceCoupling<faces::Differential<1>> couple(const FaceIntegrals<faces::Differential<1>> &,
-                                                     bool);
+#define SNUG_INSTANTIATE_NUMBER(Number)                                \
+  template FaceIntegrals<Number> in_box(const FaceIntegrals<Number> &, \
+                                        const MultiplierFunctions &);  \
+  template FaceCoupling<Number>  couple(const FaceIntegrals<Number> &, const MultiplierFunctions &);
+SNUG_INSTANTIATE_NUMBER(double)
+SNUG_INSTANTIATE_NUMBER(faces::Differential<1>)
+#undef SNUG_INSTANTIATE_NUMBER
+template MultiplierFunctions functions_on<2>(CoverBox<2>, unsigned int, double);
+template MultiplierFunctions functions_on<3>(CoverBox<3>, unsigned int, double);
 } // namespace snug::mortar

@@ -233,6 +233,27 @@ SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
 }
 
 template <int dim>
+void SegmentQuadrature<dim>::add_cover(const FaceNodes<dim, double> &slave,
+                                       const FaceNodes<dim, double> &master,
+                                       CoverBox<dim>                &box) const
+{
+  const FacePlane<dim, double> plane(degree, slave);
+  const auto                   on_slave = projected<dim>(degree, plane, slave);
+  const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master), true);
+  for (const auto &slave_cell : cells<dim>(degree, on_slave, false))
+    for (const auto &master_cell : master_cells)
+      for (const auto &vertex : intersection<dim - 1>(slave_cell, master_cell))
+        {
+          const auto xi = on_slave.coordinates(vertex);
+          for (int a = 0; a < dim - 1; ++a)
+            {
+              box.lower[a] = std::min(box.lower[a], xi[a]);
+              box.upper[a] = std::max(box.upper[a], xi[a]);
+            }
+        }
+}
+
+template <int dim>
 bool SegmentQuadrature<dim>::overlap(const FaceNodes<dim, double> &slave,
                                      const FaceNodes<dim, double> &master,
                                      double                        margin) const

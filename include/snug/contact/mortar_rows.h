@@ -25,7 +25,7 @@ namespace snug::contact {
  * int (N_i N_k)^p, p the degree. Hanging nodes are replaced by their masters.
  *
  * Which faces lie opposite to each other, which nodes carry multipliers and
- * which faces are covered enough for biorthogonal functions stays; cut
+ * the MultiplierFunctions of faces stay; cut
  * faces, weights, normals and gaps follow the positions. Derivatives are
  * exact; where the end of one side lies on an edge or corner of the other,
  * those of moves that keep the slave face covered. Rows whose gap is beyond
@@ -56,9 +56,9 @@ public:
 private:
   struct SlaveFace
   {
-    unsigned int              face;    ///< indices into the surface
-    std::vector<unsigned int> masters; ///< opposite to it
-    bool                      biorthogonal;
+    unsigned int                face;    ///< indices into the surface
+    std::vector<unsigned int>   masters; ///< opposite to it
+    mortar::MultiplierFunctions functions;
   };
 
   /// a_i times the coefficients of row i without n_i and dM, and the weights
@@ -81,9 +81,12 @@ private:
   mortar::MultiplierNodes                multipliers;
   std::vector<std::vector<unsigned int>> row_nodes; ///< ascending
 
-  void choose_multipliers(const PairGeometry<dim> &pair);
-  void collect_row_nodes();
-  void leave_out_far_rows(const PairGeometry<dim> &pair);
+  void              choose_multipliers(const PairGeometry<dim> &pair);
+  mortar::FaceCover choose_functions(SlaveFace                            &face,
+                                     const mortar::FaceNodes<dim, double> &x,
+                                     const Field                          &positions) const;
+  void              collect_row_nodes();
+  void              leave_out_far_rows(const PairGeometry<dim> &pair);
   template <typename Number>
   mortar::FaceIntegrals<Number> integrals(const SlaveFace                      &face,
                                           const mortar::FaceNodes<dim, Number> &x) const;

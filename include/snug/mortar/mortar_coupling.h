@@ -1,6 +1,8 @@
 #ifndef snug_mortar_mortar_coupling_h
 #define snug_mortar_mortar_coupling_h
 
+#include <snug/mesh/body_mesh.h>
+#include <snug/mesh/lagrange.h>
 #include <snug/mortar/segment_points.h>
 
 #include <deal.II/base/table.h>
@@ -24,14 +26,38 @@ struct FaceIntegrals
 };
 
 /**
- * The same with multiplier functions psi_j, which sum to 1:
+ * What multiplier functions psi_j a slave face has; they sum to 1:
  *   biorthogonal, psi_j = sum_l A_jl N_l with A = diag(d) m^-1,
  *   d_j = int N_j, m_jl = int N_j N_l, so int psi_j N_l = d_j delta_jl and
- *   int psi_j = d_j (Wohlmuth, SIAM J. Numer. Anal. 38, 2000; on partly
- *   covered faces Popp, Seitz, Gee, Wall, Comput. Methods Appl. Mech.
- *   Engrg. 264, 2013);
+ *   int psi_j = d_j (Wohlmuth, SIAM J. Numer. Anal. 38, 2000);
+ *   biorthogonal on a partly covered face, where force would act at its nodes
+ *   beyond the end of the master side: the same with the functions of the box
+ *   [lower, upper] of the covered part instead of N,
+ *   N~_j(xi) = N_j((xi - lower) / (upper - lower)) = sum_l box_jl N_l(xi),
+ *   N_l = sum_j at_jl N~_j with at_jl = N_l at node j of the box, so that
+ *   int psi_j N_l = int psi_j at_jl: a mean gap of the places of the box;
  *   or standard, psi_j = N_j, for faces covered too little for m^-1.
  */
+struct MultiplierFunctions
+{
+  bool                     biorthogonal = true;
+  dealii::Table<2, double> at, box; ///< empty: of the nodes
+
+  /// Does row j see slave node j alone?
+  bool are_nodal() const { return biorthogonal && at.empty(); }
+};
+
+/// On the box of the covered part of a face; sides of the box that lie
+/// within @p tolerance, a part of the face, of its edges are these.
+template <int dim>
+MultiplierFunctions functions_on(CoverBox<dim> box, unsigned int degree, double tolerance);
+
+/// Of the functions N~_j of the box instead of the face's N_j, the weights left out.
+template <typename Number>
+FaceIntegrals<Number> in_box(const FaceIntegrals<Number> &integrals,
+                             const MultiplierFunctions   &functions);
+
+/// The integrals with multiplier functions.
 template <typename Number>
 struct FaceCoupling
 {
@@ -41,10 +67,28 @@ struct FaceCoupling
   dealii::Table<2, Number>              multiplier_offset; ///< psi_j delta_d
 };
 
-/// The offset of a face at @p xi, differentiated with it.
+/// The offset of a face from its @p offsets at the samples at one point, and
+/// its derivatives by the coordinates.
 template <int dim, typename Number>
-std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &offsets,
-                                  const faces::FaceCoordinates<dim, Number> &xi);
+struct OffsetPoint
+{
+  static constexpr unsigned int                degree = mesh::surface_degree;
+  const faces::FaceValues<dim, double, degree> values;
+  std::array<Number, dim>                      offset{};
+  std::array<std::array<Number, dim>, dim - 1> slopes{};
+
+  OffsetPoint(const FaceNodes<dim, Number> &offsets, const faces::FaceCoordinates<dim, double> &xi)
+    : values(degree, xi)
+  {
+    for (unsigned int k = 0; k < offsets.size(); ++k)
+      for (int d = 0; d < dim; ++d)
+        {
+          offset[d] += values.value[k] * offsets[k][d];
+          for (int a = 0; a < dim - 1; ++a)
+            slopes[a][d] += values.gradient[k][a] * offsets[k][d];
+        }
+  }
+};
 
 template <int dim, typename Number>
 FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quadrature,
@@ -52,13 +96,14 @@ FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quad
                                 const std::vector<MortarFace<dim, Number>> &masters);
 
 template <typename Number>
-FaceCoupling<Number> couple(const FaceIntegrals<Number> &integrals, bool biorthogonal);
+FaceCoupling<Number> couple(const FaceIntegrals<Number> &integrals,
+                            const MultiplierFunctions   &functions);
 
 /// The transpose of the derivative of couple(): from the gradient of a
 /// scalar with respect to the coupling, that to the integrals but for the
 /// weights, of which there is none.
 FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
-                                       bool                         biorthogonal,
+                                       const MultiplierFunctions   &functions,
                                        const FaceCoupling<double>  &gradient);
 } // namespace snug::mortar
 

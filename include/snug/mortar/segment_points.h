@@ -26,6 +26,19 @@ struct MortarFace
   FaceNodes<dim, Number> offsets;
 };
 
+/// A box in the coordinates of a face; empty: lower > upper.
+template <int dim>
+struct CoverBox
+{
+  faces::FaceCoordinates<dim, double> lower, upper;
+
+  CoverBox()
+  {
+    lower.fill(1.);
+    upper.fill(0.);
+  }
+};
+
 /**
  * Quadrature of the part of a slave face that lies opposite to a master
  * face (Puso, Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004).
@@ -47,6 +60,11 @@ public:
   template <typename Number>
   std::vector<SegmentPoint<dim, Number>> points(const FaceNodes<dim, Number> &slave,
                                                 const FaceNodes<dim, Number> &master) const;
+
+  /// Widen @p box to hold the part of the slave face opposite to the master.
+  void add_cover(const FaceNodes<dim, double> &slave,
+                 const FaceNodes<dim, double> &master,
+                 CoverBox<dim>                &box) const;
 
   /// The shape functions of both faces.
   template <typename Number>

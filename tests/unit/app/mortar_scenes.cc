@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "solved_scene.h"
 
 using namespace snug;
@@ -91,4 +93,74 @@ TEST(SphereOnBlock, PowersOfTwoTakeTheSameIterations)
 {
   expect_same_iterations("nodal");
   expect_same_iterations("mortar");
+}
+
+namespace {
+/// A unit block that stands on another one and hangs over its end by @p overhang, pushed down
+/// evenly and held by nothing else but a guide at its side in 3D.
+std::string overhanging(unsigned int dim, double overhang, const std::string &cells)
+{
+  const std::string third = dim == 3 ? ", 0" : "", n = dim == 3 ? ", 2" : "";
+  return "set Dimension = " + std::to_string(dim) + R"(
+set Bodies = lo, up
+subsection Body lo
+  set Box cells = 2, 2)" +
+         n + R"(
+  set Supports = bottom: )" +
+         (dim == 3 ? "xyz" : "xy") + R"(
+end
+subsection Body up
+  set Box corner = )" +
+         std::to_string(overhang) + third + R"(, 1
+  set Box cells = )" +
+         cells + R"(
+  set Supports = )" +
+         (dim == 3 ? "front: y" : "") + R"(
+  set Pressure = top: 0.001
+end
+subsection Contact
+  set Pairs = up.bottom: lo.top
+  set Slave = first
+  set Method = mortar
+end
+)";
+}
+
+template <int dim>
+std::string error_of(const std::string &text)
+{
+  try
+    {
+      SolvedScene<dim> solved(text);
+    }
+  catch (const SolveError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+} // namespace
+
+TEST(Overhang, TipsAsSoonAsItsCentreLiesBeyondTheEnd)
+{
+  for (const double overhang : {0.1, 0.3, 0.45, 0.49, 0.51, 0.55, 0.6, 0.7})
+    {
+      const auto expect = [&](const std::string &error) {
+        const auto found = error.find("no equilibrium: body up escapes");
+        EXPECT_EQ(found != std::string::npos, overhang > 0.5) << overhang << ": " << error;
+        EXPECT_TRUE(overhang > 0.5 || error.empty()) << overhang << ": " << error;
+      };
+      for (const std::string n : {"1", "2", "3", "5"})
+        expect(error_of<2>(overhanging(2, overhang, n + ", 2")));
+      for (const std::string n : {"1, 2, 2", "2, 3, 2", "3, 1, 2"})
+        expect(error_of<3>(overhanging(3, overhang, n)));
+    }
+}
+
+TEST(Overhang, PushesTheMasterAtItsEndAtMost)
+{
+  // Nearly tipping: the force acts below the centre of the load, near the end at x = 1.
+  const SolvedScene<2> solved(overhanging(2, 0.48, "1, 2"), exact);
+  ASSERT_EQ(solved.state.pairs.size(), 1u);
+  EXPECT_NEAR(solved.force(0)[1], 0.001, 1e-12);
 }

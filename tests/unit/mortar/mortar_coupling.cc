@@ -106,9 +106,10 @@ std::vector<double> random_vector(std::size_t n)
 
 /// Of the coupling of @p integrals, and the weights that corrections take from these.
 template <typename Number>
-std::vector<Number> entries(const FaceIntegrals<Number> &integrals, bool biorthogonal)
+std::vector<Number> entries(const FaceIntegrals<Number> &integrals,
+                            const MultiplierFunctions   &functions)
 {
-  const auto          coupling = couple(integrals, biorthogonal);
+  const auto          coupling = couple(integrals, functions);
   std::vector<Number> result   = coupling.multiplier;
   const auto          add      = [&](const dealii::Table<2, Number> &m) {
     for (unsigned int i = 0; i < m.n_rows(); ++i)
@@ -127,9 +128,9 @@ std::vector<Number> entries(const FaceIntegrals<Number> &integrals, bool biortho
 /// The gradient by the integrals where that by the entries is @p values.
 FaceIntegrals<double> by_integrals(const std::vector<double>   &values,
                                    const FaceIntegrals<double> &integrals,
-                                   bool                         biorthogonal)
+                                   const MultiplierFunctions   &functions)
 {
-  FaceCoupling<double> result = couple(integrals, biorthogonal);
+  FaceCoupling<double> result = couple(integrals, functions);
   unsigned int         next   = 0;
   for (double &value : result.multiplier)
     value = values[next++];
@@ -142,7 +143,7 @@ FaceIntegrals<double> by_integrals(const std::vector<double>   &values,
   for (auto &m : result.multiplier_master)
     take(m);
   take(result.multiplier_offset);
-  auto gradient    = couple_transpose(integrals, biorthogonal, result);
+  auto gradient    = couple_transpose(integrals, functions, result);
   gradient.weights = integrals.weights;
   for (auto &m : gradient.weights)
     take(m);
@@ -161,7 +162,7 @@ template <int dim>
 std::vector<double> differences(unsigned int               degree,
                                 const Faces<dim>          &faces,
                                 const std::vector<double> &velocity,
-                                bool                       biorthogonal)
+                                const MultiplierFunctions &functions)
 {
   const double        h = 1e-4;
   std::vector<double> slope;
@@ -170,7 +171,7 @@ std::vector<double> differences(unsigned int               degree,
       Faces<dim> moved = faces;
       moved.move(term.first * h, velocity);
       const auto values =
-        entries(integrate<dim>(rule<dim>(degree), moved.slave, moved.masters), biorthogonal);
+        entries(integrate<dim>(rule<dim>(degree), moved.slave, moved.masters), functions);
       slope.resize(values.size(), 0.);
       for (unsigned int i = 0; i < values.size(); ++i)
         slope[i] += term.second / (12. * h) * values[i];
@@ -200,7 +201,7 @@ template <int dim>
 std::vector<double> exact_derivative(unsigned int               degree,
                                      const Faces<dim>          &faces,
                                      const std::vector<double> &velocity,
-                                     bool                       biorthogonal)
+                                     const MultiplierFunctions &functions)
 {
   unsigned int                                  next  = 0;
   const auto                                    slave = moving<dim>(faces.slave, velocity, next);
@@ -209,18 +210,28 @@ std::vector<double> exact_derivative(unsigned int               degree,
     masters.push_back(moving<dim>(master, velocity, next));
   const auto          quadrature = rule<dim>(degree);
   std::vector<double> slope;
-  for (const auto &entry : entries(integrate<dim>(quadrature, slave, masters), biorthogonal))
+  for (const auto &entry : entries(integrate<dim>(quadrature, slave, masters), functions))
     slope.push_back(entry.slope[0]);
   return slope;
 }
 
+/// Standard, biorthogonal and such on a part of the face.
 template <int dim>
-void expect_derivatives(unsigned int degree, bool biorthogonal)
+std::vector<MultiplierFunctions> all_functions(unsigned int degree)
+{
+  CoverBox<dim> box;
+  box.lower.fill(0.005);
+  box.upper.fill(0.7);
+  return {{false, {}, {}}, {}, functions_on<dim>(box, degree, 0.01)};
+}
+
+template <int dim>
+void expect_derivatives(unsigned int degree, const MultiplierFunctions &functions)
 {
   const Faces<dim> faces(degree, 0.04);
   const auto       velocity = random_vector(faces.coordinates().size());
-  const auto       exact    = exact_derivative(degree, faces, velocity, biorthogonal);
-  const auto       numbers  = differences(degree, faces, velocity, biorthogonal);
+  const auto       exact    = exact_derivative(degree, faces, velocity, functions);
+  const auto       numbers  = differences(degree, faces, velocity, functions);
   ASSERT_EQ(exact.size(), numbers.size());
   double largest = 0., error = 0.;
   for (unsigned int i = 0; i < exact.size(); ++i)
@@ -235,7 +246,7 @@ void expect_derivatives(unsigned int degree, bool biorthogonal)
   const auto integrals  = integrate<dim>(quadrature, faces.slave, faces.masters);
   const auto weights    = random_vector(exact.size());
   const auto gradient   = integrate_transpose<dim>(quadrature, faces.slave, faces.masters,
-                                                 by_integrals(weights, integrals, biorthogonal));
+                                                 by_integrals(weights, integrals, functions));
   Faces<dim> reverse    = faces;
   reverse.slave         = gradient.slave;
   reverse.masters       = gradient.masters;
@@ -274,12 +285,12 @@ TEST(FaceMap, CoordinatesAreFoundAgain)
 TEST(MortarCoupling, MultipliersSumToOneAndAreBiorthogonal)
 {
   for (const unsigned int degree : {1, 2})
-    for (const bool biorthogonal : {false, true})
+    for (const auto &functions : all_functions<3>(degree))
       {
         const Faces<3>     faces(degree, 0.03);
         const auto         quadrature = rule<3>(degree);
         const auto         integrals  = integrate<3>(quadrature, faces.slave, faces.masters);
-        const auto         result     = couple(integrals, biorthogonal);
+        const auto         result     = couple(integrals, functions);
         const unsigned int n          = faces.slave.nodes.size();
         for (unsigned int l = 0; l < n; ++l)
           {
@@ -288,7 +299,8 @@ TEST(MortarCoupling, MultipliersSumToOneAndAreBiorthogonal)
               {
                 on_slave += result.multiplier_slave(j, l);
                 on_master += result.multiplier_master[0](j, l);
-                EXPECT_TRUE(!biorthogonal || j == l || result.multiplier_slave(j, l) == 0.);
+                EXPECT_TRUE(!functions.are_nodal() || j == l ||
+                            result.multiplier_slave(j, l) == 0.);
               }
             // sum_j int psi_j N = int N
             EXPECT_NEAR(on_slave, integrals.slave[l], 1e-14);
@@ -331,9 +343,10 @@ TEST(MortarCoupling, CoveredAreaIsExact)
 TEST(MortarCoupling, DerivativesAgreeWithFiniteDifferences)
 {
   for (const unsigned int degree : {1, 2})
-    for (const bool biorthogonal : {false, true})
-      {
-        expect_derivatives<2>(degree, biorthogonal);
-        expect_derivatives<3>(degree, biorthogonal);
-      }
+    {
+      for (const auto &functions : all_functions<2>(degree))
+        expect_derivatives<2>(degree, functions);
+      for (const auto &functions : all_functions<3>(degree))
+        expect_derivatives<3>(degree, functions);
+    }
 }
