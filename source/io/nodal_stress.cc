@@ -66,46 +66,232 @@ StressSampling<dim> stress_sampling(unsigned int degree)
 
 constexpr unsigned int n_stress = dealii::SymmetricTensor<2, 3>::n_independent_components;
 
-/// Per local node and region: weighted sums of the components of stress
-/// and the sum of weights, over this rank's cells.
+using Stress = dealii::SymmetricTensor<2, 3>;
+
+/// A mesh and what it carries.
 template <int dim>
-std::vector<double> stress_sums(const mesh::BodyMesh<dim>                 &mesh,
-                                const std::vector<state::BodyModel<dim>>  &bodies,
-                                const typename mesh::BodyMesh<dim>::Field &positions,
-                                const typename mesh::BodyMesh<dim>::Field &displacement)
+struct Solved
 {
+  using Field = typename mesh::BodyMesh<dim>::Field;
+  using Nodes = typename elasticity::Element<dim>::Nodes;
+
+  const mesh::BodyMesh<dim>                &mesh;
+  const std::vector<state::BodyModel<dim>> &bodies;
+  const Field                              &positions, &displacement;
+  const unsigned int                        n_regions = n_stress_regions(mesh);
+
+  Nodes at_nodes(const typename mesh::BodyMesh<dim>::Cell &cell, const Field &field) const
+  {
+    Nodes values;
+    for (const unsigned int node : cell.nodes)
+      values.push_back(field[node]);
+    return values;
+  }
+
+  std::size_t index(const typename mesh::BodyMesh<dim>::Cell &cell, unsigned int node) const
+  {
+    return std::size_t(cell.nodes[node]) * n_regions + cell.region;
+  }
+};
+
+/// At the points of all cells, those of a cell one after the other.
+template <int dim>
+std::vector<Stress> sampled_stress(const Solved<dim> &solved, const StressSampling<dim> &sampling)
+{
+  const auto                           &mesh = solved.mesh;
   std::vector<elasticity::Element<dim>> elements;
-  for (const auto &body : bodies)
+  for (const auto &body : solved.bodies)
     elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
+  std::vector<Stress> result;
+  for (const auto &cell : mesh.cells())
+    for (const auto &point : sampling.points)
+      result.push_back(elements[cell.body].stress(solved.at_nodes(cell, solved.positions),
+                                                  solved.bodies[cell.body].material(cell),
+                                                  solved.at_nodes(cell, solved.displacement),
+                                                  point));
+  return result;
+}
+
+/// Sums over cells with centres x_i, from an origin o: of y y' and y stress, y = (1, x_i - o).
+template <int dim>
+struct Moments
+{
+  static constexpr unsigned int n_numbers = (dim + 1) * (dim + 2) / 2 + (dim + 1) * n_stress;
+
+  dealii::Tensor<2, dim + 1>  squares;
+  std::array<Stress, dim + 1> stress;
+
+  /// visit(number) for all that is different.
+  template <typename Visit>
+  void visit_numbers(const Visit &visit)
+  {
+    for (int i = 0; i <= dim; ++i)
+      {
+        for (int j = 0; j <= i; ++j)
+          visit(squares[i][j]);
+        for (unsigned int c = 0; c < n_stress; ++c)
+          visit(stress[i].access_raw_entry(c));
+      }
+    for (int i = 0; i <= dim; ++i)
+      for (int j = 0; j < i; ++j)
+        squares[j][i] = squares[i][j];
+  }
+
+  void add(const Moments &other, const dealii::Tensor<2, dim + 1> &map)
+  {
+    squares += map * other.squares * transpose(map);
+    for (int i = 0; i <= dim; ++i)
+      for (int j = 0; j <= dim; ++j)
+        stress[i] += map[i][j] * other.stress[j];
+  }
+
+  /// The slopes of the linear field that fits best along axes in which the centres spread.
+  std::array<Stress, dim> slopes() const
+  {
+    // In units of a cell: neighbours lie at -1 and 1. Centres of a single layer that is bent do
+    // not tell what varies across it.
+    const double                    least_spread = 0.03;
+    const double                    n            = squares[0][0];
+    dealii::SymmetricTensor<2, dim> spread;
+    std::array<Stress, dim>         along, result;
+    for (int i = 0; i < dim; ++i)
+      {
+        for (int j = 0; j <= i; ++j)
+          spread[i][j] = squares[i + 1][j + 1] / n - squares[i + 1][0] / n * squares[j + 1][0] / n;
+        along[i] = stress[i + 1] / n - squares[i + 1][0] / n * stress[0] / n;
+      }
+    for (const auto &[value, axis] : eigenvectors(spread))
+      if (value > least_spread)
+        {
+          Stress slope;
+          for (int i = 0; i < dim; ++i)
+            slope += axis[i] / value * along[i];
+          for (int i = 0; i < dim; ++i)
+            result[i] += axis[i] * slope;
+        }
+    return result;
+  }
+};
+
+/// A cell of degree 1 as a box: x = centre + axes z.
+template <int dim>
+struct CellFrame
+{
+  dealii::Tensor<1, dim> centre;
+  dealii::Tensor<2, dim> to_cell; ///< z = to_cell (x - centre)
+
+  explicit CellFrame(const typename elasticity::Element<dim>::Nodes &X)
+  {
+    dealii::Tensor<2, dim> axes;
+    for (unsigned int a = 0; a < X.size(); ++a)
+      {
+        centre += X[a] / double(X.size());
+        for (int i = 0; i < dim; ++i)
+          for (int k = 0; k < dim; ++k)
+            axes[i][k] += (a >> k & 1 ? 2. : -2.) / X.size() * X[a][i];
+      }
+    to_cell = invert(axes);
+  }
+};
+
+/// Of cells of degree 1, along the axes of their frames: of the linear field that fits the stresses
+/// of the cells around each best, those that share more of its nodes counting more. The constant
+/// stress of a cell alone would make nodes at the surface of a body wrong by the first order.
+/// Collective.
+template <int dim>
+std::vector<std::array<Stress, dim>> stress_slopes(const Solved<dim>         &solved,
+                                                   const std::vector<Stress> &of_cells)
+{
+  const auto                 &mesh = solved.mesh;
+  std::vector<Moments<dim>>   at_nodes(mesh.n_local_nodes() * solved.n_regions);
+  std::vector<CellFrame<dim>> frames;
+  for (unsigned int c = 0; c < mesh.cells().size(); ++c)
+    {
+      const auto &cell = mesh.cells()[c];
+      frames.emplace_back(solved.at_nodes(cell, solved.positions));
+      for (unsigned int a = 0; a < cell.nodes.size(); ++a)
+        {
+          dealii::Tensor<1, dim + 1> y;
+          y[0] = 1.;
+          for (int i = 0; i < dim; ++i)
+            y[i + 1] = frames.back().centre[i] - solved.positions[cell.nodes[a]][i];
+          auto &moments = at_nodes[solved.index(cell, a)];
+          moments.squares += outer_product(y, y);
+          for (int i = 0; i <= dim; ++i)
+            moments.stress[i] += y[i] * of_cells[c];
+        }
+    }
+  std::vector<double> numbers;
+  for (auto &moments : at_nodes)
+    moments.visit_numbers([&](const double number) { numbers.push_back(number); });
+  mesh::sum_at_shared_nodes(mesh, Moments<dim>::n_numbers * solved.n_regions, numbers);
+  auto next = numbers.begin();
+  for (auto &moments : at_nodes)
+    moments.visit_numbers([&](double &number) { number = *next++; });
+
+  std::vector<std::array<Stress, dim>> result;
+  for (unsigned int c = 0; c < mesh.cells().size(); ++c)
+    {
+      const auto  &cell = mesh.cells()[c];
+      Moments<dim> around;
+      for (unsigned int a = 0; a < cell.nodes.size(); ++a)
+        {
+          // From the node to the frame of the cell.
+          const auto shift =
+            frames[c].to_cell * (solved.positions[cell.nodes[a]] - frames[c].centre);
+          dealii::Tensor<2, dim + 1> map;
+          map[0][0] = 1.;
+          for (int i = 0; i < dim; ++i)
+            {
+              map[i + 1][0] = shift[i];
+              for (int j = 0; j < dim; ++j)
+                map[i + 1][j + 1] = frames[c].to_cell[i][j];
+            }
+          around.add(at_nodes[solved.index(cell, a)], map);
+        }
+      auto       slopes = around.slopes();
+      const auto axes   = frames[c].to_cell;
+      // By positions: sum_k slope_k z_k = sum_i (sum_k slope_k axes_ki) (x - centre)_i
+      result.emplace_back();
+      for (int i = 0; i < dim; ++i)
+        for (int k = 0; k < dim; ++k)
+          result.back()[i] += axes[k][i] * slopes[k];
+    }
+  return result;
+}
+
+/// Per local node and region: weighted sums of the components of stress
+/// and the sum of weights, over this rank's cells. Collective.
+template <int dim>
+std::vector<double> stress_sums(const Solved<dim> &solved)
+{
+  const auto &mesh     = solved.mesh;
+  const auto  sampling = stress_sampling<dim>(mesh.degree());
+  const auto  sampled  = sampled_stress(solved, sampling);
+  const auto  slopes =
+    mesh.degree() == 1 ? stress_slopes(solved, sampled) : std::vector<std::array<Stress, dim>>();
   // A plain section: weights by the radius or thickness would spoil the mean of a linear field.
   const elasticity::Element<dim> flat(mesh.degree());
-  const auto                     sampling  = stress_sampling<dim>(mesh.degree());
-  const unsigned int             n_regions = n_stress_regions(mesh);
-  std::vector<double>            sums(std::size_t(n_stress + 1) * n_regions * mesh.n_local_nodes());
-  for (const auto &cell : mesh.cells())
+  std::vector<double> sums(std::size_t(n_stress + 1) * solved.n_regions * mesh.n_local_nodes());
+  for (unsigned int c = 0; c < mesh.cells().size(); ++c)
     {
-      const auto                              &element = elements[cell.body];
-      typename elasticity::Element<dim>::Nodes X, u;
-      for (const unsigned int node : cell.nodes)
+      const auto            &cell   = mesh.cells()[c];
+      const auto             X      = solved.at_nodes(cell, solved.positions);
+      const double           weight = 1. / flat.volume(X); // of the section
+      dealii::Tensor<1, dim> centre;
+      for (const auto &x : X)
+        centre += x / double(X.size());
+      for (unsigned int a = 0; a < X.size(); ++a)
         {
-          X.push_back(positions[node]);
-          u.push_back(displacement[node]);
-        }
-      const double weight = 1. / flat.volume(X); // of the section
-      for (unsigned int q = 0; q < sampling.points.size(); ++q)
-        {
-          const auto stress =
-            element.stress(X, bodies[cell.body].material(cell), u, sampling.points[q]);
-          for (unsigned int a = 0; a < X.size(); ++a)
-            {
-              const double factor = weight * sampling.weights[a][q];
-              double      *sum =
-                &sums[std::size_t(n_stress + 1) * (cell.nodes[a] * n_regions + cell.region)];
-              for (unsigned int c = 0; c < n_stress; ++c)
-                sum[c] += factor * stress.access_raw_entry(c);
-              // factors may be negative, but those of a cell at a node add up to 1 / volume > 0
-              sum[n_stress] += factor;
-            }
+          Stress stress;
+          for (unsigned int q = 0; q < sampling.points.size(); ++q)
+            stress += sampling.weights[a][q] * sampled[c * sampling.points.size() + q];
+          for (int i = 0; i < dim && !slopes.empty(); ++i)
+            stress += (X[a] - centre)[i] * slopes[c][i];
+          double *sum = &sums[(n_stress + 1) * solved.index(cell, a)];
+          for (unsigned int component = 0; component < n_stress; ++component)
+            sum[component] += weight * stress.access_raw_entry(component);
+          sum[n_stress] += weight;
         }
     }
   return sums;
@@ -130,8 +316,9 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
              const typename mesh::BodyMesh<dim>::Field &displacement)
 {
   AssertDimension(bodies.size(), mesh.n_bodies());
-  auto               sums      = stress_sums(mesh, bodies, positions, displacement);
-  const unsigned int n_regions = n_stress_regions(mesh);
+  const Solved<dim>  solved{mesh, bodies, positions, displacement};
+  auto               sums      = stress_sums(solved);
+  const unsigned int n_regions = solved.n_regions;
   // sums and weights together, so that the mean is one over the cells of all ranks
   mesh::sum_at_shared_nodes(mesh, (n_stress + 1) * n_regions, sums);
 

@@ -19,13 +19,14 @@ unsigned int n_stress_regions(const mesh::BodyMesh<dim> &mesh);
  * node * n_stress_regions() + region, zero where a node is not in the
  * region. In a cell of degree p the stress is taken at the p^dim Gauss
  * points, where it is most accurate (Barlow, Int. J. Numer. Meth. Engng 10
- * (1976)), and extrapolated to the nodes by the polynomial of degree p-1
- * through them: the constant of the centre for Q1, linear per axis for Q2.
- * A node gets the mean of its cells in the region weighted by 1/volume,
- * which gives back a linear field between the cells of a graded box;
- * hanging nodes are interpolated
- * between masters in the region. Second order inside a body; first order
- * on its surface for Q1.
+ * (1976)), and extrapolated to the nodes: of Q1 by the slopes of the linear
+ * field that fits the stresses at the centres of the cells around best, as
+ * in the patch recovery of Zienkiewicz and Zhu (ibid. 33 (1992)), of Q2 by
+ * the function through the points that is linear per axis. A node gets the
+ * mean of its cells in the region weighted by 1/volume; hanging nodes are
+ * interpolated between masters in the region. Second order, and exact for
+ * linear fields on any mesh of Q1; first order at the surfaces of Q1 bodies
+ * of a single layer of cells.
  *
  * Valid at the nodes of owned cells. Collective.
  *
