@@ -30,19 +30,20 @@ dealii::Tensor<1, dim> mean_direction(const ShapedFace<dim>                 &fac
 template <int dim>
 std::vector<unsigned int> patch_axes(const ShapedFace<dim> &face, const ShapeParameters &parameters)
 {
-  const auto mean_normal = mean_direction(face, face.normals());
-  for (const auto &normal : face.normals())
-    // Replicated: all ranks throw, or none.
-    if (!(normal * mean_normal > least_cosine))
-      throw bad_entry(parameters.path("Face"), parameters.face,
-                      "must not turn by more than a quarter for a patch; "
-                      "use a box, node-wise or formula modes");
-  unsigned int across = 0;
+  const auto   mean_normal = mean_direction(face, face.normals());
+  unsigned int across      = 0;
   // The axis next to the mean normal is left out: the face is a graph over the other two.
   for (unsigned int d = 1; d < dim; ++d)
     // of equal ones the last, whatever round-off says
     if (std::abs(mean_normal[d]) > std::abs(mean_normal[across]) - 1e-9)
       across = d;
+  for (const auto &normal : face.normals())
+    // Replicated: all ranks throw, or none. At the ends of a quarter of a ring the normal just lies
+    // in the plane of the others; beyond, the face lies above itself.
+    if (!(normal * mean_normal > least_cosine && normal[across] * mean_normal[across] > -1e-9))
+      throw bad_entry(parameters.path("Face"), parameters.face,
+                      "must not turn by more than a quarter for a patch; "
+                      "use a box, node-wise or formula modes");
   std::vector<unsigned int> axes;
   for (unsigned int d = 0; d < dim; ++d)
     if (d != across)

@@ -17,6 +17,12 @@ double relative(double a, double b)
   return a == 0. ? 0. : a / b;
 }
 
+/// The larger of both; infinity instead of NaN, which std::max passes over and MPI_MAX may.
+double larger(double a, double b)
+{
+  return b <= a ? a : std::isnan(b) ? INFINITY : b;
+}
+
 /// sum_j |K_ij| |u_j|: what the rounding of (K u)_i is a part of.
 double absolute_product(const feti::CsrMatrix &K, const qp::MultiVector &u, unsigned int i)
 {
@@ -101,7 +107,7 @@ double largest_load_product(const feti::TotalFeti &feti)
   double largest = 0.;
   for (const auto &system : feti.subdomains())
     for (unsigned int i = 0; i < system.n_dofs(); ++i)
-      largest = std::max(largest, std::abs(system.f[i]) / system.K.diagonal(i));
+      largest = larger(largest, std::abs(system.f[i]) / system.K.diagonal(i));
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
   return largest;
 }
@@ -150,16 +156,16 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
   double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
     {
-      largest[4] = std::max(largest[4], feti.diagonal()[i] * std::abs(lambda(i)));
+      largest[4] = larger(largest[4], feti.diagonal()[i] * std::abs(lambda(i)));
       if (!feti.bounded()[i])
         {
-          largest[0] = std::max(largest[0], std::abs(w(i)));
+          largest[0] = larger(largest[0], std::abs(w(i)));
           continue;
         }
-      largest[1] = std::max(largest[1], w(i));
-      largest[2] = std::max(largest[2], -lambda(i));
+      largest[1] = larger(largest[1], w(i));
+      largest[2] = larger(largest[2], -lambda(i));
       // A pull is compared with the largest push, not with the multipliers of gluing.
-      largest[3] = std::max(largest[3], lambda(i));
+      largest[3] = larger(largest[3], lambda(i));
       sums[0] += lambda(i) * w(i);
     }
   for (unsigned int s = 0; s < u.size(); ++s)

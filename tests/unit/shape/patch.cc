@@ -235,6 +235,25 @@ TEST(Patch, ControlPointsStandAtGrevilleAbscissae)
   EXPECT_EQ(points[6].move.norm(), 0.);
 }
 
+TEST(Patch, RejectsFacesThatLieAboveThemselves)
+{
+  // An arc whose normals lean by up to 65 degrees from its middle: turned by 40 degrees one end
+  // looks back along the axis across the patch.
+  const auto make = [](const std::string &degrees) {
+    auto bodies            = plain_cube<2>(8);
+    bodies[0].size         = {2., 2.};
+    bodies[0].curved_faces = {{"top", "cylinder z 1.1"}};
+    bodies[0].rotate       = {{"z", degrees}};
+    const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, bodies, 1);
+    auto                    parameters = on_top<2>("Bezier patch", "block");
+    parameters.interior                = shape::InteriorKind::Laplace;
+    shape::Shapes<2>(mesh, {{"block"}}, {parameters});
+  };
+  EXPECT_NO_THROW(make("0"));
+  EXPECT_NO_THROW(make("20"));
+  EXPECT_THROW(make("40"), InputError);
+}
+
 TEST(Patch, RejectsBadEntriesByName)
 {
   auto good = on_top<3>("B-spline patch");

@@ -1,3 +1,5 @@
+#include <snug/state/certificate.h>
+
 #include <gtest/gtest.h>
 #include <unit/state/test_scene.h>
 
@@ -104,6 +106,19 @@ TEST(State, CertificateMeetsDefaultTolerance)
   EXPECT_LE(state.certificate.negative_pressure, 1e-6);
   EXPECT_LE(state.certificate.complementarity, 1e-6);
   EXPECT_GT(state.certificate.worst(), 0.);
+}
+
+TEST(State, CertificateOfNaNIsInfinite)
+{
+  Problem<3> problem(hertz_scene(1e-6));
+  const auto state = problem.solve();
+  auto       u     = state.u;
+  for (auto &of_subdomain : u)
+    for (unsigned int i = 0; i < of_subdomain.n_rows(); ++i)
+      of_subdomain(i) = std::numeric_limits<double>::quiet_NaN();
+  const auto certificate = state::certify(problem.solver.feti(state), state.dual.lambda, u);
+  for (const double error : {certificate.continuity, certificate.penetration, certificate.worst()})
+    EXPECT_FALSE(error < std::numeric_limits<double>::max());
 }
 
 TEST(State, ContactCarriesTheLoad)
