@@ -105,8 +105,9 @@ void Results<dim>::warn(const States &states)
       warn(state::warnings(state.assumptions));
       warn(state.free_bodies);
     }
-  if (std::all_of(states.begin(), states.end(),
-                  [](const auto &state) { return state.assumptions.displacement == 0.; }))
+  if (std::all_of(states.begin(), states.end(), [](const auto &state) {
+        return state.assumptions.displacement < state::least_motion;
+      }))
     warn({"nothing moves: no force, pressure, moment or weight, no prescribed displacement and no "
           "overlap in any load case"});
 }

@@ -140,11 +140,16 @@ Assumptions assess(const StateSolver<dim>               &solver,
         result.strain   = std::max(result.strain, part(1.));
         result.rotation = std::max(result.rotation, part(-1.) / std::sqrt(2.));
       }
-  for (const auto &u : state.displacement)
-    result.displacement = std::max(result.displacement, u.norm());
+  double farthest = 0.;
+  for (unsigned int node = 0; node < state.displacement.size(); ++node)
+    {
+      result.displacement = std::max(result.displacement, state.displacement[node].norm());
+      farthest            = std::max(farthest, state.positions[node].norm());
+    }
   const MPI_Comm comm = solver.context().communicator();
-  for (double *of_rank : {&result.strain, &result.rotation, &result.displacement})
+  for (double *of_rank : {&result.strain, &result.rotation, &result.displacement, &farthest})
     *of_rank = dealii::Utilities::MPI::max(*of_rank, comm);
+  result.displacement /= farthest;
 
   const auto &surface = solver.surface();
   const auto  x       = surface.gather(state.positions);

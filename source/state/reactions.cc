@@ -75,6 +75,27 @@ void add_loads(const StateSolver<dim> &solver, ContactState<dim> &state)
   state.load = resultant(solver, state.load);
 }
 
+/// Where the force of a row acts on the slave side: at its node, but where others of the side take
+/// part, as in mortar rows at the end of the master side.
+template <int dim>
+dealii::Tensor<1, dim> place(const contact::Row<dim>                  &row,
+                             const unsigned int                        slave,
+                             const std::vector<bool>                  &on_slave_side,
+                             const typename mesh::Surface<dim>::Field &x)
+{
+  dealii::Tensor<1, dim> sum;
+  double                 weights = 0.;
+  unsigned int           n       = 0;
+  for (const auto &[node, c] : row.coefficients)
+    if (on_slave_side[node])
+      {
+        ++n;
+        weights += c * row.normal;
+        sum += (c * row.normal) * x[node];
+      }
+  return n == 1 ? x[slave] : sum / weights;
+}
+
 /// Contact points are replicated.
 template <int dim>
 void add_places(const StateSolver<dim>     &solver,
@@ -86,13 +107,24 @@ void add_places(const StateSolver<dim>     &solver,
   const auto                           sizes   = contact::node_face_sizes(solver.surface(), x);
   std::vector<std::vector<Force<dim>>> forces(state.pairs.size());
   std::vector<double>                  sums(state.pairs.size(), 0.), largest = sums;
+  std::vector<std::vector<bool>>       on_slave_side;
+  for (const auto &pair : contact.pairs())
+    {
+      on_slave_side.emplace_back(solver.surface().n_nodes(), false);
+      for (const auto &face : solver.surface().faces())
+        if (contact::Pair::Side(face.body, face.boundary) == pair.slave)
+          for (const unsigned int node : face.nodes)
+            on_slave_side.back()[node] = true;
+    }
   for (unsigned int i = 0; i < state.contact.size(); ++i)
     {
       const auto &[pair, slave] = contact.places()[i];
       const auto &point         = state.contact[i];
       auto       &of_pair       = state.pairs[pair];
-      forces[pair].emplace_back(x[slave], resultant(solver, -point.force * rows.contact[i].normal));
-      of_pair.centre += point.force * x[slave];
+      const auto &row           = rows.contact[i];
+      const auto  at            = place<dim>(row, slave, on_slave_side[pair], x);
+      forces[pair].emplace_back(at, resultant(solver, -point.force * row.normal));
+      of_pair.centre += point.force * at;
       sums[pair] += point.force;
       if (point.pressure > largest[pair])
         {

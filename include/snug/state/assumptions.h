@@ -8,11 +8,12 @@ namespace snug::state {
 /// @{
 constexpr double large_rotation = 0.1; ///< [rad]: lengths change by 0.5 %
 constexpr double large_strain   = 0.1;
-constexpr double large_slip     = 0.5;  ///< of a face
-constexpr double large_drift    = 0.5;  ///< of a face
-constexpr double least_width    = 3.;   ///< of a contact, in faces
-constexpr double large_overlap  = 0.1;  ///< of a face
-constexpr double large_facets   = 0.05; ///< height of facets, of the gaps closed
+constexpr double large_slip     = 0.5;   ///< of a face
+constexpr double large_drift    = 0.5;   ///< of a face
+constexpr double least_width    = 3.;    ///< of a contact, in faces
+constexpr double large_overlap  = 0.1;   ///< of a face
+constexpr double least_motion   = 1e-13; ///< of nodes: below it is rounding
+constexpr double large_facets   = 0.05;  ///< height of facets, of the gaps closed
 /// @}
 
 /// An overlap of more faces is not a rough mesh but a wrong pair.

@@ -52,7 +52,9 @@ struct Assumptions
   /// of the pair that sees the highest facets instead of what they stand for, by the gaps it
   /// closes: their height and these [length]
   double facet_height = 0., closed_gap = 0.;
-  double displacement = 0.; ///< largest of a node [length]
+  /// largest of a node, as a part of the largest distance of a node from the origin, whose
+  /// rounding gaps may have
+  double displacement = 0.;
 };
 
 /// A force and a moment, which in the plane has one component, the last

@@ -285,8 +285,8 @@ TEST(Warnings, OfRefineWhereThatCatchesNothing)
 TEST(Unloaded, NothingMoves)
 {
   const SolvedScene<3> solved(two_blocks(true), {"Body upper/Pressure="});
-  EXPECT_EQ(solved.state.assumptions.displacement, 0.);
-  EXPECT_GT(SolvedScene<3>(two_blocks(true)).state.assumptions.displacement, 0.);
+  EXPECT_LT(solved.state.assumptions.displacement, state::least_motion);
+  EXPECT_GT(SolvedScene<3>(two_blocks(true)).state.assumptions.displacement, 1e-4);
 }
 
 TEST(EdgeOfTheMaster, ForcesFadeAsItShrinks)

@@ -159,8 +159,12 @@ TEST(Overhang, TipsAsSoonAsItsCentreLiesBeyondTheEnd)
 
 TEST(Overhang, PushesTheMasterAtItsEndAtMost)
 {
-  // Nearly tipping: the force acts below the centre of the load, near the end at x = 1.
-  const SolvedScene<2> solved(overhanging(2, 0.48, "1, 2"), exact);
-  ASSERT_EQ(solved.state.pairs.size(), 1u);
-  EXPECT_NEAR(solved.force(0)[1], 0.001, 1e-12);
+  // In balance where the load's centre is, also where the only slave node there hangs over.
+  for (const double overhang : {0.1, 0.3, 0.48})
+    for (const std::string n : {"1", "2"})
+      {
+        const SolvedScene<2> solved(overhanging(2, overhang, n + ", 2"), exact);
+        EXPECT_NEAR(solved.force(0)[1], 0.001, 1e-11);
+        EXPECT_NEAR(solved.state.pairs[0].centre[0], overhang + 0.5, 1e-6);
+      }
 }
