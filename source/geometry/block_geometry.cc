@@ -252,15 +252,20 @@ dealii::Point<3> BlockGeometry<3>::block_position(unsigned int            block,
   const Vertices &vertices = mesh->blocks[block];
   if (mesh->inside || !is_curved[block])
     return interpolated(vertices, weights<3>(u), mesh->inside.get());
+  const auto on_face = [&](unsigned int f) {
+    // tangents of deal.II's faces: y z, z x, x y
+    const dealii::Point<2> t(u[(f / 2 + 1) % 3], u[(f / 2 + 2) % 3]);
+    return face_position(face_of<3>(vertices, f), t);
+  };
+  // most points asked for; the sum is the same
+  for (unsigned int f = 0; f < 6; ++f)
+    if (u[f / 2] == f % 2)
+      return on_face(f);
   // faces count edges twice, and with them gone vertices not at all: x = faces - edges + vertices
   const auto side   = [&](unsigned int d, unsigned int s) { return s == 1 ? u[d] : 1. - u[d]; };
   Point      result = interpolated(vertices, weights<3>(u), nullptr);
   for (unsigned int f = 0; f < 6; ++f)
-    {
-      // tangents of deal.II's faces: y z, z x, x y
-      const dealii::Point<2> t(u[(f / 2 + 1) % 3], u[(f / 2 + 2) % 3]);
-      result += side(f / 2, f % 2) * face_position(face_of<3>(vertices, f), t);
-    }
+    result += side(f / 2, f % 2) * on_face(f);
   for (unsigned int d = 0; d < 3; ++d)
     for (unsigned int k = 0; k < 4; ++k)
       {
