@@ -79,7 +79,7 @@ CHECKS = {
         *(rollers(cylinders, model=model, **mesh)
           for model in ("plane strain", "plane stress")
           for mesh in ({}, {"cells": (4, 5)}, {"levels": (6, 6)})),
-        rollers(spheres, cells=(4, 5)), rollers(solid_spheres, cells=(4, 5))),
+        rollers(spheres, cells=(4, 5), levels=(4, 4)), rollers(solid_spheres, cells=(4, 5))),
     "gears": lambda: hold(gears(order=1), gears(order=1, refinements=1),
                           gears(order=1, degree=2), gears(), gears(degree=2)),
     "free": lambda: hold(*(rings(n, m, subdomains=parts, ranks=ranks, method=method)

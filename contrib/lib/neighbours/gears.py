@@ -99,6 +99,7 @@ def gears(order=2, teeth=(20, 30), angle=20, moment=MOMENT, scale=1, swapped=Fal
 
 GEARS = [
     gears(),
+    gears(subdomains=1),
     gears(degree=2, ranks=2),
     gears(order=1),
     gears(order=1, refinements=1),
@@ -118,5 +119,4 @@ GEARS = [
     gears(scale=.001, moment=.1),
     gears(method="mortar", slave="first", subdomains=13),
     gears(fine=.03, order=1, ranks=4),
-    gears(subdomains=1),
 ]

@@ -20,14 +20,17 @@ def angles(n, seed):
 
 
 def mesh(*annuli):
-    """Of (name, inner radius, radius, cells around, layers): regions of these names
-    with boundaries NAME_inner and NAME_outer."""
+    """Of (name, inner radius, radius, cells around, layers, even): regions of these names
+    with boundaries NAME_inner and NAME_outer. even: 1 of an inner circle of equal cells."""
     nodes, elements, names = [], [], []
-    for tag, (name, inner, outer, around, layers) in enumerate(annuli):
+    for tag, (name, inner, outer, around, layers, even) in enumerate(annuli):
         first = len(nodes) + 1
         turns = angles(around, f"{name} {around}")
-        radii = [inner + (outer - inner) * j / layers for j in range(layers + 1)]
-        nodes += [(r * math.cos(t), r * math.sin(t)) for r in radii for t in turns]
+        for j in range(layers + 1):
+            r, share = inner + (outer - inner) * j / layers, even * (1 - j / layers)
+            nodes += [(r * math.cos(t), r * math.sin(t))
+                      for t in (share * 2 * math.pi * i / around + (1 - share) * turn
+                                for i, turn in enumerate(turns))]
         ring = [[first + around * j + i for i in (*range(around), 0)]
                 for j in range(layers + 1)]
         group = 3 * tag + 1
@@ -61,15 +64,16 @@ def rings(inner, outer, node_bound, ranks=1):
     right = nested_pressure("plane strain", radii, SAME, 10, .01)
     return Case("uneven rings", f"{inner}/{outer} " + label(ranks=ranks), text,
                 lame_figures(right, radii[1], 1e-2, node_bound), ranks,
-                lambda: mesh(("inner", *radii[:2], inner, max(3, inner // 10)),
-                             ("outer", *radii[1:], outer, max(3, outer // 10))))
+                lambda: mesh(("inner", *radii[:2], inner, max(3, inner // 10), 0),
+                             ("outer", *radii[1:], outer, max(3, outer // 10), 0)))
 
 
 def pins(pin, plate, ranks=1):
+    """On an uneven bore a force has a moment about the axis, which nothing holds."""
     text = of_file({"pin": {"Young's modulus": 210000, "Force": "pin_inner: 0 -500"},
                     "plate": {"Young's modulus": 210000, "Supports": "plate_outer: xy"}},
                    "pin.pin_outer", "plate.plate_inner")
     return Case("uneven pins", f"{pin}/{plate} " + label(ranks=ranks), text,
                 pin_figures("full", 1, .02, 500, 2e-2), ranks,
-                lambda: mesh(("pin", 3, 10, pin, pin // 8),
-                             ("plate", 10.02, 30, plate, plate // 8)))
+                lambda: mesh(("pin", 3, 10, pin, pin // 8, 1),
+                             ("plate", 10.02, 30, plate, plate // 8, 0)))
