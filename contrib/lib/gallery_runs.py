@@ -55,13 +55,18 @@ def environment():
     return entries
 
 
+def launch(scene, settings, output, ranks=1, **options):
+    """The process of one run that has ended; options are those of subprocess.run."""
+    program = os.environ.get("SNUG", str(ROOT / "build" / "snug"))
+    parallel = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
+    return subprocess.run([*parallel, program, str(scene), f"--output={output}",
+                           *(f"--set={setting}" for setting in settings)],
+                          stdout=subprocess.DEVNULL, env=environment(), **options)
+
+
 @functools.lru_cache(maxsize=None)
 def solve(scene, *settings):
     """The Result of a scene, a path from the root, with these entries."""
-    program = os.environ.get("SNUG", str(ROOT / "build" / "snug"))
     with tempfile.TemporaryDirectory() as directory:
-        subprocess.run([program, str(ROOT / scene), f"--output={directory}",
-                        *(f"--set={setting}" for setting in settings)],
-                       check=True, stdout=subprocess.DEVNULL,
-                       env=environment())
+        launch(ROOT / scene, settings, directory, check=True)
         return Result(pathlib.Path(directory))

@@ -3,6 +3,7 @@
 A measure takes the result of a scene and that of the scene it is compared with,
 if there is one, and returns quantities as (name, value, known answer)."""
 
+import copy
 import math
 
 
@@ -134,6 +135,40 @@ def pin_in_hole(result, _):
     return [("p0", max(result.pressures()), pressure * load),
             ("end [degrees]", math.degrees(2 * math.atan(end)),
              math.degrees(2 * math.atan(b)))]
+
+
+def gear_pair(result, _):
+    """Statics, and cylinders with the radii of the involutes at the pitch point."""
+    radii, width, moment, alpha = (40., 60.), 10., 1e5, math.radians(20)
+    tooth = moment / (radii[0] * math.cos(alpha))
+    force = math.hypot(*result.state["contact_force"])
+    radius = math.sin(alpha) / sum(1 / r for r in radii)
+    modulus = moduli((206000, .3), (206000, .3))
+    a = math.sqrt(4 * tooth / width * radius / (math.pi * modulus))
+    return [("tooth force", force, tooth),
+            ("p0", max(result.pressures()), 2 * tooth / width / (math.pi * a)),
+            ("a", result.half_width(a, lambda p: math.hypot(p["x"] - radii[0], p["y"])),
+             a)]
+
+
+def hip_joint(result, section):
+    """The same joint as a section. Pressures of both are on the cup; left out are nodes on
+    the symmetry planes, where the head covers less of their areas."""
+    def polar(point, axis):
+        return math.acos(max(-1., -point[axis] / 14.1))
+
+    def end(of, axis):
+        return math.degrees(of.half_width(.74, lambda p: polar(p, axis), .5, .95))
+    inner = copy.copy(result)
+    inner.points = [p for p in result.points if min(p["x"], p["y"]) > 1e-6]
+    top = max(inner.points, key=lambda p: p["pressure"])
+    curve = sorted((polar(p, "y"), p["pressure"]) for p in section.points)
+    (a, low), (b, high) = next(pair for pair in zip(curve, curve[1:])
+                               if pair[1][0] >= polar(top, "z"))
+    known = low + (high - low) * (polar(top, "z") - a) / (b - a)
+    return [("largest p", top["pressure"], known),
+            ("end [degrees]", end(inner, "z"), end(section, "y")),
+            ("sinks", *(of.state["responses"]["sinks"] for of in (result, section)))]
 
 
 def flat_punch(result, _):

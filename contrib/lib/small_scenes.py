@@ -134,6 +134,17 @@ def rows_of_disc(floor, lid):
     return measure
 
 
+def six_blocks(result, _):
+    """What presses from above: the traction on top, body forces of the fifth and the
+    second block, and the traction on the side of the second."""
+    top = 1.097 * 2.2965 * 1.2125
+    fourth = top - .047401 * 2.0248 * 1.2925 * .50111
+    lowest = fourth + (.18449 * 2.1753 - .091815) * 1.836 * .49012
+    return [(pair["name"], abs(pair["force"][2]), force)
+            for pair, force in zip(result.state["pairs"],
+                                   (lowest, fourth, fourth, fourth, top))]
+
+
 def responses(result, _):
     """Of pressure 5 on the box 2 x 1 x 1."""
     answers = {"potential": -.025, "work": .05, "strain": .025, "space": 2,
@@ -189,6 +200,14 @@ def one_method(result, beside):
     return [("methods", len(found["methods"]), 1),
             (f"{found['method']} against {other['method']}", found["values"],
              other["values"])]
+
+
+def paired_anew(result, _):
+    """The state of the final design, which pairs at that design."""
+    found = result.summary["optimization"]
+    state = solve("tests/scenes/paired-anew.prm", "Task=state",
+                  "Shape/Initial=" + ", ".join(map(repr, found["design"])))
+    return [("peak", found["objective_paired_anew"], state.state["responses"]["peak"])]
 
 
 def mirror_images(result, beside):
@@ -250,6 +269,9 @@ CHECKS = [
     Check("search", [], rows_of_disc(17, 11), 1e-6),
     Check("search", ["Pair disc.outer: lid/Search distance=0"], rows_of_disc(17, 27),
           1e-6),
+    Check("six-blocks", [], six_blocks, 1e-8),
+    Check("six-blocks", ["Solver/Preconditioner=lumped"], six_blocks, 1e-8),
+    Check("paired-anew", [], paired_anew, 1e-7),
     Check("responses", [], responses, 1e-6),
     Check("solver-entries", ["Solver/Factorization=MUMPS"],
           same(*STATE, *F_MULTS), 1e-6, []),

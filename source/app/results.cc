@@ -73,7 +73,7 @@ void Results<dim>::print_pairs() const
         out << "obstacle";
       else
         out << to_text(*pairs[p].parameters.method) << ", " << matching.n_matching << " of "
-            << matching.n_nodes << " slave nodes meet master nodes";
+            << matching.n_nodes << " nodes meet others";
       out << ", " << rows[p] << " rows, gaps from " << contact.paired_gaps()[p].least << " to "
           << contact.paired_gaps()[p].largest << "\n  " << pairs[p].slave_name << ": ";
       print_side(pairs[p].slave);

@@ -58,9 +58,12 @@ void PairParameters::declare(Entries &entries)
                                      "opposite to a master node, within 1 % of a face, else "
                                      "mortar"),
               "How two faces meet.");
-  entries.add("Slave", slave,
-              "Whose nodes must not penetrate the other face. finer: that of the smaller faces on "
-              "average; first: the one that is named first, as also for meshes within a tenth.");
+  entries.add(
+    "Slave", slave,
+    "Whose nodes must not penetrate the other face. finer: that of the smaller faces on "
+    "average, but with mortar the other if its faces yield 1.5 times as much, by size over "
+    "Young's modulus; first: the one that is named first, as also for meshes within a "
+    "tenth.");
   entries.add("Search distance", search_distance, at_least(0., "must be 0 or above"),
               "Slave nodes farther from the master at the first design carry no contact row "
               "[length]; 0: any distance.");

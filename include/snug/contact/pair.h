@@ -32,7 +32,7 @@ inline Names names(Method)
 
 enum class Slave
 {
-  finer, ///< the side of the smaller faces, see Contact
+  finer, ///< the side of the smaller faces, or of those that yield, see Contact
   first  ///< the side that is named first
 };
 inline Names names(Slave)
@@ -88,6 +88,8 @@ struct Pair
   std::string                       slave_name = {}, master_name = {};
   PairParameters                    parameters = {};
   std::optional<ObstacleParameters> obstacle   = {};
+  /// Young's modulus of the slave's body over that of the master's, of the softest materials
+  double contrast = 1.;
 
   /// "slave: master"
   std::string name() const { return slave_name + ": " + master_name; }

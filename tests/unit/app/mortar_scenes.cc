@@ -35,6 +35,47 @@ end
 )";
 }
 
+/// Nested quarter rings with a pressure inside; the inner one has twice as many cells.
+std::string rings(double inner_modulus)
+{
+  return R"(
+set Dimension = 2
+set Bodies = inner, outer
+subsection Body inner
+  set Mesh = ring
+  set Inner radius = 2
+  set Radius = 3
+  set Part = quarter
+  set Cells = 24, 6
+  set Young's modulus = )" +
+         std::to_string(inner_modulus) + R"(
+  set Supports = start: normal, end: normal
+  set Pressure = inner: 10
+end
+subsection Body outer
+  set Mesh = ring
+  set Inner radius = 3
+  set Radius = 4
+  set Part = quarter
+  set Cells = 12, 3
+  set Young's modulus = 1000
+  set Supports = start: normal, end: normal
+end
+subsection Contact
+  set Pairs = inner.outer: outer.inner
+end
+)";
+}
+
+/// (largest - least) / largest pressure.
+double scatter(const SolvedScene<2> &solved)
+{
+  double least = solved.state.max_pressure;
+  for (const auto &point : solved.state.contact)
+    least = std::min(least, point.pressure);
+  return 1. - least / solved.state.max_pressure;
+}
+
 const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
 
 /// Of the pressures of two states, in the order of the rows, relative to the
@@ -167,4 +208,15 @@ TEST(Overhang, PushesTheMasterAtItsEndAtMost)
         EXPECT_NEAR(solved.force(0)[1], 0.001, 1e-11);
         EXPECT_NEAR(solved.state.pairs[0].centre[0], overhang + 0.5, 1e-6);
       }
-}
+  TEST(NestedRings, SlaveIsTheSideThatYields)
+  {
+    for (const double modulus : {1000., 5000., 100000.})
+      {
+        const SolvedScene<2> solved(rings(modulus));
+        EXPECT_EQ(solved.state.contact.size(), 13u) << modulus;
+        EXPECT_LT(scatter(solved), 1e-3) << modulus;
+        EXPECT_GT(scatter({rings(modulus), {"Contact/Slave=first"}}), 0.05) << modulus;
+      }
+    // Fine and soft: it stays the slave.
+    EXPECT_EQ(SolvedScene<2>(rings(100.)).state.contact.size(), 25u);
+  }

@@ -1,0 +1,137 @@
+"""Cylinders, spheres and a roller on a block: contacts that are small and curved."""
+
+import math
+
+from cases import Case, Figure, label, run, scene, warned_of_nodal_rows
+
+
+def near(radius, axes="xy"):
+    return f"{radius} - sqrt({' + '.join(f'{x}^2' for x in axes)})"
+
+
+def cylinders(cells=(4, 4), levels=(5, 5), radii=(10, 13), model="plane strain",
+              materials=((30000, .25), (29120, .3)), load=1600, degree=None, method=None,
+              slave=None, subdomains=None):
+    """The lower quarter of a cylinder on the upper one of another, right halves."""
+    bodies = {}
+    for index, name in enumerate(("upper", "lower")):
+        bodies[name] = {"Mesh": "disc", "Radius": radii[index], "Part": "quarter",
+                        "Cells": cells[index], "Refine where": near(2.5),
+                        "Local refinements": levels[index],
+                        "Young's modulus": materials[index][0],
+                        "Poisson's ratio": materials[index][1]}
+    bodies["upper"].update({"Rotate": "z: -90", "Shift": f"0, {radii[0]}",
+                            "Supports": "bottom: x", "Force": f"left: 0 {-load}"})
+    bodies["lower"].update({"Shift": f"0, {-radii[1]}", "Supports": "left: x, bottom: y"})
+    return scene(bodies, {"Pairs": "upper.outer: lower.outer",
+                          "Method": method or "auto", "Slave": slave or "finer",
+                          "Search distance": 3},
+                 {"Subdomains": subdomains or "auto"}, Dimension=2, Model=model,
+                 Element_degree=degree or 1)
+
+
+def spheres(cells=(4, 4), levels=(3, 3), radii=(50, 50), degree=None, method=None,
+            slave=None, subdomains=None):
+    """Two spheres as sections, pressed together by 4."""
+    bodies = {}
+    for index, name in enumerate(("upper", "lower")):
+        bodies[name] = {"Mesh": "disc", "Radius": radii[index], "Part": "quarter",
+                        "Cells": cells[index], "Refine where": near(20),
+                        "Local refinements": levels[index], "Young's modulus": 20000}
+    bodies["upper"].update({"Rotate": "z: -90", "Shift": f"0, {radii[0]}",
+                            "Supports": "bottom: x", "Displacement": "left: y = -2"})
+    bodies["lower"].update({"Shift": f"0, {-radii[1]}", "Supports": "left: x",
+                            "Displacement": "bottom: y = 2"})
+    return scene(bodies, {"Pairs": "upper.outer: lower.outer",
+                          "Method": method or "auto", "Slave": slave or "finer",
+                          "Search distance": 20},
+                 {"Subdomains": subdomains or "auto"}, Dimension=2,
+                 Model="axisymmetric", Element_degree=degree or 1)
+
+
+def solid_spheres(cells=(4, 4), levels=(2, 2), radii=(50, 50), degree=None, method=None,
+                  slave=None, subdomains=None):
+    """The same spheres, an eighth of each."""
+    bodies = {}
+    for index, name in enumerate(("upper", "lower")):
+        bodies[name] = {"Mesh": "sphere", "Radius": radii[index], "Part": "eighth",
+                        "Cells": cells[index], "Refine where": near(20, "xyz"),
+                        "Local refinements": levels[index], "Young's modulus": 20000}
+    bodies["upper"].update({"Rotate": "x: -90", "Shift": f"0, 0, {radii[0]}",
+                            "Supports": "left: x, bottom: y",
+                            "Displacement": "front: z = -2"})
+    bodies["lower"].update({"Shift": f"0, 0, {-radii[1]}", "Supports": "left: x, front: y",
+                            "Displacement": "bottom: z = 2"})
+    return scene(bodies, {"Pairs": "upper.outer: lower.outer",
+                          "Method": method or "auto", "Slave": slave or "finer",
+                          "Search distance": 20},
+                 {"Subdomains": subdomains or "auto"}, Dimension=3,
+                 Element_degree=degree or 1)
+
+
+def roller(cells=(8, 40), levels=(3, 3), radii=(50,), degree=None, method=None, slave=None,
+           subdomains=None):
+    """A quarter of a roller of steel on a block of aluminium, 35 kN per mm in all."""
+    around = {"Refine where": near(12)}
+    return scene(
+        {"roller": {"Mesh": "disc", "Radius": radii[0], "Part": "quarter",
+                    "Cells": cells[0], "Rotate": "z: -90", "Shift": f"0, {radii[0]}",
+                    **around, "Local refinements": levels[0], "Supports": "bottom: x",
+                    "Young's modulus": 210000, "Force": "left: 0 -17500"},
+         "block": {"Box corner": "0, -200", "Box size": "200, 200",
+                   "Box cells": f"{cells[1]}, {cells[1]}", **around,
+                   "Local refinements": levels[1], "Young's modulus": 70000,
+                   "Supports": "left: x, bottom: y"}},
+        {"Pairs": "roller.outer: block.top", "Method": method or "auto",
+         "Slave": slave or "finer", "Search distance": 10},
+        {"Subdomains": subdomains or "auto"}, Dimension=2, Element_degree=degree or 1)
+
+
+# What tells a problem, not its mesh.
+PROBLEM = ("radii", "model", "materials", "load")
+# The finest meshes; nodes at equal distances on both sides.
+FINEST = {cylinders: {"levels": (6, 6)}, spheres: {"levels": (5, 5)},
+          solid_spheres: {"levels": (3, 3)}, roller: {"levels": (5, 5)}}
+
+
+def rollers(make, *, ranks=1, bound=1e-2, **settings):
+    """The largest pressure within 1 % of that of the finest matching run; nodal rows on
+    unlike meshes within 10 % and with a warning."""
+    problem = {name: value for name, value in settings.items() if name in PROBLEM}
+    forced = settings.get("method") == "nodal" and "cells" in settings
+
+    def asked(result):
+        finest = run(make(**FINEST[make], **problem)).result
+        right = finest.state["max_pressure"] if finest else math.nan
+        return [Figure("largest p", result.state["max_pressure"], right,
+                       1e-1 if forced else bound),
+                *([warned_of_nodal_rows(result)] if forced else [])]
+    return Case("rollers", f"{make.__name__.replace('_', ' ')} " + label(
+        **settings, ranks=ranks), make(**settings), asked, ranks)
+
+
+ROLLERS = [
+    rollers(cylinders, cells=(4, 5)),
+    rollers(spheres, degree=2, ranks=2),
+    rollers(cylinders, ranks=2),
+    rollers(cylinders, model="plane stress", ranks=2),
+    rollers(cylinders, cells=(5, 4), model="plane stress"),
+    rollers(cylinders, cells=(4, 5), levels=(5, 4), slave="first"),
+    rollers(cylinders, cells=(6, 4), degree=2, levels=(4, 4), ranks=3),
+    rollers(cylinders, cells=(5, 6), method="mortar", subdomains=3),
+    rollers(cylinders, cells=(5, 6), radii=(8, 20), ranks=4),
+    rollers(cylinders, cells=(5, 4), materials=((210000, .3), (3000, .4)), load=400),
+    rollers(cylinders, cells=(5, 4), method="nodal"),
+    rollers(spheres, levels=(4, 4)),
+    rollers(spheres, cells=(4, 5), levels=(4, 4), ranks=2),
+    rollers(spheres, cells=(5, 4), levels=(4, 4), method="mortar", slave="first",
+            subdomains=4),
+    rollers(spheres, cells=(4, 5), degree=2, levels=(2, 3)),
+    rollers(spheres, cells=(5, 6), levels=(4, 4), radii=(40, 80), ranks=3),
+    rollers(solid_spheres, cells=(4, 5), ranks=2),
+    rollers(solid_spheres, cells=(5, 4), method="mortar", subdomains=20, ranks=4),
+    rollers(roller, levels=(4, 4)),
+    rollers(roller, cells=(9, 35), levels=(4, 4), ranks=2),
+    rollers(roller, cells=(8, 30), levels=(4, 4), method="mortar", slave="first"),
+    rollers(roller, cells=(8, 25), degree=2, ranks=3),
+]

@@ -1,0 +1,251 @@
+"""Rings, pins and shells: bodies that meet in a circle or sphere about the origin."""
+
+import math
+
+from cases import (Case, Figure, label, mean_pressure, run, scene, torque,
+                   warned_of_nodal_rows)
+
+QUARTERS = {"quarter": 1, "half": 2, "full": 4, "eighth": 1}
+
+
+def thick_wall(model, E, nu, inner, outer, r):
+    """Displacements at r of a cylinder or a shell by unit pressure inside and outside
+    (Lame)."""
+    power = 3 if model == "solid" else 2
+    if model == "plane strain":
+        E, nu = E / (1 - nu**2), nu / (1 - nu)
+    spread, shear = ((1 - 2 * nu, (1 + nu) / 2) if power == 3 else (1 - nu, 1 + nu))
+    a, b = inner**power, outer**power
+    by_shear = shear * a * b / r**(power - 1)
+    return ((spread * a * r + by_shear) / (E * (b - a)),
+            -(spread * b * r + by_shear) / (E * (b - a)))
+
+
+def nested_pressure(model, radii, materials, pressure, interference):
+    """Between two nested bodies, with the pressure inside."""
+    a, b, c = radii
+    by_inside, by_contact = thick_wall(model, *materials[0], a, b, b)
+    outer, _ = thick_wall(model, *materials[1], b, c, b)
+    return (interference + by_inside * pressure) / (outer - by_contact)
+
+
+def lame_figures(right, radius, mean_bound, node_bound, forced=False):
+    def asked(result):
+        pressures = result.pressures()
+        return [Figure("mean p", mean_pressure(result), right, mean_bound),
+                Figure("least p", min(pressures), right, node_bound),
+                Figure("largest p", max(pressures), right, node_bound),
+                torque(result, radius),
+                *([warned_of_nodal_rows(result)] if forced else [])]
+    return asked
+
+
+SYMMETRY = {2: {"full": "", "half": "start: normal, end: normal",
+                "quarter": "start: normal, end: normal"},
+            3: {"full": "", "half": "bottom: normal",
+                "quarter": "bottom: normal, front: normal",
+                "eighth": "bottom: normal, front: normal, left: normal"}}
+
+
+def nested(dim, cells, part, radii, materials, degree, method, slave, model, turned,
+           refinements, subdomains, layers):
+    """The text of two rings or shells, an interference and a pressure inside."""
+    bodies = {}
+    for index, name in enumerate(("inner", "outer")):
+        bodies[name] = {
+            "Mesh": "ring" if dim == 2 else "shell",
+            "Inner radius": radii[index], "Radius": radii[index + 1], "Part": part,
+            "Cells": f"{cells[index]}, {layers[index]}", "Refinements": refinements,
+            "Supports": SYMMETRY[dim][part], "Young's modulus": materials[index][0],
+            "Poisson's ratio": materials[index][1]}
+    bodies["inner"]["Pressure"] = "inner: 10"
+    if turned:
+        bodies["inner"]["Rotate"] = f"z: {turned}"
+    return scene(bodies, {"Pairs": "inner.outer: outer.inner",
+                          "Gap": -.01 * radii[1] / 30, "Interference": "true",
+                          "Method": method or "auto", "Slave": slave or "finer"},
+                 {"Subdomains": subdomains or "auto"}, Dimension=dim,
+                 Model=model, Element_degree=degree or 1)
+
+
+SAME = ((1000, .3), (1000, .3))
+
+
+def rings(inner, outer, part="full", radii=(20, 30, 40), materials=SAME, degree=None,
+          method=None, slave=None, model="plane strain", turned=None, refinements=None,
+          subdomains=None, ranks=1):
+    """Cells along the part; nodes below 1 % from 15 per quarter on, 0.1 % from 120, the
+    mean of second order; nodal rows on unlike meshes within 10 and 1 %."""
+    fine = [n * 2**(refinements or 0) / QUARTERS[part] for n in (inner, outer)]
+    text = nested(2, (inner, outer), part, radii, materials, degree, method, slave, model,
+                  turned, refinements or 0, subdomains,
+                  [max(3, round(.4 * n / QUARTERS[part])) for n in (inner, outer)])
+    right = nested_pressure(model, radii, materials, 10, .01 * radii[1] / 30)
+    forced = method == "nodal" and (inner != outer or bool(turned))
+    nodes = 1e-3 if min(fine) >= 96 else 1e-2 if min(fine) >= 12 else 1e-2 * 12 / min(fine)
+    nodes *= UNLIKE if materials in (STIFF, STIFF[::-1]) else 1
+    bounds = (1e-2, 1e-1) if forced else (min(nodes, 1e-2 * (12 / min(fine))**2), nodes)
+    return Case("rings", f"{inner}/{outer} " + label(
+        part=part, radii=None if radii[1] == 30 else radii, degree=degree,
+        method=method, slave=slave, model=None if model == "plane strain" else model,
+        materials=None if materials is SAME else materials, turned=turned,
+        refinements=refinements, subdomains=subdomains, ranks=ranks), text,
+        lame_figures(right, radii[1], *bounds, forced), ranks)
+
+
+TWO = ((1000, .3), (2500, .2))
+# One 200 times stiffer: what is left for the contact is small, and so is its accuracy.
+STIFF = ((200000, .3), (1000, .4))
+UNLIKE = 5.
+
+RINGS = [
+    rings(15, 12, "quarter"),
+    rings(44, 44, subdomains=2),
+    rings(48, 60, ranks=2),
+    rings(12, 15, "quarter", ranks=2),
+    rings(24, 12, "quarter"),
+    rings(60, 120),
+    rings(31, 24, "half", subdomains=3),
+    rings(17, 23, "quarter", method="mortar", slave="first"),
+    rings(15, 12, "quarter", degree=2),
+    rings(60, 48, degree=2, ranks=3),
+    rings(60, 48, subdomains=2),
+    rings(48, 48, subdomains=2),
+    rings(48, 48, degree=2, subdomains=5),
+    rings(60, 60, turned=1.8),
+    rings(60, 61, method="mortar", ranks=4),
+    rings(90, 84, radii=(5, 7, 11), materials=TWO, model="plane stress"),
+    rings(120, 96, method="mortar", subdomains=1),
+    rings(30, 24, "quarter", radii=(.2, .3, .4), materials=TWO),
+    rings(60, 48, refinements=1, ranks=2),
+    rings(60, 48, method="nodal", ranks=3),
+    rings(30, 24, "quarter", method="nodal"),
+    rings(60, 60, method="nodal", turned=1.8),
+    rings(200, 150, subdomains=12, ranks=2),
+    rings(120, 96, "quarter", method="mortar"),
+    rings(60, 48, materials=STIFF),
+    rings(96, 120, materials=STIFF[::-1], ranks=2),
+]
+
+
+def pin_scene(pin, plate, part, scale=1, clearance=.02, force=500, degree=None,
+              method=None, slave=None, turned=None, refinements=None, subdomains=None):
+    """A pin of radius 10 in a hole of a plate that is held at radius 30."""
+    half = part == "half"
+    guides = "start: x, end: x" if half else ""
+    around = {"Mesh": "ring", "Part": part, "Young's modulus": 210000,
+              "Refinements": refinements or 0,
+              "Rotate": f"z: {-90 + (turned or 0) if half else turned or 0}"}
+    return scene(
+        {"pin": {**around, "Inner radius": 3 * scale, "Radius": 10 * scale,
+                 "Cells": f"{pin}, {max(3, pin * (2 if half else 1) // 8)}",
+                 "Supports": guides,
+                 "Force": f"inner: 0 {-force * scale * (.5 if half else 1)}"},
+         "plate": {**around, "Rotate": "z: -90" if half else "z: 0",
+                   "Inner radius": (10 + clearance) * scale, "Radius": 30 * scale,
+                   "Cells": f"{plate}, {max(4, plate * (2 if half else 1) // 8)}",
+                   "Supports": ", ".join(filter(None, (guides, "outer: xy")))}},
+        {"Pairs": "pin.outer: plate.inner", "Method": method or "auto",
+         "Slave": slave or "finer"},
+        {"Subdomains": subdomains or "auto"}, Dimension=2, Element_degree=degree or 1)
+
+
+def matching_pin(clearance, force):
+    """The largest pressure on fine meshes that match: 65.8 for 0.02 and 500."""
+    found = run(pin_scene(192, 192, "half", clearance=clearance, force=force))
+    return found.result.state["max_pressure"] if found.result else math.nan
+
+
+def pin_figures(part, scale, clearance, force, bound, forced=False):
+    def asked(result):
+        share = scale * force * (.5 if part == "half" else 1)
+        return [Figure("largest p", result.state["max_pressure"],
+                       matching_pin(clearance, force), bound),
+                Figure("force", abs(result.state["contact_force"][1]), share, 1e-5),
+                torque(result, 10 * scale),
+                *([warned_of_nodal_rows(result)] if forced else [])]
+    return asked
+
+
+def pins(pin, plate, part="half", scale=1, clearance=.02, force=500, ranks=1, **settings):
+    """The largest pressure within 2 %; nodal rows on unlike meshes within 10 %."""
+    forced = (settings.get("method") == "nodal" and
+              (pin != plate or settings.get("turned") is not None))
+    return Case("pins", f"{pin}/{plate} " + label(
+        part=part, scale=None if scale == 1 else scale,
+        clearance=None if clearance == .02 else clearance,
+        force=None if force == 500 else force, **settings, ranks=ranks),
+        pin_scene(pin, plate, part, scale, clearance, force, **settings),
+        pin_figures(part, scale, clearance, force, .1 if forced else 2e-2, forced), ranks)
+
+
+PINS = [
+    pins(48, 60),
+    pins(96, 96, "full", ranks=2),
+    pins(60, 48, ranks=3),
+    pins(48, 60, method="mortar", slave="first"),
+    pins(60, 48, method="mortar", slave="first"),
+    pins(96, 120, subdomains=7),
+    pins(75, 64, degree=2),
+    pins(48, 60, degree=2, ranks=2),
+    pins(48, 60, refinements=1),
+    pins(48, 48),
+    pins(96, 96, degree=2, subdomains=1),
+    pins(100, 124, "full"),
+    pins(124, 100, "full", ranks=4),
+    pins(96, 96, "full", turned=1.1),
+    pins(96, 97, "full", method="mortar", subdomains=2),
+    pins(96, 120, "full", degree=2, subdomains=5),
+    pins(96, 120, "full", scale=.01),
+    pins(80, 100, scale=25, ranks=2),
+    pins(100, 124, "full", clearance=.05),
+    pins(96, 80, clearance=.005, force=2000),
+    pins(48, 60, method="nodal"),
+    pins(100, 124, "full", method="nodal", ranks=2),
+]
+
+
+def shells(inner, outer, part="eighth", radii=(20, 30, 40), materials=SAME, layers=None,
+           degree=None, method=None, slave=None, refinements=None, subdomains=None,
+           ranks=1):
+    """Cells of a block; mean within 1 %, nodes within 3 % from 10/8 on, the mean of
+    second and nodes of first order below."""
+    fine = min(inner, outer) * 2**(refinements or 0)
+    text = nested(3, (inner, outer), part, radii, materials, degree, method, slave,
+                  "solid", None, refinements or 0, subdomains, layers or (inner, outer))
+    right = nested_pressure("solid", radii, materials, 10, .01 * radii[1] / 30)
+    forced = method == "nodal" and inner != outer
+    coarse = max(1, 8 / fine)
+    nodes = .1 if forced else 3e-2 * (UNLIKE / 3 if materials is STIFF else 1)
+    return Case("shells", f"{inner}/{outer} " + label(
+        part=part, radii=None if radii[1] == 30 else radii,
+        materials=None if materials is SAME else materials,
+        layers=layers and "/".join(map(str, layers)), degree=degree, method=method,
+        slave=slave, refinements=refinements, subdomains=subdomains, ranks=ranks), text,
+        lame_figures(right, radii[1], 1e-2 * coarse**2, nodes * coarse, forced), ranks)
+
+
+SHELLS = [
+    shells(5, 4),
+    shells(4, 5, ranks=2),
+    shells(10, 8, method="mortar"),
+    shells(8, 10, ranks=4),
+    shells(7, 5, subdomains=3),
+    shells(6, 7, method="mortar", slave="first"),
+    shells(10, 9, layers=(5, 5)),
+    shells(6, 6),
+    shells(10, 10, subdomains=9, ranks=3),
+    shells(5, 4, degree=2),
+    shells(4, 3, degree=2, ranks=2),
+    shells(4, 4, degree=2, subdomains=5),
+    shells(5, 4, refinements=1),
+    shells(10, 8, radii=(.2, .3, .4), materials=TWO),
+    shells(9, 7, radii=(25, 30, 38), materials=TWO, subdomains=6),
+    shells(7, 6, "quarter", ranks=2),
+    shells(6, 5, "half"),
+    shells(5, 4, "full"),
+    shells(6, 5, "full", ranks=2),
+    shells(10, 8, method="nodal"),
+    shells(12, 10, subdomains=16, ranks=4),
+    shells(10, 8, materials=STIFF),
+]
