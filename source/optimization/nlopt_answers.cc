@@ -221,9 +221,11 @@ void BetterDesigns::asked(const std::vector<double> &, const Progress::Point &po
   watch();
 }
 
-/// End a run that crawls.
+/// End a run that crawls. AUGLAG's inner search is of quasi-Newton type.
 void BetterDesigns::watch()
 {
+  if (parameters.algorithm == Algorithm::AUGLAG)
+    return;
   const auto  &best    = *progress.iterate();
   const double f       = best.evaluation.objective;
   const bool   is_gain = progress.is_feasible(*milestone)

@@ -46,8 +46,9 @@ protected:
 
   [[noreturn]] void stop(End reason);
 
-  Progress      &progress;
-  ScaledProblem &problem;
+  Progress                     &progress;
+  ScaledProblem                &problem;
+  const OptimizationParameters &parameters;
 
 private:
   double          objective(const double *y, double *gradient);
@@ -65,9 +66,8 @@ private:
                                double       *jacobian,
                                void         *answers);
 
-  const OptimizationParameters &parameters;
-  unsigned int                  n_variables;
-  unsigned int                  idle_questions = 0; ///< answered by known values
+  unsigned int n_variables;
+  unsigned int idle_questions = 0; ///< answered by known values
 };
 
 /**

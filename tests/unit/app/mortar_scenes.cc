@@ -208,15 +208,17 @@ TEST(Overhang, PushesTheMasterAtItsEndAtMost)
         EXPECT_NEAR(solved.force(0)[1], 0.001, 1e-11);
         EXPECT_NEAR(solved.state.pairs[0].centre[0], overhang + 0.5, 1e-6);
       }
-  TEST(NestedRings, SlaveIsTheSideThatYields)
-  {
-    for (const double modulus : {1000., 5000., 100000.})
-      {
-        const SolvedScene<2> solved(rings(modulus));
-        EXPECT_EQ(solved.state.contact.size(), 13u) << modulus;
-        EXPECT_LT(scatter(solved), 1e-3) << modulus;
-        EXPECT_GT(scatter({rings(modulus), {"Contact/Slave=first"}}), 0.05) << modulus;
-      }
-    // Fine and soft: it stays the slave.
-    EXPECT_EQ(SolvedScene<2>(rings(100.)).state.contact.size(), 25u);
-  }
+}
+
+TEST(NestedRings, SlaveIsTheSideThatYields)
+{
+  for (const double modulus : {1000., 5000., 100000.})
+    {
+      const SolvedScene<2> solved(rings(modulus));
+      EXPECT_EQ(solved.state.contact.size(), 13u) << modulus;
+      EXPECT_LT(scatter(solved), 1e-3) << modulus;
+      EXPECT_GT(scatter({rings(modulus), {"Contact/Slave=first"}}), 0.05) << modulus;
+    }
+  // Fine and soft: it stays the slave.
+  EXPECT_EQ(SolvedScene<2>(rings(100.)).state.contact.size(), 25u);
+}
