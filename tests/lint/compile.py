@@ -18,7 +18,7 @@ import sys
 from files import lines, text_files
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-OF_MODULE = re.compile(r"/snug_(\w+)\.dir/")
+OF_MODULE = re.compile(r" -o \S*/snug_(\w+)\.dir/")
 INCLUDE = re.compile(r"\s*#\s*include\s*[<\"]([^>\"]+)")
 
 
@@ -27,7 +27,7 @@ def entries(build):
     database = json.loads((build / "compile_commands.json").read_text())
     for entry in database:
         module = OF_MODULE.search(entry["command"])
-        if module:
+        if module and "cmake_pch" not in entry["file"]:
             yield module.group(1), entry
 
 
