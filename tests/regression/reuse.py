@@ -108,16 +108,16 @@ def check_restarts(checks):
     moved = checks.folder.with_name("moved")
     checks.folder.rename(moved)
     checks.folder = moved
-    done = checks.interrupted(4, "--restart")
+    done = checks.interrupted(3, "--restart")
     checks.expect("a restart in a folder that was moved goes on",
                   "replaying 2 evaluations" in done.stdout and
-                  checks.summary()["optimization"]["evaluations"] == 4, done)
+                  checks.summary()["optimization"]["evaluations"] == 3, done)
     for start in moved.glob("output/warm-start.*"):
         start.write_bytes(start.read_bytes()[:-3])
-    done = checks.interrupted(5, "--restart")
+    done = checks.interrupted(4, "--restart")
     checks.expect("a warm start that is cut short is not taken",
                   "no warm-start data" in done.stdout and
-                  checks.summary()["optimization"]["evaluations"] == 5, done)
+                  checks.summary()["optimization"]["evaluations"] == 4, done)
 
 
 def check_old_results(checks):
