@@ -234,7 +234,10 @@ void Search::ask_nlopt()
     {
       const auto  why   = optimizer.optimize(y, f);
       const auto &found = *progress.iterate();
-      const bool is_end = progress.is_feasible(found) && problem.projected_gradient(found) <= steep;
+      // The multipliers of AUGLAG are as good as its constraint tolerance.
+      const bool is_steep = problem.projected_gradient(found) > steep &&
+                            (algorithm != Algorithm::AUGLAG || progress.n_iterations() == 0);
+      const bool is_end = progress.is_feasible(found) && !is_steep;
       if (algorithm != Algorithm::SLSQP && is_end)
         answers->end = why == nlopt::FTOL_REACHED   ? End::objective
                        : why == nlopt::XTOL_REACHED ? End::design
