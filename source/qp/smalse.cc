@@ -9,10 +9,11 @@
 
 namespace snug::qp {
 namespace {
-const double       penalty_factor    = 10.; ///< rho / ||P F P||
-const double       balancing_factor  = 1.;  ///< M / ||P F P|| at first
-const double       balancing_descent = 0.1; ///< of M when L falls short
-const double       first_accuracy    = 0.1; ///< of ||g^P||, to ||b||
+const double       penalty_factor    = 10.;   ///< rho / ||P F P||
+const double       balancing_factor  = 1.;    ///< M / ||P F P|| at first
+const double       balancing_descent = 0.1;   ///< of M when L falls short
+const double       first_accuracy    = 0.1;   ///< of ||g^P||, to ||b||
+const double       least_part        = 1e-16; ///< of the scale: no inner tolerance below
 const unsigned int power_steps       = 10;
 const unsigned int max_outer         = 1000;
 
@@ -178,7 +179,11 @@ DualSolution SmalseRun::run(const WarmStart &start)
           stop.gradient_floor *= 0.3;
         }
       const double infeasibility = inner->infeasibility();
-      const double value         = inner->value();
+      // Where contacts push back only by what the inner problem was not solved to, as those of a
+      // body that its loads do not press on, the set they make is wrong until they are gone.
+      if (stop.gradient_factor * infeasibility < stop.gradient_floor)
+        stop.gradient_floor = std::max(0.1 * stop.gradient_floor, least_part * equality.scale);
+      const double value = inner->value();
       if (solution.outer_iterations > 1 &&
           value < last_value + 0.5 * sizes.rho * infeasibility * infeasibility)
         stop.gradient_factor *= balancing_descent;

@@ -88,6 +88,20 @@ TEST(SelfBalancedLoads, AreHeldWhateverTheSubdomains)
     }
 }
 
+TEST(SelfBalancedLoads, AreHeldBySmalseAsWell)
+{
+  for (const std::string tolerance : {"1e-6", "1e-8", "1e-10"})
+    for (const std::string n : {"1", "4", "8"})
+      {
+        const SolvedScene<2> solved(block_on_block(squeezed),
+                                    {"Solver/Method=SMALSE-M", "Decomposition/Subdomains=" + n,
+                                     "Solver/Relative tolerance=" + tolerance});
+        EXPECT_NEAR(solved.state.energy, -0.5 * 1.7 * 1.7 * 0.91 / 1000. * 0.21, 1e-9) << n;
+        EXPECT_EQ(solved.state.active_contacts, 0u) << n;
+        EXPECT_LE(solved.state.f_mults, 60u) << n;
+      }
+}
+
 TEST(SelfBalancedLoads, OfABodyThatTouchesNothing)
 {
   for (const unsigned int n : {1, 4})
