@@ -76,12 +76,12 @@ dealii::Tensor<1, dim> slave_minus_master(const Row<dim>                        
   return sum;
 }
 
-/// Length of @p v at right angles to @p normal.
+/// The part of @p v at right angles to @p normal.
 /// [length]; what the row does not resist, as contact is without friction.
 template <int dim>
-double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
+dealii::Tensor<1, dim> along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
 {
-  return (v - (v * normal) * normal).norm();
+  return v - (v * normal) * normal;
 }
 } // namespace
 
@@ -176,7 +176,7 @@ void Contact<dim>::measure_pairing(const Field &positions)
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
       const auto &[p, slave] = row_places[i];
-      paired_offsets.push_back(slave_minus_master(paired[i], positions));
+      paired_offsets.push_back(along(slave_minus_master(paired[i], positions), paired[i].normal));
       double gap = paired[i].gap;
       // An obstacle that moves into a body is a load, not a body at the wrong place.
       if (chosen[p].obstacle)
@@ -310,7 +310,7 @@ std::vector<double> Contact<dim>::slips(const Field                 &positions,
   const auto          sizes = node_face_sizes(surface, positions);
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
-    result.push_back(along(slave_minus_master(rows[i], displacement), rows[i].normal) /
+    result.push_back(along(slave_minus_master(rows[i], displacement), rows[i].normal).norm() /
                      sizes[row_places[i].slave]);
   return result;
 }
@@ -323,12 +323,12 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      const auto offset         = slave_minus_master(rows[i], positions);
+      const auto offset         = along(slave_minus_master(rows[i], positions), rows[i].normal);
       const auto &[pair, slave] = row_places[i];
       // The closest point on an obstacle follows the node, so it cannot drift off.
       result.push_back(chosen[pair].obstacle
                          ? 0.
-                         : along(offset - paired_offsets[i], rows[i].normal) / sizes[slave]);
+                         : (offset - paired_offsets[i]).norm() / sizes[slave] + rows[i].off_face);
     }
   return result;
 }

@@ -109,10 +109,11 @@ void ContactParameters::declare(Entries &entries)
                 "a list 'body.boundary: body.boundary, ...' or 'body.boundary: obstacle, ...'"),
               "Pairs of faces, or of a face and an obstacle, separated by commas. 'punch.bottom: "
               "foundation.top'.");
-  entries.add("Update pairing", update_pairing,
-              "How often an optimization that has met its tolerance goes on with contact paired "
-              "anew at the design it found; it ends before if slave nodes are where they were "
-              "paired. Within a run pairing is frozen.");
+  entries.add(
+    "Update pairing", update_pairing,
+    "How often an optimization that has met its tolerance goes on with contact paired "
+    "anew at the design it found; it ends before if slave nodes are where they were "
+    "paired. Within a search each node stays paired with one face, in which it may move.");
   defaults.declare(entries);
 }
 } // namespace snug::contact

@@ -26,7 +26,7 @@ Matching matching(const PairGeometry<dim> &pair)
   const Normals of_slave(pair.surface, pair.sides.slave, pair.shape, x, pair.held);
   const Normals of_master(pair.surface, pair.sides.master, pair.shape, x, pair.held);
   Matching      result;
-  for (const Projection &projection :
+  for (const Projection<dim> &projection :
        project(pair.surface, pair.sides, pair.shape, x, of_master.normals()))
     {
       const auto            &n = of_slave.normals()[projection.slave];

@@ -1,6 +1,6 @@
 #include <snug/base/errors.h>
+#include <snug/contact/foot.h>
 #include <snug/contact/pair_rows.h>
-#include <snug/contact/projection.h>
 #include <snug/contact/supported_normals.h>
 #include <snug/faces/tributary.h>
 
@@ -22,7 +22,7 @@ using SurfaceField = typename mesh::Surface<dim>::Field;
 
 /// sum_k w_k field_k
 template <int dim>
-dealii::Tensor<1, dim> weighted(const Projection::Weights &weights, const SurfaceField<dim> &field)
+dealii::Tensor<1, dim> weighted(const Weights &weights, const SurfaceField<dim> &field)
 {
   dealii::Tensor<1, dim> sum;
   for (const auto &point : weights)
@@ -30,18 +30,20 @@ dealii::Tensor<1, dim> weighted(const Projection::Weights &weights, const Surfac
   return sum;
 }
 
-/// From the slave to the true surface of the master, or its derivative.
+/// From the @p slave to the true surface of the master, by the weights of its points, or the
+/// derivative along a velocity of the positions.
 template <int dim>
-dealii::Tensor<1, dim> to_master(const Projection &projection, const SurfaceField<dim> &field)
+dealii::Tensor<1, dim>
+to_master(const unsigned int slave, const Weights &surface, const SurfaceField<dim> &field)
 {
-  return weighted<dim>(projection.surface, field) - field[projection.slave];
+  return weighted<dim>(surface, field) - field[slave];
 }
 
 template <int dim>
-RowNormal<dim> row_normal(const Projection &projection, const SurfaceField<dim> &nodal_normals)
+RowNormal<dim> row_normal(const Weights &masters, const SurfaceField<dim> &nodal_normals)
 {
   // Nodal normals point out of the master; those of rows into it.
-  const dealii::Tensor<1, dim> v      = -1. * weighted<dim>(projection.masters, nodal_normals);
+  const dealii::Tensor<1, dim> v      = -1. * weighted<dim>(masters, nodal_normals);
   const double                 length = v.norm();
   if (!(length > 0.))
     throw TangledMesh("the normals of a contact face cancel: it is folded");
@@ -75,12 +77,12 @@ public:
   {
     const Opposition<dim> opposition(pair);
     const auto            normals = master_normals(pair.positions);
-    for (const Projection &projection :
+    for (const Projection<dim> &projection :
          project(surface, sides, shape, pair.positions, normals.normals()))
       {
-        const unsigned int slave    = projection.slave;
-        const double       distance = to_master<dim>(projection, pair.positions).norm();
-        const auto         n        = row_normal<dim>(projection, normals.normals()).n;
+        const unsigned int slave = projection.slave;
+        const double distance    = to_master<dim>(slave, projection.surface, pair.positions).norm();
+        const auto   n           = row_normal<dim>(projection.masters, normals.normals()).n;
         // The distance counts on both sides: a deep overlap is as far away as a wide gap.
         if (pair.taken[slave] || !opposition.holds(slave, distance, n))
           continue;
@@ -89,10 +91,9 @@ public:
             idle.push_back(slave);
             continue;
           }
-        found.push_back(projection);
+        feet.emplace_back(surface, shape, projection, pair.positions, normals.normals());
         slave_nodes.push_back(slave);
       }
-    resolve_hanging();
   }
 
   const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
@@ -122,12 +123,15 @@ public:
   {
     const auto            normals = master_normals(positions);
     std::vector<Row<dim>> result;
-    for (unsigned int i = 0; i < found.size(); ++i)
+    for (const Foot<dim> &foot : feet)
       {
-        const auto n = row_normal<dim>(found[i], normals.normals()).n;
+        const auto place = foot.at(positions, normals.normals());
+        const auto n     = row_normal<dim>(place.masters, normals.normals()).n;
         // With the positions of the hanging nodes themselves: the gap is that of the mesh as it is.
-        const double gap = n * to_master<dim>(found[i], positions) + found[i].relief;
-        result.push_back(make_row(factors[i], n, gap));
+        const double gap =
+          n * to_master<dim>(foot.paired.slave, place.surface, positions) + foot.paired.relief;
+        result.push_back(make_row(factors(foot, 1., place.masters), n, gap));
+        result.back().off_face = place.off_face;
       }
     return result;
   }
@@ -138,16 +142,23 @@ public:
     const auto            normals     = master_normals(positions);
     const auto            derivatives = normals.derivative(velocity);
     std::vector<Row<dim>> result;
-    for (unsigned int i = 0; i < found.size(); ++i)
+    for (const Foot<dim> &foot : feet)
       {
-        const auto                  &projection = found[i];
-        const auto                   normal     = row_normal<dim>(projection, normals.normals());
-        const dealii::Tensor<1, dim> dv = -1. * weighted<dim>(projection.masters, derivatives);
-        // Weights are frozen, so only the nodal normals change v.
+        const unsigned int           slave  = foot.paired.slave;
+        const auto                   place  = foot.at(positions, normals.normals());
+        const auto                   slopes = place.slopes(velocity, derivatives);
+        const auto                   normal = row_normal<dim>(place.masters, normals.normals());
+        const dealii::Tensor<1, dim> dv     = -1. * (weighted<dim>(place.masters, derivatives) +
+                                                 weighted<dim>(slopes.masters, normals.normals()));
         const auto   dn   = faces::unit_vector_derivative(normal.n, normal.length, dv);
-        const double dgap = dn * to_master<dim>(projection, positions) +
-                            normal.n * to_master<dim>(projection, velocity);
-        result.push_back(make_row(factors[i], dn, dgap));
+        const double dgap = dn * to_master<dim>(slave, place.surface, positions) +
+                            normal.n * (to_master<dim>(slave, place.surface, velocity) +
+                                        weighted<dim>(slopes.surface, positions));
+        result.push_back(make_row(factors(foot, 1., place.masters), dn, dgap));
+        // factor n: by n above, by the factor here; both lists have the same nodes
+        const auto by_weights = factors(foot, 0., slopes.masters);
+        for (unsigned int b = 0; b < by_weights.size(); ++b)
+          result.back().coefficients[b].second += by_weights[b].second * normal.n;
       }
     return result;
   }
@@ -157,26 +168,37 @@ public:
                            const std::vector<double> &forces,
                            Field                     &gradient) const override
   {
-    AssertDimension(forces.size(), found.size());
+    AssertDimension(forces.size(), feet.size());
     const auto normals = master_normals(positions);
     Field      normal_gradients(surface.n_nodes());
-    for (unsigned int i = 0; i < found.size(); ++i)
+    for (unsigned int i = 0; i < feet.size(); ++i)
       {
-        const auto &projection = found[i];
-        const auto  normal     = row_normal<dim>(projection, normals.normals());
+        const unsigned int slave  = feet[i].paired.slave;
+        const auto         place  = feet[i].at(positions, normals.normals());
+        const auto         normal = row_normal<dim>(place.masters, normals.normals());
         // d/dn of n . (sum_b factor_b u_b - x_m + x_s)
-        dealii::Tensor<1, dim> n_gradient = -1. * to_master<dim>(projection, positions);
-        for (const auto &factor : factors[i])
+        dealii::Tensor<1, dim> n_gradient = -1. * to_master<dim>(slave, place.surface, positions);
+        for (const auto &factor : factors(feet[i], 1., place.masters))
           n_gradient += factor.second * displacement[factor.first];
         // The derivative of a unit vector is symmetric and serves as its own transpose.
         const auto v_gradient =
           forces[i] * faces::unit_vector_derivative(normal.n, normal.length, n_gradient);
         // By the positions in the gap; displacements are fixed.
-        gradient[projection.slave] += forces[i] * normal.n;
-        for (const auto &point : projection.surface)
-          gradient[point.first] -= forces[i] * point.second * normal.n;
-        for (const auto &master : projection.masters)
-          normal_gradients[master.first] -= master.second * v_gradient;
+        gradient[slave] += forces[i] * normal.n;
+        std::vector<double> by_masters, by_surface;
+        for (const auto &point : place.surface)
+          {
+            gradient[point.first] -= forces[i] * point.second * normal.n;
+            by_surface.push_back(-forces[i] *
+                                 (normal.n * (positions[point.first] - positions[slave])));
+          }
+        for (const auto &master : place.masters)
+          {
+            normal_gradients[master.first] -= master.second * v_gradient;
+            by_masters.push_back(-forces[i] * (normal.n * moved(master.first, displacement)) -
+                                 v_gradient * normals.normals()[master.first]);
+          }
+        place.add_transpose(by_masters, by_surface, gradient, normal_gradients);
       }
     normals.add_transpose(normal_gradients, gradient);
   }
@@ -201,31 +223,34 @@ private:
   const faces::FaceShape<dim> &shape;
   PairFaces                    sides;
   faces::HeldDirections<dim>   held;
-  std::vector<Projection>      found;
+  std::vector<Foot<dim>>       feet; ///< of each row
   std::vector<unsigned int>    slave_nodes;
   std::vector<unsigned int>    idle; ///< slave nodes opposite to the master, but without an area
-  /// of each row: surface nodes, ascending, and their factors of n in the
-  /// coefficients: 1 (slave) or -w (masters, none hanging)
-  std::vector<std::vector<std::pair<unsigned int, double>>> factors;
 
-  /// factors: 1 at the slave, -w_k at the masters, those that hang replaced by their own masters.
+  /// Surface nodes, ascending, and their factors of n in the coefficients of a row: that of the
+  /// slave is given, those of masters are -w_k, and masters that hang are replaced by their own.
   /// The map merges nodes that are reached twice and sorts them.
-  void resolve_hanging()
+  std::vector<std::pair<unsigned int, double>>
+  factors(const Foot<dim> &foot, const double of_slave, const Weights &weights) const
   {
-    for (const Projection &projection : found)
+    std::map<unsigned int, double> factor;
+    factor[foot.paired.slave] = of_slave;
+    for (const auto &node : weights)
       {
-        std::map<unsigned int, double> factor;
-        factor[projection.slave] = 1.;
-        for (const auto &node : projection.masters)
-          {
-            const auto &masters = surface.masters(node.first);
-            if (masters.empty())
-              factor[node.first] -= node.second;
-            for (const auto &master : masters)
-              factor[master.first] -= node.second * master.second;
-          }
-        factors.emplace_back(factor.begin(), factor.end());
+        const auto &masters = surface.masters(node.first);
+        if (masters.empty())
+          factor[node.first] -= node.second;
+        for (const auto &master : masters)
+          factor[master.first] -= node.second * master.second;
       }
+    return {factor.begin(), factor.end()};
+  }
+
+  /// The displacement of a node, that of its masters if it hangs.
+  dealii::Tensor<1, dim> moved(const unsigned int node, const Field &displacement) const
+  {
+    const auto &masters = surface.masters(node);
+    return masters.empty() ? displacement[node] : weighted<dim>(masters, displacement);
   }
 
   SupportedNormals<dim> master_normals(const Field &positions) const

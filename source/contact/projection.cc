@@ -1,4 +1,5 @@
 #include <snug/contact/face_tree.h>
+#include <snug/contact/normal_rays.h>
 #include <snug/contact/projection.h>
 #include <snug/faces/closest_point.h>
 #include <snug/faces/outer_edges.h>
@@ -72,11 +73,10 @@ private:
   }
 };
 
-Projection::Weights nonzero(const std::vector<double>       &values,
-                            const std::vector<unsigned int> &points)
+Weights nonzero(const std::vector<double> &values, const std::vector<unsigned int> &points)
 {
-  Projection::Weights result;
-  double              sum = 0.;
+  Weights result;
+  double  sum = 0.;
   for (unsigned int k = 0; k < points.size(); ++k)
     // On an edge the nodes of the other edges have weights that are rounding: they would couple the
     // row to nodes that it has nothing to do with.
@@ -94,13 +94,13 @@ Projection::Weights nonzero(const std::vector<double>       &values,
 
 /// The rays of a master side along its normals.
 template <int dim>
-class NormalRays
+class MasterRays
 {
 public:
   using Field = typename mesh::Surface<dim>::Field;
   using Xi    = dealii::Point<dim - 1>;
 
-  NormalRays(const mesh::Surface<dim>        &surface,
+  MasterRays(const mesh::Surface<dim>        &surface,
              const std::vector<unsigned int> &faces,
              const faces::FaceShape<dim>     &shape,
              const Field                     &positions,
@@ -116,6 +116,11 @@ public:
         at_node[node].push_back(face);
   }
 
+  NormalRays<dim> of(const unsigned int face) const
+  {
+    return {surface.faces()[face], shape, positions, normals};
+  }
+
   /// Face and coordinates where the ray to @p p begins, near those of the closest point; none
   /// where the side ends.
   std::optional<std::pair<unsigned int, Xi>>
@@ -126,51 +131,14 @@ public:
       candidates.insert(candidates.end(), at_node[node].begin(), at_node[node].end());
     // The face of the closest point first, then its neighbours by number.
     std::sort(candidates.begin() + 1, candidates.end());
+    Xi middle;
+    for (int a = 0; a < dim - 1; ++a)
+      middle[a] = 0.5;
     for (const unsigned int candidate : candidates)
-      {
-        Xi xi = candidate == face ? closest : Xi();
-        if (candidate != face)
-          for (int a = 0; a < dim - 1; ++a)
-            xi[a] = 0.5;
-        if (solve(p, surface.faces()[candidate].nodes, xi))
-          return std::make_pair(candidate, xi);
-      }
+      if (const auto ray = of(candidate).to(p, candidate == face ? closest : middle))
+        if (const auto xi = inside(ray->values.point))
+          return std::make_pair(candidate, *xi);
     return {};
-  }
-
-  /// Where the ray from @p xi of @p face meets the true surface: coordinates of its samples.
-  Xi on_surface(const unsigned int face, const Xi &xi) const
-  {
-    const auto            &of     = surface.faces()[face];
-    const auto             values = shape.at(xi);
-    const auto             t      = faces::tangents<dim>(values, of.nodes, positions);
-    dealii::Tensor<1, dim> x, v;
-    for (unsigned int k = 0; k < of.nodes.size(); ++k)
-      {
-        x += values.value[k] * positions[of.nodes[k]];
-        v += values.value[k] * normals[of.nodes[k]];
-      }
-    dealii::Tensor<2, dim> frame;
-    for (int d = 0; d < dim; ++d)
-      {
-        for (int a = 0; a < dim - 1; ++a)
-          frame[d][a] = t[a][d];
-        frame[d][dim - 1] = v[d];
-      }
-    const auto to_frame = dealii::invert(frame);
-    Xi         result   = xi;
-    // The surface is nearly parallel to the face: its height comes in as a small factor each time.
-    for (unsigned int iteration = 0; iteration < 10; ++iteration)
-      {
-        const auto             at = shape.samples_at(result);
-        dealii::Tensor<1, dim> y  = -x;
-        for (unsigned int k = 0; k < of.samples.size(); ++k)
-          y += at.value[k] * positions[of.samples[k]];
-        const auto off = to_frame * y;
-        for (int a = 0; a < dim - 1; ++a)
-          result[a] -= off[a];
-      }
-    return result;
   }
 
 private:
@@ -179,72 +147,33 @@ private:
   const Field                           &positions, &normals;
   std::vector<std::vector<unsigned int>> at_node; ///< faces
 
-  /// Newton's method for xi and the length t of the ray.
-  bool solve(const dealii::Tensor<1, dim> &p, const std::vector<unsigned int> &nodes, Xi &xi) const
+  /// @p xi without rounding beyond the edges, if the face contains it.
+  static std::optional<Xi> inside(Xi xi)
   {
-    const double       converged = 1e-15, inside = 1e-10;
-    const unsigned int max_iterations = 30;
-    double             t              = 0.;
-    for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+    const double round_off = 1e-10;
+    for (int a = 0; a < dim - 1; ++a)
       {
-        const auto             values = shape.at(xi);
-        dealii::Tensor<1, dim> x, v;
-        for (unsigned int k = 0; k < nodes.size(); ++k)
-          {
-            x += values.value[k] * (positions[nodes[k]] - p);
-            v += values.value[k] * normals[nodes[k]];
-          }
-        if (iteration == 0)
-          t = -(x * v) / v.norm_square();
-        const auto             tx = faces::tangents<dim>(values, nodes, positions);
-        const auto             tv = faces::tangents<dim>(values, nodes, normals);
-        dealii::Tensor<2, dim> jacobian;
-        for (int d = 0; d < dim; ++d)
-          {
-            for (int a = 0; a < dim - 1; ++a)
-              jacobian[d][a] = tx[a][d] + t * tv[a][d];
-            jacobian[d][dim - 1] = v[d];
-          }
-        if (!(std::abs(dealii::determinant(jacobian)) > 0.))
-          return false;
-        const auto step = -(dealii::invert(jacobian) * (x + t * v));
-        double     move = 0.;
-        for (int a = 0; a < dim - 1; ++a)
-          {
-            xi[a] += step[a];
-            move += std::abs(step[a]);
-          }
-        t += step[dim - 1];
-        if (!(move < 10.))
-          return false;
-        if (move <= converged || (iteration + 1 == max_iterations && move < 1e-12))
-          {
-            for (int a = 0; a < dim - 1; ++a)
-              {
-                if (xi[a] < -inside || xi[a] > 1. + inside)
-                  return false;
-                xi[a] = std::clamp(xi[a], 0., 1.);
-              }
-            return true;
-          }
+        if (xi[a] < -round_off || xi[a] > 1. + round_off)
+          return {};
+        xi[a] = std::clamp(xi[a], 0., 1.);
       }
-    return false;
+    return xi;
   }
 };
 } // namespace
 
 template <int dim>
-std::vector<Projection> project(const mesh::Surface<dim>                 &surface,
-                                const PairFaces                          &sides,
-                                const faces::FaceShape<dim>              &shape,
-                                const typename mesh::Surface<dim>::Field &positions,
-                                const typename mesh::Surface<dim>::Field &normals)
+std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &surface,
+                                     const PairFaces                          &sides,
+                                     const faces::FaceShape<dim>              &shape,
+                                     const typename mesh::Surface<dim>::Field &positions,
+                                     const typename mesh::Surface<dim>::Field &normals)
 {
-  std::vector<Projection> result;
+  std::vector<Projection<dim>> result;
   if (sides.master.empty())
     return result;
   const MasterSide<dim>        master(surface, sides.master, shape, positions);
-  const NormalRays<dim>        rays(surface, sides.master, shape, positions, normals);
+  const MasterRays<dim>        rays(surface, sides.master, shape, positions, normals);
   const faces::OuterEdges<dim> edges(surface, sides.master, shape);
   std::vector<bool>            visited(surface.n_nodes(), false);
   for (const unsigned int slave_face : sides.slave)
@@ -267,24 +196,23 @@ std::vector<Projection> project(const mesh::Surface<dim>                 &surfac
         const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
         // Where the ray begins on the side, as in a symmetry plane, nothing ends.
         const double beyond = ray ? 0. : std::max(0., excess);
-        result.push_back(
-          {slave, face, masters,
-           of.samples.empty()
-             ? masters
-             : nonzero(shape.samples_at(rays.on_surface(face, xi)).value, of.samples),
-           edge_relief(beyond, mean_face_size(surface, {face}, positions))});
+        const auto   meets  = of.samples.empty()
+                                ? masters
+                                : nonzero(rays.of(face).on_surface(xi).values.value, of.samples);
+        const double relief = edge_relief(beyond, mean_face_size(surface, {face}, positions));
+        result.push_back({slave, face, xi, bool(ray), masters, meets, relief});
       }
   return result;
 }
 
-template std::vector<Projection> project(const mesh::Surface<2> &,
-                                         const PairFaces &,
-                                         const faces::FaceShape<2> &,
-                                         const mesh::Surface<2>::Field &,
-                                         const mesh::Surface<2>::Field &);
-template std::vector<Projection> project(const mesh::Surface<3> &,
-                                         const PairFaces &,
-                                         const faces::FaceShape<3> &,
-                                         const mesh::Surface<3>::Field &,
-                                         const mesh::Surface<3>::Field &);
+template std::vector<Projection<2>> project(const mesh::Surface<2> &,
+                                            const PairFaces &,
+                                            const faces::FaceShape<2> &,
+                                            const mesh::Surface<2>::Field &,
+                                            const mesh::Surface<2>::Field &);
+template std::vector<Projection<3>> project(const mesh::Surface<3> &,
+                                            const PairFaces &,
+                                            const faces::FaceShape<3> &,
+                                            const mesh::Surface<3>::Field &,
+                                            const mesh::Surface<3>::Field &);
 } // namespace snug::contact

@@ -26,8 +26,9 @@ struct PairedGaps
 /**
  * All contact rows of a scene: one group per pair, in the order of the
  * pairs, with the pair's gap formula at the slave nodes added to the gaps
- * of the group. Pairing is done by the constructor and pair() and frozen
- * in between; see RowGroup for the meaning of the functions.
+ * of the group. Pairing, of nodes with faces, is done by the constructor
+ * and pair() and frozen in between; see RowGroup for the meaning of the
+ * functions.
  */
 template <int dim>
 class Contact
@@ -79,7 +80,8 @@ public:
   std::vector<double>
   slips(const Field &positions, const std::vector<Row<dim>> &rows, const Field &displacement) const;
   /// How far slave nodes have moved along the master off the points they
-  /// were paired with; 0 for obstacles, whose points follow.
+  /// were paired with. Feet of nodal rows follow within their faces: of them
+  /// only the way off the face counts. 0 for obstacles, whose points follow.
   std::vector<double> drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
   /// Of each pair where it was paired.
   const std::vector<PairedGaps> &paired_gaps() const { return gaps; }
@@ -101,7 +103,7 @@ private:
   std::vector<Group>          groups;      ///< one per pair
   std::vector<RowPlace>       row_places;
   std::vector<SharedNode>     shared;
-  Field                       paired_offsets; ///< of each row, when paired
+  Field                       paired_offsets; ///< of each row along the master, when paired
   std::vector<PairedGaps>     gaps;           ///< of each pair, when paired
 
   void  collect_shared_nodes();

@@ -13,8 +13,8 @@ namespace snug::contact {
  * c_s = n, c_k = -w_k n, gap = n . (x_m - x_s) + its relief,
  * n = -v/|v|, v = sum_k w_k n_k by the SupportedNormals n_k of the master,
  * x_m the point of the true surface of the face over its point sum_k w_k
- * x_k; hanging master nodes are replaced by their masters. Faces and
- * weights stay, normals and gaps follow the positions. Slave nodes that
+ * x_k; hanging master nodes are replaced by their masters. Faces stay;
+ * weights (Foot), normals and gaps follow the positions. Slave nodes that
  * hang, or whose closest point lies beyond the edge of the master side
  * (edge_tolerance), is out of reach or does not face them (Opposition),
  * carry no row.

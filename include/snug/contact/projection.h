@@ -7,25 +7,28 @@
 #include <vector>
 
 namespace snug::contact {
+/// Surface nodes or points, ascending, and weights, which sum to 1.
+using Weights = std::vector<std::pair<unsigned int, double>>;
+
 /**
- * Slave node s against master face, found once and frozen: the point
- * x(xi) = sum_k w_k x_k of the face from which the normal of the master side
- * leads to the slave node,
+ * Slave node s against master face, found once: its foot, the point x(xi) =
+ * sum_k w_k x_k of the face from which the normal of the master side leads
+ * to the slave node,
  *   x_s = x(xi) + t v(xi),  v(xi) = sum_k w_k n_k,  w_k = N_k(xi),
  * with the nodal normals n_k. On a circle or a sphere v is radial to
  * rounding, so that rows have no lever about its centre, as they would have
  * from the point of the facet that is closest to the node.
  */
+template <int dim>
 struct Projection
 {
-  /// Surface nodes or points, ascending, and weights, which sum to 1.
-  using Weights = std::vector<std::pair<unsigned int, double>>;
-
-  unsigned int slave;   ///< surface node
-  unsigned int face;    ///< of the surface
-  Weights      masters; ///< the nodes of the face
-  Weights      surface; ///< the points that give the true surface where the ray meets it
-  double       relief;  ///< edge_relief() beyond the end of the master side, else 0 [length]
+  unsigned int           slave;   ///< surface node
+  unsigned int           face;    ///< of the surface
+  dealii::Point<dim - 1> xi;      ///< of the foot
+  bool                   is_ray;  ///< false: the closest point, as no ray leads to the node
+  Weights                masters; ///< the nodes of the face
+  Weights                surface; ///< the points that give the true surface where the ray meets it
+  double relief; ///< edge_relief() beyond the end of the master side, else 0 [length]
 };
 
 /**
@@ -59,11 +62,11 @@ constexpr double edge_relief(double excess, double h)
  * one with the lowest index is taken; weights below 1e-12 become 0.
  */
 template <int dim>
-std::vector<Projection> project(const mesh::Surface<dim>                 &surface,
-                                const PairFaces                          &sides,
-                                const faces::FaceShape<dim>              &shape,
-                                const typename mesh::Surface<dim>::Field &positions,
-                                const typename mesh::Surface<dim>::Field &normals);
+std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &surface,
+                                     const PairFaces                          &sides,
+                                     const faces::FaceShape<dim>              &shape,
+                                     const typename mesh::Surface<dim>::Field &positions,
+                                     const typename mesh::Surface<dim>::Field &normals);
 } // namespace snug::contact
 
 #endif

@@ -20,6 +20,8 @@ struct Row
   double                                                       gap = 0.;
   /// unit normal into the master; -force * normal acts on the slave side
   dealii::Tensor<1, dim> normal;
+  /// how far a foot that follows has left its face, in parts of it
+  double off_face = 0.;
 };
 
 /// A slave node without a row of its own: the rows that act for it, and

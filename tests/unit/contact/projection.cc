@@ -24,7 +24,7 @@ std::vector<unsigned int> master_faces(const TwoBoxes<dim> &scene)
 }
 
 template <int dim>
-dealii::Tensor<1, dim> master_point(const TwoBoxes<dim> &scene, const Projection &projection)
+dealii::Tensor<1, dim> master_point(const TwoBoxes<dim> &scene, const Projection<dim> &projection)
 {
   dealii::Tensor<1, dim> x;
   for (const auto &master : projection.masters)

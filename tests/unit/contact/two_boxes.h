@@ -86,7 +86,7 @@ struct TwoBoxes
     return {surface, {used}, mesh.degree(), positions, held};
   }
 
-  std::vector<snug::contact::Projection> projections() const
+  std::vector<snug::contact::Projection<dim>> projections() const
   {
     snug::contact::PairFaces sides;
     for (unsigned int f = 0; f < surface.faces().size(); ++f)

@@ -1,0 +1,190 @@
+#include <snug/base/errors.h>
+#include <snug/contact/foot.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace snug::contact {
+namespace {
+/// Coordinates of feet this close to those of nodes are theirs: matching meshes of files differ by
+/// the rounding of their digits.
+const double on_node = 1e-9;
+
+/// A foot farther off its face, in parts of it, has lost it: the polynomials of the face tell
+/// nothing there.
+const double lost = 1.;
+
+/// sum_k values_k field_k
+template <int dim>
+dealii::Tensor<1, dim> mean(const std::vector<double>                &values,
+                            const std::vector<unsigned int>          &points,
+                            const typename mesh::Surface<dim>::Field &field)
+{
+  dealii::Tensor<1, dim> sum;
+  for (unsigned int k = 0; k < points.size(); ++k)
+    sum += values[k] * field[points[k]];
+  return sum;
+}
+
+/// Its transpose: field_k += values_k g
+template <int dim>
+void spread(const std::vector<double>          &values,
+            const std::vector<unsigned int>    &points,
+            const dealii::Tensor<1, dim>       &g,
+            typename mesh::Surface<dim>::Field &field)
+{
+  for (unsigned int k = 0; k < points.size(); ++k)
+    field[points[k]] += values[k] * g;
+}
+
+/// Vectors of coordinates and a length have dim components. That of the length is 0 where only
+/// coordinates count.
+template <int dim>
+dealii::Tensor<1, dim> with_length(const dealii::Tensor<1, dim - 1> &of_coordinates)
+{
+  dealii::Tensor<1, dim> result;
+  for (int a = 0; a < dim - 1; ++a)
+    result[a] = of_coordinates[a];
+  return result;
+}
+} // namespace
+
+template <int dim>
+Foot<dim>::Foot(const mesh::Surface<dim>    &surface,
+                const faces::FaceShape<dim> &shape,
+                const Projection<dim>       &projection,
+                const Field                 &positions,
+                const Field                 &normals)
+  : paired(projection)
+  , face(surface.faces()[projection.face])
+  , shape(shape)
+  , start(projection.xi)
+  , follows(false)
+{
+  bool any_fixed = false;
+  for (int a = 0; a < dim - 1; ++a)
+    {
+      const double nearest = std::round(start[a] * shape.degree()) / shape.degree();
+      equations.fixed[a]   = !projection.is_ray || std::abs(start[a] - nearest) < on_node;
+      if (equations.fixed[a])
+        start[a] = nearest;
+      any_fixed = any_fixed || equations.fixed[a];
+      follows   = follows || !equations.fixed[a];
+    }
+  if (follows && any_fixed)
+    equations.rows =
+      transpose(rays(positions, normals).at(start, positions[projection.slave]).slope);
+  for (unsigned int k = 0; k < face.nodes.size(); ++k)
+    {
+      bool on_lines = true;
+      for (int a = 0; a < dim - 1; ++a)
+        on_lines = on_lines && (!equations.fixed[a] || shape.node(k)[a] == start[a]);
+      // The others have no weight wherever the free coordinates go: rows must not couple to them.
+      if (on_lines)
+        taking_part.push_back(k);
+    }
+}
+
+template <int dim>
+typename Foot<dim>::Place Foot<dim>::at(const Field &positions, const Field &normals) const
+{
+  Place result(*this);
+  result.masters = paired.masters;
+  result.surface = paired.surface;
+  if (!follows)
+    return result;
+  const auto of    = rays(positions, normals);
+  const auto point = of.to(positions[paired.slave], start, equations);
+  for (int a = 0; a < dim - 1 && point; ++a)
+    {
+      const double xi = point->values.point[a];
+      result.off_face = std::max({result.off_face, -xi, xi - 1.});
+    }
+  if (!point || result.off_face > lost)
+    {
+      std::ostringstream message;
+      message << "the slave node at (" << positions[paired.slave]
+              << ") has moved far off the master face it is paired with";
+      throw TangledMesh(message.str());
+    }
+  result.point = *point;
+  result.masters.clear();
+  for (const unsigned int k : taking_part)
+    result.masters.emplace_back(face.nodes[k], point->values.value[k]);
+  result.surface = result.masters;
+  if (face.samples.empty())
+    return result;
+  result.hit = of.on_surface(point->values.point);
+  result.surface.clear();
+  for (unsigned int k = 0; k < face.samples.size(); ++k)
+    result.surface.emplace_back(face.samples[k], result.hit.values.value[k]);
+  return result;
+}
+
+/// By implicit differentiation, first of the foot, then of where its ray meets the true surface.
+template <int dim>
+typename Foot<dim>::Slopes Foot<dim>::Place::slopes(const Field &velocity,
+                                                    const Field &normal_velocity) const
+{
+  Slopes result{masters, {}};
+  for (auto &weight : result.masters)
+    weight.second = 0.;
+  if (!foot->follows)
+    return result;
+  const auto &face = foot->face;
+  const auto  dx   = mean<dim>(point.values.value, face.nodes, velocity);
+  const auto  dv   = mean<dim>(point.values.value, face.nodes, normal_velocity);
+  const auto  dF   = dx + point.t * dv - velocity[foot->paired.slave];
+  auto        dxi  = -(inverse() * foot->equations.residual(dF));
+  dxi[dim - 1]     = 0.;
+  for (unsigned int i = 0; i < masters.size(); ++i)
+    result.masters[i].second = with_length<dim>(point.values.gradient[foot->taking_part[i]]) * dxi;
+  result.surface = result.masters;
+  if (face.samples.empty())
+    return result;
+  const auto dy =
+    mean<dim>(hit.values.value, face.samples, velocity) - dx - hit.s * dv - hit.foot_slope * dxi;
+  const auto dzeta = -(dealii::invert(hit.slope) * dy);
+  result.surface   = surface;
+  for (unsigned int j = 0; j < surface.size(); ++j)
+    result.surface[j].second = with_length<dim>(hit.values.gradient[j]) * dzeta;
+  return result;
+}
+
+/// The same backwards.
+template <int dim>
+void Foot<dim>::Place::add_transpose(const std::vector<double> &by_masters,
+                                     const std::vector<double> &by_surface,
+                                     Field                     &gradient,
+                                     Field                     &normal_gradient) const
+{
+  if (!foot->follows)
+    return;
+  const auto            &face = foot->face;
+  dealii::Tensor<1, dim> by_xi, by_zeta;
+  for (unsigned int i = 0; i < masters.size(); ++i)
+    {
+      const double by_weight = by_masters[i] + (face.samples.empty() ? by_surface[i] : 0.);
+      by_xi += by_weight * with_length<dim>(point.values.gradient[foot->taking_part[i]]);
+    }
+  if (!face.samples.empty())
+    {
+      for (unsigned int j = 0; j < surface.size(); ++j)
+        by_zeta += by_surface[j] * with_length<dim>(hit.values.gradient[j]);
+      const auto by_y = -(by_zeta * dealii::invert(hit.slope));
+      spread<dim>(hit.values.value, face.samples, by_y, gradient);
+      spread<dim>(point.values.value, face.nodes, -by_y, gradient);
+      spread<dim>(point.values.value, face.nodes, -hit.s * by_y, normal_gradient);
+      by_xi -= by_y * hit.foot_slope;
+      by_xi[dim - 1] = 0.;
+    }
+  const auto by_F = foot->equations.residual_transpose(-(by_xi * inverse()));
+  spread<dim>(point.values.value, face.nodes, by_F, gradient);
+  spread<dim>(point.values.value, face.nodes, point.t * by_F, normal_gradient);
+  gradient[foot->paired.slave] -= by_F;
+}
+
+template class Foot<2>;
+template class Foot<3>;
+} // namespace snug::contact

@@ -1,0 +1,169 @@
+#include <snug/base/errors.h>
+#include <snug/contact/normal_rays.h>
+
+#include <cmath>
+#include <limits>
+
+namespace snug::contact {
+namespace {
+const unsigned int max_iterations = 30;
+
+/// When a step of Newton's method is rounding: below 1e-15, or where steps shrink no more.
+class Convergence
+{
+public:
+  bool reached(const double move)
+  {
+    const bool is_reached = move <= 1e-15 || (move < 1e-12 && move >= 0.5 * before);
+    before                = move;
+    return is_reached;
+  }
+
+private:
+  double before = std::numeric_limits<double>::max();
+};
+
+/// xi += step; @return its length in the face.
+template <int dim>
+double advance(dealii::Point<dim - 1> &xi, const dealii::Tensor<1, dim> &step)
+{
+  double move = 0.;
+  for (int a = 0; a < dim - 1; ++a)
+    {
+      xi[a] += step[a];
+      move += std::abs(step[a]);
+    }
+  return move;
+}
+
+/// A step beyond this, in faces, leads nowhere.
+const double wild = 10.;
+} // namespace
+
+template <int dim>
+dealii::Tensor<1, dim> RayEquations<dim>::residual(const dealii::Tensor<1, dim> &F) const
+{
+  auto result = rows * F;
+  for (int a = 0; a < dim - 1; ++a)
+    if (fixed[a])
+      result[a] = 0.;
+  return result;
+}
+
+template <int dim>
+dealii::Tensor<2, dim> RayEquations<dim>::matrix(const dealii::Tensor<2, dim> &slope) const
+{
+  dealii::Tensor<2, dim> result = rows * slope;
+  for (int a = 0; a < dim - 1; ++a)
+    if (fixed[a])
+      {
+        result[a]    = dealii::Tensor<1, dim>();
+        result[a][a] = 1.;
+      }
+  return result;
+}
+
+template <int dim>
+dealii::Tensor<1, dim> RayEquations<dim>::residual_transpose(dealii::Tensor<1, dim> factors) const
+{
+  for (int a = 0; a < dim - 1; ++a)
+    if (fixed[a])
+      factors[a] = 0.;
+  return factors * rows;
+}
+
+template <int dim>
+typename NormalRays<dim>::Point NormalRays<dim>::at(const Xi                     &xi,
+                                                    const dealii::Tensor<1, dim> &origin,
+                                                    std::optional<double>         t) const
+{
+  Point point;
+  point.values = shape.at(xi);
+  for (unsigned int k = 0; k < face.nodes.size(); ++k)
+    {
+      point.x += point.values.value[k] * (positions[face.nodes[k]] - origin);
+      point.v += point.values.value[k] * normals[face.nodes[k]];
+    }
+  point.t       = t ? *t : -(point.x * point.v) / point.v.norm_square();
+  const auto tx = faces::tangents<dim>(point.values, face.nodes, positions);
+  const auto tv = faces::tangents<dim>(point.values, face.nodes, normals);
+  for (int d = 0; d < dim; ++d)
+    {
+      for (int a = 0; a < dim - 1; ++a)
+        point.slope[d][a] = tx[a][d] + point.t * tv[a][d];
+      point.slope[d][dim - 1] = point.v[d];
+    }
+  return point;
+}
+
+template <int dim>
+std::optional<typename NormalRays<dim>::Point>
+NormalRays<dim>::to(const dealii::Tensor<1, dim> &p,
+                    const Xi                     &start,
+                    const RayEquations<dim>      &equations) const
+{
+  Xi          xi    = start;
+  Point       point = at(xi, p);
+  Convergence convergence;
+  for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+    {
+      const auto matrix = equations.matrix(point.slope);
+      if (!(std::abs(dealii::determinant(matrix)) > 0.))
+        return {};
+      const auto step = -(dealii::invert(matrix) * equations.residual(point.x + point.t * point.v));
+      const double move = advance<dim>(xi, step);
+      if (!(move < wild))
+        return {};
+      point = at(xi, p, point.t + step[dim - 1]);
+      if (convergence.reached(move))
+        return point;
+    }
+  return {};
+}
+
+template <int dim>
+typename NormalRays<dim>::Hit NormalRays<dim>::on_surface(const Xi &xi) const
+{
+  // Places are relative to the face: far off the origin of the scene rounding would stop the steps.
+  const auto  origin = positions[face.nodes[0]];
+  const auto  point  = at(xi, origin, 0.);
+  Xi          zeta   = xi;
+  Hit         hit;
+  Convergence convergence;
+  for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+    {
+      hit.values               = shape.samples_at(zeta);
+      dealii::Tensor<1, dim> y = -(point.x + hit.s * point.v);
+      for (unsigned int k = 0; k < face.samples.size(); ++k)
+        y += hit.values.value[k] * (positions[face.samples[k]] - origin);
+      const auto ty = faces::tangents<dim>(hit.values, face.samples, positions);
+      for (int d = 0; d < dim; ++d)
+        {
+          for (int a = 0; a < dim - 1; ++a)
+            hit.slope[d][a] = ty[a][d];
+          hit.slope[d][dim - 1] = -point.v[d];
+        }
+      if (!(std::abs(dealii::determinant(hit.slope)) > 0.))
+        break;
+      const auto   step = -(dealii::invert(hit.slope) * y);
+      const double move = advance<dim>(zeta, step);
+      hit.s += step[dim - 1];
+      if (!(move < wild))
+        break;
+      if (convergence.reached(move))
+        {
+          hit.foot_slope = at(xi, origin, hit.s).slope;
+          return hit;
+        }
+    }
+  throw TangledMesh("a contact face is folded: the normal at one of its points does not meet its "
+                    "true surface");
+}
+
+#define SNUG_INSTANTIATE(dim)        \
+  template struct RayEquations<dim>; \
+  template class NormalRays<dim>;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::contact
