@@ -63,7 +63,11 @@ private:
   std::vector<double> shape(const Coordinates &xi, int derivative) const;
   Tensor              on_face(const Face &face, const Coordinates &xi, int derivative) const;
   std::pair<double, Coordinates> closest(const Face &face, const Tensor &p) const;
-  Tensor area_vector(const Face &face, const Vector &x, unsigned int k) const;
+  Tensor      area_vector(const Face &face, const Vector &x, unsigned int k) const;
+  Coordinates foot(const Face                           &face,
+                   const Coordinates                    &paired,
+                   const Tensor                         &p,
+                   const std::map<unsigned int, Tensor> &normals) const;
 };
 
 template <int dim>
@@ -196,6 +200,36 @@ void Untorn<dim>::add_coefficient(const Tensor &c,
     }
 }
 
+/// Where the ray to @p p begins on a master face that is flat in the reference and along the axes:
+/// xi by a fixed point, t from the heights. Coordinates on nodes stay.
+template <int dim>
+typename Untorn<dim>::Coordinates
+Untorn<dim>::foot(const Face                           &face,
+                  const Coordinates                    &paired,
+                  const Tensor                         &p,
+                  const std::map<unsigned int, Tensor> &normals) const
+{
+  const Tensor extent = on_face(face, {{1., 1.}}, -1) - on_face(face, {{0., 0.}}, -1);
+  const double degree = bodies[1]->fe.degree;
+  Coordinates  xi     = paired;
+  for (unsigned int iteration = 0; iteration < 100; ++iteration)
+    {
+      const auto N   = shape(xi, -1);
+      Tensor     off = -p, v;
+      for (unsigned int k = 0; k < N.size(); ++k)
+        {
+          const Tensor &a = normals.at(face.nodes[k]);
+          off += N[k] * bodies[1]->at_node(bodies[1]->positions, face.nodes[k]);
+          v += N[k] * a / a.norm();
+        }
+      off -= off[dim - 1] / v[dim - 1] * v;
+      for (unsigned int d = 0; d < dim - 1; ++d)
+        if (std::abs(paired[d] * degree - std::round(paired[d] * degree)) > 1e-6)
+          xi[d] -= off[d] / extent[d];
+    }
+  return xi;
+}
+
 template <int dim>
 void Untorn<dim>::pair_contacts()
 {
@@ -210,20 +244,22 @@ void Untorn<dim>::pair_contacts()
         if (contacts.count(slave) == 1 ||
             bodies[0]->hanging.is_constrained(bodies[0]->node_dofs[slave][0]))
           continue;
-        const Tensor        p     = bodies[0]->at_node(bodies[0]->reference, slave);
-        double              least = 1e300;
-        Face                face;
-        std::vector<double> weights;
+        const Tensor p     = bodies[0]->at_node(bodies[0]->reference, slave);
+        double       least = 1e300;
+        Face         face;
+        Coordinates  paired{};
         for (const Face &master : masters)
           {
             const auto found = closest(master, p);
             if (found.first < least - 1e-13)
               {
-                least   = found.first;
-                face    = master;
-                weights = shape(found.second, -1);
+                least  = found.first;
+                face   = master;
+                paired = found.second;
               }
           }
+        const auto weights =
+          shape(foot(face, paired, bodies[0]->at_node(bodies[0]->positions, slave), normals), -1);
         Tensor n, x = -bodies[0]->at_node(bodies[0]->positions, slave);
         for (unsigned int k = 0; k < weights.size(); ++k)
           {
