@@ -20,7 +20,8 @@ class Foot
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// Weights at given positions; nothing for feet that stay.
+  /// Derivatives of the weights of Place: zeros, and no surface, for feet
+  /// that stay.
   struct Slopes
   {
     Weights masters, surface;
@@ -84,7 +85,7 @@ private:
   dealii::Point<dim - 1>                   start; ///< xi, rounding at nodes taken off
   RayEquations<dim>                        equations;
   bool                                     follows;
-  std::vector<unsigned int>                taking_part; ///< nodes of the face, by face
+  std::vector<unsigned int>                taking_part; ///< indices of nodes in the face
 
   NormalRays<dim> rays(const Field &positions, const Field &normals) const
   {

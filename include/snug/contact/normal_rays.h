@@ -65,7 +65,7 @@ public:
     : face(face), shape(shape), positions(positions), normals(normals)
   {}
 
-  /// The point at @p xi and @p t; no t: the one closest to the origin along the ray.
+  /// The point at @p xi and @p t; no t: the one of the ray closest to the origin.
   Point at(const Xi &xi, const dealii::Tensor<1, dim> &origin, std::optional<double> t = {}) const;
 
   /// The ray that leads to @p p, by Newton's method from @p xi, at any
