@@ -76,12 +76,12 @@ dealii::Tensor<1, dim> slave_minus_master(const Row<dim>                        
   return sum;
 }
 
-/// The part of @p v at right angles to @p normal.
+/// Length of @p v at right angles to @p normal.
 /// [length]; what the row does not resist, as contact is without friction.
 template <int dim>
-dealii::Tensor<1, dim> along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
+double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
 {
-  return v - (v * normal) * normal;
+  return (v - (v * normal) * normal).norm();
 }
 } // namespace
 
@@ -176,7 +176,7 @@ void Contact<dim>::measure_pairing(const Field &positions)
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
       const auto &[p, slave] = row_places[i];
-      paired_offsets.push_back(along(slave_minus_master(paired[i], positions), paired[i].normal));
+      paired_offsets.push_back(slave_minus_master(paired[i], positions));
       double gap = paired[i].gap;
       // An obstacle that moves into a body is a load, not a body at the wrong place.
       if (chosen[p].obstacle)
@@ -310,7 +310,7 @@ std::vector<double> Contact<dim>::slips(const Field                 &positions,
   const auto          sizes = node_face_sizes(surface, positions);
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
-    result.push_back(along(slave_minus_master(rows[i], displacement), rows[i].normal).norm() /
+    result.push_back(along(slave_minus_master(rows[i], displacement), rows[i].normal) /
                      sizes[row_places[i].slave]);
   return result;
 }
@@ -323,12 +323,15 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      const auto offset         = along(slave_minus_master(rows[i], positions), rows[i].normal);
+      const auto offset         = slave_minus_master(rows[i], positions);
       const auto &[pair, slave] = row_places[i];
+      const auto &off_face      = rows[i].off_face;
+      // Where the foot follows the offset is along the normal, but for coordinates that are fixed.
+      const auto moved = off_face ? offset : offset - paired_offsets[i];
       // The closest point on an obstacle follows the node, so it cannot drift off.
       result.push_back(chosen[pair].obstacle
                          ? 0.
-                         : (offset - paired_offsets[i]).norm() / sizes[slave] + rows[i].off_face);
+                         : along(moved, rows[i].normal) / sizes[slave] + off_face.value_or(0.));
     }
   return result;
 }

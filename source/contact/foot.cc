@@ -96,19 +96,18 @@ typename Foot<dim>::Place Foot<dim>::at(const Field &positions, const Field &nor
     return result;
   const auto of    = rays(positions, normals);
   const auto point = of.to(positions[paired.slave], start, equations);
+  double     off   = 0.;
   for (int a = 0; a < dim - 1 && point; ++a)
-    {
-      const double xi = point->values.point[a];
-      result.off_face = std::max({result.off_face, -xi, xi - 1.});
-    }
-  if (!point || result.off_face > lost)
+    off = std::max({off, -point->values.point[a], point->values.point[a] - 1.});
+  if (!point || off > lost)
     {
       std::ostringstream message;
       message << "the slave node at (" << positions[paired.slave]
               << ") has moved far off the master face it is paired with";
       throw TangledMesh(message.str());
     }
-  result.point = *point;
+  result.off_face = off;
+  result.point    = *point;
   result.masters.clear();
   for (const unsigned int k : taking_part)
     result.masters.emplace_back(face.nodes[k], point->values.value[k]);

@@ -103,7 +103,7 @@ private:
   std::vector<Group>          groups;      ///< one per pair
   std::vector<RowPlace>       row_places;
   std::vector<SharedNode>     shared;
-  Field                       paired_offsets; ///< of each row along the master, when paired
+  Field                       paired_offsets; ///< of each row, when paired
   std::vector<PairedGaps>     gaps;           ///< of each pair, when paired
 
   void  collect_shared_nodes();

@@ -33,8 +33,8 @@ public:
   public:
     /// As of Projection, always of the same nodes and points.
     Weights masters, surface;
-    /// How far the foot has left its face, in parts of it.
-    double off_face = 0.;
+    /// Of feet that follow: how far they have left their face, in parts of it.
+    std::optional<double> off_face;
 
     /// Derivatives of the weights along velocities of positions and normals.
     Slopes slopes(const Field &velocity, const Field &normal_velocity) const;

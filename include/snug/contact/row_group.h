@@ -3,6 +3,7 @@
 
 #include <snug/mesh/surface.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct Row
   double                                                       gap = 0.;
   /// unit normal into the master; -force * normal acts on the slave side
   dealii::Tensor<1, dim> normal;
-  /// how far a foot that follows has left its face, in parts of it
-  double off_face = 0.;
+  /// of a foot that follows: how far it has left its face, in parts of it
+  std::optional<double> off_face;
 };
 
 /// A slave node without a row of its own: the rows that act for it, and

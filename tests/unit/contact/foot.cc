@@ -129,7 +129,7 @@ TEST(Foot, OnANodeItStays)
       for (unsigned int i = 0; i < rows.size(); ++i)
         {
           EXPECT_TRUE(is_node_to_node(rows[i]));
-          EXPECT_EQ(rows[i].off_face, 0.);
+          EXPECT_FALSE(rows[i].off_face);
           for (const auto &c : slopes[i].coefficients)
             EXPECT_EQ((c.second.norm_square()), slopes[i].normal.norm_square());
         }
