@@ -10,9 +10,12 @@
 
 namespace snug::feti {
 namespace {
-/// Below this, relative to the mean of diag A, a singular value of Z'AZ is that of a motion the
-/// rows do not see.
-const double kernel_cut = 1e-10;
+/// Relative to the mean of diag A: eigenvalues of Z'AZ below are rounding of those of others, of
+/// motions that the rows do not see.
+const double kernel_cut = 1e-13;
+
+/// Those below, of motions that the rows hardly see, would take too many digits from A^-1.
+const double weak_cut = 1e-5;
 
 using Pair = std::pair<unsigned int, unsigned int>;
 
@@ -175,14 +178,22 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   modes = times(modes, transpose_times(root, root));
 }
 
-qp::MultiVector CoarseSpace::unseen_motions(const CsrMatrix &A) const
+CoarseSpace::HardlySeen CoarseSpace::hardly_seen_motions(const CsrMatrix &A) const
 {
   // A is assembled from the rows of M only. A motion without strain and without relative motion at
   // the gluing moves each body rigidly, so its kernel lies in the span of the body modes and the
   // dense problem has at most 6 unknowns per body, however many subdomains there are.
   qp::MultiVector AZ(A.n_rows, modes.n_columns());
   A.multiply_add(1., modes, AZ);
-  return qp::null_space(transpose_times(modes, AZ), kernel_cut * A.mean_diagonal());
+  const auto         H      = transpose_times(modes, AZ);
+  const double       mean   = A.mean_diagonal();
+  const auto         Y      = qp::null_space(H, weak_cut * mean);
+  const auto         values = transpose_times(Y, times(H, Y));
+  const unsigned int n      = Y.n_columns();
+  unsigned int       seen   = 0; // singular values descend
+  while (seen < n && values(seen, seen) > kernel_cut * mean)
+    ++seen;
+  return {Y.columns_from(seen, n - seen), Y.columns_from(0, seen)};
 }
 
 /// Each rank adds its owned rows; the sum over ranks makes coarse vectors equal on all of them.

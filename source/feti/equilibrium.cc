@@ -53,7 +53,7 @@ qp::MultiVector motions_unseen_by(const CoarseSpace &coarse, const qp::RowSet &r
   // Gluing is among these rows, but sees no motion that moves each body rigidly.
   CsrMatrix A = coarse.pattern();
   A.values    = coarse.gram_values(rows);
-  return coarse.unseen_motions(A);
+  return coarse.hardly_seen_motions(A).unseen;
 }
 
 /// "translation (0 0 1), rotation (0 0 0)": one body's motion of any length.
@@ -174,6 +174,9 @@ void TotalFeti::settle(const qp::RowSet &loaded, PrimalVectors &u, qp::MultiVect
         }
     }
   auto y = qp::shortest(A, b);
+  // Long ways between contacts take digits from it: the least that mends what they still overlap.
+  b.add(-1., transpose_times(A, y));
+  y.add(1., qp::shortest(A, b));
   y.add(-1., before);
   const auto shift = times(coarse.body_modes(), times(Y, y));
   alpha.add(1., shift);

@@ -29,16 +29,30 @@ void TotalFeti::FetiFreeSet::restrict(qp::MultiVector &x) const
 
 qp::MultiVector TotalFeti::FetiFreeSet::amplitudes(const qp::MultiVector &x) const
 {
-  feti.run.work.coarse_solves += x.n_columns();
-  return coarse_problem().solve(feti.coarse.multiply(x, &free));
+  qp::MultiVector rest = x, alpha(feti.coarse.n_kernel(), x.n_columns());
+  subtract_rigid_part(rest, alpha);
+  return alpha;
+}
+
+/// alpha += (G_M G_M')^+ G_M x, x -= G_M' of it: what solutions with few digits leave of the part
+/// is found from x itself.
+void TotalFeti::FetiFreeSet::subtract_rigid_part(qp::MultiVector &x, qp::MultiVector &alpha) const
+{
+  restrict(x);
+  for (unsigned int step = 0; step < coarse_problem().n_steps(); ++step)
+    {
+      feti.run.work.coarse_solves += x.n_columns();
+      const auto part = coarse_problem().solve(feti.coarse.multiply(x, &free), step);
+      x.add(-1., feti.coarse.transpose_multiply(part, &free));
+      alpha.add(1., part);
+    }
 }
 
 void TotalFeti::FetiFreeSet::project(qp::MultiVector &x) const
 {
-  // P_M x = x_M - G_M' (G_M G_M')^+ G_M x_M; amplitudes() looks at the rows of M only.
-  const qp::MultiVector alpha = amplitudes(x);
-  restrict(x);
-  x.add(-1., feti.coarse.transpose_multiply(alpha, &free));
+  // P_M x = x_M - G_M' (G_M G_M')^+ G_M x_M
+  qp::MultiVector alpha(feti.coarse.n_kernel(), x.n_columns());
+  subtract_rigid_part(x, alpha);
 }
 
 qp::MultiVector TotalFeti::FetiFreeSet::precondition(const qp::MultiVector &r) const
@@ -68,11 +82,14 @@ std::vector<double> TotalFeti::FetiFreeSet::make_feasible(qp::MultiVector       
   restrict(x);
   qp::MultiVector missing = e;
   missing.add(-1., feti.coarse.multiply(x, &free));
-  feti.run.work.coarse_solves += x.n_columns();
-  // The least change of x, in the Euclidean norm, that balances e as far as M can.
-  x.add(1., feti.coarse.transpose_multiply(coarse_problem().solve(missing), &free));
-  missing = e;
-  missing.add(-1., feti.coarse.multiply(x, &free));
+  for (unsigned int step = 0; step < coarse_problem().n_steps(); ++step)
+    {
+      feti.run.work.coarse_solves += x.n_columns();
+      // The least change of x, in the Euclidean norm, that balances e as far as M can.
+      x.add(1., feti.coarse.transpose_multiply(coarse_problem().solve(missing, step), &free));
+      missing = e;
+      missing.add(-1., feti.coarse.multiply(x, &free));
+    }
   // Not over the ranks: coarse vectors are equal on all of them.
   return qp::norms(missing, MPI_COMM_SELF);
 }

@@ -61,9 +61,14 @@ public:
   /// n_modes; equal on all ranks.
   const qp::MultiVector &body_modes() const { return modes; }
 
-  /// Orthonormal motions of the bodies, in coordinates of body_modes(), that
-  /// the rows M of @p A = G_M G_M' do not see.
-  qp::MultiVector unseen_motions(const CsrMatrix &A) const;
+  /// Orthonormal motions of the bodies, in coordinates of body_modes().
+  struct HardlySeen
+  {
+    qp::MultiVector unseen; ///< by the rows M of A = G_M G_M'
+    qp::MultiVector weak;   ///< hardly seen, as across normals that are nearly parallel
+  };
+
+  HardlySeen hardly_seen_motions(const CsrMatrix &A) const;
 
   /// Coarse coordinates of one representative subdomain per body.
   const std::vector<unsigned int> &representatives() const { return representative; }
@@ -93,8 +98,10 @@ private:
 };
 
 /**
- * G_M G_M' of one face, factorized, with its kernel N:
- * A = G_M G_M' + rho N_f (N_f' N_f)^{-1} N_f' on the representatives f.
+ * G_M G_M' of one face, factorized, with its kernel N and the motions W
+ * that its rows hardly see, scaled to W' G_M G_M' W = I:
+ * A = G_M G_M' + rho V_f (V_f' V_f)^{-1} V_f' on the representatives f,
+ * where V spans both.
  */
 class CoarseProblem
 {
@@ -102,8 +109,15 @@ public:
   /// Collective.
   CoarseProblem(const CoarseSpace &space, const qp::RowSet &free);
 
-  /// (G_M G_M')^+ c for every column, orthogonal to N.
-  qp::MultiVector solve(const qp::MultiVector &c) const;
+  /// Of solve(): one step, or more where motions are hardly seen.
+  unsigned int n_steps() const { return W.n_columns() > 0 ? 5 : 1; }
+
+  /**
+   * (G_M G_M')^+ c for every column, orthogonal to N. Where motions are
+   * hardly seen it is a sum: even steps give the part along W, W W'c, odd
+   * ones A^{-1} c, with the c that the steps before left.
+   */
+  qp::MultiVector solve(const qp::MultiVector &c, unsigned int step) const;
 
   /// N N' c.
   qp::MultiVector kernel_part(const qp::MultiVector &c) const;
@@ -111,6 +125,7 @@ public:
 private:
   std::shared_ptr<FactorPool::Item> A;
   qp::MultiVector                   N; ///< orthonormal kernel, n_kernel x (its dimension)
+  qp::MultiVector                   W;
 };
 } // namespace snug::feti
 

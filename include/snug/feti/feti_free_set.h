@@ -20,6 +20,7 @@ public:
 private:
   const CoarseProblem &coarse_problem() const;
   void restrict(qp::MultiVector &x) const;
+  void subtract_rigid_part(qp::MultiVector &x, qp::MultiVector &alpha) const;
 
   const TotalFeti                         &feti;
   qp::RowSet                               free;

@@ -13,12 +13,13 @@ namespace snug::test {
  * Two bodies of torn trusses in 2D: a foundation of 2 x 2 blocks whose
  * lowest nodes are fixed, and a punch of 2 blocks above it, on rollers at
  * its left side unless @p floating, with contact rows node to node, or
- * node to segment (two master nodes) if asked.
+ * node to segment (two master nodes) if asked. Contact normals are the
+ * vertical but for slopes of the size of @p slope that differ.
  */
 class TornTruss
 {
 public:
-  TornTruss(bool floating, bool node_to_segment);
+  TornTruss(bool floating, bool node_to_segment, double slope = 0.);
 
   /// Total FETI of this rank's blocks.
   std::unique_ptr<feti::TotalFeti> make(const feti::FetiParameters &parameters);
@@ -57,11 +58,11 @@ private:
   unsigned int rank_of_block(unsigned int s) const { return s * n_ranks / blocks.size(); }
   std::vector<unsigned int> copies(unsigned int body, const Node &node, unsigned int d) const;
   void                      glue_nodes(bool floating);
-  void                      add_contacts(bool node_to_segment);
+  void                      add_contacts(bool node_to_segment, double slope);
   void                      fill_dense();
 };
 
-inline TornTruss::TornTruss(bool floating, bool node_to_segment)
+inline TornTruss::TornTruss(bool floating, bool node_to_segment, double slope)
 {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
@@ -78,7 +79,7 @@ inline TornTruss::TornTruss(bool floating, bool node_to_segment)
       start.push_back(start.back() + systems.back().n_dofs());
     }
   glue_nodes(floating);
-  add_contacts(node_to_segment);
+  add_contacts(node_to_segment, slope);
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row &a, const Row &b) { return a.owner < b.owner; });
   first_row.assign(n_ranks + 1, 0);
@@ -134,7 +135,7 @@ inline void TornTruss::glue_nodes(bool floating)
       }
 }
 
-inline void TornTruss::add_contacts(bool node_to_segment)
+inline void TornTruss::add_contacts(bool node_to_segment, double slope)
 {
   for (int i = 0; i <= 6; ++i)
     {
@@ -144,9 +145,14 @@ inline void TornTruss::add_contacts(bool node_to_segment)
         node_to_segment && i < 6 && owner == static_cast<unsigned int>((i + 1) * n_ranks / 7);
       Row        row{owner, true, {}};
       const auto add = [&](unsigned int body, const Node &node, double c) {
-        const auto dofs = copies(body, node, 1);
-        for (const unsigned int dof : dofs)
-          row.entries.emplace_back(dof, c / dofs.size());
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            const auto   dofs = copies(body, node, d);
+            const double part = d == 1 ? c : c * slope * std::sin(1. + i);
+            for (const unsigned int dof : dofs)
+              if (part != 0.)
+                row.entries.emplace_back(dof, part / dofs.size());
+          }
       };
       add(1, {i, 7}, -1.);
       add(0, {i, 6}, segment ? 0.7 : 1.);

@@ -151,6 +151,29 @@ TEST_P(Trusses, ProjectorOnEveryFace)
     }
 }
 
+/// The normals of the contacts, nearly parallel, hold the punch across them: by little, but forces
+/// that they cannot balance are not to be called balanced, nor others that they can the opposite.
+TEST(NearlyParallelNormals, HoldAndBalanceToTheLastDigits)
+{
+  for (const double slope : {1e-3, 1e-5, 1e-6})
+    {
+      TornTruss  truss(true, true, slope);
+      const auto feti     = truss.make({});
+      const auto free_set = feti->free_set(truss.owned(qp::RowSet(truss.n_rows(), 1)));
+      const auto forces   = truss.owned(random_rows(truss, 1));
+      const auto wrench   = feti->apply_G(forces);
+      auto       x        = qp::MultiVector(feti->n_owned());
+      EXPECT_LT(free_set->make_feasible(x, wrench)[0], 1e-13 * qp::norms(wrench, MPI_COMM_SELF)[0]);
+      // The shortest of these forces is no longer than those that make the wrench.
+      EXPECT_LT(qp::norms(x, MPI_COMM_WORLD)[0], qp::norms(forces, MPI_COMM_WORLD)[0]);
+      auto part = forces;
+      free_set->project(part);
+      EXPECT_LT(qp::norms(feti->apply_G(part), MPI_COMM_SELF)[0], 1e-13) << slope;
+      part.add(1., x);
+      expect_near(truss.gathered(part), truss.gathered(forces), 1e-9);
+    }
+}
+
 TEST_P(Trusses, FeasibilityTellsWhatAFaceCanHold)
 {
   const auto   feti = truss.make({});
