@@ -43,7 +43,7 @@ public:
   bool run(const WarmStart &from);
 
   /// Why it does not.
-  const std::string &reason() const { return history.reason(); }
+  std::string reason() const;
 
   WarmStart start() const { return {lambda, mask}; }
 
@@ -52,6 +52,17 @@ public:
   DualSolution solution() const;
 
 private:
+  /// Spends on a cycle what another solver may need.
+  bool is_long_cycle() const
+  {
+    return care != SetHistory::none && f_mults() > parameters.max_iterations / 4;
+  }
+
+  KktResidual kkt_here() const
+  {
+    return kkt_residual(problem, free_set->amplitudes(residual), lambda, residual, scale);
+  }
+
   void   begin(const WarmStart &from);
   void   balance_load();
   void   refresh_residual();
@@ -59,7 +70,6 @@ private:
   bool   finished();
   RowSet next_set() const;
   bool   change_set(const RowSet &next);
-  void   count_stall();
   void   keep_set();
 
   const DualProblem     &problem;
@@ -162,9 +172,8 @@ void ActiveSetRun::solve_on_set()
 {
   // The limit counts F-mults, the unit of work that all solvers share, not steps.
   if (f_mults() >= parameters.max_iterations)
-    throw not_converged("active set",
-                        kkt_residual(problem, *free_set, lambda, residual, scale).relative,
-                        parameters.relative_tolerance, f_mults());
+    throw not_converged("active set", kkt_here().relative, parameters.relative_tolerance,
+                        f_mults());
   // Below half of the wanted KKT residual an inner solve would only polish a set that may still
   // change. After a cycle was met the signs of small entries decide, so it may go further down.
   const double least = (care == SetHistory::none ? 0.5 : 0.005) * parameters.relative_tolerance;
@@ -173,7 +182,7 @@ void ActiveSetRun::solve_on_set()
   recurrences += inner.iterations;
   solved = inner.converged;
   // w of the rows off the set, which decides who enters, needs the rigid amplitudes of this set.
-  kkt        = kkt_residual(problem, *free_set, lambda, residual, scale);
+  kkt        = kkt_here();
   negligible = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
   ++outer;
   std::ostringstream line;
@@ -203,7 +212,7 @@ bool ActiveSetRun::finished()
   if (drift < 0.1 * parameters.relative_tolerance * scale)
     return true;
   refresh_residual();
-  kkt = kkt_residual(problem, *free_set, lambda, residual, scale);
+  kkt = kkt_here();
   return kkt.relative <= parameters.relative_tolerance;
 }
 
@@ -224,12 +233,6 @@ RowSet ActiveSetRun::next_set() const
   return next;
 }
 
-void ActiveSetRun::count_stall()
-{
-  if (++stalls > allowed_stalls)
-    throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults());
-}
-
 /// The set stays: go on with the same directions, more exactly.
 void ActiveSetRun::keep_set()
 {
@@ -239,7 +242,8 @@ void ActiveSetRun::keep_set()
   // directions is what can stop it: begin a new Krylov space, from a residual computed anew.
   if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt)
     {
-      count_stall();
+      if (++stalls > allowed_stalls)
+        throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults());
       krylov.reset();
       balance_load();
       refresh_residual();
@@ -270,12 +274,13 @@ bool ActiveSetRun::change_set(const RowSet &next)
       enters     = enters || (next[i] && !mask[i]);
     }
   // Directions that vanish on the rows that leave lie in the new face as well, with F P known.
-  // Rows that enter do not matter: balance_load() only adds rows, so they stay in the face.
-  DirectionBasis known = krylov->directions().off(leaving, comm);
+  // Rows that enter do not matter: balance_load() only adds rows, so they stay in the face. Of a
+  // solve that failed they are spoilt by rounding, and so is lambda.
+  DirectionBasis known = solved ? krylov->directions().off(leaving, comm) : DirectionBasis();
   // krylov refers to the face, which is replaced below, and has to go first.
   mask = next;
   krylov.reset();
-  if (any(changed, comm))
+  if (!solved || any(changed, comm))
     {
       balance_load();
       refresh_residual();
@@ -284,14 +289,18 @@ bool ActiveSetRun::change_set(const RowSet &next)
     free_set = problem.free_set(mask);
   krylov   = std::make_unique<Pcpg>(problem, *free_set, std::move(known));
   last_kkt = 0.;
-  if (solved)
-    stalls = 0;
-  else
-    count_stall();
-  care = history.enter(fingerprint(mask, comm), kkt.relative, !any(enters, comm));
+  stalls   = solved ? 0 : stalls + 1;
+  care     = history.enter(fingerprint(mask, comm), kkt.relative, !any(enters, comm));
   if (care != SetHistory::none)
     inner_tolerance *= 0.01;
-  return care != SetHistory::give_up;
+  return care != SetHistory::give_up && stalls <= allowed_stalls && !is_long_cycle();
+}
+
+std::string ActiveSetRun::reason() const
+{
+  if (care == SetHistory::give_up)
+    return history.reason();
+  return is_long_cycle() ? "cycles" : "does not solve on its sets";
 }
 
 bool ActiveSetRun::run(const WarmStart &from)

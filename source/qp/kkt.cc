@@ -25,7 +25,7 @@ double natural_residual(const DualProblem &problem,
 } // namespace
 
 KktResidual kkt_residual(const DualProblem &problem,
-                         const FreeSet     &free_set,
+                         const MultiVector &rigid,
                          const MultiVector &lambda,
                          const MultiVector &residual,
                          double             scale)
@@ -33,9 +33,9 @@ KktResidual kkt_residual(const DualProblem &problem,
   const MPI_Comm comm = problem.context().communicator();
   KktResidual    kkt;
   kkt.amplitudes = MultiVector(problem.e().n_rows());
-  // alpha = -(G_M G_M')^+ G_M (d - F lambda) makes w vanish on the rows of the face as far as rigid
+  // On the rows of a face alpha = -(G_M G_M')^+ G_M (d - F lambda) makes w vanish as far as rigid
   // motions can do it.
-  kkt.amplitudes.add(-1., free_set.amplitudes(residual));
+  kkt.amplitudes.add(-1., rigid);
   kkt.w = residual;
   kkt.w.add(1., problem.apply_Gt(kkt.amplitudes));
 

@@ -92,6 +92,13 @@ void Mprgp::set_multipliers(const MultiVector &multipliers)
   q = multipliers;
 }
 
+MultiVector Mprgp::multipliers() const
+{
+  MultiVector sum = q;
+  sum.add(sizes.rho, Qx);
+  return sum;
+}
+
 double Mprgp::value() const
 {
   // x'(Ax - 2 (b - q)) / 2 with A x = g + b - q and b = P residual_Im

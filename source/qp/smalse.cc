@@ -9,11 +9,10 @@
 
 namespace snug::qp {
 namespace {
-const double       penalty_factor    = 10.;   ///< rho / ||P F P||
-const double       balancing_factor  = 1.;    ///< M / ||P F P|| at first
-const double       balancing_descent = 0.1;   ///< of M when L falls short
-const double       first_accuracy    = 0.1;   ///< of ||g^P||, to ||b||
-const double       least_part        = 1e-16; ///< of the scale: no inner tolerance below
+const double       penalty_factor    = 10.; ///< rho / ||P F P||
+const double       balancing_factor  = 1.;  ///< M / ||P F P|| at first
+const double       balancing_descent = 0.1; ///< of M when L falls short
+const double       first_accuracy    = 0.1; ///< of ||g^P||, to ||b||
 const unsigned int power_steps       = 10;
 const unsigned int max_outer         = 1000;
 
@@ -70,10 +69,12 @@ private:
   void begin(const WarmStart &start);
   bool certified();
 
+  KktResidual
+  kkt_of(const FreeSet &free_set, const MultiVector &lambda, const MultiVector &residual) const;
+
   KktResidual kkt_here() const
   {
-    return kkt_residual(problem, inner->free_set(), inner->feasible_lambda(), inner->residual(),
-                        equality.scale);
+    return kkt_of(inner->free_set(), inner->feasible_lambda(), inner->residual());
   }
 
   unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
@@ -113,6 +114,24 @@ void SmalseRun::begin(const WarmStart &start)
   inner->set_multipliers(q);
 }
 
+/// The rows with a force tell the rigid amplitudes best, but not all where these rows leave a
+/// motion free, as of a block whose load goes through one node. There those of the multipliers keep
+/// the other contacts from overlapping.
+KktResidual SmalseRun::kkt_of(const FreeSet     &free_set,
+                              const MultiVector &lambda,
+                              const MultiVector &residual) const
+{
+  auto of_rows =
+    kkt_residual(problem, free_set.amplitudes(residual), lambda, residual, equality.scale);
+  if (of_rows.relative <= parameters.relative_tolerance)
+    return of_rows;
+  MultiVector rigid = inner->multipliers();
+  rigid.add(1., residual);
+  auto of_multipliers =
+    kkt_residual(problem, equality.free_set->amplitudes(rigid), lambda, residual, equality.scale);
+  return of_multipliers.relative < of_rows.relative ? of_multipliers : of_rows;
+}
+
 /**
  * True if the solution is found: the free rows of the iterate carry a
  * feasible lambda >= 0 that meets the tolerance with a fresh residual.
@@ -136,7 +155,7 @@ bool SmalseRun::certified()
   } while (any(has_negative(problem.bounded(), lambda), comm));
   MultiVector residual = problem.d();
   residual.add(-1., problem.apply(lambda));
-  const KktResidual kkt = kkt_residual(problem, *free_set, lambda, residual, equality.scale);
+  const KktResidual kkt = kkt_of(*free_set, lambda, residual);
   solution.kkt_residual = kkt.relative;
   if (kkt.relative > parameters.relative_tolerance)
     return false;
@@ -179,11 +198,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
           stop.gradient_floor *= 0.3;
         }
       const double infeasibility = inner->infeasibility();
-      // Where contacts push back only by what the inner problem was not solved to, as those of a
-      // body that its loads do not press on, the set they make is wrong until they are gone.
-      if (stop.gradient_factor * infeasibility < stop.gradient_floor)
-        stop.gradient_floor = std::max(0.1 * stop.gradient_floor, least_part * equality.scale);
-      const double value = inner->value();
+      const double value         = inner->value();
       if (solution.outer_iterations > 1 &&
           value < last_value + 0.5 * sizes.rho * infeasibility * infeasibility)
         stop.gradient_factor *= balancing_descent;

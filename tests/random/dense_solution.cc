@@ -306,10 +306,11 @@ void DenseOracle::recover(const Vector &z, DenseSolution &solution) const
     }
   solution.u = u_0;
   solution.u -= elastic(solution.nodal);
+  // Without the rigid motions, of which K u would be rounding: bodies may slide far.
+  const Vector Ku = stiffness_times(solution.u);
   for (unsigned int k = 0; k < N.n(); ++k)
     for (unsigned int i = 0; i < n; ++i)
       solution.u(i) += N(i, k) * z(m + k) / kappa;
-  const Vector Ku   = stiffness_times(solution.u);
   solution.energy   = Ku * solution.u / 2. - problem.f * solution.u;
   Vector unbalanced = problem.f;
   unbalanced -= Ku;

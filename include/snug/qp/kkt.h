@@ -27,18 +27,19 @@ struct KktResidual
  *     \frac{\|r\|}{s} + \frac{\|G\lambda - e\|}
  *     {\|e\| + \max_s \||R_s|^T |f_s|\| + \|G\| (\|\lambda\| + s / \max F_{ii})}, \qquad
  *     w = d - F\lambda + G^T\alpha, @f]
- * with alpha from the rows of the face. An @f$\|r\|@f$ below the rounding
- * error of @f$d - F\lambda@f$ is zero.
+ * with an alpha of the caller's choice: any that makes this zero proves
+ * the solution. An @f$\|r\|@f$ below the rounding error of
+ * @f$d - F\lambda@f$ is zero.
  *
- * @param[in] face rows with a force: all equality rows and the active
- *   (or free) contact rows.
+ * @param[in] rigid -alpha: FreeSet::amplitudes() of d - F lambda, as a rule
+ *   on the rows with a force, all equality rows and the active contacts.
  * @param[in] residual d - F lambda.
  * @param[in] scale s of EqualityPart.
  * @throws SolveError if the residual is not a finite number.
  * Collective, no F-mult.
  */
 KktResidual kkt_residual(const DualProblem &problem,
-                         const FreeSet     &free_set,
+                         const MultiVector &rigid,
                          const MultiVector &lambda,
                          const MultiVector &residual,
                          double             scale);

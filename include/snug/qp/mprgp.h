@@ -56,6 +56,9 @@ public:
   /// Set q, a vector in the range of Q.
   void set_multipliers(const MultiVector &q);
 
+  /// q + rho Q x, with which the gradient is g = q + rho Q x - P r.
+  MultiVector multipliers() const;
+
   /// ||Q x|| = ||G_b x||. Collective.
   double infeasibility() const { return norms(Qx, comm)[0]; }
 

@@ -21,8 +21,8 @@ KktResidual kkt_at(const DenseProblem &problem, const dense::Matrix &lambda)
   auto residual = problem.data.d;
   residual.add(-1., dense::product(problem.data.F, lambda));
   const auto free_set = problem.free_set(problem.slice(rows));
-  return kkt_residual(problem, *free_set, problem.slice(lambda), problem.slice(residual),
-                      equality.scale);
+  return kkt_residual(problem, free_set->amplitudes(problem.slice(residual)), problem.slice(lambda),
+                      problem.slice(residual), equality.scale);
 }
 } // namespace
 

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace snug::qp;
 
 namespace {
@@ -89,6 +91,39 @@ TEST(Smalse, StartFromASolutionIsCheaper)
   // the scale, ten power steps, the start and the check of the result
   EXPECT_LE(warm.f_mults, 14u);
   EXPECT_LT(dense::distance(warm.lambda, cold.lambda), 1e-8);
+}
+
+/// The load of a body goes through the middle one of three contacts. That leaves it free to turn:
+/// only by an angle that the force does not tell do the other contacts stay open.
+TEST(Smalse, TurnsAFreeBodyUntilItsContactsAreOpen)
+{
+  DenseData data;
+  data.F = dense::Matrix(3, 3);
+  data.G = dense::Matrix(2, 3);
+  data.d = dense::Matrix(3);
+  data.e = dense::Matrix(2);
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      data.F(i, i) = 0.1;
+      data.G(0, i) = 1.;
+      data.G(1, i) = int(i) - 1;
+    }
+  data.d(0) = -1.;
+  data.d(2) = 0.5;
+  data.e(0) = 1.;
+  data.bounded.assign(3, 1);
+  for (const char *method : {"active set", "SMALSE-M"})
+    {
+      const DenseProblem problem(data);
+      const auto         solution = solve_by(method, problem, 1e-9);
+      const auto         lambda   = problem.gather(solution.lambda);
+      EXPECT_NEAR(lambda(1), 1., 1e-9) << method;
+      EXPECT_NEAR(lambda(0) + lambda(2), 0., 1e-9) << method;
+      auto w = solution.residual;
+      w.add(1., problem.apply_Gt(solution.amplitudes));
+      w = problem.gather(w);
+      EXPECT_LT(std::max(w(0), w(2)), 1e-9) << method;
+    }
 }
 
 TEST(Smalse, PullingLoadEndsWithAnError)

@@ -84,6 +84,22 @@ TEST(ActiveSet, FallsBackToSmalse)
             1e-8);
 }
 
+TEST(ActiveSet, LeavesSmalseEnoughOfTheFMults)
+{
+  ActiveSetOptions options;
+  options.forcing      = 1e-3;
+  options.single_steps = 1000;
+  auto parameters      = with_tolerance(1e-10);
+  // Three rounds of the cycle take more than a quarter of them.
+  parameters.max_iterations = 60;
+  const DenseProblem problem(cycling_data());
+  const auto         solution = ActiveSet(parameters, options).solve(problem, WarmStart());
+  expect_certified(problem, solution, 1e-10);
+  EXPECT_EQ(solution.method, "SMALSE-M");
+  EXPECT_EQ(problem.log.str().find("The active set cycles after") != std::string::npos,
+            problem.context().rank() == 0);
+}
+
 TEST(ActiveSet, FallsBackWhereItMakesNoProgress)
 {
   // no set is met again within 60 steps
