@@ -118,21 +118,10 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
       model.bodies.back().materials   = materials_of(scene, body, mesh.geometry(b).region_names());
       model.bodies.back().formulation = body.formulation;
     }
-  model.load_cases   = build_load_cases(scene, mesh);
-  model.supports     = build_supports(scene, mesh);
-  const auto modulus = [&](const contact::Pair::Side &side) {
-    double least = std::numeric_limits<double>::max();
-    for (const auto &material : model.bodies[side.first].materials)
-      least = std::min(least, material.youngs_modulus);
-    return least;
-  };
+  model.load_cases = build_load_cases(scene, mesh);
+  model.supports   = build_supports(scene, mesh);
   for (const auto &entry : scene.contact.pairs)
-    {
-      auto pair = find_pair(scene, mesh, entry);
-      if (!pair.obstacle)
-        pair.contrast = modulus(pair.slave) / modulus(pair.master);
-      model.pairs.push_back(std::move(pair));
-    }
+    model.pairs.push_back(find_pair(scene, mesh, entry));
   return model;
 }
 

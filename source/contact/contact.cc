@@ -13,12 +13,6 @@ namespace {
 /// that makes one side a few percent longer.
 const double finer_by = 0.1;
 
-/// Mortar rows go to the side whose faces yield more, size over Young's modulus, by this factor.
-/// A fine, stiff slave imposes more on the coarse faces of its master than these can follow:
-/// pressures of rings with cells 2:1 scatter by 8 % at equal moduli and in proportion to their
-/// ratio, and by 0.1 % with the other side as slave.
-const double yields_by = 1.5;
-
 /// Part of the slave faces' size over which gap formulas are
 /// differentiated by differences.
 const double gap_step = 1. / 25.;
@@ -46,7 +40,6 @@ void exchange_sides(Pair &pair)
 {
   std::swap(pair.slave, pair.master);
   std::swap(pair.slave_name, pair.master_name);
-  pair.contrast = 1. / pair.contrast;
 }
 
 /// Size of the master's faces over that of the slave's.
@@ -96,7 +89,7 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
   const std::vector<bool> none(surface.n_nodes(), false);
   for (Pair &pair : chosen)
     {
-      const bool may_exchange = pair.parameters.slave == Slave::finer && !pair.obstacle;
+      const bool may_exchange = pair.parameters.slave == Slave::by_size && !pair.obstacle;
       if (may_exchange && relative_size(surface, positions, pair) < 1. - finer_by)
         exchange_sides(pair);
       matching_of.emplace_back();
@@ -105,9 +98,12 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
           matching<dim>({surface, shape, pair, sides_of(surface, pair), positions, held, none});
       if (!pair.parameters.method)
         pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
+      // More multipliers than the coarse faces of a master can follow make pressures scatter.
       if (may_exchange && pair.parameters.method == Method::mortar &&
-          relative_size(surface, positions, pair) * pair.contrast > yields_by)
+          relative_size(surface, positions, pair) > 1. / (1. - finer_by))
         exchange_sides(pair);
+      if (!pair.obstacle)
+        matching_of.back().finer = relative_size(surface, positions, pair);
       // The choices are made once: a design that changes which side is finer must not exchange the
       // sides, or the kind of the rows, when contact is paired anew.
       pair.parameters.slave = Slave::first;

@@ -33,6 +33,16 @@ struct Plane
   }
 };
 
+template <int dim>
+bool touches(const mesh::Surface<dim>                &surface,
+             const typename mesh::Surface<dim>::Face &face,
+             const Plane<dim>                        &plane)
+{
+  return std::any_of(face.nodes.begin(), face.nodes.end(), [&](unsigned int node) {
+    return plane.nodes.count(surface.global_node(node)) > 0;
+  });
+}
+
 /// That of a boundary, unless it is curved or the mesh has none such. Collective.
 template <int dim>
 std::optional<Plane<dim>> plane_of(const mesh::BodyMesh<dim>                   &mesh,
@@ -166,9 +176,7 @@ void ShapedFace<dim>::keep_to_planes()
         continue;
       std::set<unsigned int> points; // of faces that touch it
       for (const auto &face : nodes.faces())
-        if (std::any_of(face.nodes.begin(), face.nodes.end(), [&](unsigned int node) {
-              return plane->nodes.count(nodes.global_node(node)) > 0;
-            }))
+        if (touches(nodes, face, *plane))
           for (const auto *of_face : {&face.nodes, &face.samples})
             points.insert(of_face->begin(), of_face->end());
       for (const unsigned int point : points)

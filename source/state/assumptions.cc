@@ -251,6 +251,16 @@ std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     
                       std::to_string(matchings[p].n_nodes) +
                       " slave nodes meet no master node: pressures are off by some percent from "
                       "node to node; its 'Method' mortar has none of that");
+    else if (!pairs[p].obstacle && pairs[p].parameters.method == contact::Method::mortar &&
+             matchings[p].finer > finer_slave)
+      {
+        std::ostringstream text;
+        text.precision(2);
+        text << "the slave faces of '" << pairs[p].name() << "' are " << matchings[p].finer
+             << " times finer than those of the master: pressures scatter; 'Slave' auto takes the "
+                "other side";
+        lines.push_back(text.str());
+      }
   return lines;
 }
 

@@ -83,6 +83,6 @@ def torque(result, radius, bound=1e-9):
     return Figure("torque", math.hypot(*about) / (forces * radius), 0., bound)
 
 
-def warned_of_nodal_rows(result):
-    warnings = [text for text in result.summary["warnings"] if "is nodal, but" in text]
-    return Figure("warnings of nodal rows", float(len(warnings)), 1., 0.)
+def warned(result, of="is nodal, but"):
+    warnings = [text for text in result.summary["warnings"] if of in text]
+    return Figure(f"warnings ({of})", float(len(warnings)), 1., 0.)

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import tempfile
 
-from cases import Case, Figure, label, scene, warned_of_nodal_rows
+from cases import Case, Figure, label, scene, warned
 from gallery_runs import ROOT
 
 MESHES = ROOT / "prm" / "meshes"
@@ -74,7 +74,7 @@ def gears(order=2, teeth=(20, 30), angle=20, moment=MOMENT, scale=1, swapped=Fal
             bodies[name]["Surface"] = f"{name}_flank: {surface}"
     text = scene(bodies, {"Pairs": "pinion.pinion_flank: wheel.wheel_flank",
                           "Search distance": scale, "Method": method or "auto",
-                          "Slave": slave or "finer"},
+                          "Slave": slave or "auto"},
                  {"Subdomains": subdomains or "auto"}, Dimension=2, Thickness=WIDTH,
                  Element_degree=degree or 1)
     force, p0, a = hertz(teeth, angle, moment, scale)
@@ -86,7 +86,7 @@ def gears(order=2, teeth=(20, 30), angle=20, moment=MOMENT, scale=1, swapped=Fal
                        off_the_ellipse(result, 2 * teeth[0] * scale, p0, a), 0., 8e-2),
                 Figure("tooth force", math.hypot(*result.state["contact_force"]), force,
                        2e-4),
-                *([warned_of_nodal_rows(result)] if method == "nodal" else [])]
+                *([warned(result)] if method == "nodal" else [])]
     return Case("gears", f"order {order} " + label(
         teeth=None if teeth == (20, 30) else teeth, angle=None if angle == 20 else angle,
         moment=None if moment == MOMENT else moment, scale=None if scale == 1 else scale,

@@ -3,7 +3,7 @@
 import math
 
 from cases import (Case, Figure, label, mean_pressure, run, scene, torque,
-                   warned_of_nodal_rows)
+                   warned)
 
 QUARTERS = {"quarter": 1, "half": 2, "full": 4, "eighth": 1}
 
@@ -36,7 +36,7 @@ def lame_figures(right, radius, mean_bound, node_bound, forced=False):
                 Figure("least p", min(pressures), right, node_bound),
                 Figure("largest p", max(pressures), right, node_bound),
                 torque(result, radius),
-                *([warned_of_nodal_rows(result)] if forced else [])]
+                *([warned(result)] if forced else [])]
     return asked
 
 
@@ -63,7 +63,7 @@ def nested(dim, cells, part, radii, materials, degree, method, slave, model, tur
         bodies["inner"]["Rotate"] = f"z: {turned}"
     return scene(bodies, {"Pairs": "inner.outer: outer.inner",
                           "Gap": -.01 * radii[1] / 30, "Interference": "true",
-                          "Method": method or "auto", "Slave": slave or "finer"},
+                          "Method": method or "auto", "Slave": slave or "auto"},
                  {"Subdomains": subdomains or "auto"}, Dimension=dim,
                  Model=model, Element_degree=degree or 1)
 
@@ -146,7 +146,7 @@ def pin_scene(pin, plate, part, scale=1, clearance=.02, force=500, degree=None,
                    "Cells": f"{plate}, {max(4, plate * (2 if half else 1) // 8)}",
                    "Supports": ", ".join(filter(None, (guides, "outer: xy")))}},
         {"Pairs": "pin.outer: plate.inner", "Method": method or "auto",
-         "Slave": slave or "finer"},
+         "Slave": slave or "auto"},
         {"Subdomains": subdomains or "auto"}, Dimension=2, Element_degree=degree or 1)
 
 
@@ -163,7 +163,7 @@ def pin_figures(part, scale, clearance, force, bound, forced=False):
                        matching_pin(clearance, force), bound),
                 Figure("force", abs(result.state["contact_force"][1]), share, 1e-5),
                 torque(result, 10 * scale),
-                *([warned_of_nodal_rows(result)] if forced else [])]
+                *([warned(result)] if forced else [])]
     return asked
 
 
@@ -216,7 +216,8 @@ def shells(inner, outer, part="eighth", radii=(20, 30, 40), materials=SAME, laye
     right = nested_pressure("solid", radii, materials, 10, .01 * radii[1] / 30)
     forced = method == "nodal" and inner != outer
     coarse = max(1, 8 / fine)
-    nodes = .1 if forced else 3e-2 * (UNLIKE / 3 if materials is STIFF else 1)
+    # nodal rows keep an error of their own at nodes, here 16 %, on rings 8 %
+    nodes = .2 if forced else 3e-2 * (UNLIKE / 3 if materials is STIFF else 1)
     return Case("shells", f"{inner}/{outer} " + label(
         part=part, radii=None if radii[1] == 30 else radii,
         materials=None if materials is SAME else materials,

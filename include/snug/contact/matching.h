@@ -10,6 +10,7 @@ namespace snug::contact {
 struct Matching
 {
   unsigned int n_nodes = 0, n_matching = 0;
+  double       finer = 1.; ///< size of the master's faces over that of the slave's
 
   bool complete() const { return n_matching == n_nodes; }
 };

@@ -32,12 +32,12 @@ inline Names names(Method)
 
 enum class Slave
 {
-  finer, ///< the side of the smaller faces, or of those that yield, see Contact
-  first  ///< the side that is named first
+  by_size, ///< of nodal rows the side of the smaller faces, of mortar rows that of the larger
+  first    ///< the side that is named first
 };
 inline Names names(Slave)
 {
-  return {{"finer"}, {"first"}};
+  return {{"auto"}, {"first"}};
 }
 
 /// How two sides meet: entries of `subsection Contact`, for all pairs, and
@@ -45,7 +45,7 @@ inline Names names(Slave)
 struct PairParameters
 {
   std::optional<Method> method; ///< none: by whether the meshes match
-  Slave                 slave = Slave::finer;
+  Slave                 slave = Slave::by_size;
   /// slave nodes farther from the master carry no row [length]; 0: any
   double search_distance = 0.;
   /// between the slave's normal and the row's [degrees]
@@ -88,8 +88,6 @@ struct Pair
   std::string                       slave_name = {}, master_name = {};
   PairParameters                    parameters = {};
   std::optional<ObstacleParameters> obstacle   = {};
-  /// Young's modulus of the slave's body over that of the master's, of the softest materials
-  double contrast = 1.;
 
   /// "slave: master"
   std::string name() const { return slave_name + ": " + master_name; }

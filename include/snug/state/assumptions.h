@@ -12,6 +12,7 @@ constexpr double large_slip     = 0.5;   ///< of a face
 constexpr double large_drift    = 0.5;   ///< of a face
 constexpr double least_width    = 3.;    ///< of a contact, in faces
 constexpr double large_overlap  = 0.1;   ///< of a face
+constexpr double finer_slave    = 1.5;   ///< times, of mortar
 constexpr double least_motion   = 1e-13; ///< of nodes: below it is rounding
 constexpr double large_facets   = 0.05;  ///< height of facets, of the gaps closed
 /// @}
@@ -45,7 +46,8 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
 std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>       &pairs,
                                           const std::vector<contact::PairedGaps> &gaps);
 
-/// One line for each nodal pair of faces whose meshes do not match.
+/// One line for each nodal pair of faces whose meshes do not match, and for each
+/// mortar pair whose slave faces are finer by more than finer_slave.
 std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     &pairs,
                                            const std::vector<contact::Matching> &matchings);
 } // namespace snug::state

@@ -20,8 +20,8 @@ struct Support
   /// Prescribed displacement [length] per load case as a function of the
   /// reference position; zero where there is none.
   std::vector<std::function<double(const dealii::Point<dim> &)>> values;
-  std::string name; ///< of what the user wrote, for messages
-  std::string face; ///< "body.boundary", for results
+  std::string name;      ///< of what the user wrote, for messages
+  std::string face = {}; ///< "body.boundary", for results
 };
 } // namespace snug::supports
 

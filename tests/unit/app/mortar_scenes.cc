@@ -210,15 +210,16 @@ TEST(Overhang, PushesTheMasterAtItsEndAtMost)
       }
 }
 
-TEST(NestedRings, SlaveIsTheSideThatYields)
+TEST(NestedRings, SlaveIsTheCoarserSide)
 {
-  for (const double modulus : {1000., 5000., 100000.})
+  for (const double modulus : {100., 1000., 5000., 100000.})
     {
       const SolvedScene<2> solved(rings(modulus));
       EXPECT_EQ(solved.state.contact.size(), 13u) << modulus;
       EXPECT_LT(scatter(solved), 1e-3) << modulus;
-      EXPECT_GT(scatter({rings(modulus), {"Contact/Slave=first"}}), 0.05) << modulus;
+      if (modulus >= 1000.)
+        {
+          EXPECT_GT(scatter({rings(modulus), {"Contact/Slave=first"}}), 0.05) << modulus;
+        }
     }
-  // Fine and soft: it stays the slave.
-  EXPECT_EQ(SolvedScene<2>(rings(100.)).state.contact.size(), 25u);
 }

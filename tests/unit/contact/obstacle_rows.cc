@@ -122,11 +122,11 @@ TEST(ObstacleRows, ANodeMeetsAnObstacleOnce)
   EXPECT_EQ(contact.n_rows(), 5u + 2u - 1u);
 }
 
-TEST(Contact, SlaveIsTheFinerSideWhereAsked)
+TEST(Contact, SlaveIsTheFinerSideOfNodalRows)
 {
   const TwoBoxes<3> scene(TwoBoxes<3>::boxes(3, 5), 1);
   Pair              pair = TwoBoxes<3>::pair();
-  for (const Slave slave : {Slave::first, Slave::finer})
+  for (const Slave slave : {Slave::first, Slave::by_size})
     {
       pair.parameters.slave = slave;
       const Contact<3> contact(scene.surface, {pair}, 1, scene.positions, scene.held);
@@ -134,6 +134,6 @@ TEST(Contact, SlaveIsTheFinerSideWhereAsked)
       EXPECT_EQ(contact.pairs()[0].name(),
                 slave == Slave::first ? "slave: master" : "master: slave");
       for (const auto &place : contact.places())
-        EXPECT_EQ(scene.is_master(place.slave), slave == Slave::finer);
+        EXPECT_EQ(scene.is_master(place.slave), slave == Slave::by_size);
     }
 }

@@ -143,7 +143,9 @@ TEST(Patch, StaysInThePlanesThatTheFaceMeets)
                   continue;
                 EXPECT_NEAR(moved[node][d], 0., 1e-12) << basis << " at " << x;
                 if (std::abs(x.norm() - 2.) < 1e-9)
-                  EXPECT_NEAR(moved[node].norm(), 0.1, 1e-12) << basis << " at " << x;
+                  {
+                    EXPECT_NEAR(moved[node].norm(), 0.1, 1e-12) << basis << " at " << x;
+                  }
               }
         }
 }
@@ -158,7 +160,9 @@ TEST(Patch, LeavesPlanesThatNormalsLeanOn)
   const auto             moved = shapes.apply(std::vector<double>(shapes.n_variables(), 1.));
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     if (mesh.reference_positions()[node][1] == 1.)
-      EXPECT_NEAR(moved[node][0] / moved[node][1], 0.1, 1e-14); // given: kept
+      {
+        EXPECT_NEAR(moved[node][0] / moved[node][1], 0.1, 1e-14); // given: kept
+      }
 }
 
 /// Control points of a patch stand where the face is: on the arc, or on its chords.
