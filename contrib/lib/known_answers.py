@@ -152,10 +152,11 @@ def gear_pair(result, _):
 
 
 def hip_joint(result, section):
-    """The same joint as a section. Pressures of both are on the cup; left out are nodes on
-    the symmetry planes, where the head covers less of their areas."""
+    """The same joint as a section. Left out are nodes on the symmetry planes, of whose
+    areas the other side covers less."""
     def polar(point, axis):
-        return math.acos(max(-1., -point[axis] / 14.1))
+        place = [point[x] for x in "xyz" if x in point]
+        return math.acos(max(-1., -point[axis] / math.hypot(*place)))
 
     def end(of, axis):
         return math.degrees(of.half_width(.74, lambda p: polar(p, axis), .5, .95))

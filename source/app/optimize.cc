@@ -2,6 +2,7 @@
 #include <snug/app/interrupt.h>
 #include <snug/app/optimize.h>
 #include <snug/base/errors.h>
+#include <snug/geometry/imported_mesh.h>
 #include <snug/io/history.h>
 #include <snug/optimization/journal.h>
 #include <snug/scene/read_scene.h>
