@@ -152,8 +152,8 @@ def gear_pair(result, _):
 
 
 def hip_joint(result, section):
-    """The same joint as a section. Left out are nodes on the symmetry planes, of whose
-    areas the other side covers less."""
+    """The same joint as a section. Pressures of both are on the cup; left out are nodes on
+    the symmetry planes, where the head covers less of their areas."""
     def polar(point, axis):
         place = [point[x] for x in "xyz" if x in point]
         return math.acos(max(-1., -point[axis] / math.hypot(*place)))

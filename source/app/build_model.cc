@@ -118,10 +118,24 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
       model.bodies.back().materials   = materials_of(scene, body, mesh.geometry(b).region_names());
       model.bodies.back().formulation = body.formulation;
     }
-  model.load_cases = build_load_cases(scene, mesh);
-  model.supports   = build_supports(scene, mesh);
+  model.load_cases   = build_load_cases(scene, mesh);
+  model.supports     = build_supports(scene, mesh);
+  const auto modulus = [&](const contact::Pair::Side &side) {
+    double least = std::numeric_limits<double>::max();
+    for (const auto &material : model.bodies[side.first].materials)
+      least = std::min(least, material.youngs_modulus);
+    return least;
+  };
   for (const auto &entry : scene.contact.pairs)
-    model.pairs.push_back(find_pair(scene, mesh, entry));
+    {
+      auto pair = find_pair(scene, mesh, entry);
+      if (!pair.obstacle)
+        {
+          const auto [least, largest] = std::minmax({modulus(pair.slave), modulus(pair.master)});
+          pair.contrast               = largest / least;
+        }
+      model.pairs.push_back(std::move(pair));
+    }
   return model;
 }
 

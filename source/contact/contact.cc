@@ -13,6 +13,12 @@ namespace {
 /// that makes one side a few percent longer.
 const double finer_by = 0.1;
 
+/// Times, by size and by modulus together, that faces of mortar pairs are alike. Of sides that are
+/// more different the coarser one is the slave: its master must be able to follow its multipliers.
+/// Pressures of rings with 60 and 72 cells, the finer stiffer by 200, scatter by 90 % if it is the
+/// slave, and of equal moduli by 0.4 %, where a contact of few faces is better off with more nodes.
+const double alike = 1.25;
+
 /// Part of the slave faces' size over which gap formulas are
 /// differentiated by differences.
 const double gap_step = 1. / 25.;
@@ -98,12 +104,12 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
           matching<dim>({surface, shape, pair, sides_of(surface, pair), positions, held, none});
       if (!pair.parameters.method)
         pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
-      // More multipliers than the coarse faces of a master can follow make pressures scatter.
+      const double finer = pair.obstacle ? 1. : relative_size(surface, positions, pair);
       if (may_exchange && pair.parameters.method == Method::mortar &&
-          relative_size(surface, positions, pair) > 1. / (1. - finer_by))
+          finer > 1. / (1. - finer_by) && finer * pair.contrast > alike)
         exchange_sides(pair);
-      if (!pair.obstacle)
-        matching_of.back().finer = relative_size(surface, positions, pair);
+      else
+        matching_of.back().finer = finer;
       // The choices are made once: a design that changes which side is finer must not exchange the
       // sides, or the kind of the rows, when contact is paired anew.
       pair.parameters.slave = Slave::first;

@@ -32,7 +32,7 @@ inline Names names(Method)
 
 enum class Slave
 {
-  by_size, ///< of nodal rows the side of the smaller faces, of mortar rows that of the larger
+  by_size, ///< the side of the smaller faces, of mortar rows where they differ that of the larger
   first    ///< the side that is named first
 };
 inline Names names(Slave)
@@ -88,6 +88,8 @@ struct Pair
   std::string                       slave_name = {}, master_name = {};
   PairParameters                    parameters = {};
   std::optional<ObstacleParameters> obstacle   = {};
+  /// the larger of Young's moduli of the two bodies, of their softest materials, over the other
+  double contrast = 1.;
 
   /// "slave: master"
   std::string name() const { return slave_name + ": " + master_name; }
