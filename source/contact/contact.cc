@@ -17,7 +17,7 @@ const double finer_by = 0.1;
 /// more different the coarser one is the slave: its master must be able to follow its multipliers.
 /// Pressures of rings with 60 and 72 cells, the finer stiffer by 200, scatter by 90 % if it is the
 /// slave, and of equal moduli by 0.4 %, where a contact of few faces is better off with more nodes.
-const double alike = 1.25;
+const double alike = 1.5;
 
 /// Part of the slave faces' size over which gap formulas are
 /// differentiated by differences.
