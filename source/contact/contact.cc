@@ -95,7 +95,7 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
   const std::vector<bool> none(surface.n_nodes(), false);
   for (Pair &pair : chosen)
     {
-      const bool may_exchange = pair.parameters.slave == Slave::by_size && !pair.obstacle;
+      const bool may_exchange = pair.parameters.slave == Slave::finer && !pair.obstacle;
       if (may_exchange && relative_size(surface, positions, pair) < 1. - finer_by)
         exchange_sides(pair);
       matching_of.emplace_back();

@@ -60,7 +60,7 @@ void PairParameters::declare(Entries &entries)
               "How two faces meet.");
   entries.add(
     "Slave", slave,
-    "Whose nodes carry the contact pressure and must not penetrate the other face. auto: that of "
+    "Whose nodes carry the contact pressure and must not penetrate the other face. finer: that of "
     "the smaller faces on average, but of mortar contact that of the larger, if they differ by "
     "a half in size, times the ratio of Young's moduli; first: the one that is named "
     "first, as also for meshes within a tenth.");

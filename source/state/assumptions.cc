@@ -257,8 +257,8 @@ std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     
         std::ostringstream text;
         text.precision(2);
         text << "the slave faces of '" << pairs[p].name() << "' are " << matchings[p].finer
-             << " times finer than those of the master: pressures scatter; 'Slave' auto takes the "
-                "other side";
+             << " times finer than those of the master: pressures scatter; the default of 'Slave' "
+                "takes the other side";
         lines.push_back(text.str());
       }
   return lines;

@@ -40,7 +40,7 @@ void contact(Common &c, const std::string &pairs, const std::string &gap)
   c.scene.begin("Contact");
   c.scene.set("Pairs", pairs);
   c.scene.set("Method", c.draw.one_of({"auto", "nodal", "mortar"}));
-  c.scene.set("Slave", c.draw.one_of({"auto", "first"}));
+  c.scene.set("Slave", c.draw.one_of({"finer", "first"}));
   c.scene.set("Gap", gap);
   c.scene.set("Interference", "true");
   c.scene.end();

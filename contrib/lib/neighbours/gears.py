@@ -74,7 +74,7 @@ def gears(order=2, teeth=(20, 30), angle=20, moment=MOMENT, scale=1, swapped=Fal
             bodies[name]["Surface"] = f"{name}_flank: {surface}"
     text = scene(bodies, {"Pairs": "pinion.pinion_flank: wheel.wheel_flank",
                           "Search distance": scale, "Method": method or "auto",
-                          "Slave": slave or "auto"},
+                          "Slave": slave or "finer"},
                  {"Subdomains": subdomains or "auto"}, Dimension=2, Thickness=WIDTH,
                  Element_degree=degree or 1)
     force, p0, a = hertz(teeth, angle, moment, scale)

@@ -24,7 +24,7 @@ def cylinders(cells=(4, 4), levels=(5, 5), radii=(10, 13), model="plane strain",
                             "Supports": "bottom: x", "Force": f"left: 0 {-load}"})
     bodies["lower"].update({"Shift": f"0, {-radii[1]}", "Supports": "left: x, bottom: y"})
     return scene(bodies, {"Pairs": "upper.outer: lower.outer",
-                          "Method": method or "auto", "Slave": slave or "auto",
+                          "Method": method or "auto", "Slave": slave or "finer",
                           "Search distance": 3},
                  {"Subdomains": subdomains or "auto"}, Dimension=2, Model=model,
                  Element_degree=degree or 1)
@@ -43,7 +43,7 @@ def spheres(cells=(4, 4), levels=(3, 3), radii=(50, 50), degree=None, method=Non
     bodies["lower"].update({"Shift": f"0, {-radii[1]}", "Supports": "left: x",
                             "Displacement": "bottom: y = 2"})
     return scene(bodies, {"Pairs": "upper.outer: lower.outer",
-                          "Method": method or "auto", "Slave": slave or "auto",
+                          "Method": method or "auto", "Slave": slave or "finer",
                           "Search distance": 20},
                  {"Subdomains": subdomains or "auto"}, Dimension=2,
                  Model="axisymmetric", Element_degree=degree or 1)
@@ -63,7 +63,7 @@ def solid_spheres(cells=(4, 4), levels=(2, 2), radii=(50, 50), degree=None, meth
     bodies["lower"].update({"Shift": f"0, 0, {-radii[1]}", "Supports": "left: x, front: y",
                             "Displacement": "bottom: z = 2"})
     return scene(bodies, {"Pairs": "upper.outer: lower.outer",
-                          "Method": method or "auto", "Slave": slave or "auto",
+                          "Method": method or "auto", "Slave": slave or "finer",
                           "Search distance": 20},
                  {"Subdomains": subdomains or "auto"}, Dimension=3,
                  Element_degree=degree or 1)
@@ -83,7 +83,7 @@ def roller(cells=(8, 40), levels=(3, 3), radii=(50,), degree=None, method=None, 
                    "Local refinements": levels[1], "Young's modulus": 70000,
                    "Supports": "left: x, bottom: y"}},
         {"Pairs": "roller.outer: block.top", "Method": method or "auto",
-         "Slave": slave or "auto", "Search distance": 10},
+         "Slave": slave or "finer", "Search distance": 10},
         {"Subdomains": subdomains or "auto"}, Dimension=2, Element_degree=degree or 1)
 
 

@@ -63,7 +63,7 @@ def nested(dim, cells, part, radii, materials, degree, method, slave, model, tur
         bodies["inner"]["Rotate"] = f"z: {turned}"
     return scene(bodies, {"Pairs": "inner.outer: outer.inner",
                           "Gap": -.01 * radii[1] / 30, "Interference": "true",
-                          "Method": method or "auto", "Slave": slave or "auto"},
+                          "Method": method or "auto", "Slave": slave or "finer"},
                  {"Subdomains": subdomains or "auto"}, Dimension=dim,
                  Model=model, Element_degree=degree or 1)
 
@@ -146,7 +146,7 @@ def pin_scene(pin, plate, part, scale=1, clearance=.02, force=500, degree=None,
                    "Cells": f"{plate}, {max(4, plate * (2 if half else 1) // 8)}",
                    "Supports": ", ".join(filter(None, (guides, "outer: xy")))}},
         {"Pairs": "pin.outer: plate.inner", "Method": method or "auto",
-         "Slave": slave or "auto"},
+         "Slave": slave or "finer"},
         {"Subdomains": subdomains or "auto"}, Dimension=2, Element_degree=degree or 1)
 
 

@@ -32,12 +32,12 @@ inline Names names(Method)
 
 enum class Slave
 {
-  by_size, ///< the side of the smaller faces, of mortar rows where they differ that of the larger
-  first    ///< the side that is named first
+  finer, ///< the side of the smaller faces, of mortar rows where they differ that of the larger
+  first  ///< the side that is named first
 };
 inline Names names(Slave)
 {
-  return {{"auto"}, {"first"}};
+  return {{"finer"}, {"first"}};
 }
 
 /// How two sides meet: entries of `subsection Contact`, for all pairs, and
@@ -45,7 +45,7 @@ inline Names names(Slave)
 struct PairParameters
 {
   std::optional<Method> method; ///< none: by whether the meshes match
-  Slave                 slave = Slave::by_size;
+  Slave                 slave = Slave::finer;
   /// slave nodes farther from the master carry no row [length]; 0: any
   double search_distance = 0.;
   /// between the slave's normal and the row's [degrees]

@@ -126,7 +126,7 @@ TEST(Contact, SlaveIsTheFinerSideOfNodalRows)
 {
   const TwoBoxes<3> scene(TwoBoxes<3>::boxes(3, 5), 1);
   Pair              pair = TwoBoxes<3>::pair();
-  for (const Slave slave : {Slave::first, Slave::by_size})
+  for (const Slave slave : {Slave::first, Slave::finer})
     {
       pair.parameters.slave = slave;
       const Contact<3> contact(scene.surface, {pair}, 1, scene.positions, scene.held);
@@ -134,6 +134,6 @@ TEST(Contact, SlaveIsTheFinerSideOfNodalRows)
       EXPECT_EQ(contact.pairs()[0].name(),
                 slave == Slave::first ? "slave: master" : "master: slave");
       for (const auto &place : contact.places())
-        EXPECT_EQ(scene.is_master(place.slave), slave == Slave::by_size);
+        EXPECT_EQ(scene.is_master(place.slave), slave == Slave::finer);
     }
 }

@@ -167,7 +167,7 @@ TEST(Errors, ObstaclesAndPairs)
   expect_error({"Contact/Largest angle", "0", "at most 180"});
   expect_error({"Contact/Gap", "2 * t", "must be a formula of x,y,z"});
   expect_error({"Pair punch.bottom: foundation.top/Gap", "", "must be a formula"});
-  expect_error({"Pair punch.bottom: foundation.top/Slave", "last", "one of auto, first"});
+  expect_error({"Pair punch.bottom: foundation.top/Slave", "last", "one of finer, first"});
   EXPECT_TRUE(has(error_of({"Pair punch.bottom: foundation.side/Gap=1"}),
                   "unknown subsection 'Pair punch.bottom: foundation.side'"));
 }
