@@ -22,7 +22,7 @@ struct Row
   /// unit normal into the master; -force * normal acts on the slave side
   dealii::Tensor<1, dim> normal;
   /// of a foot that follows: how far it has left its face, in parts of it
-  std::optional<double> off_face;
+  std::optional<double> off_face = {};
 };
 
 /// A slave node without a row of its own: the rows that act for it, and
