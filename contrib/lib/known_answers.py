@@ -155,8 +155,7 @@ def hip_joint(result, section):
     """The same joint as a section. Pressures of both are on the cup; left out are nodes on
     the symmetry planes, where the head covers less of their areas."""
     def polar(point, axis):
-        place = [point[x] for x in "xyz" if x in point]
-        return math.acos(max(-1., -point[axis] / math.hypot(*place)))
+        return math.acos(max(-1., -point[axis] / 14.1))
 
     def end(of, axis):
         return math.degrees(of.half_width(.74, lambda p: polar(p, axis), .5, .95))

@@ -23,6 +23,13 @@ const double alike = 1.5;
 /// differentiated by differences.
 const double gap_step = 1. / 25.;
 
+/// Whether the master of a mortar pair is too coarse for its slave, by the size of its faces over
+/// that of the slave's and the ratio of their moduli, the stiffer over the softer.
+bool asks_too_much(const double size, const double contrast)
+{
+  return size > 1. / (1. - finer_by) && size * contrast > alike;
+}
+
 /// Ascending, so that the order of rows does not depend on the ranks.
 template <int dim>
 std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
@@ -104,12 +111,11 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
           matching<dim>({surface, shape, pair, sides_of(surface, pair), positions, held, none});
       if (!pair.parameters.method)
         pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
-      const double finer = pair.obstacle ? 1. : relative_size(surface, positions, pair);
       if (may_exchange && pair.parameters.method == Method::mortar &&
-          finer > 1. / (1. - finer_by) && finer * pair.contrast > alike)
+          asks_too_much(relative_size(surface, positions, pair), pair.contrast))
         exchange_sides(pair);
-      else
-        matching_of.back().finer = finer;
+      if (!pair.obstacle)
+        matching_of.back().finer = relative_size(surface, positions, pair);
       // The choices are made once: a design that changes which side is finer must not exchange the
       // sides, or the kind of the rows, when contact is paired anew.
       pair.parameters.slave = Slave::first;

@@ -61,9 +61,9 @@ void PairParameters::declare(Entries &entries)
   entries.add(
     "Slave", slave,
     "Whose nodes carry the contact pressure and must not penetrate the other face. finer: that of "
-    "the smaller faces on average, but of mortar contact that of the larger, if they differ by "
-    "a half in size, times the ratio of Young's moduli; first: the one that is named "
-    "first, as also for meshes within a tenth.");
+    "the smaller faces on average, but of mortar contact that of the larger if the ratio of "
+    "their sizes times that of Young's moduli, stiffer over softer, is above 1.5; first: the one "
+    "that is named first, as also for meshes within a tenth.");
   entries.add("Search distance", search_distance, at_least(0., "must be 0 or above"),
               "Slave nodes farther from the master at the first design carry no contact row "
               "[length]; 0: any distance.");

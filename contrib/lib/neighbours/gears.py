@@ -85,7 +85,7 @@ def gears(order=2, teeth=(20, 30), angle=20, moment=MOMENT, scale=1, swapped=Fal
                 Figure("p off Hertz' ellipse",
                        off_the_ellipse(result, 2 * teeth[0] * scale, p0, a), 0., 8e-2),
                 Figure("tooth force", math.hypot(*result.state["contact_force"]), force,
-                       5e-4),  # normals of one side, before the gaps close
+                       2e-4),
                 *([warned(result)] if method == "nodal" else [])]
     return Case("gears", f"order {order} " + label(
         teeth=None if teeth == (20, 30) else teeth, angle=None if angle == 20 else angle,

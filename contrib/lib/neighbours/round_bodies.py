@@ -124,6 +124,8 @@ RINGS = [
     rings(200, 150, subdomains=12, ranks=2),
     rings(120, 96, "quarter", method="mortar"),
     rings(60, 48, materials=STIFF),
+    rings(60, 72, materials=STIFF),
+    rings(72, 60, materials=STIFF),
     rings(96, 120, materials=STIFF[::-1], ranks=2),
 ]
 

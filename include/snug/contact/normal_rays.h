@@ -5,6 +5,7 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <array>
 #include <optional>
 
 namespace snug::contact {
