@@ -38,8 +38,7 @@ template <int dim>
 std::vector<CellPoint<dim>> Element<dim>::gauss_points(const Nodes &X) const
 {
   std::vector<CellPoint<dim>> points;
-  // stress() adds one.
-  points.reserve(gauss.size() + 1);
+  points.reserve(gauss.size());
   for (const auto &shape : gauss)
     points.emplace_back(shape, X, idealization);
   return points;
@@ -136,17 +135,26 @@ double Element<dim>::volume(const Nodes &X) const
 }
 
 template <int dim>
-dealii::SymmetricTensor<2, 3> Element<dim>::stress(const Nodes              &X,
-                                                   const Material           &material,
-                                                   const Nodes              &u,
-                                                   const dealii::Point<dim> &point) const
+std::vector<dealii::SymmetricTensor<2, 3>>
+Element<dim>::stresses(const Nodes                                 &X,
+                       const Material                              &material,
+                       const Nodes                                 &u,
+                       const std::vector<mesh::LagrangePoint<dim>> &shapes) const
 {
-  // one more point, without a weight, receives what the cell makes
-  const auto shape = mesh::lagrange_point<dim>(degree, point);
-  // It takes part in no projection, as its dV is 0.
-  auto points = gauss_points(X);
-  points.emplace_back(shape, X, idealization);
-  return point_states(points, material, u).back().stress;
+  // The points of a projection, and those that receive what it makes.
+  auto points =
+    formulation == Formulation::standard ? std::vector<CellPoint<dim>>() : gauss_points(X);
+  const unsigned int first = points.size();
+  for (const auto &shape : shapes)
+    {
+      points.emplace_back(shape, X, idealization);
+      points.back().dV = 0.;
+    }
+  const auto                                 states = point_states(points, material, u);
+  std::vector<dealii::SymmetricTensor<2, 3>> result;
+  for (unsigned int q = first; q < states.size(); ++q)
+    result.push_back(states[q].stress);
+  return result;
 }
 
 template <int dim>

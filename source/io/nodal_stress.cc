@@ -102,13 +102,18 @@ std::vector<Stress> sampled_stress(const Solved<dim> &solved, const StressSampli
   std::vector<elasticity::Element<dim>> elements;
   for (const auto &body : solved.bodies)
     elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
+  std::vector<mesh::LagrangePoint<dim>> shapes;
+  for (const auto &point : sampling.points)
+    shapes.push_back(mesh::lagrange_point<dim>(mesh.degree(), point));
   std::vector<Stress> result;
   for (const auto &cell : mesh.cells())
-    for (const auto &point : sampling.points)
-      result.push_back(elements[cell.body].stress(solved.at_nodes(cell, solved.positions),
-                                                  solved.bodies[cell.body].material(cell),
-                                                  solved.at_nodes(cell, solved.displacement),
-                                                  point));
+    {
+      const auto of_cell =
+        elements[cell.body].stresses(solved.at_nodes(cell, solved.positions),
+                                     solved.bodies[cell.body].material(cell),
+                                     solved.at_nodes(cell, solved.displacement), shapes);
+      result.insert(result.end(), of_cell.begin(), of_cell.end());
+    }
   return result;
 }
 

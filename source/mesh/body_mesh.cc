@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace snug::mesh {
@@ -23,7 +24,10 @@ template <int dim>
 struct BodyMesh<dim>::Source
 {
   Source(MPI_Comm communicator, unsigned int degree)
-    : fe(degree), triangulation(communicator), nodes(triangulation)
+    : fe(degree)
+    , triangulation(communicator)
+    , nodes(triangulation)
+    , order(dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree))
   {}
 
   // Destroyed from the bottom up: the nodes must go before the triangulation and the element.
@@ -32,6 +36,22 @@ struct BodyMesh<dim>::Source
   dealii::DoFHandler<dim>                                nodes;
   geometry::CoarseCells<dim>                             coarse;
   std::vector<unsigned int>                              parts; ///< of the owned cells
+  /// deal.II numbers nodes at vertices, on lines, faces and inside; ours are in tensor-product
+  /// order
+  std::vector<unsigned int> order;
+
+  /// Nodes of a cell by their places in the set of local ones.
+  std::vector<unsigned int>
+  nodes_of(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+           const dealii::IndexSet                                       &relevant) const
+  {
+    std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
+    cell->get_dof_indices(indices);
+    std::vector<unsigned int> result;
+    for (const unsigned int i : order)
+      result.push_back(relevant.index_within_set(indices[i]));
+    return result;
+  }
 };
 
 /// p4est only refines; its cells then go to the ranks part by part. Collective.
@@ -135,33 +155,48 @@ void BodyMesh<dim>::collect_hanging(const Source &source)
 template <int dim>
 void BodyMesh<dim>::collect_cells(const Source &source)
 {
-  // deal.II numbers nodes at vertices, on lines, faces and inside; ours are in tensor-product order
-  const auto order = dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(fe_degree);
-  std::vector<dealii::types::global_dof_index> indices(source.fe.n_dofs_per_cell());
   for (const auto &cell : source.nodes.active_cell_iterators())
     if (cell->is_locally_owned())
       {
-        cell->get_dof_indices(indices);
         const unsigned int body = cell->material_id();
-        Cell               entry{body,
-                   source.parts[mesh_cells.size()],
-                   geometries[body]->region(source.coarse.coarse_cell(cell->id())),
-                   {}};
-        for (const unsigned int i : order)
-          entry.nodes.push_back(local_node(indices[i]));
-        mesh_cells.push_back(entry);
+        mesh_cells.push_back({body, source.parts[mesh_cells.size()],
+                              geometries[body]->region(source.coarse.coarse_cell(cell->id())),
+                              source.nodes_of(cell, relevant)});
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
             // boundary ids are indices of the body's names, see create_coarse_mesh()
             mesh_faces.push_back(
-              {entry.body,
+              {body,
                cell->face(f)->boundary_id(),
                static_cast<unsigned int>(mesh_cells.size() - 1),
-               oriented_face_nodes<dim>(entry.nodes, fe_degree, f),
+               f,
+               oriented_face_nodes<dim>(mesh_cells.back().nodes, fe_degree, f),
                geometries[body]->known_surface(source.coarse.coarse_cell(cell->id()), f),
                {}});
       }
   neighbours = owned_neighbours(source.triangulation);
+}
+
+/// Nodes of ghost cells are relevant ones.
+template <int dim>
+void BodyMesh<dim>::collect_interior_faces(const Source &source)
+{
+  std::vector<unsigned int> ghosts;
+  inner_faces = mesh::interior_faces<dim>(source.triangulation, ghosts);
+  other_cells.resize(ghosts.size());
+  std::map<unsigned int, unsigned int> place;
+  for (unsigned int i = 0; i < ghosts.size(); ++i)
+    place[ghosts[i]] = i;
+  for (const auto &cell : source.nodes.active_cell_iterators())
+    {
+      const auto found = place.find(cell->active_cell_index());
+      if (found == place.end())
+        continue;
+      const unsigned int body    = cell->material_id();
+      other_cells[found->second] = {body, 0,
+                                    geometries[body]->region(source.coarse.coarse_cell(cell->id())),
+                                    source.nodes_of(cell, relevant)};
+    }
 }
 
 /// Faces come in the order in which collect_cells() met them. Points of shared edges are samples of
@@ -256,6 +291,7 @@ BodyMesh<dim>::BodyMesh(MPI_Comm                                         communi
   everywhere(communicator, [&]() { collect_nodes(source); });
   collect_hanging(source);
   collect_cells(source);
+  collect_interior_faces(source);
   // Curved faces put hanging nodes off the polynomials of their masters, but the displacement
   // there is interpolated, and so must the position be, or rigid motions would strain.
   interpolate_hanging(reference);

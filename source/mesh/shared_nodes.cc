@@ -37,6 +37,26 @@ void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
     }
 }
 
+template <int dim>
+typename BodyMesh<dim>::Field owners_values(const BodyMesh<dim>                 &mesh,
+                                            const typename BodyMesh<dim>::Field &field)
+{
+  const unsigned int  rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
+  std::vector<double> values(std::size_t(dim) * mesh.n_local_nodes(), 0.);
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    if (mesh.owner(node) == rank)
+      for (unsigned int c = 0; c < dim; ++c)
+        values[dim * node + c] = field[node][c];
+  sum_at_shared_nodes(mesh, dim, values);
+  typename BodyMesh<dim>::Field result(mesh.n_local_nodes());
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    for (unsigned int c = 0; c < dim; ++c)
+      result[node][c] = values[dim * node + c];
+  return result;
+}
+
+template BodyMesh<2>::Field owners_values(const BodyMesh<2> &, const BodyMesh<2>::Field &);
+template BodyMesh<3>::Field owners_values(const BodyMesh<3> &, const BodyMesh<3>::Field &);
 template void sum_at_shared_nodes(const mesh::BodyMesh<2> &, unsigned int, std::vector<double> &);
 template void sum_at_shared_nodes(const mesh::BodyMesh<3> &, unsigned int, std::vector<double> &);
 } // namespace snug::mesh

@@ -103,11 +103,13 @@ public:
   /// gradient_a += factor * d volume / dX_a.
   void add_volume_gradient(const Nodes &X, double factor, Nodes &gradient) const;
 
-  /// Cauchy stress at a point of the reference cube [0,1]^dim.
-  dealii::SymmetricTensor<2, 3> stress(const Nodes              &X,
-                                       const Material           &material,
-                                       const Nodes              &u,
-                                       const dealii::Point<dim> &point) const;
+  /// Cauchy stress at points of the reference cube [0,1]^dim, given by the functions
+  /// of degree p there.
+  std::vector<dealii::SymmetricTensor<2, 3>>
+  stresses(const Nodes                                 &X,
+           const Material                              &material,
+           const Nodes                                 &u,
+           const std::vector<mesh::LagrangePoint<dim>> &shapes) const;
 
   /**
    * Quality of the cell: the smallest det J over Gauss points and nodes,

@@ -3,6 +3,7 @@
 
 #include <snug/geometry/body_geometry.h>
 #include <snug/mesh/idealization.h>
+#include <snug/mesh/interior_faces.h>
 #include <snug/mesh/partition.h>
 
 #include <deal.II/base/index_set.h>
@@ -53,6 +54,7 @@ public:
     unsigned int              body;
     unsigned int              boundary; ///< index of the body's names
     unsigned int              cell;     ///< index into cells()
+    unsigned int              number;   ///< in the cell: side s of axis d is 2d + s
     std::vector<unsigned int> nodes;
     /// the surface of known shape it lies on, or no_surface, see BodyGeometry
     unsigned int              known_surface;
@@ -119,6 +121,15 @@ public:
   /// Nodes without hanging ones, of all ranks.
   unsigned long n_global_free_nodes() const { return n_free_nodes; }
 
+  /// Faces between owned cells, and between these and cells of other ranks, whose indices
+  /// go on behind those of cells().
+  const std::vector<InteriorFace<dim>> &interior_faces() const { return inner_faces; }
+  /// A cell by such an index; of those of other ranks part is not set.
+  const Cell &known_cell(unsigned int index) const
+  {
+    return index < mesh_cells.size() ? mesh_cells[index] : other_cells[index - mesh_cells.size()];
+  }
+
   /// Pairs of owned cells (a < b) that share a face or part of one.
   const CellPairs &cell_neighbours() const { return neighbours; }
 
@@ -141,6 +152,9 @@ private:
   std::vector<Face>               mesh_faces;
   std::vector<Hanging>            hanging_nodes;
   CellPairs                       neighbours;
+  /// of other ranks, that share a face with one of this
+  std::vector<Cell>              other_cells;
+  std::vector<InteriorFace<dim>> inner_faces;
   /// of the nodes of a face at its samples
   std::vector<std::vector<double>> sample_weights;
   unsigned long                    n_cells = 0, n_free_nodes = 0;
@@ -152,6 +166,7 @@ private:
   void collect_nodes(const Source &source);
   void collect_hanging(const Source &source);
   void collect_cells(const Source &source);
+  void collect_interior_faces(const Source &source);
   void collect_samples(const std::vector<geometry::BodyMeshParameters> &bodies,
                        const Source                                    &source);
   bool is_flat(const Face &face) const;

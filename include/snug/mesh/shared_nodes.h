@@ -16,6 +16,11 @@ template <int dim>
 void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
                          unsigned int               n_components,
                          std::vector<double>       &values);
+
+/// A nodal field at all local nodes by the values of the ranks that own them. Collective.
+template <int dim>
+typename BodyMesh<dim>::Field owners_values(const BodyMesh<dim>                 &mesh,
+                                            const typename BodyMesh<dim>::Field &field);
 } // namespace snug::mesh
 
 #endif

@@ -1,0 +1,166 @@
+#include <snug/accuracy/contact_pressure.h>
+#include <snug/contact/face_tree.h>
+#include <snug/contact/projection.h>
+#include <snug/faces/closest_point.h>
+#include <snug/faces/outer_edges.h>
+
+namespace snug::accuracy {
+/// Nodal pressures of one pair and, for its master side, where they are.
+template <int dim>
+class ContactPressure<dim>::SlaveSide
+{
+public:
+  SlaveSide(const mesh::Surface<dim>                 &surface,
+            const contact::Pair                      &pair,
+            const typename mesh::Surface<dim>::Field &positions,
+            const faces::FaceShape<dim>              &shape,
+            std::vector<double>                       nodal)
+    : nodal(std::move(nodal))
+    , faces(faces_of(surface, pair))
+    , surface(surface)
+    , positions(positions)
+    , shape(shape)
+    , edges(surface, faces, shape)
+    , tree(surface, faces, shape, positions)
+  {}
+
+  double at(const dealii::Tensor<1, dim> &x) const
+  {
+    dealii::BoundingBox<dim> cube({dealii::Point<dim>(x), dealii::Point<dim>(x)});
+    cube.extend(tree.bound(x) * (1. + 1e-6) + 1e-6 * tree.extent(tree.nearest_box(x)));
+    faces::ClosestPoint<dim> best;
+    unsigned int             face = 0;
+    best.squared_distance         = std::numeric_limits<double>::max();
+    for (const std::size_t i : tree.meeting(cube))
+      {
+        const auto point = faces::closest_point(shape, tree.nodes(i), x);
+        if (point.squared_distance < best.squared_distance)
+          {
+            best = point;
+            face = faces[i];
+          }
+      }
+    if (edges.excess(face, best.xi, x - best.position, positions) >= contact::edge_tolerance)
+      return 0.;
+    const auto values = shape.at(best.xi).value;
+    double     sum    = 0.;
+    for (unsigned int k = 0; k < values.size(); ++k)
+      sum += values[k] * nodal[surface.faces()[face].nodes[k]];
+    return sum;
+  }
+
+  const std::vector<double> nodal; ///< per surface node
+
+private:
+  const std::vector<unsigned int>           faces;
+  const mesh::Surface<dim>                 &surface;
+  const typename mesh::Surface<dim>::Field &positions;
+  const faces::FaceShape<dim>              &shape;
+  const faces::OuterEdges<dim>              edges;
+  const contact::FaceTree<dim>              tree;
+
+  static std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface,
+                                            const contact::Pair      &pair)
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int f = 0; f < surface.faces().size(); ++f)
+      if (contact::Pair::Side(surface.faces()[f].body, surface.faces()[f].boundary) == pair.slave)
+        result.push_back(f);
+    return result;
+  }
+};
+
+namespace {
+/// At all surface nodes: rows, nodes they act for, hanging nodes, in this order, as each
+/// may need those before.
+template <int dim>
+std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
+                                 const unsigned int             pair,
+                                 const std::vector<double>     &of_rows)
+{
+  const auto         &contact = solver.contact();
+  const auto         &surface = solver.surface();
+  std::vector<double> values(surface.n_nodes(), 0.);
+  std::vector<bool>   has_row(values.size(), false);
+  for (unsigned int i = 0; i < of_rows.size(); ++i)
+    if (contact.places()[i].pair == pair)
+      {
+        values[contact.places()[i].slave]  = of_rows[i];
+        has_row[contact.places()[i].slave] = true;
+      }
+  for (const auto &shared : contact.shared_nodes())
+    if (!has_row[shared.node])
+      for (const auto &[row, share] : shared.rows)
+        if (contact.places()[row].pair == pair)
+          values[shared.node] += share * of_rows[row];
+  for (unsigned int node = 0; node < values.size(); ++node)
+    if (!surface.masters(node).empty())
+      {
+        values[node] = 0.;
+        for (const auto &[master, weight] : surface.masters(node))
+          values[node] += weight * values[master];
+      }
+  return values;
+}
+} // namespace
+
+template <int dim>
+ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>             &solver,
+                                      const typename mesh::BodyMesh<dim>::Field &local_positions,
+                                      const std::vector<double>                 &of_rows)
+  : solver(solver)
+  , positions(solver.surface().gather(local_positions))
+  , shape(solver.mesh().degree())
+{
+  const auto &surface = solver.surface();
+  AssertDimension(of_rows.size(), solver.contact().n_rows());
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    surface_nodes[surface.global_node(node)] = node;
+  for (const auto &pair : solver.contact().pairs())
+    {
+      slave_of[pair.slave].push_back(pairs.size());
+      if (!pair.obstacle)
+        master_of[pair.master].push_back(pairs.size());
+      pairs.push_back(std::make_unique<SlaveSide>(surface, pair, positions, shape,
+                                                  nodal_values(solver, pairs.size(), of_rows)));
+    }
+}
+
+template <int dim>
+ContactPressure<dim>::~ContactPressure() = default;
+
+template <int dim>
+bool ContactPressure<dim>::is_on(const Face &face) const
+{
+  const Boundary boundary(face.body, face.boundary);
+  return slave_of.count(boundary) > 0 || master_of.count(boundary) > 0;
+}
+
+template <int dim>
+double ContactPressure<dim>::value(const Face                   &face,
+                                   const std::vector<double>    &at_nodes,
+                                   const dealii::Tensor<1, dim> &x) const
+{
+  const Boundary boundary(face.body, face.boundary);
+  double         sum = 0.;
+  if (const auto slaves = slave_of.find(boundary); slaves != slave_of.end())
+    {
+      const auto &nodes = solver.mesh().cells()[face.cell].nodes;
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        {
+          // Functions of nodes off the face vanish on it.
+          const auto node = surface_nodes.find(solver.mesh().global_node(nodes[k]));
+          if (node != surface_nodes.end())
+            for (const unsigned int pair : slaves->second)
+              sum += at_nodes[k] * pairs[pair]->nodal[node->second];
+        }
+    }
+  if (const auto masters = master_of.find(boundary); masters != master_of.end())
+    for (const unsigned int pair : masters->second)
+      sum += pairs[pair]->at(x);
+  return sum;
+}
+
+template class ContactPressure<2>;
+template class ContactPressure<3>;
+} // namespace snug::accuracy
