@@ -42,7 +42,7 @@ typename BodyMesh<dim>::Field owners_values(const BodyMesh<dim>                 
                                             const typename BodyMesh<dim>::Field &field)
 {
   const unsigned int  rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
-  std::vector<double> values(std::size_t(dim) * mesh.n_local_nodes(), 0.);
+  std::vector<double> values(static_cast<std::size_t>(dim) * mesh.n_local_nodes(), 0.);
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     if (mesh.owner(node) == rank)
       for (unsigned int c = 0; c < dim; ++c)
