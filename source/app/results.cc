@@ -127,7 +127,8 @@ void Results<dim>::warn_of_weak_contacts(const States &states, const std::string
 template <int dim>
 void Results<dim>::draw(const double                time,
                         const States               &states,
-                        const std::optional<Field> &gradient)
+                        const std::optional<Field> &gradient,
+                        const Estimates            &estimates)
 {
   const RunContext::Timer timer(problem.context, "output");
   // the last design may be one that was asked for already
@@ -136,7 +137,8 @@ void Results<dim>::draw(const double                time,
   drawn = time;
   for (unsigned int c = 0; c < states.size(); ++c)
     {
-      pictures[c].fields.write(time, states[c], gradient ? &*gradient : nullptr);
+      pictures[c].fields.write(time, states[c], gradient ? &*gradient : nullptr,
+                               estimates.empty() ? nullptr : &estimates[c].cells);
       pictures[c].contact.write(time, states[c]);
     }
 }
@@ -170,14 +172,39 @@ void Results<dim>::add_first(const States &states, const std::optional<Field> &s
 }
 
 template <int dim>
+typename Results<dim>::Estimates Results<dim>::estimate(const States &states) const
+{
+  const RunContext::Timer timer(problem.context, "accuracy");
+  Estimates               result;
+  if (problem.scene.accuracy.estimate == accuracy::Estimate::none)
+    return result;
+  for (unsigned int c = 0; c < states.size(); ++c)
+    {
+      result.push_back(accuracy::estimate_energy(*problem.solver, states[c]));
+      problem.context.out()
+        << "estimated error of the mesh in the energy norm: " << 100. * result.back().relative
+        << " %" << (states.size() > 1 ? " in load case " + problem.scene.load_cases[c].name : "")
+        << std::endl;
+    }
+  return result;
+}
+
+template <int dim>
 void Results<dim>::add_last(const double                time,
                             const States               &states,
                             const std::optional<Field> &shape_gradient)
 {
-  draw(time, states, shape_gradient);
+  const auto estimates = estimate(states);
+  draw(time, states, shape_gradient, estimates);
   // contact may be paired anew before the summary is written
   count_rows();
-  summary.state = summarize(states.front());
+  const auto summarized = [&](const unsigned int c) {
+    auto result = summarize(states[c]);
+    if (!estimates.empty())
+      result.accuracy = {estimates[c].error, estimates[c].relative};
+    return result;
+  };
+  summary.state = summarized(0);
   if (!first_states.empty())
     summary.initial_state = first_states.front();
   if (states.size() == 1)
@@ -187,7 +214,7 @@ void Results<dim>::add_last(const double                time,
       io::Summary::LoadCase load_case;
       load_case.name   = problem.scene.load_cases[c].name;
       load_case.weight = problem.scene.load_cases[c].weight;
-      load_case.state  = summarize(states[c]);
+      load_case.state  = summarized(c);
       if (!first_states.empty())
         load_case.initial_state = first_states[c];
       summary.load_cases.push_back(load_case);

@@ -72,7 +72,8 @@ FieldOutput<dim>::FieldOutput(const mesh::BodyMesh<dim>                &mesh,
 template <int dim>
 void FieldOutput<dim>::write(double                                     time,
                              const state::ContactState<dim>            &state,
-                             const typename mesh::BodyMesh<dim>::Field *shape_gradient)
+                             const typename mesh::BodyMesh<dim>::Field *shape_gradient,
+                             const std::vector<double>                 *errors)
 {
   const auto            gradient  = summed(mesh, shape_gradient);
   const auto            stress    = nodal_stress(mesh, bodies, state.positions, state.displacement);
@@ -86,6 +87,8 @@ void FieldOutput<dim>::write(double                                     time,
                                    {"design_displacement", dim}};
   if (shape_gradient != nullptr)
     quantities.push_back({"shape_gradient", dim});
+  if (errors != nullptr)
+    quantities.push_back({"error", 1});
   PatchList<dim, dim> patches(quantities);
   for (unsigned int k = 0; k < mesh.cells().size(); ++k)
     {
@@ -103,6 +106,8 @@ void FieldOutput<dim>::write(double                                     time,
           if (shape_gradient != nullptr)
             values.back().insert(values.back().end(), gradient.begin() + dim * node,
                                  gradient.begin() + dim * (node + 1));
+          if (errors != nullptr)
+            values.back().push_back((*errors)[k]);
         }
       patches.add(points, values);
     }

@@ -1,5 +1,7 @@
 #include <snug/io/summary.h>
 
+#include <array>
+
 namespace snug::io {
 /// The rows of B are not known here; the caller adds them.
 template <int dim>
@@ -73,13 +75,15 @@ Summary::State summarize(const state::ContactState<dim> &state)
 Summary::Times collect_times(const RunContext &context)
 {
   // in the order of the members of Times
-  double seconds[] = {
-    context.seconds("setup"), context.seconds("assembly"), context.seconds("factorization"),
-    context.seconds("solve"), context.seconds("gradient"), context.seconds("output"),
-    context.seconds()};
+  std::array<double, 8> seconds = {context.seconds("setup"),         context.seconds("assembly"),
+                                   context.seconds("factorization"), context.seconds("solve"),
+                                   context.seconds("gradient"),      context.seconds("accuracy"),
+                                   context.seconds("output"),        context.seconds()};
   // stage by stage the slowest rank, for which the others wait
-  MPI_Allreduce(MPI_IN_PLACE, seconds, 7, MPI_DOUBLE, MPI_MAX, context.communicator());
-  return {seconds[0], seconds[1], seconds[2], seconds[3], seconds[4], seconds[5], seconds[6]};
+  MPI_Allreduce(MPI_IN_PLACE, seconds.data(), seconds.size(), MPI_DOUBLE, MPI_MAX,
+                context.communicator());
+  return {seconds[0], seconds[1], seconds[2], seconds[3],
+          seconds[4], seconds[5], seconds[6], seconds[7]};
 }
 
 template Summary::Mesh  summarize(const mesh::BodyMesh<2> &, const mesh::Tearing &);

@@ -49,6 +49,12 @@ Json summary_part(const Summary::Reaction &reaction)
           {"moment", reaction.moment}};
 }
 
+Json summary_part(const std::optional<Summary::Accuracy> &accuracy)
+{
+  return accuracy ? Json{{"error", accuracy->error}, {"relative", accuracy->relative}}
+                  : Json(nullptr);
+}
+
 /// Keys have the names of the members, see state::ContactState for formulas and units.
 Json summary_part(const Summary::State &state)
 {
@@ -94,7 +100,8 @@ Json summary_part(const Summary::State &state)
            {{"rotation", state.assumptions.rotation},
             {"strain", state.assumptions.strain},
             {"slip", state.assumptions.slip},
-            {"drift", state.assumptions.drift}}}};
+            {"drift", state.assumptions.drift}}},
+          {"accuracy", summary_part(state.accuracy)}};
 }
 
 Json summary_part(const Summary::GradientRow &row)
@@ -170,9 +177,9 @@ Json summary_part(const Work &work)
 Json summary_part(const Summary::Times &times)
 {
   return {
-    {"setup", times.setup}, {"assembly", times.assembly}, {"factorization", times.factorization},
-    {"solve", times.solve}, {"gradient", times.gradient}, {"output", times.output},
-    {"total", times.total}};
+    {"setup", times.setup},   {"assembly", times.assembly}, {"factorization", times.factorization},
+    {"solve", times.solve},   {"gradient", times.gradient}, {"accuracy", times.accuracy},
+    {"output", times.output}, {"total", times.total}};
 }
 } // namespace
 

@@ -110,6 +110,8 @@ void declare(Entries &entries, Scene &scene)
   entries.begin_section("Decomposition", "Tearing the bodies into subdomains.");
   scene.tearing.declare(entries);
   declare_solver(entries, scene);
+  entries.begin_section("Accuracy", "How far the mesh is from the truth.");
+  scene.accuracy.declare(entries);
   entries.begin_section("Gradient", "Derivatives by design variables.");
   scene.gradient.declare(entries);
   declare_named(entries, scene.responses,

@@ -35,7 +35,10 @@ public:
 
   /// Draw a design, unless the picture of this time is there already.
   /// Collective.
-  void draw(double time, const States &states, const std::optional<Field> &shape_gradient);
+  void draw(double                                       time,
+            const States                                &states,
+            const std::optional<Field>                  &shape_gradient,
+            const std::vector<accuracy::EnergyEstimate> &estimates = {});
 
   /// Draw and summarize the first of several designs, with the shape
   /// gradient (this rank's share) if there is one. Collective.
@@ -67,9 +70,12 @@ public:
   io::Summary summary; ///< its task, gradient and optimization are the task's
 
 private:
+  using Estimates = std::vector<accuracy::EnergyEstimate>; ///< per load case; empty: none
+
   /// For the summary.
   void               count_rows();
   io::Summary::State summarize(const state::ContactState<dim> &state) const;
+  Estimates          estimate(const States &states) const;
 
   /// Writers of one load case.
   struct Pictures

@@ -28,6 +28,7 @@ namespace snug::io {
  * | subdomain           | 1          | global id        |
  * | design_displacement | 3          | length           |
  * | shape_gradient      | 3          | objective / length |
+ * | error               | 1          | (force length)^(1/2) |
  *
  * Stress is smoothed as nodal_stress() says; von Mises is that of the
  * smoothed stress. In 2D the component zz is the stress across the section,
@@ -52,11 +53,13 @@ public:
    * design iteration, say). Collective.
    * @param[in] shape_gradient dJ/dX at the local nodes, hanging ones
    *   included, as shares that add up over ranks; null: not written.
+   * @param[in] errors Estimated, of the cells; null: not written.
    * @throws std::runtime_error if a file cannot be written.
    */
   void write(double                                     time,
              const state::ContactState<dim>            &state,
-             const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr);
+             const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr,
+             const std::vector<double>                 *errors         = nullptr);
 
 private:
   const mesh::BodyMesh<dim>                  &mesh;

@@ -57,6 +57,12 @@ struct Summary
     std::vector<double> centre, force, moment;
   };
 
+  /// Members as in accuracy::EnergyEstimate.
+  struct Accuracy
+  {
+    double error = none, relative = none;
+  };
+
   /// Members as in state::ContactState; linear_f_mults 0 becomes null.
   struct State
   {
@@ -77,6 +83,7 @@ struct Summary
     std::vector<std::pair<std::string, double>> responses;
     state::Certificate                          certificate;
     state::Assumptions                          assumptions;
+    std::optional<Accuracy>                     accuracy;
   };
 
   /// One way to compute the gradient, with what it cost.
@@ -119,8 +126,8 @@ struct Summary
 
   struct Times
   {
-    double setup = 0., assembly = 0., factorization = 0., solve = 0., gradient = 0., output = 0.,
-           total = 0.; ///< [s]
+    double setup = 0., assembly = 0., factorization = 0., solve = 0., gradient = 0., accuracy = 0.,
+           output = 0., total = 0.; ///< [s]
   };
 
   Program                     program;

@@ -1,6 +1,7 @@
 #ifndef snug_scene_scene_h
 #define snug_scene_scene_h
 
+#include <snug/accuracy/energy_estimate.h>
 #include <snug/contact/pair.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/elasticity/material.h>
@@ -96,6 +97,7 @@ struct Scene
   feti::FetiParameters                      feti;
   qp::SolverParameters                      solver;
   std::optional<double>                     state_tolerance; ///< none: see declare()
+  accuracy::AccuracyParameters              accuracy;
   sensitivity::GradientParameters           gradient;
   std::vector<response::ResponseParameters> responses; ///< named ones
   optimization::OptimizationParameters      optimization;
