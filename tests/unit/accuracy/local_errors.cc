@@ -1,84 +1,130 @@
-#include <snug/accuracy/local_errors.h>
-
-#include <deal.II/base/mpi.h>
+#include <snug/accuracy/energy_estimate.h>
 
 #include <gtest/gtest.h>
 #include <unit/state/test_scene.h>
 
 namespace snug::test {
 namespace {
-/// sum of eta_K^2 over all ranks
 template <int dim>
-double square(Problem<dim> &problem, const state::ContactState<dim> &state)
+accuracy::EnergyEstimate estimate_of(const TestScene<dim> &scene, MPI_Comm comm = MPI_COMM_WORLD)
 {
-  const accuracy::LocalErrors<dim>       errors(problem.solver, state);
-  accuracy::LoadedDisplacement<dim>      u{state.displacement, {}};
-  for (const auto &point : state.contact)
-    u.pressures.push_back(point.pressure);
-  double sum = 0.;
-  for (const auto &of_cell : errors.products({u}))
-    sum += of_cell[0];
-  return dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+  Problem<dim> problem(scene, comm);
+  return accuracy::estimate_energy(problem.solver, problem.solve());
 }
-
-/// |u - u_h|^2 = 2 (J_h - J) for the energies of a mesh and of a much finer one.
-template <int dim>
-double effectivity(const TestScene<dim> &scene, unsigned int finer)
-{
-  Problem<dim> problem(scene);
-  const auto   state = problem.solve();
-  auto         fine  = scene;
-  for (auto &body : fine.bodies)
-    for (auto &n : body.cells)
-      n *= finer;
-  fine.degree = 2;
-  Problem<dim> reference(fine);
-  const double error = 2. * (state.energy - reference.solve().energy);
-  return std::sqrt(square(problem, state) / error);
-}
-} // namespace
 
 /// Both on rollers at their sides: contact closed all over, no corner, a smooth solution.
 template <int dim>
-TestScene<dim> guided_blocks(unsigned int n)
+TestScene<dim> guided_blocks(unsigned int n, unsigned int m)
 {
-  auto scene = two_blocks<dim>(n, n, 0.);
+  auto scene                                           = two_blocks<dim>(n, m, 0.);
   scene.bodies[0].loads[face_index(dim - 1, 1)].factor = [](const dealii::Point<dim> &x) {
     return 1. + 0.5 * std::cos(dealii::numbers::PI * x[0]);
   };
-  scene.bodies[1].supports                           = scene.bodies[0].supports;
+  scene.bodies[1].supports                         = scene.bodies[0].supports;
   scene.bodies[1].supports[face_index(dim - 1, 0)] = {dim - 1};
   return scene;
 }
 
-TEST(LocalErrors, PlaneContact)
+/// eta over |u - u_h| = (2 (J_h - J))^(1/2), J of finer cells of degree 2.
+template <int dim>
+double effectivity(const TestScene<dim> &scene, unsigned int finer)
+{
+  auto fine = scene;
+  for (auto &body : fine.bodies)
+    for (auto &n : body.cells)
+      n *= finer;
+  fine.degree = 2;
+  Problem<dim> problem(scene), reference(fine);
+  const auto   state = problem.solve();
+  const double error = 2. * (state.energy - reference.solve().energy);
+  return accuracy::estimate_energy(problem.solver, state).error / std::sqrt(error);
+}
+
+/// Bounds of a smooth solution, on meshes that are not yet fine.
+template <int dim>
+void expect_effective(const TestScene<dim> &scene, unsigned int finer, const std::string &what)
+{
+  const double found = effectivity(scene, finer);
+  EXPECT_GT(found, 0.9) << what;
+  EXPECT_LT(found, 1.2) << what;
+}
+} // namespace
+
+TEST(EnergyEstimate, IsTheErrorOfSmoothStates)
 {
   for (const unsigned int degree : {1, 2})
-    for (const unsigned int n : {4, 8, 16})
-      {
-        auto scene   = guided_blocks<2>(n);
-        scene.degree = degree;
-        std::cerr << "degree " << degree << " cells " << n << " effectivity "
-                  << effectivity(scene, 64 / n) << std::endl;
-      }
+    {
+      auto plane   = guided_blocks<2>(8, 8);
+      plane.degree = degree;
+      expect_effective(plane, 4, "plane");
+      plane.idealization = {mesh::Idealization::Kind::plane_stress, 0.3};
+      expect_effective(plane, 4, "plane stress");
+      plane.idealization = {mesh::Idealization::Kind::axisymmetric};
+      expect_effective(plane, 4, "axisymmetric");
+    }
+  expect_effective(guided_blocks<3>(3, 3), 3, "solid");
 }
 
-TEST(LocalErrors, SolidContact)
+TEST(EnergyEstimate, SeesHangingFaces)
 {
-  for (const unsigned int n : {2, 4})
-    std::cerr << "solid, cells " << n << " effectivity "
-              << effectivity(guided_blocks<3>(n), 8 / n) << std::endl;
+  auto scene = guided_blocks<2>(8, 8);
+  for (auto &body : scene.bodies)
+    body.refined_below = 0.4;
+  expect_effective(scene, 4, "hanging");
 }
 
-/// A uniform state has no error.
-TEST(LocalErrors, NoneOfUniformStates)
+TEST(EnergyEstimate, SeesContactOfMeshesThatDoNotMatch)
 {
-  const auto check = [](auto scene) {
-    scene.bodies[1].supports[face_index(1, 0)] = {1};
-    Problem problem(scene);
-    const auto state = problem.solve();
-    EXPECT_LT(square(problem, state), 1e-16 * state.strain_energy);
-  };
-  check(two_blocks<2>(4, 4, 0.));
+  auto scene   = guided_blocks<2>(9, 8);
+  scene.method = contact::Method::mortar;
+  expect_effective(scene, 4, "mortar");
+}
+
+TEST(EnergyEstimate, SeesNearlyIncompressibleCells)
+{
+  auto scene = guided_blocks<2>(8, 8);
+  for (auto &body : scene.bodies)
+    {
+      body.material    = {1000., 0.49};
+      body.formulation = elasticity::Formulation::B_bar;
+    }
+  expect_effective(scene, 4, "B-bar");
+}
+
+TEST(EnergyEstimate, SeesMaterialsThatMeet)
+{
+  auto scene = guided_blocks<2>(8, 8);
+  for (auto &body : scene.bodies)
+    body.core_from = 0.5;
+  expect_effective(scene, 4, "materials");
+}
+
+TEST(EnergyEstimate, IsNoneOfUniformStates)
+{
+  auto scene                                 = two_blocks<2>(4, 4, 0.);
+  scene.bodies[1].supports[face_index(1, 0)] = {1};
+  EXPECT_LT(estimate_of(scene).relative, 1e-8);
+  auto solid                                 = two_blocks<3>(2, 2, 0.);
+  solid.bodies[1].supports[face_index(2, 0)] = {2};
+  EXPECT_LT(estimate_of(solid).relative, 1e-8);
+}
+
+TEST(EnergyEstimate, IsThatOfOneRank)
+{
+  auto scene = guided_blocks<2>(8, 8);
+  for (auto &body : scene.bodies)
+    body.refined_below = 0.4;
+  EXPECT_NEAR(estimate_of(scene).relative / estimate_of(scene, MPI_COMM_SELF).relative, 1., 1e-8);
+}
+
+TEST(EnergyEstimate, FallsWithTheCells)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      auto coarse = guided_blocks<2>(4, 4), fine = guided_blocks<2>(8, 8);
+      coarse.degree = fine.degree = degree;
+      const double ratio          = estimate_of(coarse).error / estimate_of(fine).error;
+      EXPECT_NEAR(std::log2(ratio), degree, 0.15);
+    }
 }
 } // namespace snug::test
