@@ -18,7 +18,7 @@ std::vector<geometry::BodyMeshParameters> body(geometry::Source shape)
   std::vector<geometry::BodyMeshParameters> bodies(1);
   bodies[0].source            = shape;
   bodies[0].cells             = std::vector<unsigned int>(dim, 4);
-  bodies[0].round_cells       = {2, 2};
+  bodies[0].round_cells       = {4};
   bodies[0].refine_where      = "x + 0.3*y - 0.4";
   bodies[0].local_refinements = 2;
   return bodies;
