@@ -117,7 +117,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--every", type=int, default=1,
                         help="a sample: only every so many of all files")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     files = {path.resolve() for path in options.files} if options.files else None
     make = {"alone": alone, "tidy": tidy}[options.check]
     commands = make(ROOT, options.build.resolve(), files)[::options.every]
