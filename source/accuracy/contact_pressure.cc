@@ -70,9 +70,7 @@ private:
   }
 };
 
-namespace {
-/// At all surface nodes: rows, nodes they act for, hanging nodes, in this order, as each
-/// may need those before.
+/// Rows, nodes they act for, hanging nodes, in this order, as each may need those before.
 template <int dim>
 std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
                                  const unsigned int             pair,
@@ -102,7 +100,6 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
       }
   return values;
 }
-} // namespace
 
 template <int dim>
 ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>             &solver,
@@ -161,6 +158,10 @@ double ContactPressure<dim>::value(const Face                   &face,
   return sum;
 }
 
+template std::vector<double>
+nodal_values(const state::StateSolver<2> &, unsigned int, const std::vector<double> &);
+template std::vector<double>
+nodal_values(const state::StateSolver<3> &, unsigned int, const std::vector<double> &);
 template class ContactPressure<2>;
 template class ContactPressure<3>;
 } // namespace snug::accuracy

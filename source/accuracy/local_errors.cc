@@ -11,24 +11,56 @@ LocalErrors<dim>::LocalErrors(const state::StateSolver<dim>  &solver,
   , state(state)
   , mesh(solver.mesh())
   , positions(mesh::owners_values(mesh, state.positions))
+  , displacement(mesh::owners_values(mesh, state.displacement))
   , held(mesh.cells().size())
 {
-  const unsigned int p = mesh.degree();
   for (const auto &body : solver.model().bodies)
     {
-      elements.emplace_back(p, mesh.idealization(), body.formulation);
-      local.emplace_back(p, mesh.idealization(), body.formulation);
+      elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
+      spaces.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
     }
+  const auto gauss = mesh::lagrange_gauss_points<dim - 1>(mesh.degree() + 1);
   for (unsigned int face = 0; face < 2 * dim; ++face)
-    for (const auto &on_face : mesh::lagrange_gauss_points<dim - 1>(p + 1))
+    {
+      std::vector<dealii::Point<dim>> at(gauss.size());
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        for (unsigned int axis = 0, along = 0; axis < dim; ++axis)
+          at[q][axis] = axis == face / 2 ? face % 2 : gauss[q].point[along++];
+      face_points[face] = points(at);
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        face_points[face].shapes[q].weight = gauss[q].weight;
+    }
+  for (const auto &face : mesh.interior_faces())
+    if (auto &there = beyond[placing(face)]; there.shapes.empty())
       {
-        dealii::Point<dim> point;
-        for (unsigned int axis = 0, at = 0; axis < dim; ++axis)
-          point[axis] = axis == face / 2 ? face % 2 : on_face.point[at++];
-        face_points[face].push_back(mesh::lagrange_point<dim>(p, point));
-        face_points[face].back().weight = on_face.weight;
+        std::vector<dealii::Point<dim>> at;
+        for (const auto &shape : face_points[face.face].shapes)
+          at.push_back(face.in_neighbour(shape.point));
+        there = points(at);
       }
   find_held();
+}
+
+/// Bodies share functions, whatever their material.
+template <int dim>
+typename LocalErrors<dim>::FacePoints
+LocalErrors<dim>::points(const std::vector<dealii::Point<dim>> &at) const
+{
+  FacePoints result;
+  for (const auto &point : at)
+    {
+      result.shapes.push_back(mesh::lagrange_point<dim>(mesh.degree(), point));
+      result.functions.push_back(spaces[0].functions.at(point));
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<unsigned char> LocalErrors<dim>::placing(const mesh::InteriorFace<dim> &face)
+{
+  std::vector<unsigned char> result = {face.face, face.child, face.origin};
+  result.insert(result.end(), face.axes.begin(), face.axes.end());
+  return result;
 }
 
 template <int dim>
@@ -79,7 +111,7 @@ void LocalErrors<dim>::find_held()
           {
             dealii::Tensor<1, dim> v;
             if (support.component == supports::Support<dim>::normal)
-              for (const auto &shape : face_points[face.number])
+              for (const auto &shape : face_points[face.number].shapes)
                 v += area_vector(shape, face.number, X);
             else
               v[support.component] = 1.;
@@ -93,90 +125,108 @@ void LocalErrors<dim>::find_held()
     }
 }
 
+/// Of the displacement, less what acts as one: the flux that is continuous between cells.
 template <int dim>
-void LocalErrors<dim>::add_cells(const LoadedDisplacement<dim> &of, std::vector<Residual> &r) const
+std::vector<dealii::SymmetricTensor<2, 3>>
+LocalErrors<dim>::stresses(const unsigned int                           cell,
+                           const Loaded                                &of,
+                           const std::vector<mesh::LagrangePoint<dim>> &at) const
 {
-  const auto &bodies = solver.model().load_cases[state.load_case].bodies;
-  for (unsigned int cell = 0; cell < mesh.cells().size(); ++cell)
+  const auto &the_cell  = mesh.known_cell(cell);
+  const auto &element   = elements[the_cell.body];
+  const auto &substance = material(the_cell);
+  const auto  X         = at_cell(cell, positions);
+  auto        result    = element.stresses(X, substance, at_cell(cell, of.displacement), at);
+  if (of.more && of.more->stress &&
+      (of.more->body.empty() || solver.model().body_names[the_cell.body] == of.more->body))
     {
-      const auto &the_cell = mesh.cells()[cell];
-      const auto &loads    = bodies[the_cell.body];
-      const auto &problem  = local[the_cell.body];
-      Nodes       b;
-      if (of.has_loads && (loads.body_force || loads.gravity.norm() > 0.))
-        for (const auto &x : problem.quadrature_points(at_cell(cell, mesh.reference_positions())))
-          {
-            b.push_back(material(the_cell).density * loads.gravity);
-            if (loads.body_force)
-              b.back() += loads.body_force(dealii::Point<dim>(x));
-          }
-      problem.add_residual(at_cell(cell, positions), material(the_cell),
-                           at_cell(cell, of.displacement), b, r[cell].data());
+      const auto sigma = element.stresses(X, substance, at_cell(cell, displacement), at);
+      for (unsigned int q = 0; q < at.size(); ++q)
+        result[q] -= of.more->stress(substance, sigma[q]);
     }
+  return result;
+}
+
+template <int dim>
+typename LocalErrors<dim>::Nodes LocalErrors<dim>::body_forces(const unsigned int cell,
+                                                               const double       factor) const
+{
+  const auto &the_cell = mesh.cells()[cell];
+  const auto &loads    = solver.model().load_cases[state.load_case].bodies[the_cell.body];
+  Nodes       b;
+  if (factor == 0. || !(loads.body_force || loads.gravity.norm() > 0.))
+    return b;
+  const auto reference = at_cell(cell, mesh.reference_positions());
+  for (const auto &shape : spaces[the_cell.body].quadrature)
+    {
+      b.push_back(factor * material(the_cell).density * loads.gravity);
+      if (loads.body_force)
+        b.back() +=
+          factor * loads.body_force(dealii::Point<dim>(elasticity::value(shape, reference)));
+    }
+  return b;
 }
 
 /// The mean of both stresses, so that what one cell gets the other gives.
 template <int dim>
-void LocalErrors<dim>::add_interior_faces(const Field &displacement, std::vector<Residual> &r) const
+void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual> &r) const
 {
   const unsigned int n_owned = mesh.cells().size();
   for (const auto &face : mesh.interior_faces())
     {
-      const auto                           &points = face_points[face.face];
-      std::vector<mesh::LagrangePoint<dim>> beyond;
-      for (const auto &shape : points)
-        beyond.push_back(mesh::lagrange_point<dim>(mesh.degree(), face.in_neighbour(shape.point)));
-      const auto X      = at_cell(face.cell, positions);
-      const auto stress = [&](const unsigned int cell, const auto &at) {
-        const auto &the_cell = mesh.known_cell(cell);
-        return elements[the_cell.body].stresses(at_cell(cell, positions), material(the_cell),
-                                                at_cell(cell, displacement), at);
-      };
-      const auto here  = stress(face.cell, points);
-      const auto there = stress(face.neighbour, beyond);
-      for (unsigned int q = 0; q < points.size(); ++q)
+      const auto &at           = face_points[face.face];
+      const auto &at_neighbour = beyond.at(placing(face));
+      const auto  X            = at_cell(face.cell, positions);
+      const auto  here         = stresses(face.cell, of, at.shapes);
+      const auto  there        = stresses(face.neighbour, of, at_neighbour.shapes);
+      for (unsigned int q = 0; q < here.size(); ++q)
         {
-          const auto             area = area_vector(points[q], face.face, X);
+          const auto             area = area_vector(at.shapes[q], face.face, X);
           const auto             mean = 0.5 * (here[q] + there[q]);
           dealii::Tensor<1, dim> force;
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
               force[c] += mean[c][d] * area[d];
-          const unsigned int body = mesh.known_cell(face.cell).body;
           if (face.cell < n_owned)
-            local[body].add_force(points[q].point, force, r[face.cell].data());
+            elasticity::add_force<dim>(at.functions[q], force, r[face.cell]);
           if (face.neighbour < n_owned)
-            local[body].add_force(beyond[q].point, -force, r[face.neighbour].data());
+            elasticity::add_force<dim>(at_neighbour.functions[q], -force, r[face.neighbour]);
         }
     }
 }
 
 template <int dim>
-void LocalErrors<dim>::add_loads(std::vector<Residual> &r) const
+void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) const
 {
   const auto &bodies    = solver.model().load_cases[state.load_case].bodies;
   const auto  tractions = solver.resultants().tractions(state.positions);
   for (const auto &face : mesh.boundary_faces())
     {
-      const auto found  = bodies[face.body].boundaries.find(face.boundary);
-      const auto linear = tractions[state.load_case].find({face.body, face.boundary});
-      if (found == bodies[face.body].boundaries.end())
+      const std::pair<unsigned int, unsigned int> boundary(face.body, face.boundary);
+      const auto found     = bodies[face.body].boundaries.find(face.boundary);
+      const auto linear    = tractions[state.load_case].find(boundary);
+      const bool is_loaded = of.loads != 0. && found != bodies[face.body].boundaries.end();
+      const bool has_more  = of.more && of.more->traction && of.more->boundary == boundary;
+      if (!is_loaded && !has_more)
         continue;
-      const auto &load      = found->second;
       const auto  X         = at_cell(face.cell, positions);
       const auto  reference = at_cell(face.cell, mesh.reference_positions());
-      for (const auto &shape : face_points[face.number])
+      const auto &on_face   = face_points[face.number];
+      for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
         {
-          const auto             area = area_vector(shape, face.number, X);
-          const auto             at   = dealii::Point<dim>(elasticity::value(shape, reference));
+          const auto            &shape = on_face.shapes[q];
+          const auto             area  = area_vector(shape, face.number, X);
+          const auto             at    = dealii::Point<dim>(elasticity::value(shape, reference));
           dealii::Tensor<1, dim> force;
-          if (load.pressure)
-            force -= load.pressure(at) * area;
-          if (load.traction)
-            force += area.norm() * load.traction(at);
-          if (linear != tractions[state.load_case].end())
-            force += area.norm() * linear->second.value(elasticity::value(shape, X));
-          local[face.body].add_force(shape.point, force, r[face.cell].data());
+          if (is_loaded && found->second.pressure)
+            force -= of.loads * found->second.pressure(at) * area;
+          if (is_loaded && found->second.traction)
+            force += of.loads * area.norm() * found->second.traction(at);
+          if (is_loaded && linear != tractions[state.load_case].end())
+            force += of.loads * area.norm() * linear->second.value(elasticity::value(shape, X));
+          if (has_more)
+            force += area.norm() * of.more->traction(area / area.norm());
+          elasticity::add_force<dim>(on_face.functions[q], force, r[face.cell]);
         }
     }
 }
@@ -189,17 +239,33 @@ void LocalErrors<dim>::add_contact(const std::vector<double> &pressures,
   for (const auto &face : mesh.boundary_faces())
     if (contact.is_on(face))
       {
-        const auto X = at_cell(face.cell, positions);
-        for (const auto &shape : face_points[face.number])
+        const auto  X       = at_cell(face.cell, positions);
+        const auto &on_face = face_points[face.number];
+        for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
           {
-            const double p = contact.value(face, shape.value, elasticity::value(shape, X));
+            const auto  &shape = on_face.shapes[q];
+            const double p     = contact.value(face, shape.value, elasticity::value(shape, X));
             if (p != 0.)
-              local[face.body].add_force(shape.point, -p * area_vector(shape, face.number, X),
-                                         r[face.cell].data());
+              elasticity::add_force<dim>(on_face.functions[q],
+                                         -p * area_vector(shape, face.number, X), r[face.cell]);
           }
       }
 }
 
+template <int dim>
+std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &of) const
+{
+  std::vector<Residual> r;
+  for (const auto &cell : mesh.cells())
+    r.emplace_back(spaces[cell.body].size(), 0.);
+  add_interior_faces(of, r);
+  add_loads(of, r);
+  if (solver.contact().n_rows() > 0)
+    add_contact(of.pressures, r);
+  return r;
+}
+
+/// Neighbours are often the same cell at another place: they share a factorization.
 template <int dim>
 std::vector<std::vector<double>>
 LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
@@ -207,27 +273,25 @@ LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
   const unsigned int                 n_cells = mesh.cells().size(), n = of.size();
   std::vector<std::vector<Residual>> residuals; // [displacement][cell]
   for (const auto &one : of)
-    {
-      residuals.emplace_back(n_cells);
-      for (unsigned int cell = 0; cell < n_cells; ++cell)
-        residuals.back()[cell].assign(local[mesh.cells()[cell].body].size(), 0.);
-      LoadedDisplacement<dim> everywhere = one;
-      everywhere.displacement            = mesh::owners_values(mesh, one.displacement);
-      add_cells(everywhere, residuals.back());
-      add_interior_faces(everywhere.displacement, residuals.back());
-      if (one.has_loads)
-        add_loads(residuals.back());
-      if (solver.contact().n_rows() > 0)
-        add_contact(one.pressures, residuals.back());
-    }
-  std::vector<std::vector<double>> result(n_cells, std::vector<double>(n * n, 0.));
+    residuals.push_back(on_faces(one));
+  std::vector<std::vector<double>>             result(n_cells, std::vector<double>(n * n, 0.));
+  std::unique_ptr<elasticity::LocalError<dim>> problem;
   for (unsigned int cell = 0; cell < n_cells; ++cell)
     {
-      const auto           &the_cell = mesh.cells()[cell];
+      const auto &the_cell = mesh.cells()[cell];
+      const auto &space    = spaces[the_cell.body];
+      const auto  X        = at_cell(cell, positions);
+      if (!problem || !problem->fits(space, X, material(the_cell), held[cell]))
+        problem =
+          std::make_unique<elasticity::LocalError<dim>>(space, X, material(the_cell), held[cell]);
       std::vector<Residual> errors;
-      for (const auto &r : residuals)
-        errors.push_back(r[cell]);
-      local[the_cell.body].solve(at_cell(cell, positions), material(the_cell), held[cell], errors);
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          problem->add_residual(stresses(cell, of[i], space.quadrature),
+                                body_forces(cell, of[i].loads), residuals[i][cell]);
+          errors.push_back(residuals[i][cell]);
+          problem->solve(errors.back());
+        }
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
           // a(e_i, e_j) = r_i(e_j)

@@ -125,10 +125,10 @@ void Results<dim>::warn_of_weak_contacts(const States &states, const std::string
 }
 
 template <int dim>
-void Results<dim>::draw(const double                time,
-                        const States               &states,
-                        const std::optional<Field> &gradient,
-                        const Estimates            &estimates)
+void Results<dim>::draw(const double                  time,
+                        const States                 &states,
+                        const std::optional<Field>   &gradient,
+                        const std::vector<MeshError> &errors)
 {
   const RunContext::Timer timer(problem.context, "output");
   // the last design may be one that was asked for already
@@ -138,7 +138,7 @@ void Results<dim>::draw(const double                time,
   for (unsigned int c = 0; c < states.size(); ++c)
     {
       pictures[c].fields.write(time, states[c], gradient ? &*gradient : nullptr,
-                               estimates.empty() ? nullptr : &estimates[c].cells);
+                               errors.empty() ? nullptr : &errors[c].energy.cells);
       pictures[c].contact.write(time, states[c]);
     }
 }
@@ -171,22 +171,22 @@ void Results<dim>::add_first(const States &states, const std::optional<Field> &s
     first_states.push_back(summarize(state));
 }
 
+/// A state is a result also where its error cannot be estimated.
 template <int dim>
-typename Results<dim>::Estimates Results<dim>::estimate(const States &states) const
+std::vector<MeshError> Results<dim>::estimate(const States &states)
 {
-  const RunContext::Timer timer(problem.context, "accuracy");
-  Estimates               result;
-  if (problem.scene.accuracy.estimate == accuracy::Estimate::none)
-    return result;
-  for (unsigned int c = 0; c < states.size(); ++c)
+  try
     {
-      result.push_back(accuracy::estimate_energy(*problem.solver, states[c]));
-      problem.context.out()
-        << "estimated error of the mesh in the energy norm: " << 100. * result.back().relative
-        << " %" << (states.size() > 1 ? " in load case " + problem.scene.load_cases[c].name : "")
-        << std::endl;
+      const auto errors = mesh_errors(problem, states);
+      for (const std::string &line : described(problem, states, errors))
+        problem.context.out() << line << std::endl;
+      return errors;
     }
-  return result;
+  catch (const SolveError &error)
+    {
+      warn({std::string("no estimate of the mesh's error: ") + error.what()});
+      return {};
+    }
 }
 
 template <int dim>
@@ -194,14 +194,17 @@ void Results<dim>::add_last(const double                time,
                             const States               &states,
                             const std::optional<Field> &shape_gradient)
 {
-  const auto estimates = estimate(states);
-  draw(time, states, shape_gradient, estimates);
+  const auto errors = estimate(states);
+  draw(time, states, shape_gradient, errors);
   // contact may be paired anew before the summary is written
   count_rows();
   const auto summarized = [&](const unsigned int c) {
     auto result = summarize(states[c]);
-    if (!estimates.empty())
-      result.accuracy = {estimates[c].error, estimates[c].relative};
+    if (errors.empty())
+      return result;
+    result.accuracy = {errors[c].energy.error, errors[c].energy.relative, {}};
+    for (const auto &[name, of_response] : errors[c].responses)
+      result.accuracy->responses.emplace_back(name, of_response.error());
     return result;
   };
   summary.state = summarized(0);

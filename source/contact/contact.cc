@@ -311,6 +311,16 @@ typename Contact<dim>::Field Contact<dim>::area_gradient(const Field            
 }
 
 template <int dim>
+std::unique_ptr<PointGaps<dim>>
+Contact<dim>::point_gaps(const unsigned int                p,
+                         const Field                      &positions,
+                         const faces::HeldDirections<dim> &held) const
+{
+  return std::make_unique<PointGaps<dim>>(PairGeometry<dim>{
+    surface, shape, chosen[p], sides_of(surface, chosen[p]), positions, held, {}});
+}
+
+template <int dim>
 std::vector<double> Contact<dim>::slips(const Field                 &positions,
                                         const std::vector<Row<dim>> &rows,
                                         const Field                 &displacement) const

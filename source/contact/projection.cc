@@ -9,10 +9,6 @@
 #include <optional>
 
 namespace snug::contact {
-namespace {
-/// Weights below this are round-off of nodes that do not take part.
-const double least_weight = 1e-12;
-
 /// The nearest face of a master side.
 template <int dim>
 class MasterSide
@@ -73,6 +69,10 @@ private:
   }
 };
 
+namespace {
+/// Weights below this are round-off of nodes that do not take part.
+const double least_weight = 1e-12;
+
 Weights nonzero(const std::vector<double> &values, const std::vector<unsigned int> &points)
 {
   Weights result;
@@ -91,6 +91,8 @@ Weights nonzero(const std::vector<double> &values, const std::vector<unsigned in
   std::sort(result.begin(), result.end());
   return result;
 }
+
+} // namespace
 
 /// The rays of a master side along its normals.
 template <int dim>
@@ -160,7 +162,54 @@ private:
     return xi;
   }
 };
-} // namespace
+
+template <int dim>
+struct Projector<dim>::Search
+{
+  MasterSide<dim>        side;
+  MasterRays<dim>        rays;
+  faces::OuterEdges<dim> edges;
+};
+
+template <int dim>
+Projector<dim>::Projector(const mesh::Surface<dim>        &surface,
+                          const std::vector<unsigned int> &master,
+                          const faces::FaceShape<dim>     &shape,
+                          const Field                     &positions,
+                          const Field                     &normals)
+  : surface(surface)
+  , shape(shape)
+  , positions(positions)
+  , search(new Search{{surface, master, shape, positions},
+                      {surface, master, shape, positions, normals},
+                      {surface, master, shape}})
+{}
+
+template <int dim>
+Projector<dim>::~Projector() = default;
+
+template <int dim>
+std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1, dim> &p) const
+{
+  const auto closest = search->side.closest(p);
+  // Beyond the end of the master side the closest point stays on its edge, and the row would
+  // hold back a node that passes by the master side.
+  const double excess =
+    search->edges.excess(closest.face, closest.point.xi, p - closest.point.position, positions);
+  if (excess >= edge_tolerance)
+    return {};
+  const auto ray        = search->rays.find(p, closest.face, closest.point.xi);
+  const auto [face, xi] = ray.value_or(std::make_pair(closest.face, closest.point.xi));
+  const auto &of        = surface.faces()[face];
+  const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
+  // Where the ray begins on the side, as in a symmetry plane, nothing ends.
+  const double beyond = ray ? 0. : std::max(0., excess);
+  const auto   meets  = of.samples.empty()
+                          ? masters
+                          : nonzero(search->rays.of(face).on_surface(xi).values.value, of.samples);
+  const double relief = edge_relief(beyond, mean_face_size(surface, {face}, positions));
+  return PointProjection<dim>{face, xi, bool(ray), masters, meets, relief};
+}
 
 template <int dim>
 std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &surface,
@@ -172,39 +221,23 @@ std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &s
   std::vector<Projection<dim>> result;
   if (sides.master.empty())
     return result;
-  const MasterSide<dim>        master(surface, sides.master, shape, positions);
-  const MasterRays<dim>        rays(surface, sides.master, shape, positions, normals);
-  const faces::OuterEdges<dim> edges(surface, sides.master, shape);
-  std::vector<bool>            visited(surface.n_nodes(), false);
+  const Projector<dim> projector(surface, sides.master, shape, positions, normals);
+  std::vector<bool>    visited(surface.n_nodes(), false);
   for (const unsigned int slave_face : sides.slave)
     for (const unsigned int slave : surface.faces()[slave_face].nodes)
       {
         // Faces share nodes, of which each is projected once; hanging ones never.
         if (visited[slave] || !surface.masters(slave).empty())
           continue;
-        visited[slave]     = true;
-        const auto closest = master.closest(positions[slave]);
-        // Beyond the end of the master side the closest point stays on its edge, and the row would
-        // hold back a node that passes by the master side.
-        const double excess = edges.excess(closest.face, closest.point.xi,
-                                           positions[slave] - closest.point.position, positions);
-        if (excess >= edge_tolerance)
-          continue;
-        const auto ray        = rays.find(positions[slave], closest.face, closest.point.xi);
-        const auto [face, xi] = ray.value_or(std::make_pair(closest.face, closest.point.xi));
-        const auto &of        = surface.faces()[face];
-        const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
-        // Where the ray begins on the side, as in a symmetry plane, nothing ends.
-        const double beyond = ray ? 0. : std::max(0., excess);
-        const auto   meets  = of.samples.empty()
-                                ? masters
-                                : nonzero(rays.of(face).on_surface(xi).values.value, of.samples);
-        const double relief = edge_relief(beyond, mean_face_size(surface, {face}, positions));
-        result.push_back({slave, face, xi, bool(ray), masters, meets, relief});
+        visited[slave] = true;
+        if (const auto foot = projector.onto(positions[slave]))
+          result.push_back({*foot, slave});
       }
   return result;
 }
 
+template class Projector<2>;
+template class Projector<3>;
 template std::vector<Projection<2>> project(const mesh::Surface<2> &,
                                             const PairFaces &,
                                             const faces::FaceShape<2> &,

@@ -2,8 +2,6 @@
 #include <snug/elasticity/pressure_space.h>
 #include <snug/elasticity/stress.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
 #include <algorithm>
 
 namespace snug::elasticity {
@@ -64,95 +62,32 @@ bool HigherFunctions<dim>::is_on_face(const unsigned int i, const unsigned int f
   return factors[i][face / 2] == (face % 2) * degree;
 }
 
-namespace {
-/// A function of V at a point of a cell in space.
 template <int dim>
-struct SpaceValue
+LocalSpace<dim>::LocalSpace(const unsigned int        degree,
+                            const mesh::Idealization &idealization,
+                            const Formulation         formulation)
+  : degree(degree), idealization(idealization), formulation(formulation), functions(degree)
 {
-  dealii::Tensor<1, dim> gradient;
-  double                 hoop; ///< value / r, or 0
-};
-
-/// divergence of function i times the unit vector c
-template <int dim>
-double divergence(const SpaceValue<dim> &value, const unsigned int c)
-{
-  return value.gradient[c] + (c == 0 ? value.hoop : 0.);
+  // Exact for products of functions of degree p + 1 on parallelograms.
+  for (const auto &point : mesh::lagrange_gauss_points<dim>(degree + 1))
+    {
+      quadrature.push_back(mesh::lagrange_point<dim>(degree, point.point));
+      quadrature.back().weight = point.weight;
+      at_quadrature.push_back(functions.at(point.point));
+    }
 }
 
 template <int dim>
-class CellForm
+void add_force(const typename LocalSpace<dim>::Functions &values,
+               const dealii::Tensor<1, dim>              &force,
+               LocalResidual                             &r)
 {
-public:
-  CellForm(const HigherFunctions<dim>                  &functions,
-           const std::vector<mesh::LagrangePoint<dim>> &quadrature,
-           const std::vector<dealii::Tensor<1, dim>>   &X,
-           const mesh::Idealization                    &idealization)
-  {
-    for (const auto &shape : quadrature)
-      {
-        const CellPoint<dim>         point(shape, X, idealization);
-        const auto                   inverse = invert(jacobian(shape, X));
-        std::vector<SpaceValue<dim>> values;
-        for (const auto &f : functions.at(shape.point))
-          values.push_back({f.gradient * inverse, f.value * point.inverse_radius});
-        at.push_back(values);
-        dV.push_back(point.dV);
-        xi.push_back(shape.point);
-      }
-  }
+  for (unsigned int i = 0; i < values.size(); ++i)
+    for (unsigned int c = 0; c < dim; ++c)
+      r[dim * i + c] += values[i].value * force[c];
+}
 
-  /// a(e, v), row by row.
-  std::vector<double> matrix(const double lambda, const double mu) const
-  {
-    const unsigned int  n = at[0].size(), size = dim * n;
-    std::vector<double> A(size * size, 0.);
-    for (unsigned int q = 0; q < at.size(); ++q)
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          {
-            const auto  &u = at[q][i], &v = at[q][j];
-            const double product = u.gradient * v.gradient;
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  double value = mu * u.gradient[d] * v.gradient[c] +
-                                 lambda * divergence(u, c) * divergence(v, d);
-                  if (c == d)
-                    value += mu * product;
-                  if (c == 0 && d == 0)
-                    value += 2. * mu * u.hoop * v.hoop;
-                  A[(dim * i + c) * size + dim * j + d] += dV[q] * value;
-                }
-          }
-    return A;
-  }
-
-  /// A += factor sum_k c_k c_k', c_k' v = int psi_k div v dV with the functions of a pressure
-  /// space.
-  void add_projected(const PressureSpace<dim> &pressures,
-                     const double              factor,
-                     std::vector<double>      &A) const
-  {
-    const unsigned int n = at[0].size(), size = dim * n;
-    for (const auto &psi : pressures.functions())
-      {
-        std::vector<double> row(size, 0.);
-        for (unsigned int q = 0; q < at.size(); ++q)
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int c = 0; c < dim; ++c)
-              row[dim * i + c] += psi[q] * dV[q] * divergence(at[q][i], c);
-        for (unsigned int i = 0; i < size; ++i)
-          for (unsigned int j = 0; j < size; ++j)
-            A[i * size + j] += factor * row[i] * row[j];
-      }
-  }
-
-  std::vector<std::vector<SpaceValue<dim>>> at; ///< [point][function]
-  std::vector<double>                       dV;
-  std::vector<dealii::Point<dim>>           xi;
-};
-
+namespace {
 /// Unit vectors at right angles to @p held, which are orthonormal.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> free_directions(std::vector<dealii::Tensor<1, dim>> held)
@@ -176,96 +111,74 @@ std::vector<dealii::Tensor<1, dim>> free_directions(std::vector<dealii::Tensor<1
     }
   return result;
 }
+/// Differences of nodes up to this part of a cell are rounding.
+const double congruent = 1e-12;
 } // namespace
 
 template <int dim>
-LocalError<dim>::LocalError(const unsigned int        degree,
-                            const mesh::Idealization &idealization,
-                            const Formulation         formulation)
-  : degree(degree)
-  , idealization(idealization)
-  , formulation(formulation)
-  , element(degree, idealization, formulation)
-  , higher(degree)
-{
-  // Exact for products of functions of degree p + 1 on parallelograms.
-  for (const auto &point : mesh::lagrange_gauss_points<dim>(degree + 1))
-    {
-      quadrature.push_back(mesh::lagrange_point<dim>(degree, point.point));
-      quadrature.back().weight = point.weight;
-    }
-}
-
-template <int dim>
-void LocalError<dim>::add_residual(const Nodes    &X,
-                                   const Material &material,
-                                   const Nodes    &u,
-                                   const Nodes    &b,
-                                   double         *r) const
-{
-  const CellForm<dim> form(higher, quadrature, X, idealization);
-  const auto          stresses = element.stresses(X, material, u, quadrature);
-  for (unsigned int q = 0; q < quadrature.size(); ++q)
-    {
-      for (unsigned int i = 0; i < higher.size(); ++i)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            double flux = c == 0 ? stresses[q][2][2] * form.at[q][i].hoop : 0.;
-            for (unsigned int d = 0; d < dim; ++d)
-              flux += stresses[q][c][d] * form.at[q][i].gradient[d];
-            r[dim * i + c] -= form.dV[q] * flux;
-          }
-      if (!b.empty())
-        add_force(quadrature[q].point, form.dV[q] * b[q], r);
-    }
-}
-
-template <int dim>
-typename LocalError<dim>::Nodes LocalError<dim>::quadrature_points(const Nodes &X) const
-{
-  Nodes points;
-  for (const auto &shape : quadrature)
-    points.push_back(value(shape, X));
-  return points;
-}
-
-template <int dim>
-void LocalError<dim>::add_force(const dealii::Point<dim>     &point,
-                                const dealii::Tensor<1, dim> &force,
-                                double                       *r) const
-{
-  const auto values = higher.at(point);
-  for (unsigned int i = 0; i < values.size(); ++i)
-    for (unsigned int c = 0; c < dim; ++c)
-      r[dim * i + c] += values[i].value * force[c];
-}
-
-template <int dim>
-std::vector<double> LocalError<dim>::matrix(const Nodes &X, const Material &material) const
-{
-  const CellForm<dim> form(higher, quadrature, X, idealization);
-  const double        mu = material.lame_mu();
-  if (formulation == Formulation::standard)
-    return form.matrix(lame_lambda(idealization, material), mu);
-  auto A = form.matrix(-2. / 3. * mu, mu);
-  form.add_projected(PressureSpace<dim>(degree, form.xi, form.dV), material.bulk_modulus(), A);
-  return A;
-}
-
-/// In coordinates y of the space along which V is free, v = Q y.
-template <int dim>
-void LocalError<dim>::solve(const Nodes           &X,
+LocalError<dim>::LocalError(const LocalSpace<dim> &space,
+                            const Nodes           &X,
                             const Material        &material,
-                            const HeldFaces<dim>  &held,
-                            std::vector<Residual> &r) const
+                            const HeldFaces<dim>  &held)
+  : space(space), X(X), material(material), held(held)
 {
-  const auto                                                   A = matrix(X, material);
-  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> columns; // function, direction
-  for (unsigned int i = 0; i < higher.size(); ++i)
+  for (unsigned int q = 0; q < space.quadrature.size(); ++q)
+    {
+      const auto          &shape = space.quadrature[q];
+      const CellPoint<dim> point(shape, X, space.idealization);
+      const auto           inverse = invert(jacobian(shape, X));
+      std::vector<Value>   values;
+      for (const auto &f : space.at_quadrature[q])
+        values.push_back({f.gradient * inverse, f.value * point.inverse_radius});
+      at.push_back(values);
+      dV.push_back(point.dV);
+    }
+  find_basis();
+  const auto         A = matrix();
+  const unsigned int n = basis.size(), size = space.size();
+  factor.reinit(n);
+  for (unsigned int k = 0; k < n; ++k)
+    for (unsigned int l = 0; l <= k; ++l)
+      {
+        const auto &[i, u] = basis[k];
+        const auto &[j, v] = basis[l];
+        double sum         = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            sum += u[c] * v[d] * A[(dim * i + c) * size + dim * j + d];
+        factor(k, l) = factor(l, k) = sum;
+      }
+  factor.set_property(dealii::LAPACKSupport::symmetric);
+  factor.compute_cholesky_factorization();
+}
+
+template <int dim>
+bool LocalError<dim>::fits(const LocalSpace<dim> &of_space,
+                           const Nodes           &other,
+                           const Material        &of_other,
+                           const HeldFaces<dim>  &held_there) const
+{
+  if (&of_space != &space || of_other.youngs_modulus != material.youngs_modulus ||
+      of_other.poissons_ratio != material.poissons_ratio || held_there != held)
+    return false;
+  const double size = (X.back() - X.front()).norm();
+  if (space.idealization.is_axisymmetric() && std::abs(other[0][0] - X[0][0]) > congruent * size)
+    return false;
+  for (unsigned int a = 1; a < X.size(); ++a)
+    if (((other[a] - other[0]) - (X[a] - X[0])).norm() > congruent * size)
+      return false;
+  return true;
+}
+
+/// In coordinates of the space along which V is free.
+template <int dim>
+void LocalError<dim>::find_basis()
+{
+  for (unsigned int i = 0; i < space.functions.size(); ++i)
     {
       std::vector<dealii::Tensor<1, dim>> of_function;
       for (unsigned int f = 0; f < 2 * dim; ++f)
-        if (higher.is_on_face(i, f))
+        if (space.functions.is_on_face(i, f))
           for (auto direction : held[f])
             {
               for (const auto &h : of_function)
@@ -274,38 +187,113 @@ void LocalError<dim>::solve(const Nodes           &X,
                 of_function.push_back(direction / direction.norm());
             }
       for (const auto &direction : free_directions<dim>(of_function))
-        columns.emplace_back(i, direction);
-    }
-  const unsigned int               n = columns.size();
-  dealii::LAPACKFullMatrix<double> reduced(n, n);
-  for (unsigned int k = 0; k < n; ++k)
-    for (unsigned int l = 0; l < n; ++l)
-      {
-        double sum = 0.;
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int d = 0; d < dim; ++d)
-            sum += columns[k].second[c] * columns[l].second[d] *
-                   A[(dim * columns[k].first + c) * size() + dim * columns[l].first + d];
-        reduced(k, l) = sum;
-      }
-  reduced.set_property(dealii::LAPACKSupport::symmetric);
-  reduced.compute_cholesky_factorization();
-  for (auto &of_load : r)
-    {
-      dealii::Vector<double> y(n);
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int c = 0; c < dim; ++c)
-          y[k] += columns[k].second[c] * of_load[dim * columns[k].first + c];
-      reduced.solve(y);
-      of_load.assign(size(), 0.);
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int c = 0; c < dim; ++c)
-          of_load[dim * columns[k].first + c] += columns[k].second[c] * y[k];
+        basis.emplace_back(i, direction);
     }
 }
 
+/// a(e, v), row by row, below the diagonal of functions.
+template <int dim>
+std::vector<double> LocalError<dim>::matrix(const double lambda, const double mu) const
+{
+  const unsigned int  n = space.functions.size(), size = space.size();
+  std::vector<double> A(size * size, 0.);
+  for (unsigned int q = 0; q < at.size(); ++q)
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        {
+          const auto  &u = at[q][i], &v = at[q][j];
+          const double product = mu * (u.gradient * v.gradient);
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                double value =
+                  mu * u.gradient[d] * v.gradient[c] + lambda * u.divergence(c) * v.divergence(d);
+                if (c == d)
+                  value += product;
+                if (c == 0 && d == 0)
+                  value += 2. * mu * u.hoop * v.hoop;
+                A[(dim * i + c) * size + dim * j + d] += dV[q] * value;
+              }
+        }
+  return A;
+}
+
+/// A += factor sum_k c_k c_k', c_k' v = int psi_k div v dV with the functions of a pressure
+/// space.
+template <int dim>
+void LocalError<dim>::add_projected(const double factor, std::vector<double> &A) const
+{
+  const unsigned int              n = space.functions.size(), size = space.size();
+  std::vector<dealii::Point<dim>> points;
+  for (const auto &shape : space.quadrature)
+    points.push_back(shape.point);
+  const PressureSpace<dim> pressures(space.degree, points, dV);
+  for (const auto &psi : pressures.functions())
+    {
+      std::vector<double> row(size, 0.);
+      for (unsigned int q = 0; q < at.size(); ++q)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            row[dim * i + c] += psi[q] * dV[q] * at[q][i].divergence(c);
+      for (unsigned int i = 0; i < size; ++i)
+        for (unsigned int j = 0; j < size; ++j)
+          A[i * size + j] += factor * row[i] * row[j];
+    }
+}
+
+template <int dim>
+std::vector<double> LocalError<dim>::matrix() const
+{
+  const double mu = material.lame_mu();
+  if (space.formulation == Formulation::standard)
+    return matrix(lame_lambda(space.idealization, material), mu);
+  auto A = matrix(-2. / 3. * mu, mu);
+  add_projected(material.bulk_modulus(), A);
+  return A;
+}
+
+template <int dim>
+void LocalError<dim>::add_residual(const Stresses &sigma, const Nodes &b, LocalResidual &r) const
+{
+  for (unsigned int q = 0; q < at.size(); ++q)
+    {
+      for (unsigned int i = 0; i < at[q].size(); ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            double flux = c == 0 ? sigma[q][2][2] * at[q][i].hoop : 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              flux += sigma[q][c][d] * at[q][i].gradient[d];
+            r[dim * i + c] -= dV[q] * flux;
+          }
+      if (!b.empty())
+        add_force<dim>(space.at_quadrature[q], dV[q] * b[q], r);
+    }
+}
+
+template <int dim>
+void LocalError<dim>::solve(LocalResidual &r) const
+{
+  dealii::Vector<double> y(basis.size());
+  for (unsigned int k = 0; k < basis.size(); ++k)
+    for (unsigned int c = 0; c < dim; ++c)
+      y[k] += basis[k].second[c] * r[dim * basis[k].first + c];
+  factor.solve(y);
+  r.assign(space.size(), 0.);
+  for (unsigned int k = 0; k < basis.size(); ++k)
+    for (unsigned int c = 0; c < dim; ++c)
+      r[dim * basis[k].first + c] += basis[k].second[c] * y[k];
+}
+
+template void add_force<2>(const typename LocalSpace<2>::Functions &,
+                           const dealii::Tensor<1, 2> &,
+                           LocalResidual &);
+template void add_force<3>(const typename LocalSpace<3>::Functions &,
+                           const dealii::Tensor<1, 3> &,
+                           LocalResidual &);
 template class HigherFunctions<2>;
 template class HigherFunctions<3>;
+template struct LocalSpace<2>;
+template struct LocalSpace<3>;
 template class LocalError<2>;
 template class LocalError<3>;
 } // namespace snug::elasticity

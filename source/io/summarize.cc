@@ -1,6 +1,6 @@
 #include <snug/io/summary.h>
 
-#include <array>
+#include <vector>
 
 namespace snug::io {
 /// The rows of B are not known here; the caller adds them.
@@ -75,10 +75,11 @@ Summary::State summarize(const state::ContactState<dim> &state)
 Summary::Times collect_times(const RunContext &context)
 {
   // in the order of the members of Times
-  std::array<double, 8> seconds = {context.seconds("setup"),         context.seconds("assembly"),
-                                   context.seconds("factorization"), context.seconds("solve"),
-                                   context.seconds("gradient"),      context.seconds("accuracy"),
-                                   context.seconds("output"),        context.seconds()};
+  std::vector<double> seconds;
+  for (const char *stage :
+       {"setup", "assembly", "factorization", "solve", "gradient", "accuracy", "output"})
+    seconds.push_back(context.seconds(stage));
+  seconds.push_back(context.seconds());
   // stage by stage the slowest rank, for which the others wait
   MPI_Allreduce(MPI_IN_PLACE, seconds.data(), seconds.size(), MPI_DOUBLE, MPI_MAX,
                 context.communicator());

@@ -51,8 +51,12 @@ Json summary_part(const Summary::Reaction &reaction)
 
 Json summary_part(const std::optional<Summary::Accuracy> &accuracy)
 {
-  return accuracy ? Json{{"error", accuracy->error}, {"relative", accuracy->relative}}
-                  : Json(nullptr);
+  if (!accuracy)
+    return nullptr;
+  Json responses = Json::object();
+  for (const auto &[name, error] : accuracy->responses)
+    responses[name] = error;
+  return {{"error", accuracy->error}, {"relative", accuracy->relative}, {"responses", responses}};
 }
 
 /// Keys have the names of the members, see state::ContactState for formulas and units.

@@ -49,6 +49,20 @@ public:
     return measure(pressure_rows(counted_rows(solver, state), state)).value;
   }
 
+  std::optional<double> measured(const state::StateSolver<dim>   &solver,
+                                 const std::vector<PressureRows> &of_pairs) const override
+  {
+    const auto   chosen = chosen_pairs(solver, pair);
+    PressureRows rows;
+    for (unsigned int p = 0; p < chosen.size(); ++p)
+      if (chosen[p])
+        {
+          rows.force.insert(rows.force.end(), of_pairs[p].force.begin(), of_pairs[p].force.end());
+          rows.area.insert(rows.area.end(), of_pairs[p].area.begin(), of_pairs[p].area.end());
+        }
+    return measure(rows).value;
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
@@ -98,7 +112,7 @@ private:
 } // namespace
 
 template <int dim>
-std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std::string &name)
+std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std::string &name)
 {
   const auto       &pairs = solver.contact().pairs();
   std::vector<bool> chosen;
@@ -108,6 +122,13 @@ std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std:
                      name == pair.master_name + ": " + pair.slave_name);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
     throw InputError("there is no contact pair '" + name + "'");
+  return chosen;
+}
+
+template <int dim>
+std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std::string &name)
+{
+  const auto        chosen = chosen_pairs(solver, name);
   std::vector<bool> result;
   for (const auto &place : solver.contact().places())
     result.push_back(chosen[place.pair]);
@@ -122,6 +143,8 @@ std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &p
   return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries);
 }
 
+template std::vector<bool> chosen_pairs(const state::StateSolver<2> &, const std::string &);
+template std::vector<bool> chosen_pairs(const state::StateSolver<3> &, const std::string &);
 template std::vector<bool> rows_of_pair(const state::StateSolver<2> &, const std::string &);
 template std::unique_ptr<Response<2>>
 contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);

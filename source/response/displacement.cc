@@ -153,6 +153,24 @@ public:
     return parameters.point.empty() ? partials_on_face(solver, state) : partials_at_point(solver);
   }
 
+  /// Of a point, no field: its load is concentrated there.
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
+                                        const state::ContactState<dim> &state) const override
+  {
+    FieldDerivative<dim> result;
+    if (!parameters.point.empty())
+      return result;
+    const double area = average(solver, state, parameters).area;
+    result.boundary   = find_boundary(solver, parameters);
+    if (parameters.component == Component::normal)
+      result.traction = [area](const dealii::Tensor<1, dim> &normal) { return normal / area; };
+    else
+      result.traction = [e = unit_vector<dim>(parameters) / area](const dealii::Tensor<1, dim> &) {
+        return e;
+      };
+    return result;
+  }
+
 private:
   /// Weights are of the place in the cell, which the design does not change: dJ/dX = 0.
   Partials<dim> partials_at_point(const state::StateSolver<dim> &solver) const

@@ -1,3 +1,4 @@
+#include <snug/elasticity/stress.h>
 #include <snug/elasticity/von_mises_power.h>
 #include <snug/response/quantities.h>
 #include <snug/state/cell_gradients.h>
@@ -53,6 +54,40 @@ public:
       assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
       state::add_to_cell_nodes(solver, s, i, by_X, result.positions);
     });
+    return result;
+  }
+
+  /// J' v = J/S int s^(p-1) ds dV with s = sigma_vM / scale, and sigma_vM' = 3 mu dev sigma :
+  /// eps(v) / sigma_vM. In plane stress eps_zz is -nu/(1-nu) times the trace in the plane.
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
+                                        const state::ContactState<dim> &state) const override
+  {
+    FieldDerivative<dim> result;
+    const auto           of = integrals(solver, state);
+    if (of.scale == 0.)
+      return result;
+    const double J = of.scale * std::pow(of.power / of.volume, 1. / p);
+    const bool   is_sheet =
+      solver.mesh().idealization().kind == mesh::Idealization::Kind::plane_stress;
+    const double exponent = p;
+    result.body           = body;
+    result.stress         = [=](const elasticity::Material          &material,
+                        const dealii::SymmetricTensor<2, 3> &stress) {
+      const double s = elasticity::von_mises(stress) / of.scale;
+      if (s == 0.)
+        return dealii::SymmetricTensor<2, 3>();
+      const double factor =
+        J / of.power * std::pow(s, exponent - 2.) * 3. * material.lame_mu() / (of.scale * of.scale);
+      auto flux = factor * deviator(stress);
+      if (is_sheet)
+        {
+          const double nu = material.poissons_ratio, across = -nu / (1. - nu) * flux[2][2];
+          flux[0][0] += across;
+          flux[1][1] += across;
+          flux[2][2] = 0.;
+        }
+      return flux;
+    };
     return result;
   }
 

@@ -22,6 +22,15 @@ public:
     return state.*member;
   }
 
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim> &,
+                                        const State &) const override
+  {
+    FieldDerivative<dim> result;
+    result.stiffness = stiffness;
+    result.load      = load;
+    return result;
+  }
+
   Partials<dim> partials(const state::StateSolver<dim> &solver, const State &state) const override
   {
     Partials<dim> result;

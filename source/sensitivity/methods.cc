@@ -10,11 +10,12 @@ using response::Partials;
 
 namespace {
 template <int dim>
-TangentSystem tangent_system(const GradientProblem<dim> &problem)
+TangentSystem tangent_system(const state::StateSolver<dim>  &solver,
+                             const state::ContactState<dim> &state,
+                             const Solves                    solves)
 {
-  return TangentSystem(problem.solver.feti(problem.state),
-                       strong_rows(problem.solver, problem.state), problem.solver.model().solver,
-                       problem.parameters.solves, problem.state.dual.directions);
+  return TangentSystem(solver.feti(state), strong_rows(solver, state), solver.model().solver,
+                       solves, state.dual.directions);
 }
 
 /// values_j += column i of products (adjoint, residual derivatives).
@@ -42,16 +43,16 @@ std::vector<Partials<dim>> partials_of(const GradientProblem<dim> &problem,
 }
 
 template <int dim>
-KktVectors state_partials(const GradientProblem<dim>       &problem,
+KktVectors state_partials(const state::StateSolver<dim>    &solver,
+                          const state::ContactState<dim>   &state,
                           const std::vector<Partials<dim>> &partials)
 {
-  const auto  &solver     = problem.solver;
   const auto  &of_contact = solver.gluing().contact_of_row();
   const auto  &scales     = solver.gluing().contact_scales();
   KktVectors   result;
   unsigned int k = partials.size();
-  result.dual    = qp::MultiVector(problem.state.dual.lambda.n_rows(), k);
-  for (const auto &u : problem.state.u)
+  result.dual    = qp::MultiVector(state.dual.lambda.n_rows(), k);
+  for (const auto &u : state.u)
     result.primal.emplace_back(u.n_rows(), k);
   for (unsigned int j = 0; j < k; ++j)
     {
@@ -67,6 +68,15 @@ KktVectors state_partials(const GradientProblem<dim>       &problem,
 }
 
 template <int dim>
+KktVectors adjoint_states(const state::StateSolver<dim>    &solver,
+                          const state::ContactState<dim>   &state,
+                          const std::vector<Partials<dim>> &partials,
+                          const Solves                      solves)
+{
+  return tangent_system(solver, state, solves).solve(state_partials(solver, state, partials));
+}
+
+template <int dim>
 KktVectors residual_derivatives(const GradientProblem<dim> &problem)
 {
   std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
@@ -78,7 +88,8 @@ KktVectors residual_derivatives(const GradientProblem<dim> &problem)
 template <int dim>
 KktVectors state_derivatives(const GradientProblem<dim> &problem)
 {
-  return tangent_system(problem).solve(residual_derivatives(problem));
+  return tangent_system(problem.solver, problem.state, problem.parameters.solves)
+    .solve(residual_derivatives(problem));
 }
 
 template <int dim>
@@ -117,9 +128,10 @@ template <int dim>
 Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,
                                  const Responses<dim>       &responses)
 {
-  auto            partials = partials_of(problem, responses);
-  const auto      adjoint  = tangent_system(problem).solve(state_partials(problem, partials));
-  const bool      exact    = problem.parameters.derivatives == Derivatives::exact;
+  auto       partials = partials_of(problem, responses);
+  const auto adjoint =
+    adjoint_states(problem.solver, problem.state, partials, problem.parameters.solves);
+  const bool      exact = problem.parameters.derivatives == Derivatives::exact;
   qp::MultiVector through_state;
   if (!exact)
     through_state =
@@ -146,8 +158,8 @@ Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
 {
   const auto     partials      = partials_of(problem, responses);
   const auto     derivatives   = state_derivatives(problem);
-  const auto     through_state = products(state_partials(problem, partials), derivatives,
-                                          problem.solver.context().communicator());
+  const auto     through_state = products(state_partials(problem.solver, problem.state, partials),
+                                          derivatives, problem.solver.context().communicator());
   Gradients<dim> result;
   for (unsigned int i = 0; i < responses.size(); ++i)
     {
@@ -164,8 +176,12 @@ Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
   template bool                       needs_solve(const response::Response<dim> &);                \
   template std::vector<Partials<dim>> partials_of(const GradientProblem<dim> &,                    \
                                                   const Responses<dim> &);                         \
-  template KktVectors                 state_partials(const GradientProblem<dim> &,                 \
+  template KktVectors                 state_partials(const state::StateSolver<dim> &,              \
+                                                     const state::ContactState<dim> &,             \
                                                      const std::vector<Partials<dim>> &);          \
+  template KktVectors                 adjoint_states(const state::StateSolver<dim> &,              \
+                                                     const state::ContactState<dim> &,             \
+                                                     const std::vector<Partials<dim>> &, Solves);  \
   template KktVectors                 residual_derivatives(const GradientProblem<dim> &);          \
   template KktVectors                 state_derivatives(const GradientProblem<dim> &);             \
   template Gradients<dim> energy_gradients(const GradientProblem<dim> &, const Responses<dim> &);  \

@@ -93,10 +93,10 @@ std::vector<OneSided> one_sided_gradients(const GradientProblem<dim> &problem,
   append_negative(both.dual);
   for (auto &part : both.primal)
     append_negative(part);
-  const auto            partials      = partials_of(problem, responses);
-  const auto            through_state = products(state_partials(problem, partials),
-                                                 directional_derivatives(problem.solver, problem.state, both),
-                                                 problem.solver.context().communicator());
+  const auto partials      = partials_of(problem, responses);
+  const auto through_state = products(state_partials(problem.solver, problem.state, partials),
+                                      directional_derivatives(problem.solver, problem.state, both),
+                                      problem.solver.context().communicator());
   std::vector<OneSided> result;
   for (unsigned int i = 0; i < responses.size(); ++i)
     {

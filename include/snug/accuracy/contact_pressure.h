@@ -8,6 +8,13 @@
 #include <vector>
 
 namespace snug::accuracy {
+/// Values at all surface nodes of what is given for the rows of a pair: that of the row, or of
+/// those that act for the node, or interpolated at hanging nodes; 0 elsewhere.
+template <int dim>
+std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
+                                 unsigned int                   pair,
+                                 const std::vector<double>     &of_rows);
+
 /**
  * The pressure of contact rows as a function on both sides of their pairs
  * [force / length^2]: on a slave side that of the rows at its nodes and between them

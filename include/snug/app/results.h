@@ -1,7 +1,7 @@
 #ifndef snug_app_results_h
 #define snug_app_results_h
 
-#include <snug/app/shape_problem.h>
+#include <snug/app/mesh_error.h>
 #include <snug/io/contact_output.h>
 #include <snug/io/fields.h>
 #include <snug/io/summary.h>
@@ -35,10 +35,10 @@ public:
 
   /// Draw a design, unless the picture of this time is there already.
   /// Collective.
-  void draw(double                                       time,
-            const States                                &states,
-            const std::optional<Field>                  &shape_gradient,
-            const std::vector<accuracy::EnergyEstimate> &estimates = {});
+  void draw(double                        time,
+            const States                 &states,
+            const std::optional<Field>   &shape_gradient,
+            const std::vector<MeshError> &errors = {});
 
   /// Draw and summarize the first of several designs, with the shape
   /// gradient (this rank's share) if there is one. Collective.
@@ -70,12 +70,10 @@ public:
   io::Summary summary; ///< its task, gradient and optimization are the task's
 
 private:
-  using Estimates = std::vector<accuracy::EnergyEstimate>; ///< per load case; empty: none
-
   /// For the summary.
-  void               count_rows();
-  io::Summary::State summarize(const state::ContactState<dim> &state) const;
-  Estimates          estimate(const States &states) const;
+  void                   count_rows();
+  io::Summary::State     summarize(const state::ContactState<dim> &state) const;
+  std::vector<MeshError> estimate(const States &states);
 
   /// Writers of one load case.
   struct Pictures

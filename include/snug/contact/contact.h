@@ -2,6 +2,7 @@
 #define snug_contact_contact_h
 
 #include <snug/contact/matching.h>
+#include <snug/contact/point_gaps.h>
 #include <snug/contact/row_group.h>
 #include <snug/geometry/formula.h>
 
@@ -71,6 +72,10 @@ public:
   std::vector<double> areas(const Field &positions) const;
   /// d/dX sum_i factors_i areas_i for factors of all rows.
   Field area_gradient(const Field &positions, const std::vector<double> &factors) const;
+
+  /// The gaps of pair @p p between its rows. The arguments must outlive it.
+  std::unique_ptr<PointGaps<dim>>
+  point_gaps(unsigned int p, const Field &positions, const faces::HeldDirections<dim> &held) const;
 
   /// @name What the rows do not see, as parts of the slave node's largest
   /// face

@@ -3,6 +3,8 @@
 
 #include <snug/contact/pair_geometry.h>
 
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,24 +13,30 @@ namespace snug::contact {
 using Weights = std::vector<std::pair<unsigned int, double>>;
 
 /**
- * Slave node s against master face, found once: its foot, the point x(xi) =
+ * A point p against a master face: its foot, the point x(xi) =
  * sum_k w_k x_k of the face from which the normal of the master side leads
- * to the slave node,
- *   x_s = x(xi) + t v(xi),  v(xi) = sum_k w_k n_k,  w_k = N_k(xi),
+ * to it,
+ *   p = x(xi) + t v(xi),  v(xi) = sum_k w_k n_k,  w_k = N_k(xi),
  * with the nodal normals n_k. On a circle or a sphere v is radial to
  * rounding, so that rows have no lever about its centre, as they would have
  * from the point of the facet that is closest to the node.
  */
 template <int dim>
-struct Projection
+struct PointProjection
 {
-  unsigned int           slave;   ///< surface node
   unsigned int           face;    ///< of the surface
   dealii::Point<dim - 1> xi;      ///< of the foot
   bool                   is_ray;  ///< false: the closest point, as no ray leads to the node
   Weights                masters; ///< the nodes of the face
   Weights                surface; ///< the points that give the true surface where the ray meets it
   double relief; ///< edge_relief() beyond the end of the master side, else 0 [length]
+};
+
+/// That of a slave node, found once.
+template <int dim>
+struct Projection : PointProjection<dim>
+{
+  unsigned int slave; ///< surface node
 };
 
 /**
@@ -53,14 +61,41 @@ constexpr double edge_relief(double excess, double h)
 }
 
 /**
- * Projections of the slave nodes that do not hang, in the order of the
- * slave faces and their nodes, without the nodes beyond the edge of the
- * master side, by the @p normals of the master's nodes. The search starts
+ * Projects points onto a master side by the @p normals of its nodes. The search starts
  * from the closest point, which is taken where no ray is found, as beyond the
  * edge. The faces to be tried come from a tree of boxes
  * that contain them, so none is missed. Where faces are equally close, the
  * one with the lowest index is taken; weights below 1e-12 become 0.
  */
+template <int dim>
+class Projector
+{
+public:
+  using Field = typename mesh::Surface<dim>::Field;
+
+  /// @p master: at least one face. The references must outlive this.
+  Projector(const mesh::Surface<dim>        &surface,
+            const std::vector<unsigned int> &master,
+            const faces::FaceShape<dim>     &shape,
+            const Field                     &positions,
+            const Field                     &normals);
+  ~Projector();
+
+  /// Nothing beyond the edge of the master side.
+  std::optional<PointProjection<dim>> onto(const dealii::Tensor<1, dim> &p) const;
+
+private:
+  struct Search;
+
+  const mesh::Surface<dim>           &surface;
+  const faces::FaceShape<dim>        &shape;
+  const Field                        &positions;
+  const std::unique_ptr<const Search> search;
+};
+
+/// Projections of the slave nodes that do not hang, in the order of the
+/// slave faces and their nodes, without the nodes beyond the edge of the
+/// master side.
 template <int dim>
 std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &surface,
                                      const PairFaces                          &sides,

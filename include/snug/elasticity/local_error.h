@@ -3,6 +3,8 @@
 
 #include <snug/elasticity/element.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 namespace snug::elasticity {
 /**
  * What polynomials of degree p + 1 on a cell have that those of degree p = 1 or 2 have not:
@@ -39,9 +41,38 @@ private:
 template <int dim>
 using HeldFaces = std::array<std::vector<dealii::Tensor<1, dim>>, 2 * dim>;
 
+/// What the local problems of all cells of a body have in common: the space V of LocalError
+/// but for what is held, and the points where integrals are taken.
+template <int dim>
+struct LocalSpace
+{
+  using Functions = std::vector<typename HigherFunctions<dim>::Value>;
+
+  LocalSpace(unsigned int degree, const mesh::Idealization &idealization, Formulation formulation);
+
+  /// Of vectors with these functions.
+  unsigned int size() const { return dim * functions.size(); }
+
+  unsigned int                          degree;
+  mesh::Idealization                    idealization;
+  Formulation                           formulation;
+  HigherFunctions<dim>                  functions;
+  std::vector<mesh::LagrangePoint<dim>> quadrature; ///< with functions of degree p
+  std::vector<Functions>                at_quadrature;
+};
+
+/// A linear function of V, component by component of function by function.
+using LocalResidual = std::vector<double>;
+
+/// r += @p force . v where the functions are @p values, a traction times its part of dA.
+template <int dim>
+void add_force(const typename LocalSpace<dim>::Functions &values,
+               const dealii::Tensor<1, dim>              &force,
+               LocalResidual                             &r);
+
 /**
- * The local problems of Bank and Weiser: the error e of a displacement u_h
- * in a cell, in the space V of vectors of HigherFunctions that vanish along held
+ * The local problem of Bank and Weiser in a cell: the error e of a displacement u_h,
+ * in the space V of vectors of HigherFunctions that vanish along held
  * directions, is the solution of
  * @f[ a(e, v) = \int_K (b \cdot v - \sigma_h : \varepsilon(v))\,dV
  *     + \int_{\partial K} t \cdot v\,dA \quad\text{for all } v \in V, @f]
@@ -54,45 +85,54 @@ template <int dim>
 class LocalError
 {
 public:
-  using Nodes = std::vector<dealii::Tensor<1, dim>>;
-  /// A linear function of V, component by component of function by function.
-  using Residual = std::vector<double>;
+  using Nodes    = std::vector<dealii::Tensor<1, dim>>;
+  using Stresses = std::vector<dealii::SymmetricTensor<2, 3>>;
 
-  LocalError(unsigned int degree, const mesh::Idealization &idealization, Formulation formulation);
-
-  const HigherFunctions<dim> &functions() const { return higher; }
-  unsigned int                size() const { return dim * higher.size(); }
-
-  /// Points of a cell with nodes @p X at which body forces are given.
-  Nodes quadrature_points(const Nodes &X) const;
-
-  /// r += int (b . v - sigma_h : eps(v)) dV for the displacement @p u of a cell with nodes
-  /// @p X and the body force @p b at the quadrature points; empty: none.
-  void add_residual(const Nodes    &X,
-                    const Material &material,
-                    const Nodes    &u,
-                    const Nodes    &b,
-                    double         *r) const;
-
-  /// r += @p force . v at @p point of the reference cell, a traction times its part of dA.
-  void
-  add_force(const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &force, double *r) const;
-
-  /// Solutions e of a(e, v) = r(v) in place of the columns of @p r.
-  void solve(const Nodes           &X,
+  /// Of a cell with nodes @p X. The space must outlive this.
+  LocalError(const LocalSpace<dim> &space,
+             const Nodes           &X,
              const Material        &material,
-             const HeldFaces<dim>  &held,
-             std::vector<Residual> &r) const;
+             const HeldFaces<dim>  &held);
+
+  /// Whether another cell has the same problem but for rounding: it is this one moved to another
+  /// place, at the same radius if there is one.
+  bool fits(const LocalSpace<dim> &space,
+            const Nodes           &X,
+            const Material        &material,
+            const HeldFaces<dim>  &held) const;
+
+  /// r += int (b . v - sigma : eps(v)) dV for stresses and body forces at the quadrature points; no
+  /// b: none.
+  void add_residual(const Stresses &sigma, const Nodes &b, LocalResidual &r) const;
+
+  /// The solution e of a(e, v) = r(v) in place of @p r.
+  void solve(LocalResidual &r) const;
 
 private:
-  unsigned int                          degree;
-  mesh::Idealization                    idealization;
-  Formulation                           formulation;
-  Element<dim>                          element;
-  HigherFunctions<dim>                  higher;
-  std::vector<mesh::LagrangePoint<dim>> quadrature; ///< functions of degree p
+  /// A function of V at a point in space.
+  struct Value
+  {
+    dealii::Tensor<1, dim> gradient;
+    double                 hoop; ///< value / r, or 0
 
-  std::vector<double> matrix(const Nodes &X, const Material &material) const;
+    /// of the function times the unit vector @p c
+    double divergence(unsigned int c) const { return gradient[c] + (c == 0 ? hoop : 0.); }
+  };
+
+  const LocalSpace<dim>          &space;
+  const Nodes                     X;
+  const Material                  material;
+  const HeldFaces<dim>            held;
+  std::vector<std::vector<Value>> at; ///< [point][function]
+  std::vector<double>             dV;
+  /// basis of V: function and direction
+  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> basis;
+  dealii::LAPACKFullMatrix<double>                             factor;
+
+  std::vector<double> matrix() const;
+  std::vector<double> matrix(double lambda, double mu) const;
+  void                add_projected(double factor, std::vector<double> &A) const;
+  void                find_basis();
 };
 } // namespace snug::elasticity
 

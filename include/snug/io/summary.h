@@ -57,10 +57,11 @@ struct Summary
     std::vector<double> centre, force, moment;
   };
 
-  /// Members as in accuracy::EnergyEstimate.
+  /// Members as in accuracy::EnergyEstimate, and the estimated errors of responses by name.
   struct Accuracy
   {
-    double error = none, relative = none;
+    double                                      error = none, relative = none;
+    std::vector<std::pair<std::string, double>> responses;
   };
 
   /// Members as in state::ContactState; linear_f_mults 0 becomes null.

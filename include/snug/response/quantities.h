@@ -7,6 +7,11 @@
 #include <functional>
 
 namespace snug::response {
+/// Which of the pairs of contact are called @p name, either side first; empty: all.
+/// @throws InputError if there is none.
+template <int dim>
+std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std::string &name);
+
 /// Which contact rows belong to the pair called @p name, either side
 /// first; empty: all. @throws InputError if there is no such pair.
 template <int dim>

@@ -2,10 +2,13 @@
 #define snug_response_response_h
 
 #include <snug/base/choice.h>
+#include <snug/response/pressure_measures.h>
 #include <snug/response/response_parameters.h>
 #include <snug/state/state_solver.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 
 namespace snug::response {
 /// Partial derivatives of a response J(u, force, X). An empty member is
@@ -23,6 +26,25 @@ struct Partials
   /// dJ/dX at fixed u and forces: this rank's share at the local nodes,
   /// hanging ones included; the sum over ranks is the whole.
   Field positions;
+};
+
+/**
+ * dJ/du as a functional of fields v, where Partials::u has its values at the nodes:
+ * stiffness a(u, v) + load f(v) + int traction . v dA + int stress : eps(v) dV.
+ * J is quadratic in u by the same stiffness, J'' (v, v) = stiffness a(v, v).
+ */
+template <int dim>
+struct FieldDerivative
+{
+  double stiffness = 0., load = 0.;
+  /// by the unit outward normal of one boundary [response / length^dim]
+  std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &normal)> traction = {};
+  std::pair<unsigned int, unsigned int> boundary = {0, 0}; ///< of that body
+  /// by the stress of u there, in the components the strain of v has [response / length^3]
+  std::function<dealii::SymmetricTensor<2, 3>(const elasticity::Material          &material,
+                                              const dealii::SymmetricTensor<2, 3> &stress)>
+              stress = {};
+  std::string body; ///< where; empty: everywhere
 };
 
 /**
@@ -57,6 +79,21 @@ public:
   /// Throw an InputError unless the scene has what is measured.
   /// Collective.
   virtual void check(const state::StateSolver<dim> & /*solver*/) const {}
+
+  /// What dJ/du is between nodes; zero for forces at points. Collective.
+  virtual FieldDerivative<dim> field_derivative(const state::StateSolver<dim> & /*solver*/,
+                                                const state::ContactState<dim> & /*state*/) const
+  {
+    return {};
+  }
+
+  /// J of pressures at other places than the slave nodes, for each pair its own; nothing if it is
+  /// not a function of them.
+  virtual std::optional<double> measured(const state::StateSolver<dim> & /*solver*/,
+                                         const std::vector<PressureRows> & /*of_pairs*/) const
+  {
+    return {};
+  }
 
   /// J. Collective.
   virtual double value(const state::StateSolver<dim>  &solver,

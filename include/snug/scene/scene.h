@@ -1,7 +1,7 @@
 #ifndef snug_scene_scene_h
 #define snug_scene_scene_h
 
-#include <snug/accuracy/energy_estimate.h>
+#include <snug/accuracy/accuracy_parameters.h>
 #include <snug/contact/pair.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/elasticity/material.h>

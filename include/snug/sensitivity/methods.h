@@ -17,8 +17,18 @@ std::vector<response::Partials<dim>> partials_of(const GradientProblem<dim> &pro
 
 /// (dJ/du, dJ/dlambda), a column per response.
 template <int dim>
-KktVectors state_partials(const GradientProblem<dim>                 &problem,
+KktVectors state_partials(const state::StateSolver<dim>              &solver,
+                          const state::ContactState<dim>             &state,
                           const std::vector<response::Partials<dim>> &partials);
+
+/// The adjoint states K w + B_s' eta = dJ/du, B_s w = dJ/dlambda_s of responses, a column each,
+/// by one block solve on the strongly active set s with the factorizations of the state.
+/// Collective. @throws SolveError.
+template <int dim>
+KktVectors adjoint_states(const state::StateSolver<dim>              &solver,
+                          const state::ContactState<dim>             &state,
+                          const std::vector<response::Partials<dim>> &partials,
+                          Solves                                      solves);
 
 /// ft and ct of data_derivatives(), a column per variable. Collective.
 template <int dim>
@@ -46,9 +56,7 @@ Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
                                 const Responses<dim>       &responses);
 
 /**
- * J'_j = dJ/dX . V_j + w'ft_j + eta'ct_j with the adjoint states
- * K w + B_s' eta = dJ/du, B_s w = dJ/dlambda_s of all responses by one
- * block solve.
+ * J'_j = dJ/dX . V_j + w'ft_j + eta'ct_j with the adjoint_states() of all responses.
  */
 template <int dim>
 Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,

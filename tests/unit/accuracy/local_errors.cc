@@ -1,7 +1,7 @@
-#include <snug/accuracy/energy_estimate.h>
+#include <snug/accuracy/estimate.h>
 
 #include <gtest/gtest.h>
-#include <unit/state/test_scene.h>
+#include <unit/accuracy/guided_blocks.h>
 
 namespace snug::test {
 namespace {
@@ -10,19 +10,6 @@ accuracy::EnergyEstimate estimate_of(const TestScene<dim> &scene, MPI_Comm comm 
 {
   Problem<dim> problem(scene, comm);
   return accuracy::estimate_energy(problem.solver, problem.solve());
-}
-
-/// Both on rollers at their sides: contact closed all over, no corner, a smooth solution.
-template <int dim>
-TestScene<dim> guided_blocks(unsigned int n, unsigned int m)
-{
-  auto scene                                           = two_blocks<dim>(n, m, 0.);
-  scene.bodies[0].loads[face_index(dim - 1, 1)].factor = [](const dealii::Point<dim> &x) {
-    return 1. + 0.5 * std::cos(dealii::numbers::PI * x[0]);
-  };
-  scene.bodies[1].supports                         = scene.bodies[0].supports;
-  scene.bodies[1].supports[face_index(dim - 1, 0)] = {dim - 1};
-  return scene;
 }
 
 /// Stress of a state at the point @p x of its reference geometry, whose cells are boxes.

@@ -34,6 +34,7 @@ struct TestBody
   dealii::Point<dim>        corner, size;
   std::vector<unsigned int> cells;
   double                    radius        = 0.; ///< 0: flat
+  bool                      sampled       = false; ///< contact sees the circle, not facets
   double                    refined_below = 0.;
   elasticity::Material      material{1000., 0.3};
   elasticity::Material      core{50., 0.4}; ///< of coarse cells beyond
@@ -200,6 +201,8 @@ public:
         if (body.radius > 0.)
           parameters.curved_faces["bottom"] =
             (dim == 3 ? "sphere " : "cylinder z ") + std::to_string(body.radius);
+        if (body.sampled)
+          parameters.sampled_boundaries = {"bottom", "top"};
         if (body.refined_below > 0.)
           {
             parameters.refine_where      = std::to_string(body.refined_below) + "-x";

@@ -1,0 +1,61 @@
+#ifndef snug_accuracy_estimate_h
+#define snug_accuracy_estimate_h
+
+#include <snug/response/response.h>
+#include <snug/sensitivity/gradient_parameters.h>
+
+namespace snug::accuracy {
+/// How far a displacement u_h on a mesh is from u without one.
+struct EnergyEstimate
+{
+  /// eta_K of the cells of this rank, eta_K^2 = a(e, e) by LocalErrors
+  std::vector<double> cells;
+  /// eta = (sum eta_K^2)^(1/2) ~ |u - u_h|, |v|^2 = a(v, v) [(force length)^(1/2)]
+  double error = 0.;
+  /// eta / (|u_h|^2 + eta^2)^(1/2); 0 where nothing strains
+  double relative = 0.;
+};
+
+/**
+ * How far a response J(u_h) on a mesh is from J(u):
+ * @f[ J - J_h \approx \sum_K \bigl(a_K(e_u, e_z) + \tfrac s2 a_K(e_u, e_u)\bigr)
+ *     + \int q_\eta\,(g - n\cdot[u_h])\,dA, @f]
+ * e_u and e_z the local errors of the state and of its adjoint, q_eta the adjoint's contact forces
+ * by area, and s the stiffness of FieldDerivative.
+ */
+struct ResponseEstimate
+{
+  double cells   = 0.; ///< the sum over cells, signed
+  double contact = 0.; ///< the integral, signed
+  /// what the response itself misses of the pressures it reads: those at Gauss points less those
+  /// at nodes, signed
+  double reading = 0.;
+  /// Of this rank's cells: sizes of their parts in both.
+  std::vector<double> indicators;
+
+  /// max(|cells + contact|, |cells|/2, |contact|/2) + |reading|: both may cancel by chance.
+  double error() const;
+};
+
+/// All at a state.
+struct Estimates
+{
+  EnergyEstimate                energy;
+  std::vector<ResponseEstimate> responses;
+};
+
+/// The error in the energy norm and those of responses, by one block solve for all that need one.
+/// Collective. @throws SolveError.
+template <int dim>
+Estimates estimate(const state::StateSolver<dim>                      &solver,
+                   const state::ContactState<dim>                     &state,
+                   const std::vector<const response::Response<dim> *> &responses,
+                   sensitivity::Solves                                 solves);
+
+/// The first of them alone. Collective.
+template <int dim>
+EnergyEstimate estimate_energy(const state::StateSolver<dim>  &solver,
+                               const state::ContactState<dim> &state);
+} // namespace snug::accuracy
+
+#endif

@@ -1,0 +1,44 @@
+#ifndef snug_accuracy_gap_residual_h
+#define snug_accuracy_gap_residual_h
+
+#include <snug/response/pressure_measures.h>
+#include <snug/state/state_solver.h>
+
+namespace snug::accuracy {
+/**
+ * What contact rows miss between their nodes: at Gauss points of the slave faces of this rank
+ *   d = g - n . (u_h(x) - u_h(y)) [length],
+ * g the gap of the true surfaces from x along the normal n of the master to y. Below 0 bodies
+ * overlap there.
+ */
+template <int dim>
+class GapResidual
+{
+public:
+  /// References must outlive this. Collective.
+  GapResidual(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
+
+  /// int q d dA of the cells of this rank, q of the given values per contact row, over all
+  /// slave faces. Points beyond the end of the master side do not count.
+  std::vector<double> integral(const std::vector<double> &of_rows) const;
+
+  /// q dA and dA at all points, pair by pair, on all ranks; no q below 0. Collective.
+  std::vector<response::PressureRows> pressures(const std::vector<double> &of_rows) const;
+
+private:
+  struct Point
+  {
+    unsigned int                                 pair, cell;
+    std::vector<std::pair<unsigned int, double>> shape; ///< surface nodes, values
+    double                                       area;  ///< [length^2]
+    double                                       residual;
+  };
+
+  const state::StateSolver<dim> &solver;
+  std::vector<Point>             points;
+
+  std::vector<double> values(const std::vector<double> &of_rows) const;
+};
+} // namespace snug::accuracy
+
+#endif

@@ -1,0 +1,28 @@
+#ifndef snug_app_mesh_error_h
+#define snug_app_mesh_error_h
+
+#include <snug/accuracy/estimate.h>
+#include <snug/app/shape_problem.h>
+
+namespace snug::app {
+/// What is estimated of the mesh's error in one state.
+struct MeshError
+{
+  accuracy::EnergyEstimate                                        energy;
+  std::vector<std::pair<std::string, accuracy::ResponseEstimate>> responses; ///< by name
+};
+
+/// Of each load case, as far as `Accuracy/Estimate` asks for it; empty: not at all.
+/// Collective. @throws SolveError.
+template <int dim>
+std::vector<MeshError> mesh_errors(const ShapeProblem<dim>                  &problem,
+                                   const typename ShapeProblem<dim>::States &states);
+
+/// As lines of the log, relative to the values of @p states where these are not 0.
+template <int dim>
+std::vector<std::string> described(const ShapeProblem<dim>                  &problem,
+                                   const typename ShapeProblem<dim>::States &states,
+                                   const std::vector<MeshError>             &errors);
+} // namespace snug::app
+
+#endif

@@ -1,0 +1,46 @@
+#ifndef snug_contact_point_gaps_h
+#define snug_contact_point_gaps_h
+
+#include <snug/contact/obstacle.h>
+#include <snug/contact/pair_geometry.h>
+#include <snug/contact/projection.h>
+#include <snug/contact/supported_normals.h>
+#include <snug/geometry/formula.h>
+
+namespace snug::contact {
+/// What a nodal row would be at a point x of a slave side: n . (u(x) - sum_k w_k u_k) <= gap.
+template <int dim>
+struct PointGap
+{
+  dealii::Tensor<1, dim> normal;   ///< n, unit, into the master
+  double                 gap = 0.; ///< between the true surfaces [length]
+  Weights                masters;  ///< w_k; none of obstacles
+};
+
+/// The gaps of a pair at any points of its slave side, as NodalRows and ObstacleRows have
+/// them at nodes.
+template <int dim>
+class PointGaps
+{
+public:
+  using Field = typename mesh::Surface<dim>::Field;
+
+  /// Surface, shape, positions and what is held must outlive this.
+  explicit PointGaps(const PairGeometry<dim> &pair);
+  ~PointGaps();
+
+  /// At the point @p x of the slave's true surface; nothing beyond the end of the master side.
+  std::optional<PointGap<dim>> at(const dealii::Tensor<1, dim> &x) const;
+
+private:
+  const Field                            &positions;
+  std::unique_ptr<geometry::Formula<dim>> offset;
+  std::unique_ptr<Obstacle<dim>>          obstacle;
+  dealii::Tensor<1, dim>                  shift; ///< of the obstacle
+  std::vector<unsigned int>               master_faces;
+  std::unique_ptr<SupportedNormals<dim>>  normals;
+  std::unique_ptr<Projector<dim>>         projector;
+};
+} // namespace snug::contact
+
+#endif

@@ -1,0 +1,186 @@
+#include <snug/accuracy/estimate.h>
+#include <snug/accuracy/gap_residual.h>
+#include <snug/accuracy/local_errors.h>
+#include <snug/mesh/shared_nodes.h>
+#include <snug/sensitivity/methods.h>
+#include <snug/state/contact_results.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::accuracy {
+double ResponseEstimate::error() const
+{
+  return std::max({std::abs(cells + contact), std::abs(cells) / 2., std::abs(contact) / 2.}) +
+         std::abs(reading);
+}
+
+namespace {
+/// Rows without an area carry no pressure.
+double pressure(const double force, const double area)
+{
+  return area > 0. ? force / area : 0.;
+}
+
+template <int dim>
+class Adjoints
+{
+public:
+  Adjoints(const state::StateSolver<dim>                      &solver,
+           const state::ContactState<dim>                     &state,
+           const std::vector<const response::Response<dim> *> &responses,
+           const sensitivity::Solves                           solves)
+    : solver(solver), state(state), column(responses.size(), responses.size())
+  {
+    std::vector<response::Partials<dim>> partials;
+    for (unsigned int j = 0; j < responses.size(); ++j)
+      if (sensitivity::needs_solve(*responses[j]))
+        {
+          column[j] = partials.size();
+          partials.push_back(responses[j]->partials(solver, state));
+        }
+    if (!partials.empty())
+      solution = sensitivity::adjoint_states(solver, state, partials, solves);
+  }
+
+  /// Of a response that needs a solve.
+  LoadedDisplacement<dim> of(const unsigned int                    j,
+                             const response::FieldDerivative<dim> &derivative,
+                             const LoadedDisplacement<dim>        &u) const
+  {
+    LoadedDisplacement<dim> z;
+    z.displacement =
+      mesh::owners_values(solver.mesh(), state::nodal_values(solver, solution.primal, column[j]));
+    for (unsigned int node = 0; node < z.displacement.size(); ++node)
+      z.displacement[node] -= derivative.stiffness * u.displacement[node];
+    const auto forces = solver.gluing().gather_contact(solution.dual.column(column[j]));
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      {
+        const double scale = solver.gluing().contact_scales()[i];
+        z.pressures.push_back(scale > 0. ? pressure(forces[i] / scale, state.contact[i].area) : 0.);
+      }
+    z.loads = derivative.load;
+    z.more  = &derivative;
+    return z;
+  }
+
+private:
+  const state::StateSolver<dim>  &solver;
+  const state::ContactState<dim> &state;
+  std::vector<unsigned int>       column; ///< of each response that needs one
+  sensitivity::KktVectors         solution;
+};
+/// The state itself.
+template <int dim>
+LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
+                               const state::ContactState<dim> &state)
+{
+  LoadedDisplacement<dim> u;
+  u.displacement = mesh::owners_values(solver.mesh(), state.displacement);
+  for (const auto &point : state.contact)
+    u.pressures.push_back(point.pressure);
+  return u;
+}
+
+/// Rounding may make the square of a cell without error negative.
+template <int dim>
+EnergyEstimate energy_estimate(const state::StateSolver<dim>          &solver,
+                               const state::ContactState<dim>         &state,
+                               const std::vector<std::vector<double>> &products)
+{
+  EnergyEstimate result;
+  double         square = 0.;
+  for (const auto &of_cell : products)
+    {
+      const double of_this = std::max(0., of_cell[0]);
+      result.cells.push_back(std::sqrt(of_this));
+      square += of_this;
+    }
+  square       = dealii::Utilities::MPI::sum(square, solver.mesh().communicator());
+  result.error = std::sqrt(square);
+  // |u_h|^2 is twice the strain energy, and u - u_h nearly orthogonal to u_h.
+  const double whole = 2. * state.strain_energy + square;
+  result.relative    = whole > 0. ? std::sqrt(square / whole) : 0.;
+  return result;
+}
+
+/// By the parts of the cells of this rank.
+ResponseEstimate response_estimate(const std::vector<double> &cells,
+                                   const std::vector<double> &contact,
+                                   MPI_Comm                   comm)
+{
+  ResponseEstimate result;
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    {
+      result.cells += cells[cell];
+      result.contact += contact[cell];
+      result.indicators.push_back(std::abs(cells[cell]) + std::abs(contact[cell]));
+    }
+  result.cells   = dealii::Utilities::MPI::sum(result.cells, comm);
+  result.contact = dealii::Utilities::MPI::sum(result.contact, comm);
+  return result;
+}
+} // namespace
+
+/// The adjoint of the energy is the state itself, with the opposite sign: no local problem of its
+/// own.
+template <int dim>
+Estimates estimate(const state::StateSolver<dim>                      &solver,
+                   const state::ContactState<dim>                     &state,
+                   const std::vector<const response::Response<dim> *> &responses,
+                   const sensitivity::Solves                           solves)
+{
+  const unsigned int                          n = responses.size();
+  const Adjoints<dim>                         adjoints(solver, state, responses, solves);
+  std::vector<response::FieldDerivative<dim>> derivatives(n);
+  std::vector<LoadedDisplacement<dim>>        all = {loaded(solver, state)};
+  std::vector<unsigned int>                   place(n, 0); // in `all`
+  for (unsigned int j = 0; j < n; ++j)
+    if (responses[j]->needs_solution())
+      derivatives[j] = responses[j]->field_derivative(solver, state);
+  for (unsigned int j = 0; j < n; ++j)
+    if (sensitivity::needs_solve(*responses[j]))
+      {
+        place[j] = all.size();
+        all.push_back(adjoints.of(j, derivatives[j], all[0]));
+      }
+  const auto products = LocalErrors<dim>(solver, state).products(all);
+  Estimates  result{energy_estimate(solver, state, products), {}};
+  if (responses.empty())
+    return result;
+  const GapResidual<dim> gaps(solver, state);
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      const bool          is_geometry = !responses[j]->needs_solution();
+      const double        sign        = is_geometry ? 0. : responses[j]->stationary() ? -1. : 1.;
+      std::vector<double> cells, contact = gaps.integral(all[place[j]].pressures);
+      for (const auto &of_cell : products)
+        cells.push_back(sign * of_cell[place[j]] + derivatives[j].stiffness / 2. * of_cell[0]);
+      for (double &of_cell : contact)
+        of_cell *= sign;
+      result.responses.push_back(response_estimate(cells, contact, solver.mesh().communicator()));
+      if (const auto read = responses[j]->measured(solver, gaps.pressures(all[0].pressures)))
+        result.responses[j].reading = *read - responses[j]->value(solver, state);
+    }
+  return result;
+}
+
+template <int dim>
+EnergyEstimate estimate_energy(const state::StateSolver<dim>  &solver,
+                               const state::ContactState<dim> &state)
+{
+  return estimate<dim>(solver, state, {}, sensitivity::Solves::block).energy;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                    \
+  template EnergyEstimate estimate_energy(const state::StateSolver<dim> &,                       \
+                                          const state::ContactState<dim> &);                     \
+  template Estimates estimate(const state::StateSolver<dim> &, const state::ContactState<dim> &, \
+                              const std::vector<const response::Response<dim> *> &,              \
+                              sensitivity::Solves);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::accuracy

@@ -1,0 +1,134 @@
+#include <snug/accuracy/contact_pressure.h>
+#include <snug/accuracy/gap_residual.h>
+#include <snug/faces/face_shape.h>
+#include <snug/mesh/shared_nodes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <map>
+
+namespace snug::accuracy {
+namespace {
+/// Gauss points per direction: pressures and gaps have kinks within faces of no quadrature.
+const unsigned int n_gauss = 4;
+
+/// sum_k w_k field_k
+template <int dim>
+dealii::Tensor<1, dim> sum(const std::vector<std::pair<unsigned int, double>> &weights,
+                           const std::vector<dealii::Tensor<1, dim>>          &field)
+{
+  dealii::Tensor<1, dim> result;
+  for (const auto &[k, weight] : weights)
+    result += weight * field[k];
+  return result;
+}
+} // namespace
+
+template <int dim>
+GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
+                              const state::ContactState<dim> &state)
+  : solver(solver)
+{
+  const auto                          &mesh    = solver.mesh();
+  const auto                          &surface = solver.surface();
+  const auto                          &contact = solver.contact();
+  const auto                           held    = solver.held().directions(surface, state.positions);
+  const auto                           x       = surface.gather(state.positions);
+  const auto                           u       = surface.gather(state.displacement);
+  const auto                           here    = mesh::owners_values(mesh, state.positions);
+  std::map<unsigned int, unsigned int> surface_nodes;
+  const faces::FaceShape<dim>          shape(mesh.degree());
+  const dealii::QGauss<dim - 1>        gauss(n_gauss);
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    surface_nodes[surface.global_node(node)] = node;
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    {
+      const auto gaps = contact.point_gaps(p, x, held);
+      for (const auto &face : mesh.boundary_faces())
+        if (contact::Pair::Side(face.body, face.boundary) == contact.pairs()[p].slave)
+          for (unsigned int q = 0; q < gauss.size(); ++q)
+            {
+              const auto             values     = shape.at(gauss.point(q));
+              const auto             on_surface = shape.samples_at(gauss.point(q));
+              Point                  point{p, face.cell, {}, 0., 0.};
+              dealii::Tensor<1, dim> place, true_place;
+              for (unsigned int k = 0; k < face.nodes.size(); ++k)
+                {
+                  point.shape.emplace_back(surface_nodes.at(mesh.global_node(face.nodes[k])),
+                                           values.value[k]);
+                  place += values.value[k] * here[face.nodes[k]];
+                }
+              true_place = place;
+              if (!face.samples.empty())
+                {
+                  true_place = {};
+                  for (unsigned int k = 0; k < face.samples.size(); ++k)
+                    true_place += on_surface.value[k] * state.positions[face.samples[k]];
+                }
+              const auto gap = gaps->at(true_place);
+              if (!gap)
+                continue;
+              point.area =
+                gauss.weight(q) * mesh.idealization().weight(place) *
+                faces::area_vector(faces::tangents<dim>(values, face.nodes, here)).norm();
+              point.residual =
+                gap->gap - gap->normal * (sum<dim>(point.shape, u) - sum<dim>(gap->masters, u));
+              points.push_back(point);
+            }
+    }
+}
+
+/// Of the pair at each point.
+template <int dim>
+std::vector<double> GapResidual<dim>::values(const std::vector<double> &of_rows) const
+{
+  std::vector<std::vector<double>> nodal;
+  for (unsigned int p = 0; p < solver.contact().pairs().size(); ++p)
+    nodal.push_back(nodal_values(solver, p, of_rows));
+  std::vector<double> result;
+  for (const auto &point : points)
+    {
+      result.push_back(0.);
+      for (const auto &[node, value] : point.shape)
+        result.back() += value * nodal[point.pair][node];
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<double> GapResidual<dim>::integral(const std::vector<double> &of_rows) const
+{
+  const auto          q = values(of_rows);
+  std::vector<double> result(solver.mesh().cells().size(), 0.);
+  for (unsigned int i = 0; i < points.size(); ++i)
+    result[points[i].cell] += q[i] * points[i].residual * points[i].area;
+  return result;
+}
+
+template <int dim>
+std::vector<response::PressureRows>
+GapResidual<dim>::pressures(const std::vector<double> &of_rows) const
+{
+  const auto                          q = values(of_rows);
+  std::vector<response::PressureRows> of_pairs(solver.contact().pairs().size());
+  for (unsigned int i = 0; i < points.size(); ++i)
+    {
+      of_pairs[points[i].pair].force.push_back(std::max(0., q[i]) * points[i].area);
+      of_pairs[points[i].pair].area.push_back(points[i].area);
+    }
+  const auto everywhere = [&](const std::vector<double> &values) {
+    std::vector<double> all;
+    for (const auto &of_rank :
+         dealii::Utilities::MPI::all_gather(solver.mesh().communicator(), values))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    return all;
+  };
+  for (auto &rows : of_pairs)
+    rows = {everywhere(rows.force), everywhere(rows.area)};
+  return of_pairs;
+}
+
+template class GapResidual<2>;
+template class GapResidual<3>;
+} // namespace snug::accuracy

@@ -1,0 +1,85 @@
+#include <snug/app/mesh_error.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace snug::app {
+namespace {
+/// The objective and the responses of a scene, by name.
+template <int dim>
+std::vector<std::pair<std::string, const response::Response<dim> *>>
+measured(const ShapeProblem<dim> &problem)
+{
+  std::vector<std::pair<std::string, const response::Response<dim> *>> result = {
+    {problem.scene.optimization.objective, problem.objective.get()}};
+  for (unsigned int i = 0; i < problem.responses.size(); ++i)
+    if (problem.scene.responses[i].name != result.front().first)
+      result.emplace_back(problem.scene.responses[i].name, problem.responses[i].get());
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::vector<MeshError> mesh_errors(const ShapeProblem<dim>                  &problem,
+                                   const typename ShapeProblem<dim>::States &states)
+{
+  const auto             asked = problem.scene.accuracy.estimate;
+  std::vector<MeshError> result;
+  if (asked == accuracy::Estimate::none)
+    return result;
+  const RunContext::Timer                      timer(problem.context, "accuracy");
+  std::vector<const response::Response<dim> *> responses;
+  if (asked == accuracy::Estimate::responses)
+    for (const auto &of_name : measured(problem))
+      responses.push_back(of_name.second);
+  for (const auto &state : states)
+    {
+      auto estimates =
+        accuracy::estimate(*problem.solver, state, responses, problem.scene.gradient.solves);
+      result.push_back({std::move(estimates.energy), {}});
+      for (auto &of_response : estimates.responses)
+        result.back().responses.emplace_back(
+          measured(problem)[result.back().responses.size()].first, std::move(of_response));
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<std::string> described(const ShapeProblem<dim>                  &problem,
+                                   const typename ShapeProblem<dim>::States &states,
+                                   const std::vector<MeshError>             &errors)
+{
+  const auto               responses = measured(problem);
+  std::vector<std::string> lines;
+  for (unsigned int c = 0; c < errors.size(); ++c)
+    {
+      std::ostringstream line;
+      line.precision(3);
+      line << "estimated error of the mesh"
+           << (states.size() > 1 ? " in load case " + problem.scene.load_cases[c].name : "") << ": "
+           << 100. * errors[c].energy.relative << " % in the energy norm";
+      for (unsigned int j = 0; j < errors[c].responses.size(); ++j)
+        {
+          const double value = responses[j].second->value(*problem.solver, states[c]),
+                       error = errors[c].responses[j].second.error();
+          line << "; " << responses[j].first << " " << value << ", ";
+          if (value != 0.)
+            line << 100. * error / std::abs(value) << " %";
+          else
+            line << error;
+        }
+      lines.push_back(line.str());
+    }
+  return lines;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                       \
+  template std::vector<MeshError>   mesh_errors(const ShapeProblem<dim> &,          \
+                                                const ShapeProblem<dim>::States &); \
+  template std::vector<std::string> described(const ShapeProblem<dim> &,            \
+                                              const ShapeProblem<dim>::States &,    \
+                                              const std::vector<MeshError> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::app

@@ -1,0 +1,22 @@
+#ifndef snug_tests_unit_accuracy_guided_blocks_h
+#define snug_tests_unit_accuracy_guided_blocks_h
+
+#include <unit/state/test_scene.h>
+
+namespace snug::test {
+/// Both on rollers at their sides: contact closed all over, no corner, a smooth solution.
+template <int dim>
+TestScene<dim> guided_blocks(unsigned int n, unsigned int m)
+{
+  auto scene                                           = two_blocks<dim>(n, m, 0.);
+  scene.bodies[0].loads[face_index(dim - 1, 1)].factor = [](const dealii::Point<dim> &x) {
+    return 1. + 0.5 * std::cos(dealii::numbers::PI * x[0]);
+  };
+  scene.bodies[1].supports                         = scene.bodies[0].supports;
+  scene.bodies[1].supports[face_index(dim - 1, 0)] = {dim - 1};
+  return scene;
+}
+
+} // namespace snug::test
+
+#endif
