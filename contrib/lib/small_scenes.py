@@ -155,6 +155,14 @@ def responses(result, _):
             for name, answer in answers.items()]
 
 
+def even_stress(result, _):
+    """Any mesh finds it."""
+    error = result.state["accuracy"]
+    return [("estimated error", error["relative"], Below(1e-6)),
+            *((f"estimated error of {name}", of_response, Below(1e-6))
+              for name, of_response in error["responses"].items())]
+
+
 def by_method(result):
     return {row["method"]: row for row in result.summary["gradient"]["methods"]}
 
@@ -273,6 +281,9 @@ CHECKS = [
     Check("six-blocks", ["Solver/Preconditioner=lumped"], six_blocks, 1e-8),
     Check("paired-anew", [], paired_anew, 1e-7),
     Check("responses", [], responses, 1e-6),
+    Check("responses", ["Accuracy/Estimate=responses"], even_stress, 0.),
+    Check("responses", ["Accuracy/Estimate=none"],
+          same("state.energy", less=("times.accuracy",)), 1e-12, []),
     Check("solver-entries", ["Solver/Factorization=MUMPS"],
           same(*STATE, *F_MULTS), 1e-6, []),
     Check("solver-entries", ["Solver/Preconditioner=lumped"],

@@ -71,7 +71,7 @@ template <int dim>
 optimization::Evaluation Observer<dim>::evaluate(const std::vector<double> &design)
 {
   problem.context.progress("solving the contact problem ...");
-  const auto evaluation = evaluator.evaluate(design);
+  auto evaluation = evaluator.evaluate(design);
   for (const auto &gradient : evaluator.gradients.of_response)
     if (!gradient.differentiable)
       results.warn_of_weak_contacts(evaluator.states,
@@ -194,7 +194,8 @@ void finish(Observer<dim> &observer, const OptimizationResult &result)
   results.add_last(result.iterations, states, of_objective.shape);
   results.export_shape(result.x);
 
-  auto &gradient               = results.summary.gradient.emplace();
+  results.summary.gradient     = io::Summary::Gradient();
+  auto &gradient               = *results.summary.gradient;
   gradient.method              = to_text(of_objective.method);
   gradient.reason              = of_objective.reason;
   gradient.differentiable      = of_objective.differentiable;

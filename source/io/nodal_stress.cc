@@ -277,7 +277,8 @@ std::vector<double> stress_sums(const Solved<dim> &solved)
     mesh.degree() == 1 ? stress_slopes(solved, sampled) : std::vector<std::array<Stress, dim>>();
   // A plain section: weights by the radius or thickness would spoil the mean of a linear field.
   const elasticity::Element<dim> flat(mesh.degree());
-  std::vector<double> sums(std::size_t(n_stress + 1) * solved.n_regions * mesh.n_local_nodes());
+  const std::size_t              n_sums = n_stress + 1;
+  std::vector<double>            sums(n_sums * solved.n_regions * mesh.n_local_nodes());
   for (unsigned int c = 0; c < mesh.cells().size(); ++c)
     {
       const auto            &cell   = mesh.cells()[c];

@@ -287,7 +287,7 @@ FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
             gradient.multiplier_master,
             {},
             gradient.multiplier_offset};
-  const auto to_box = dual_transpose(in_box(integrals, functions), functions, gradient);
+  auto to_box = dual_transpose(in_box(integrals, functions), functions, gradient);
   if (functions.are_nodal())
     return to_box;
   // in_box() with C is linear; backwards it is the same with C'.

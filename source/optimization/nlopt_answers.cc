@@ -104,7 +104,7 @@ Progress::Point NloptAnswers::values_at(const std::vector<double> &y)
     stop(End::evaluations);
   try
     {
-      const auto point = problem.at(y);
+      auto point = problem.at(y);
       progress.consider(point);
       return point;
     }

@@ -160,9 +160,9 @@ std::shared_ptr<const ScaledProblem::Point> ScaledProblem::at(const std::vector<
 
 std::shared_ptr<ScaledProblem::Point> ScaledProblem::evaluated(const std::vector<double> &y)
 {
-  const auto point = std::make_shared<Point>();
-  point->y         = y;
-  point->x         = design(y);
+  auto point = std::make_shared<Point>();
+  point->y   = y;
+  point->x   = design(y);
   ++evaluations;
   point->evaluation = problem.evaluate(point->x);
   check_values(point->evaluation, y.size());

@@ -48,6 +48,10 @@ private:
   void                      add_curve(const Corners &edge);
   std::shared_ptr<geometry::Patch<dim>> patch(unsigned int facet) const;
 };
+template <>
+bool CurvedBoundary<2>::is_on_known(unsigned int facet) const;
+template <>
+bool CurvedBoundary<3>::is_on_known(unsigned int facet) const;
 } // namespace snug::mesh_file
 
 #endif

@@ -33,7 +33,7 @@ struct TestBody
 
   dealii::Point<dim>        corner, size;
   std::vector<unsigned int> cells;
-  double                    radius        = 0.; ///< 0: flat
+  double                    radius        = 0.;    ///< 0: flat
   bool                      sampled       = false; ///< contact sees the circle, not facets
   double                    refined_below = 0.;
   elasticity::Material      material{1000., 0.3};
