@@ -18,6 +18,9 @@ double ResponseEstimate::error() const
 }
 
 namespace {
+/// The estimates have two digits at most.
+const double adjoint_tolerance = 1e-4;
+
 /// Rows without an area carry no pressure.
 double pressure(const double force, const double area)
 {
@@ -41,8 +44,10 @@ public:
           column[j] = partials.size();
           partials.push_back(responses[j]->partials(solver, state));
         }
+    auto parameters               = solver.model().solver;
+    parameters.relative_tolerance = std::max(parameters.relative_tolerance, adjoint_tolerance);
     if (!partials.empty())
-      solution = sensitivity::adjoint_states(solver, state, partials, solves);
+      solution = sensitivity::adjoint_states(solver, state, partials, solves, parameters);
   }
 
   /// Of a response that needs a solve.

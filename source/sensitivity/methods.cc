@@ -12,10 +12,11 @@ namespace {
 template <int dim>
 TangentSystem tangent_system(const state::StateSolver<dim>  &solver,
                              const state::ContactState<dim> &state,
-                             const Solves                    solves)
+                             const Solves                    solves,
+                             const qp::SolverParameters     &parameters)
 {
-  return TangentSystem(solver.feti(state), strong_rows(solver, state), solver.model().solver,
-                       solves, state.dual.directions);
+  return TangentSystem(solver.feti(state), strong_rows(solver, state), parameters, solves,
+                       state.dual.directions);
 }
 
 /// values_j += column i of products (adjoint, residual derivatives).
@@ -71,9 +72,11 @@ template <int dim>
 KktVectors adjoint_states(const state::StateSolver<dim>    &solver,
                           const state::ContactState<dim>   &state,
                           const std::vector<Partials<dim>> &partials,
-                          const Solves                      solves)
+                          const Solves                      solves,
+                          const qp::SolverParameters       &parameters)
 {
-  return tangent_system(solver, state, solves).solve(state_partials(solver, state, partials));
+  return tangent_system(solver, state, solves, parameters)
+    .solve(state_partials(solver, state, partials));
 }
 
 template <int dim>
@@ -88,7 +91,8 @@ KktVectors residual_derivatives(const GradientProblem<dim> &problem)
 template <int dim>
 KktVectors state_derivatives(const GradientProblem<dim> &problem)
 {
-  return tangent_system(problem.solver, problem.state, problem.parameters.solves)
+  return tangent_system(problem.solver, problem.state, problem.parameters.solves,
+                        problem.solver.model().solver)
     .solve(residual_derivatives(problem));
 }
 
@@ -128,10 +132,10 @@ template <int dim>
 Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,
                                  const Responses<dim>       &responses)
 {
-  auto       partials = partials_of(problem, responses);
-  const auto adjoint =
-    adjoint_states(problem.solver, problem.state, partials, problem.parameters.solves);
-  const bool      exact = problem.parameters.derivatives == Derivatives::exact;
+  auto            partials = partials_of(problem, responses);
+  const auto      adjoint  = adjoint_states(problem.solver, problem.state, partials,
+                                            problem.parameters.solves, problem.solver.model().solver);
+  const bool      exact    = problem.parameters.derivatives == Derivatives::exact;
   qp::MultiVector through_state;
   if (!exact)
     through_state =
@@ -181,7 +185,8 @@ Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
                                                      const std::vector<Partials<dim>> &);          \
   template KktVectors                 adjoint_states(const state::StateSolver<dim> &,              \
                                                      const state::ContactState<dim> &,             \
-                                                     const std::vector<Partials<dim>> &, Solves);  \
+                                                     const std::vector<Partials<dim>> &, Solves,   \
+                                                     const qp::SolverParameters &);                \
   template KktVectors                 residual_derivatives(const GradientProblem<dim> &);          \
   template KktVectors                 state_derivatives(const GradientProblem<dim> &);             \
   template Gradients<dim> energy_gradients(const GradientProblem<dim> &, const Responses<dim> &);  \

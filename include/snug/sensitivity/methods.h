@@ -22,13 +22,15 @@ KktVectors state_partials(const state::StateSolver<dim>              &solver,
                           const std::vector<response::Partials<dim>> &partials);
 
 /// The adjoint states K w + B_s' eta = dJ/du, B_s w = dJ/dlambda_s of responses, a column each,
-/// by one block solve on the strongly active set s with the factorizations of the state.
+/// by one block solve on the strongly active set s with the factorizations of the state,
+/// to the tolerance of @p parameters.
 /// Collective. @throws SolveError.
 template <int dim>
 KktVectors adjoint_states(const state::StateSolver<dim>              &solver,
                           const state::ContactState<dim>             &state,
                           const std::vector<response::Partials<dim>> &partials,
-                          Solves                                      solves);
+                          Solves                                      solves,
+                          const qp::SolverParameters                 &parameters);
 
 /// ft and ct of data_derivatives(), a column per variable. Collective.
 template <int dim>

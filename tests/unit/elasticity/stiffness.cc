@@ -141,9 +141,9 @@ TYPED_TEST(Stiffness, PatchTest)
       const double scale = largest(K);
       EXPECT_LT(distance<dim>(multiply<dim>(K, u), expected), 1e-13 * scale) << of.name();
 
-      std::vector<mesh::LagrangePoint<dim>> shapes;
-      for (const auto &point : mesh::lagrange_gauss_points<dim>(TestFixture::degree + 1))
-        shapes.push_back(mesh::lagrange_point<dim>(TestFixture::degree, point.point));
+      std::vector<snug::mesh::LagrangePoint<dim>> shapes;
+      for (const auto &point : snug::mesh::lagrange_gauss_points<dim>(TestFixture::degree + 1))
+        shapes.push_back(snug::mesh::lagrange_point<dim>(TestFixture::degree, point.point));
       for (const auto &found : of.element.stresses(of.X, material, u, shapes))
         EXPECT_LT((dealii::Tensor<2, 3>(found) - stress).norm(), 1e-13 * scale) << of.name();
     }
