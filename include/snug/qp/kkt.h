@@ -21,6 +21,10 @@ struct KktResidual
   double      feasibility = 0.; ///< its part of G lambda = e
 };
 
+/// What ||G lambda - e|| is compared with, the last denominator below. Forces that move no row by
+/// as much as @p scale count as zero: their rounding is no imbalance. Collective.
+double load_scale(const DualProblem &problem, const MultiVector &lambda, double scale);
+
 /**
  * The natural KKT residual of the dual problem,
  * @f[ r_E = w_E, \quad r_i = -\min(\lambda_i F_{ii}, -w_i), \quad
