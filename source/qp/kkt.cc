@@ -10,6 +10,13 @@ namespace {
 /// projection.
 const double least_part = 1e-10;
 
+/// A smaller part of the residual before its projection may be rounding of F, as of slender
+/// subdomains, whose K^+ loses many digits.
+const double suspect_part = 1e-6;
+
+/// Of this many times the rounding of F, tolerances of 1e-6 can be met.
+const double above_rounding = 1e8;
+
 /// Row i of the natural residual: w_i of equalities, -min(lambda_i F_ii, -w_i) of contacts, which
 /// is zero where lambda_i, -w_i >= 0 and one of them vanishes. lambda_i F_ii is a length like w_i,
 /// and all rows count alike.
@@ -90,6 +97,20 @@ std::vector<double> force_rounding(const DualProblem &problem,
   return rounding;
 }
 
+namespace {
+/// ||P (3 F (lambda / 3) - F lambda)||, which is zero but for rounding. One F-mult.
+double application_rounding(const DualProblem &problem, const EqualityPart &part)
+{
+  // d - F lambda = part.residual
+  MultiVector third(problem.n_owned()), rounding = part.residual;
+  third.add(1. / 3., part.lambda);
+  rounding.add(-1., problem.d());
+  rounding.add(3., problem.apply(third));
+  part.free_set->project(rounding);
+  return norms(rounding, problem.context().communicator())[0];
+}
+} // namespace
+
 EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
 {
   EqualityPart part;
@@ -110,6 +131,8 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
 
   MultiVector both = part.residual;
   part.free_set->project(both);
+  // The first projection leaves rounding of part.residual in the range of G', which may be all.
+  part.free_set->project(both);
   both.append(part.residual);
   both.append(x);
   auto sizes = norms(both, problem.context().communicator());
@@ -117,6 +140,8 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
   // evenly: the tolerance of it would be far below the rounding of the residual itself.
   if (sizes[0] <= projection_rounding * sizes[1])
     sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
+  else if (sizes[0] < suspect_part * sizes[1])
+    sizes[0] = std::max(sizes[0], above_rounding * application_rounding(problem, part));
   sizes[0] = std::max(sizes[0], least_part * sizes[1]);
   // Without loads and gaps the solution is zero, and any scale will do.
   part.scale = sizes[0] == 0. ? 1. : sizes[0];

@@ -1,7 +1,7 @@
 """Rows about what touches: too little, too much, and in odd places."""
 
 from cases import Figure, scene
-from outcomes import METHODS, ONE, Refused, Row, Solved
+from outcomes import ALL, ONE, Refused, Row, Solved
 from scenes import blocks, energy, even, finish, force, hump, nothing_touches, sinks
 
 BOTH = sinks((1, 1), (1000, 1000), (.3, .3))
@@ -75,14 +75,14 @@ FREE = [
     Row("floats, squeezed from both sides",
         blocks({"Box corner": ".3, 1", "Box size": ".7, .3", "Box cells": "7, 3", "Supports": "",
                 "Pressure": "left: 1.7, right: 1.7"}, {"Supports": "bottom: xy"}),
-        Solved(energy(-1.7**2 * .91 / 2000 * .21)), METHODS),
+        Solved(energy(-1.7**2 * .91 / 2000 * .21)), ALL),
     Row("without a force, shifted out of an overlap",
         blocks({"Box corner": "0, .99", "Pressure": ""}, {"Supports": "bottom: xy"},
                {"Interference": "true"}), Solved(nothing_touches), quick=True),
     Row("nothing touches, displacements drive",
         blocks({"Pressure": "", "Displacement": "top: y = -.001"}, {"Supports": "bottom: xy"},
                {"Gap": ".002 + .001*sin(3*x)"}, {"Relative tolerance": 1e-8}, parts=8),
-        Solved(nothing_touches), METHODS, quick=True),
+        Solved(nothing_touches), ALL, quick=True),
 ]
 
 FEW = [
@@ -101,8 +101,8 @@ FEW = [
                {"Gap": "min(0, x - .5)*.01", "Interference": "true"},
                {"Relative tolerance": 1e-9}), dense=True, quick=True),
     Row("all active, solid", blocks(dim=3), Solved(even(top=sinks((1, 1), (1e3, 1e3), (.3, .3),
-                                                                  dim=3))), METHODS),
-    Row("all active", blocks(), Solved(even(top=BOTH)), METHODS, quick=True),
+                                                                  dim=3))), ALL),
+    Row("all active", blocks(), Solved(even(top=BOTH)), ALL, quick=True),
     Row("all active, degree 2", blocks(Element_degree=2), Solved(even(top=BOTH, bound=1e-4))),
     Row("all active, meshes that do not match",
         blocks({"Box cells": "5, 4"}), Solved(even(top=BOTH, bound=1e-4))),
@@ -147,7 +147,7 @@ PLACES = [
         on_floor({"Pressure": "top: 1"}, "floor, wall, stop",
                  "block.bottom: floor, block.left: wall, block.right: stop",
                  {name: PLANES[name] for name in ("floor", "wall", "stop")}),
-        dense=True, methods=METHODS),
+        dense=True, methods=ALL),
     Row("both sides slaves of each other",
         blocks({**UP, "Supports": "left: x"}, LO,
                {"Pairs": "upper.bottom: lower.top, lower.top: upper.bottom"},
@@ -196,7 +196,7 @@ PLACES = [
         dense=True),
     Row("contact meets supports, which hold its ends",
         blocks({"Supports": "left: xy, right: x"}, {"Supports": "bottom: xy, left: xy"},
-               solver={"Relative tolerance": 1e-9}), dense=True, methods=METHODS),
+               solver={"Relative tolerance": 1e-9}), dense=True, methods=ALL),
     Row("supports hold all of the contact",
         blocks({"Supports": "bottom: xy"}, {"Supports": "top: xy"}), quick=True),
     Row("a stack of ten that tilted loads press",

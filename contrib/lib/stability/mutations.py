@@ -32,7 +32,7 @@ def another_number(draw, name, text):
     value = float(text)
     if COUNTS.search(name):
         return str(draw.choice((0, 1, 2, int(value) + 1, 10**9, 10**18, 2.5, -3)))
-    factor = draw.choice((0., -1., 2., .5, 1e3, 1e-3, 1e9, 1e-9, 1e30, 1e-30, 1.001))
+    factor = draw.choice((0., -1., 2., .5, .9, 1.1, 1.001, 3., 1e3, 1e-3, 1e9, 1e-9, 1e30, 1e-30))
     return repr(value * factor)
 
 
@@ -109,21 +109,25 @@ def mutated(draw, text):
     return "\n".join(lines) + "\n"
 
 
-def files():
-    return sorted(SMALL.glob("*.prm")) + sorted(LARGE.glob("*.prm"))
+def original_of(number):
+    originals = sorted(SMALL.glob("*.prm")) + sorted(LARGE.glob("*.prm"))
+    return originals[number % len(originals)]
 
 
-def make(number, originals, directory):
+def text(number):
+    """The file of a number; meshes are where they are."""
+    original = original_of(number)
+    found = re.sub(r"(Mesh file\s*=\s*)", rf"\1{original.parent}/", original.read_text())
+    return mutated(random.Random(number), found)
+
+
+def make(number, directory):
     """Write the file of a number; the arguments of its run."""
-    draw = random.Random(number)
-    original = originals[number % len(originals)]
     path = directory / f"mutated-{number}.prm"
-    text = original.read_text().replace("../meshes", str(ROOT / "tests/meshes"))
-    text = re.sub(r"(Mesh file\s*=\s*)(?=meshes)", rf"\1{LARGE}/", text)
-    path.write_text(mutated(draw, text))
-    arguments = [str(path), f"--output={directory / 'output'}",
-                 "--set=Optimization/Maximum evaluations=2"]
-    return arguments + (["--validate"] if original.parent == LARGE else [])
+    path.write_text(text(number))
+    return [str(path), f"--output={directory / 'output'}",
+            "--set=Optimization/Maximum evaluations=2",
+            *(["--validate"] if original_of(number).parent == LARGE else [])]
 
 
 def fault(status, lines, message):
@@ -137,22 +141,20 @@ def fault(status, lines, message):
     return f"exit {status}, {lines} lines: {message}"
 
 
-def examine(numbers, keep=None):
-    """{exit status: files} and {number: fault}, and the CPU seconds of all."""
+def examine(numbers):
+    """{exit status: files}, {number: fault} and the seconds of CPU time of all together."""
     program = os.environ.get("SNUG_MANY", str(ROOT / "build/tests/stability/stability.many"))
-    statuses, faults, seconds = {}, {}, []
+    statuses, faults, seconds = {}, {}, 0.
     with tempfile.TemporaryDirectory() as directory:
-        directory = pathlib.Path(keep or directory)
-        directory.mkdir(parents=True, exist_ok=True)
-        runs = ["\t".join(make(number, files(), directory)) for number in numbers]
+        runs = [make(number, pathlib.Path(directory)) for number in numbers]
         done = subprocess.run([program, str(SECONDS), str(MEGABYTES)], text=True, check=True,
-                              input="\n".join(runs) + "\n", stdout=subprocess.PIPE,
-                              env=environment(), errors="replace")
-        for number, line in zip(numbers, done.stdout.splitlines()):
-            status, took, lines, message = line.split("\t", 3)
-            statuses[int(status)] = statuses.get(int(status), 0) + 1
-            seconds.append((float(took), number))
-            wrong = fault(int(status), int(lines), message)
-            if wrong:
-                faults[number] = f"{wrong} ({float(took):.1f} s)"
+                              input="".join("\t".join(one) + "\n" for one in runs),
+                              stdout=subprocess.PIPE, env=environment(), errors="replace")
+    for number, line in zip(numbers, done.stdout.splitlines()):
+        status, took, lines, message = line.split("\t", 3)
+        statuses[int(status)] = statuses.get(int(status), 0) + 1
+        seconds += float(took)
+        wrong = fault(int(status), int(lines), message)
+        if wrong:
+            faults[f"mutated file {number}"] = f"{wrong} ({float(took):.1f} s)"
     return statuses, faults, seconds

@@ -11,6 +11,8 @@ import tempfile
 from cases import error, run, section
 from gallery_runs import ROOT, environment
 
+SNUG_RANDOM = os.environ.get("SNUG_RANDOM", str(ROOT / "build/tests/random/random.problems"))
+
 # asked: the figures of a Result that are known.
 Solved = collections.namedtuple("Solved", "asked", defaults=[lambda result: []])
 # words: part of the line that says why.
@@ -25,8 +27,9 @@ METHODS = {"active set": {},
            "SMALSE-M, no preconditioner": {"Method": "SMALSE-M", "Preconditioner": "none"},
            "scaled by multiplicity": {"Scaling": "multiplicity"},
            "MUMPS": {"Factorization": "MUMPS"}}
-SOLVERS = ("active set", "SMALSE-M")
-ONE = ("active set",)
+ALL = tuple(METHODS)
+SOLVERS = ALL[:2]
+ONE = ALL[:1]
 
 # name: what is hard about it. dense: compared with dense algebra too, on one rank. mesh: makes
 # the bytes of mesh.msh. quick: among those of the tests.
@@ -78,11 +81,10 @@ def outcome(row, method, ranks):
 
 def unlike_dense(text):
     """What tests/random says of the scene, where it is not what dense algebra finds."""
-    program = os.environ.get("SNUG_RANDOM", str(ROOT / "build/tests/random/random.problems"))
     with tempfile.TemporaryDirectory() as directory:
         path = pathlib.Path(directory) / "scene.prm"
         path.write_text(text)
-        said = subprocess.run([program, str(path)], env=environment(), text=True, check=False,
+        said = subprocess.run([SNUG_RANDOM, str(path)], env=environment(), text=True, check=False,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT).stdout
     match = re.search(r"scene\.prm: (.*); errors", said)
     return [] if match and not match[1] else [match[1] if match else said.strip()]

@@ -64,7 +64,8 @@ std::vector<double> force_rounding(const DualProblem &problem,
  * What every solve starts from: the least squares solution
  * @f$\lambda_{Im} = G^T (G G^T)^+ e@f$ of G lambda = e, and the scale
  * @f$s = \|P (d - F \lambda_{Im})\|@f$ of the residuals, which depends
- * neither on the start nor on the choice of K^+.
+ * neither on the start nor on the choice of K^+. Where that is as small as
+ * rounding, s is a size that a tolerance can be a part of.
  */
 struct EqualityPart
 {
