@@ -1,6 +1,8 @@
 """Scenes of a few numbers, some of which have answers on paper."""
 
-from cases import Figure, scene, section
+import math
+
+from cases import Figure, run, scene, section
 
 
 def finish(text, solver=None, extra=()):
@@ -55,6 +57,16 @@ def nothing_touches(result):
 
 def energy(value, bound=1e-5):
     return lambda result: [Figure("energy", result.state["energy"], value, bound)]
+
+
+def untorn(text, bound=1e-5):
+    """The figures of bodies in one piece each, with another factorization."""
+    def asked(result):
+        whole = run(text + section("Decomposition", {"Subdomains": 2}) +
+                    section("Solver", {"Factorization": "MUMPS"})).result
+        return [Figure(name, result.state[name], whole.state[name] if whole else math.nan, bound)
+                for name in ("energy", "max_pressure")]
+    return asked
 
 
 def hump(radius, load, cells, **settings):
