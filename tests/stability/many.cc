@@ -20,27 +20,16 @@ using namespace snug;
 
 const char usage[] =
   "usage: stability.many SECONDS MEGABYTES\n"
-  "Runs snug once per line of standard input, which holds its arguments, separated by tabs,\n"
-  "each in a process of its own that may take so much CPU time and address space: it costs\n"
-  "a hundredth of a start of the program. Prints a line each: the exit status, or less the\n"
-  "number of the signal, the seconds of CPU time, how many lines it said on standard error,\n"
-  "and the last of them.\n";
+  "Runs snug once per line of standard input, which holds its arguments, separated by tabs:\n"
+  "on one rank each in a process of its own that may take so much CPU time and address space,\n"
+  "on several ranks one after the other. Starts of the program take longer than most scenes.\n"
+  "Prints a line each: the exit status, or less the number of the signal, the seconds of CPU\n"
+  "time, how many lines it said on standard error, and the last of them.\n";
 
-void limit(int resource, rlim_t value)
+struct Limits
 {
-  const rlimit both{value, value};
-  setrlimit(resource, &both);
-}
-
-/// What snug does with these arguments, in this process, to its end.
-[[noreturn]] void become(const std::vector<const char *> &arguments, std::FILE *said)
-{
-  if (dup2(fileno(said), STDERR_FILENO) < 0 || !std::freopen("/dev/null", "w", stdout))
-    _exit(125);
-  _exit(app::guarded(MPI_COMM_WORLD, [&]() {
-    return app::run(app::parse(int(arguments.size()), arguments.data()));
-  }));
-}
+  rlim_t seconds, megabytes;
+};
 
 struct Ending
 {
@@ -49,26 +38,49 @@ struct Ending
   std::string said;
 };
 
-Ending
-end_of(const std::vector<const char *> &arguments, const rlim_t seconds, const rlim_t megabytes)
+void limit(int resource, rlim_t value)
+{
+  const rlimit both{value, value};
+  setrlimit(resource, &both);
+}
+
+double cpu_seconds(const rusage &usage)
+{
+  return usage.ru_utime.tv_sec + 1e-6 * usage.ru_utime.tv_usec;
+}
+
+int run(const std::vector<std::string> &words)
+{
+  std::vector<const char *> arguments = {"snug"};
+  for (const auto &word : words)
+    arguments.push_back(word.c_str());
+  return app::guarded(MPI_COMM_WORLD, [&]() {
+    return app::run(app::parse(int(arguments.size()), arguments.data()));
+  });
+}
+
+/// Run in a child, which crashes and ends alone.
+Ending end_of_child(const std::vector<std::string> &words, const Limits &limits)
 {
   std::FILE  *said  = std::tmpfile();
   const pid_t child = fork();
   if (child == 0)
     {
-      limit(RLIMIT_CPU, seconds);
-      limit(RLIMIT_AS, megabytes << 20);
+      limit(RLIMIT_CPU, limits.seconds);
+      limit(RLIMIT_AS, limits.megabytes << 20);
       limit(RLIMIT_CORE, 0);
       // sleeping is not CPU time
-      alarm(20 * seconds);
-      become(arguments, said);
+      alarm(20 * limits.seconds);
+      if (dup2(fileno(said), STDERR_FILENO) < 0 || !std::freopen("/dev/null", "w", stdout))
+        _exit(125);
+      _exit(run(words));
     }
   int    status;
   rusage usage;
   wait4(child, &status, 0, &usage);
   Ending ending;
   ending.status  = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  ending.seconds = usage.ru_utime.tv_sec + 1e-6 * usage.ru_utime.tv_usec;
+  ending.seconds = cpu_seconds(usage);
   std::rewind(said);
   for (int c = std::fgetc(said); c != EOF; c = std::fgetc(said))
     ending.said += char(c);
@@ -76,26 +88,55 @@ end_of(const std::vector<const char *> &arguments, const rlim_t seconds, const r
   return ending;
 }
 
-/// Run what the lines of standard input say.
-void run_all(const rlim_t seconds, const rlim_t megabytes)
+/// Run here, on all ranks; the time is that of this one.
+Ending end_of_run(const std::vector<std::string> &words)
 {
-  for (std::string line; std::getline(std::cin, line);)
+  std::ostringstream said, log;
+  rusage             before, after;
+  auto *const err = std::cerr.rdbuf(said.rdbuf()), *const out = std::cout.rdbuf(log.rdbuf());
+  getrusage(RUSAGE_SELF, &before);
+  Ending ending;
+  ending.status = run(words);
+  getrusage(RUSAGE_SELF, &after);
+  std::cerr.rdbuf(err);
+  std::cout.rdbuf(out);
+  ending.seconds = cpu_seconds(after) - cpu_seconds(before);
+  ending.said    = said.str();
+  return ending;
+}
+
+/// The next line of standard input, on all ranks; false at its end.
+bool next_line(std::string &line)
+{
+  using namespace dealii::Utilities::MPI;
+  const bool good = this_mpi_process(MPI_COMM_WORLD) > 0 || bool(std::getline(std::cin, line));
+  line            = broadcast(MPI_COMM_WORLD, line);
+  return broadcast(MPI_COMM_WORLD, good);
+}
+
+void print(const Ending &ending)
+{
+  std::istringstream said(ending.said);
+  std::string        last;
+  unsigned int       n_lines = 0;
+  for (std::string one; std::getline(said, one); ++n_lines)
+    last = one;
+  std::cout << ending.status << '\t' << ending.seconds << '\t' << n_lines << '\t' << last
+            << std::endl;
+}
+
+void run_all(const Limits &limits)
+{
+  const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+  for (std::string line; next_line(line);)
     {
-      std::vector<std::string> words = {"snug"};
+      std::vector<std::string> words;
       std::istringstream       fields(line);
       for (std::string word; std::getline(fields, word, '\t');)
         words.push_back(word);
-      std::vector<const char *> arguments;
-      for (const auto &word : words)
-        arguments.push_back(word.c_str());
-      const auto         ending = end_of(arguments, seconds, megabytes);
-      std::istringstream said(ending.said);
-      std::string        last;
-      unsigned int       n_lines = 0;
-      for (std::string one; std::getline(said, one); ++n_lines)
-        last = one;
-      std::cout << ending.status << '\t' << ending.seconds << '\t' << n_lines << '\t' << last
-                << std::endl;
+      const auto ending = alone ? end_of_child(words, limits) : end_of_run(words);
+      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        print(ending);
     }
 }
 } // namespace
@@ -112,6 +153,6 @@ int main(int argc, char *argv[])
       std::cerr << usage;
       return 2;
     }
-  run_all(std::stoul(argv[1]), std::stoul(argv[2]));
+  run_all({std::stoul(argv[1]), std::stoul(argv[2])});
   return 0;
 }

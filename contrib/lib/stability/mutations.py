@@ -1,15 +1,14 @@
 """Parameter files with a few faults: each must be solved or refused with one line."""
 
-import os
+import collections
 import pathlib
 import random
 import re
-import subprocess
 import tempfile
 
-from gallery_runs import ROOT, environment
+from gallery_runs import ROOT
+from many import run_many
 
-SECONDS, MEGABYTES = 20, 3000  # of one file, of which unharmed ones take a tenth
 # Read and checked only: they take long to solve.
 LARGE = ROOT / "prm"
 SMALL = ROOT / "tests/scenes"
@@ -130,31 +129,25 @@ def make(number, directory):
             *(["--validate"] if original_of(number).parent == LARGE else [])]
 
 
-def fault(status, lines, message):
+def fault(end):
     """What is wrong with how a run ended, or nothing."""
-    if status == 0:
-        return "" if lines == 0 else f"exit 0, but says: {message}"
-    if status < 0:
-        return f"ends with signal {-status}"
-    if status in (2, 3) and lines == 1 and message.startswith("snug: "):
+    if end.status == 0:
+        return "" if end.lines == 0 else f"exit 0, but says: {end.message}"
+    if end.status < 0:
+        return f"ends with signal {-end.status}"
+    if end.status in (2, 3) and end.lines == 1 and end.message.startswith("snug: "):
         return ""
-    return f"exit {status}, {lines} lines: {message}"
+    return f"exit {end.status}, {end.lines} lines: {end.message}"
 
 
 def examine(numbers):
     """{exit status: files}, {number: fault} and the seconds of CPU time of all together."""
-    program = os.environ.get("SNUG_MANY", str(ROOT / "build/tests/stability/stability.many"))
-    statuses, faults, seconds = {}, {}, 0.
+    statuses, faults = collections.Counter(), {}
     with tempfile.TemporaryDirectory() as directory:
-        runs = [make(number, pathlib.Path(directory)) for number in numbers]
-        done = subprocess.run([program, str(SECONDS), str(MEGABYTES)], text=True, check=True,
-                              input="".join("\t".join(one) + "\n" for one in runs),
-                              stdout=subprocess.PIPE, env=environment(), errors="replace")
-    for number, line in zip(numbers, done.stdout.splitlines()):
-        status, took, lines, message = line.split("\t", 3)
-        statuses[int(status)] = statuses.get(int(status), 0) + 1
-        seconds += float(took)
-        wrong = fault(int(status), int(lines), message)
+        ends = run_many([make(number, pathlib.Path(directory)) for number in numbers])
+    for number, end in zip(numbers, ends):
+        statuses[end.status] += 1
+        wrong = fault(end)
         if wrong:
-            faults[f"mutated file {number}"] = f"{wrong} ({float(took):.1f} s)"
-    return statuses, faults, seconds
+            faults[f"mutated file {number}"] = f"{wrong} ({end.seconds:.1f} s)"
+    return statuses, faults, sum(end.seconds for end in ends)

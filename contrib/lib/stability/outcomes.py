@@ -8,8 +8,9 @@ import re
 import subprocess
 import tempfile
 
-from cases import error, run, section
+from cases import error, section
 from gallery_runs import ROOT, environment
+from many import solve_many
 
 SNUG_RANDOM = os.environ.get("SNUG_RANDOM", str(ROOT / "build/tests/random/random.problems"))
 
@@ -61,10 +62,9 @@ def refused(end, status, message):
     return Outcome(f"fails: {said}")
 
 
-def outcome(row, method, ranks):
-    """Of a run on so many ranks; its text begins with "fails" if it is not as expected."""
-    text = of_method(row, method)
-    status, message, result = run(text, ranks, row.mesh and row.mesh())
+def outcome(row, run):
+    """Of one run; its text begins with "fails" if it is not as expected."""
+    status, message, result = run
     if isinstance(row.end, Refused):
         return refused(row.end, status, message)
     if not result:
@@ -74,8 +74,6 @@ def outcome(row, method, ranks):
                     sum(state["f_mults"] for state in states), result.state["energy"])
     wrong = [f"{figure.name} {figure.found:.6g} instead of {figure.right:.6g}"
              for figure in row.end.asked(result) if not error(figure) <= figure.bound]
-    if row.dense and ranks == 1:
-        wrong += unlike_dense(text)
     return found._replace(text="fails: " + "; ".join(wrong)) if wrong else found
 
 
@@ -90,14 +88,24 @@ def unlike_dense(text):
     return [] if match and not match[1] else [match[1] if match else said.strip()]
 
 
-def examine(row, method, ranks):
-    """Outcomes on each number of ranks, and the first that is not as expected."""
-    found = [outcome(row, method, n) for n in ranks]
+def verdict(row, method, ranks, found):
+    """The first outcome that is not as expected, or what all are."""
     for n, one in zip(ranks, found):
         if one.text.startswith("fails"):
-            return found, one.text + (f" ({n} ranks)" if n > 1 else "")
+            return one.text + (f" ({n} ranks)" if n > 1 else "")
         # energies are as good as the square of what states are solved to
         if one.energy is not None and not math.isclose(one.energy, found[0].energy,
                                                        rel_tol=1e-4, abs_tol=1e-300):
-            return found, f"fails: energy {one.energy} on {n} ranks, {found[0].energy} before"
-    return found, found[0].text
+            return f"fails: energy {one.energy} on {n} ranks, {found[0].energy} on {ranks[0]}"
+    wrong = unlike_dense(of_method(row, method)) if row.dense else []
+    return "fails: " + "; ".join(wrong) if wrong else found[0].text
+
+
+def examine(rows, ranks):
+    """(row, method, outcomes on each number of ranks, verdict) of all."""
+    pairs = [(row, method) for row in rows for method in row.methods]
+    jobs = [(of_method(row, method), row.mesh and row.mesh()) for row, method in pairs]
+    of_ranks = [solve_many(jobs, n) for n in ranks]
+    for (row, method), runs in zip(pairs, zip(*of_ranks)):
+        found = [outcome(row, run) for run in runs]
+        yield row, method, found, verdict(row, method, ranks, found)
