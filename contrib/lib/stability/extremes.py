@@ -120,7 +120,7 @@ SIZES = [
       for aspect in (1, 10, 100)),
     *(Row(f"column of {length} cells in {parts} subdomains", column(length, parts),
           Solved(even(top=sinks((length, 1), (1e3, 1e3), (.3, .3)), bound=1e-4)),
-          ALL if length == 100 else SOLVERS, quick=length == 200)
+          ALL if length == 100 else SOLVERS, quick=length <= 200)
       for length, parts in ((100, 100), (200, 2), (1000, "auto"), (1000, 10), (1000, 1001))),
     *(Row(f"beam of {length} cells on its side in {parts} subdomains", lying(length, parts),
           Solved(even(bound=1e-4))) for length, parts in ((100, 20), (1000, 20), (1000, 200))),
