@@ -55,12 +55,16 @@ def environment():
     return entries
 
 
-def launch(scene, settings, output, ranks=1, **options):
-    """The process of one run that has ended; options are those of subprocess.run."""
+def command(scene, settings, output, ranks=1):
     program = os.environ.get("SNUG", str(ROOT / "build" / "snug"))
     parallel = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
-    return subprocess.run([*parallel, program, str(scene), f"--output={output}",
-                           *(f"--set={setting}" for setting in settings)],
+    return [*parallel, program, str(scene), f"--output={output}",
+            *(f"--set={setting}" for setting in settings)]
+
+
+def launch(scene, settings, output, ranks=1, **options):
+    """The process of one run that has ended; options are those of subprocess.run."""
+    return subprocess.run(command(scene, settings, output, ranks),
                           stdout=subprocess.DEVNULL, env=environment(), **options)
 
 

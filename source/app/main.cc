@@ -8,11 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <petscblaslapack.h>
-
 #include <cstdlib>
 #include <iostream>
-#include <new>
 
 namespace {
 using namespace snug;
@@ -43,34 +40,6 @@ bool answer(const app::Options &options, std::ostream &out)
   out << std::flush;
   return true;
 }
-
-/// OpenBLAS takes its buffer at the first call that needs one, and tries for ever where there
-/// is no memory: have it at once, if there is some.
-void reserve_blas_buffer()
-{
-  const std::size_t more_than_it_takes = std::size_t(256) << 20;
-  ::                operator delete(::operator new(more_than_it_takes));
-  PetscBLASInt      n   = 1, info;
-  double            one = 1.;
-  LAPACKpotrf_("L", &n, &one, &n, &info);
-}
-
-int run(const app::Options &options)
-{
-  reserve_blas_buffer();
-  RunContext         context(MPI_COMM_WORLD, std::cout);
-  const scene::Scene scene = scene::read_scene(
-    {options.file, scene::read_text(options.file, MPI_COMM_WORLD), options.sets, options.output,
-     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
-  if (options.validate)
-    {
-      app::validate(context, scene);
-      context.out() << options.file << " is valid" << std::endl;
-    }
-  else
-    app::run_study(context, scene, options);
-  return 0;
-}
 } // namespace
 
 int main(int argc, char *argv[])
@@ -95,5 +64,5 @@ int main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_options, argv, 1);
   petsc::return_errors();
   PetscPopSignalHandler();
-  return app::guarded(MPI_COMM_WORLD, [&options]() { return run(options); });
+  return app::guarded(MPI_COMM_WORLD, [&options]() { return app::run(options); });
 }

@@ -7,7 +7,10 @@
 #include <snug/io/text_file.h>
 #include <snug/scene/read_scene.h>
 
-#include <ostream>
+#include <petscblaslapack.h>
+
+#include <iostream>
+#include <new>
 #include <sstream>
 
 namespace snug::app {
@@ -169,6 +172,17 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
   if (!complaint.empty())
     throw SolveError(complaint);
 }
+
+/// OpenBLAS takes its buffer at the first call that needs one, and tries for ever where there
+/// is no memory: have it at once, if there is some.
+void reserve_blas_buffer()
+{
+  const std::size_t more_than_it_takes = std::size_t(256) << 20;
+  ::                operator delete(::operator new(more_than_it_takes));
+  PetscBLASInt      n   = 1, info;
+  double            one = 1.;
+  LAPACKpotrf_("L", &n, &one, &n, &info);
+}
 } // namespace
 
 void run_study(RunContext &context, const scene::Scene &scene, const Options &options)
@@ -188,5 +202,22 @@ void validate(RunContext &context, const scene::Scene &scene)
     validate_in<2>(context, scene);
   else
     validate_in<3>(context, scene);
+}
+
+int run(const Options &options)
+{
+  reserve_blas_buffer();
+  RunContext         context(MPI_COMM_WORLD, std::cout);
+  const scene::Scene scene = scene::read_scene(
+    {options.file, scene::read_text(options.file, MPI_COMM_WORLD), options.sets, options.output,
+     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
+  if (options.validate)
+    {
+      validate(context, scene);
+      context.out() << options.file << " is valid" << std::endl;
+    }
+  else
+    run_study(context, scene, options);
+  return 0;
 }
 } // namespace snug::app

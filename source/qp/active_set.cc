@@ -136,8 +136,7 @@ void ActiveSetRun::balance_load()
       free_set                = problem.free_set(mask);
       MultiVector  next       = lambda;
       const double unbalanced = free_set->make_feasible(next, problem.e())[0];
-      if (unbalanced <= balance_tolerance * (norms(problem.e(), MPI_COMM_SELF)[0] +
-                                             problem.feasibility_scale(norms(next, comm)[0])))
+      if (unbalanced <= balance_tolerance * load_scale(problem, next, scale))
         {
           lambda = next;
           return;

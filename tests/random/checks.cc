@@ -38,13 +38,16 @@ void order(const WholeBodies<dim>         &whole,
   std::vector<double> sums(2 * n, 0.); // values and how many ranks gave one
   for (const auto &cell : mesh.cells())
     for (const unsigned int node : cell.nodes)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto i =
-            whole.unknown_of_node.at(WholeBodies<dim>::key(mesh.body_of_node(node), x[node])) + d;
-          sums[i]     = state.displacement[node][d];
-          sums[n + i] = 1.;
-        }
+      {
+        const auto first =
+          whole.unknown_of_node.find(WholeBodies<dim>::key(mesh.body_of_node(node), x[node]));
+        // hanging nodes have no unknowns
+        for (unsigned int d = 0; d < dim && first != whole.unknown_of_node.end(); ++d)
+          {
+            sums[first->second + d]     = state.displacement[node][d];
+            sums[n + first->second + d] = 1.;
+          }
+      }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), int(sums.size()), MPI_DOUBLE, MPI_SUM,
                 mesh.communicator());
   answer.u.reinit(n);

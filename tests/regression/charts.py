@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""The charts of gradients, small: charts.py CHART SNUG.
+"""The charts of gradients and solvers, small: charts.py CHART SNUG.
 
 Every chart leaves its table and its picture, and the tables say what the pages claim:
 exact derivatives of a slender body are exact, refined differences do not mind its
 slenderness, and at a weakly active contact the quadratic program gives the derivatives
-of both sides, which the strong set alone does not.
+of both sides, which the strong set alone does not; the Dirichlet preconditioner takes
+fewer F-mults than the lumped one, and that than none, and warm starts fewer than cold ones.
 """
 
 import csv
@@ -26,11 +27,23 @@ def slender_errors(directory, derivatives):
             if row["derivatives"] == derivatives]
 
 
-CHARTS = ("steps", "slender", "cost", "tolerances", "weak")
+CHARTS = {"gradient": ("steps", "slender", "cost", "tolerances", "weak"), "solvers": ("",)}
+
+
+def f_mults(directory, chart, solver):
+    """Of the largest value."""
+    return [float(row["F-mults"]) for row in read(directory / "solvers.csv")
+            if (row["chart"], row["solver"]) == (chart, solver)][-1]
 
 
 def claims(directory):
     """(what, whether it holds)"""
+    for chart in ("tolerance", "H/h", "subdomains"):
+        active, lumped, none = (f_mults(directory, chart, solver) for solver in (
+            "active set", "lumped", "no preconditioner"))
+        yield f"preconditioners, {chart}", active < lumped < none / 1.5
+    yield "warm starts", (f_mults(directory, "tolerance", "active set, warm") <
+                          f_mults(directory, "tolerance", "active set"))
     forward = slender_errors(directory, "forward")
     refined = slender_errors(directory, "refined forward")
     sides = read(directory / "gradient-weak.csv")
@@ -53,14 +66,17 @@ def claims(directory):
 def main(chart, program):
     with tempfile.TemporaryDirectory() as name:
         directory = pathlib.Path(name)
-        subprocess.run([chart, "gradient", "--quick", "--output", name, *CHARTS],
-                       env={**os.environ, "SNUG": program,
-                            "PYTHONDONTWRITEBYTECODE": "1"}, check=True)
+        for family, charts in CHARTS.items():
+            subprocess.run([chart, family, "--quick", "--output", name,
+                            *filter(None, charts)],
+                           env={**os.environ, "SNUG": program,
+                                "PYTHONDONTWRITEBYTECODE": "1"}, check=True)
         wrong = [f"{what}: not so" for what, holds in claims(directory)
                  if not holds]
-        wrong += [f"{path}.{kind}: missing" for path in CHARTS
-                  for kind in ("csv", "png")
-                  if not (directory / f"gradient-{path}.{kind}").is_file()]
+        files = ["-".join(filter(None, (family, path))) for family, charts in CHARTS.items()
+                 for path in charts]
+        wrong += [f"{file}.{kind}: missing" for file in files for kind in ("csv", "png")
+                  if not (directory / f"{file}.{kind}").is_file()]
     print("\n".join(wrong) or "all as claimed")
     return 1 if wrong else 0
 

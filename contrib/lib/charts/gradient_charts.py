@@ -25,9 +25,12 @@ def by(rows, key):
     return groups
 
 
-def curves(axis, rows, key, x, y):
-    """One logarithmic curve per value of key that has any y."""
-    for index, (name, group) in enumerate(by(rows, key).items()):
+def curves(axis, rows, key, x, y, order=None):
+    """One logarithmic curve per value of key that has any y; colours by its place among all,
+    or in the order."""
+    groups = by(rows, key)
+    for name, group in groups.items():
+        index = (order or list(groups)).index(name)
         if any(row[y] > 0. for row in group):
             axis.loglog([row[x] for row in group],
                         [max(row[y], FLOOR) for row in group],

@@ -21,6 +21,10 @@ struct KktResidual
   double      feasibility = 0.; ///< its part of G lambda = e
 };
 
+/// What ||G lambda - e|| is compared with, the last denominator below. Forces that move no row by
+/// as much as @p scale count as zero: their rounding is no imbalance. Collective.
+double load_scale(const DualProblem &problem, const MultiVector &lambda, double scale);
+
 /**
  * The natural KKT residual of the dual problem,
  * @f[ r_E = w_E, \quad r_i = -\min(\lambda_i F_{ii}, -w_i), \quad
@@ -60,7 +64,8 @@ std::vector<double> force_rounding(const DualProblem &problem,
  * What every solve starts from: the least squares solution
  * @f$\lambda_{Im} = G^T (G G^T)^+ e@f$ of G lambda = e, and the scale
  * @f$s = \|P (d - F \lambda_{Im})\|@f$ of the residuals, which depends
- * neither on the start nor on the choice of K^+.
+ * neither on the start nor on the choice of K^+. Where that is as small as
+ * rounding, s is a size that a tolerance can be a part of.
  */
 struct EqualityPart
 {

@@ -1,0 +1,29 @@
+"""The chart of solvers: the file and picture of what solvers.py measures."""
+
+import drawing  # first: it chooses pictures without a display
+import matplotlib.pyplot as plt
+
+import solvers
+from gradient_charts import by, curves
+from runs import write_csv
+
+
+def draw(output, quick):
+    rows = solvers.measure(quick)
+    write_csv(output / "solvers.csv", rows)
+    charts = by(rows, "chart")
+    shown = [(chart, "F-mults") for chart in charts] + [("subdomains", "seconds")]
+    figure, axes = plt.subplots(2, 4, figsize=(17., 8.), layout="constrained")
+    order = sorted({row["solver"] for row in rows})
+    for axis, (chart, y) in zip(axes.flat, shown):
+        curves(axis, charts[chart], "solver", "x", y, order)
+        axis.set_xlabel(chart)
+        axis.set_ylabel(y)
+    handles = {label: handle for axis in axes.flat
+               for handle, label in zip(*axis.get_legend_handles_labels())}
+    figure.get_layout_engine().set(rect=(0, .07, 1, .93))
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncols=5)
+    drawing.save(figure, output, "solvers.png")
+
+
+CHARTS = {"solvers": draw}

@@ -1,0 +1,229 @@
+"""Rows about what touches: too little, too much, and in odd places."""
+
+from cases import Figure, scene
+from outcomes import ALL, ONE, Refused, Row, Solved
+from scenes import blocks, energy, even, finish, force, hump, nothing_touches, sinks
+
+BOTH = sinks((1, 1), (1000, 1000), (.3, .3))
+
+
+def held(gap, dim=2, **contact):
+    """Two blocks held at top and bottom, which overlap by -gap."""
+    planes, last = ("left: x", "y") if dim == 2 else ("left: x, front: y", "z")
+    return blocks({"Pressure": "", "Supports": f"{planes}, top: {last}"}, dim=dim,
+                  contact={"Gap": gap, "Interference": "true", **contact})
+
+
+def squeezed(overlap):
+    """The pressure in held blocks that overlap."""
+    return overlap / sinks((1, 1), (1000, 1000), (.3, .3))
+
+
+def on_floor(body, obstacles="floor", pairs="block.bottom: floor", planes=None, contact=None,
+             dim=2, **entries):
+    """A block on rigid planes."""
+    cells = ", ".join(["4"] * dim)
+    text = scene({"block": {"Box cells": cells, "Young's modulus": 1000, **body}},
+                 {"Pairs": pairs, **(contact or {})}, Dimension=dim, Obstacles=obstacles,
+                 **entries)
+    return finish(text, {"Relative tolerance": 1e-9},
+                  [(f"Obstacle {name}", entries) for name, entries in (planes or {}).items()])
+
+
+def two_punches(**contact):
+    """Side by side on one block, whose nodes between them belong to both."""
+    punch = {"Box size": ".5, 1", "Box cells": "3, 3", "Young's modulus": 1000}
+    return finish(scene(
+        {"left": {"Box corner": "0, 1", "Supports": "left: x", "Pressure": "top: 1", **punch},
+         "right": {"Box corner": ".5, 1", "Supports": "right: x", "Pressure": "top: 1", **punch},
+         "lower": {"Box cells": "8, 4", "Young's modulus": 1000, "Supports": "bottom: xy"}},
+        {"Pairs": "left.bottom: lower.top, right.bottom: lower.top", **contact},
+        Dimension=2), {"Relative tolerance": 1e-9})
+
+
+def floating(text):
+    return text.replace("Supports = left: x\n", "Supports =\n")
+
+
+FREE = [
+    Row("pulled off", blocks({"Pressure": "top: -1"}),
+        Refused(3, "no equilibrium: body upper escapes: translation (0 1)")),
+    Row("pulled off by 1e-9", blocks({"Pressure": "top: -1e-9"}),
+        Refused(3, "no equilibrium: body upper escapes: translation (0 1)")),
+    Row("pulled off, solid", blocks({"Pressure": "top: -1"}, dim=3),
+        Refused(3, "no equilibrium: body upper escapes: translation (0 0 1)")),
+    Row("pulled with half of its weight", blocks({"Pressure": "top: -.5", "Body force": "0 -1"}),
+        Solved(force(.5)), quick=True),
+    Row("pulled with all of its weight", blocks({"Pressure": "top: -1", "Body force": "0 -1"}),
+        Solved(lambda result: [Figure("force", result.state["contact_force"][1], 0., 1e-6)])),
+    Row("pushed aside where nothing holds",
+        floating(blocks({"Traction": "top: .1 0"})),
+        Refused(3, "no equilibrium: body upper escapes: translation (1 0)"), quick=True),
+    Row("tips over the edge", blocks({"Box corner": ".6, 1", "Supports": ""}),
+        Refused(3, "no equilibrium: body upper escapes")),
+    Row("tips over the edge, solid, on rollers",
+        blocks({"Box corner": ".6, 0, 1", "Box cells": "2, 3, 2", "Supports": "front: y"},
+               {"Box cells": "2, 2, 2", "Supports": "bottom: xyz"}, {"Slave": "first"}, dim=3),
+        Refused(3, "no equilibrium: body upper escapes"), quick=True),
+    Row("free to slide", floating(blocks(lower={"Supports": "bottom: xy"},
+                                         solver={"Relative tolerance": 1e-9})),
+        dense=True, quick=True),
+    Row("free to slide and turn, solid",
+        blocks({"Supports": "", "Box cells": "2, 2, 2"},
+               {"Supports": "bottom: xyz", "Box cells": "3, 3, 2"}, dim=3,
+               solver={"Relative tolerance": 1e-9}), dense=True),
+    Row("floats, squeezed from both sides",
+        blocks({"Box corner": ".3, 1", "Box size": ".7, .3", "Box cells": "7, 3", "Supports": "",
+                "Pressure": "left: 1.7, right: 1.7"}, {"Supports": "bottom: xy"}),
+        Solved(energy(-1.7**2 * .91 / 2000 * .21)), ALL),
+    Row("without a force, shifted out of an overlap",
+        blocks({"Box corner": "0, .99", "Pressure": ""}, {"Supports": "bottom: xy"},
+               {"Interference": "true"}), Solved(nothing_touches), quick=True),
+    Row("nothing touches, displacements drive",
+        blocks({"Pressure": "", "Displacement": "top: y = -.001"}, {"Supports": "bottom: xy"},
+               {"Gap": ".002 + .001*sin(3*x)"}, {"Relative tolerance": 1e-8}, parts=8),
+        Solved(nothing_touches), ALL, quick=True),
+]
+
+FEW = [
+    Row("start set of one node, a face in the end", hump(20, 40, (24, 8)), dense=True),
+    Row("start set empty: a gap to close first",
+        blocks(contact={"Gap": ".01"}), Solved(even(top=BOTH + .01)), quick=True),
+    Row("one active node of 320", hump(.7, 1e-6, (320, 2)),
+        Solved(lambda result: [Figure("active", result.state["active_contacts"], 1., 0.)]),
+        dense=True),
+    Row("exactly weak: touches without a force",
+        blocks({"Pressure": "", "Displacement": "top: y = -.01"}, contact={"Gap": ".01"}),
+        Solved(lambda result: [Figure("energy", result.state["energy"], 0., 1e-12)])),
+    Row("exactly weak on the unloaded half",
+        blocks({"Pressure": "", "Supports": "left: x, top: y", "Box cells": "8, 4"},
+               {"Box cells": "8, 4", "Supports": "bottom: xy"},
+               {"Gap": "min(0, x - .5)*.01", "Interference": "true"},
+               {"Relative tolerance": 1e-9}), dense=True, quick=True),
+    Row("all active, solid", blocks(dim=3), Solved(even(top=sinks((1, 1), (1e3, 1e3), (.3, .3),
+                                                                  dim=3))), ALL),
+    Row("all active", blocks(), Solved(even(top=BOTH)), ALL, quick=True),
+    Row("all active, degree 2", blocks(Element_degree=2), Solved(even(top=BOTH, bound=1e-4))),
+    Row("all active, meshes that do not match",
+        blocks({"Box cells": "5, 4"}), Solved(even(top=BOTH, bound=1e-4))),
+    Row("all active, mortar, solid",
+        blocks({"Box cells": "3, 4, 3"}, dim=3), Solved(even(bound=1e-4))),
+    *(Row(f"gap of {gap:g} sizes of elements, closed", blocks(contact={"Gap": gap / 4}),
+          Solved(even(top=BOTH + gap / 4))) for gap in (1e2, 1e6)),
+    Row("gap of 1e6 sizes of elements, open",
+        blocks({"Pressure": "", "Displacement": "top: y = -.001"}, contact={"Gap": 2.5e5}),
+        Solved(nothing_touches)),
+    *(Row(f"overlap of {overlap:g}", held(-overlap),
+          Solved(even(squeezed(overlap), bound=1e-4))) for overlap in (1e-12, 1e-6, 1e-2, .5)),
+    Row("overlap of .1, solid, mortar", held(-.1, 3, Method="mortar"),
+        Solved(even(.1 / .002, bound=1e-4))),
+    Row("overlap of .6 that nobody meant", held(-.6, Interference="false"),
+        Refused(2, "overlap"), ONE),
+]
+
+PLANES = {"floor": {"Normal": "0, 1"}, "again": {"Normal": "0, 1"},
+          "wall": {"Normal": "1, 0"}, "stop": {"Point": "1, 0", "Normal": "-1, 0"}}
+PRESSED = {"Pressure": "top: 1", "Supports": "left: x"}
+UP, LO = {"Box corner": ".2, 1"}, {"Supports": "bottom: xy"}
+
+PLACES = [
+    Row("the same plane twice",
+        on_floor(PRESSED, "floor, again", "block.bottom: floor, block.bottom: again",
+                 {name: PLANES[name] for name in ("floor", "again")}),
+        Refused(3, "two contact rows the same"), quick=True),
+    Row("the same plane twice, one 1e-3 deeper",
+        on_floor(PRESSED, "floor, again", "block.bottom: floor, block.bottom: again",
+                 {"floor": PLANES["floor"], "again": {"Point": "0, -.001", "Normal": "0, 1"}}),
+        Refused(3, "two contact rows the same")),
+    Row("planes that differ by 1e-3 of a turn",
+        on_floor({**PRESSED, "Supports": "top: x"}, "floor, again",
+                 "block.bottom: floor, block.bottom: again",
+                 {"floor": PLANES["floor"], "again": {"Normal": "1e-3, 1"}}), dense=True),
+    Row("planes that a support makes the same",
+        on_floor(PRESSED, "floor, again", "block.bottom: floor, block.bottom: again",
+                 {"floor": PLANES["floor"], "again": {"Normal": "1e-3, 1"}}),
+        Refused(3, "two contact rows the same")),
+    Row("between three planes, with the corners in two of them",
+        on_floor({"Pressure": "top: 1"}, "floor, wall, stop",
+                 "block.bottom: floor, block.left: wall, block.right: stop",
+                 {name: PLANES[name] for name in ("floor", "wall", "stop")}),
+        dense=True, methods=ALL),
+    Row("both sides slaves of each other",
+        blocks({**UP, "Supports": "left: x"}, LO,
+               {"Pairs": "upper.bottom: lower.top, lower.top: upper.bottom"},
+               {"Relative tolerance": 1e-9}),
+        Refused(2, "upper.bottom"), ONE),
+    Row("a master node of two slaves", two_punches(Slave="first"), dense=True, quick=True),
+    Row("a slave face of two masters",
+        finish(two_punches(Slave="first").replace(
+            "left.bottom: lower.top, right.bottom: lower.top",
+            "lower.top: left.bottom, lower.top: right.bottom")), dense=True),
+    Row("a slave face of two masters, mortar",
+        finish(two_punches(Slave="first", Method="mortar").replace(
+            "left.bottom: lower.top, right.bottom: lower.top",
+            "lower.top: left.bottom, lower.top: right.bottom")), dense=True),
+    Row("slave nodes beyond the edge of the master",
+        blocks({"Box corner": "-.37, 1", "Box size": "2, 1", "Box cells": "8, 4",
+                "Supports": "top: x"}, LO, {"Slave": "first"}, {"Relative tolerance": 1e-9}),
+        dense=True),
+    Row("hanging slave nodes where the contact ends",
+        hump(4, 5, (8, 6), upper={"Refine where": ".6 - x", "Local refinements": 2},
+             contact={"Slave": "first"}), dense=True, quick=True),
+    Row("a master corner over a refined slave",
+        blocks({"Box corner": ".33, 1", "Supports": "right: x"},
+               {**LO, "Box size": "2, 1", "Box cells": "8, 4", "Refine where": ".2 - abs(x - .33)",
+                "Local refinements": 3},
+               {"Pairs": "lower.top: upper.bottom", "Slave": "first"},
+               {"Relative tolerance": 1e-9}), dense=True),
+    Row("a punch narrower than a cell",
+        blocks({"Box corner": ".4, 1", "Box size": ".1, .1", "Box cells": "2, 2",
+                "Supports": "left: x"}, LO, solver={"Relative tolerance": 1e-9}), dense=True),
+    Row("stands on a corner",
+        on_floor({"Rotate": "z: 45", "Body force": "0 -1"}, planes={"floor": PLANES["floor"]},
+                 pairs="block.bottom: floor, block.left: floor"),
+        Solved(force(1)), dense=True),
+    Row("stands on a corner of one face",
+        on_floor({"Rotate": "z: 44.9", "Body force": "0 -1", "Supports": "top: x"},
+                 planes={"floor": PLANES["floor"]}),
+        dense=True),
+    Row("stands on an edge, solid",
+        on_floor({"Rotate": "y: -30", "Body force": "0 0 -1", "Supports": "left: xy"}, dim=3,
+                 planes={"floor": {}}, contact={"Search distance": .01}), dense=True),
+    Row("lies on a line of a cylinder, solid",
+        finish(scene({"roll": {"Mesh": "cylinder", "Cells": "2, 2", "Rotate": "y: 90",
+                               "Shift": "0, 0, 1", "Young's modulus": 1000,
+                               "Body force": "0 0 -1"}},
+                     {"Pairs": "roll.outer: floor", "Search distance": .05}, Dimension=3,
+                     Obstacles="floor"), {"Relative tolerance": 1e-9}, [("Obstacle floor", {})]),
+        dense=True),
+    Row("the rim of a tube on a sphere",
+        finish(scene({"tube": {"Mesh": "ring", "Cells": "16, 2, 2", "Young's modulus": 1000,
+                               "Pressure": "top: 1"}},
+                     {"Pairs": "tube.bottom: ball"}, Dimension=3, Obstacles="ball"),
+               {"Relative tolerance": 1e-9},
+               [("Obstacle ball", {"Shape": "sphere", "Radius": 1, "Point": "0, 0, -.87"})]),
+        dense=True),
+    Row("contact meets supports, which hold its ends",
+        blocks({"Supports": "left: xy, right: x"}, {"Supports": "bottom: xy, left: xy"},
+               solver={"Relative tolerance": 1e-9}), dense=True, methods=ALL),
+    Row("supports hold all of the contact",
+        blocks({"Supports": "bottom: xy"}, {"Supports": "top: xy"}), quick=True),
+    Row("a stack of ten that tilted loads press",
+        finish(scene({f"b{i}": {"Box corner": f"0, {i}", "Box cells": "3, 3",
+                                "Young's modulus": 1000 + 100 * i,
+                                "Supports": "bottom: xy" if i == 0 else "left: x",
+                                **({"Force": "top: .05 -1"} if i == 9 else {})}
+                      for i in range(10)},
+                     {"Pairs": ", ".join(f"b{i}.bottom: b{i - 1}.top" for i in range(1, 10))},
+                     Dimension=2), {"Relative tolerance": 1e-9}), dense=True),
+    Row("a long beam lifts off",
+        finish(scene({"beam": {"Box size": "40, 1", "Box cells": "320, 4",
+                               "Young's modulus": 1e5, "Density": .01 / 9.81,
+                               "Supports": "left: x", "Force": "right: 0 .1"}},
+                     {"Pairs": "beam.bottom: floor"}, Dimension=2, Model="plane stress",
+                     Obstacles="floor", Gravity="0 -9.81"),
+               extra=[("Obstacle floor", {"Normal": "0, 1"})]),
+        Solved(force(.3))),
+]
+
+ROWS = [*FREE, *FEW, *PLACES]

@@ -1,0 +1,111 @@
+"""Rows of the suite: what each is to end with, and what it ends with."""
+
+import collections
+import math
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+
+from cases import error, section
+from gallery_runs import ROOT, environment
+from many import solve_many
+
+SNUG_RANDOM = os.environ.get("SNUG_RANDOM", str(ROOT / "build/tests/random/random.problems"))
+
+# asked: the figures of a Result that are known.
+Solved = collections.namedtuple("Solved", "asked", defaults=[lambda result: []])
+# words: part of the line that says why.
+Refused = collections.namedtuple("Refused", "status words")
+
+# Entries of the solver.
+METHODS = {"active set": {},
+           "SMALSE-M": {"Method": "SMALSE-M"},
+           "lumped": {"Preconditioner": "lumped"},
+           "no preconditioner": {"Preconditioner": "none"},
+           "SMALSE-M, lumped": {"Method": "SMALSE-M", "Preconditioner": "lumped"},
+           "SMALSE-M, no preconditioner": {"Method": "SMALSE-M", "Preconditioner": "none"},
+           "scaled by multiplicity": {"Scaling": "multiplicity"},
+           "MUMPS": {"Factorization": "MUMPS"}}
+ALL = tuple(METHODS)
+SOLVERS = ALL[:2]
+ONE = ALL[:1]
+
+# name: what is hard about it. dense: compared with dense algebra too, on one rank. mesh: makes
+# the bytes of mesh.msh. quick: among those of the tests.
+Row = collections.namedtuple("Row", "name text end methods dense mesh quick",
+                             defaults=[Solved(), SOLVERS, False, None, False])
+# certificate: the largest part of it.
+Outcome = collections.namedtuple("Outcome", "text certificate f_mults energy",
+                                 defaults=[None, None, None])
+
+
+def expected(row):
+    if isinstance(row.end, Refused):
+        return f"exit {row.end.status}: {row.end.words}"
+    return "solved, as dense algebra says" if row.dense else "solved"
+
+
+def of_method(row, method):
+    return row.text + section("Solver", METHODS[method])
+
+
+def states_of(result):
+    return [case["state"] for case in result.summary.get("load_cases", [])] or [result.state]
+
+
+def refused(end, status, message):
+    if status == end.status and end.words in message:
+        return Outcome("refused")
+    said = "solved" if status == 0 else f"exit {status}, {message or 'no line'}"
+    return Outcome(f"fails: {said}")
+
+
+def outcome(row, run):
+    """Of one run; its text begins with "fails" if it is not as expected."""
+    status, message, result = run
+    if isinstance(row.end, Refused):
+        return refused(row.end, status, message)
+    if not result:
+        return Outcome(f"fails: exit {status}, {message or 'no line'}")
+    states = states_of(result)
+    found = Outcome("solved", max(max(state["certificate"].values()) for state in states),
+                    sum(state["f_mults"] for state in states), result.state["energy"])
+    wrong = [f"{figure.name} {figure.found:.6g} instead of {figure.right:.6g}"
+             for figure in row.end.asked(result) if not error(figure) <= figure.bound]
+    return found._replace(text="fails: " + "; ".join(wrong)) if wrong else found
+
+
+def unlike_dense(text):
+    """What tests/random says of the scene, where it is not what dense algebra finds."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = pathlib.Path(directory) / "scene.prm"
+        path.write_text(text)
+        said = subprocess.run([SNUG_RANDOM, str(path)], env=environment(), text=True, check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT).stdout
+    match = re.search(r"scene\.prm: (.*); errors", said)
+    return [] if match and not match[1] else [match[1] if match else said.strip()]
+
+
+def verdict(row, method, ranks, found):
+    """The first outcome that is not as expected, or what all are."""
+    for n, one in zip(ranks, found):
+        if one.text.startswith("fails"):
+            return one.text + (f" ({n} ranks)" if n > 1 else "")
+        # energies are as good as the square of what states are solved to
+        if one.energy is not None and not math.isclose(one.energy, found[0].energy,
+                                                       rel_tol=1e-4, abs_tol=1e-300):
+            return f"fails: energy {one.energy} on {n} ranks, {found[0].energy} on {ranks[0]}"
+    wrong = unlike_dense(of_method(row, method)) if row.dense else []
+    return "fails: " + "; ".join(wrong) if wrong else found[0].text
+
+
+def examine(rows, ranks):
+    """(row, method, outcomes on each number of ranks, verdict) of all."""
+    pairs = [(row, method) for row in rows for method in row.methods]
+    jobs = [(of_method(row, method), row.mesh and row.mesh()) for row, method in pairs]
+    of_ranks = [solve_many(jobs, n) for n in ranks]
+    for (row, method), runs in zip(pairs, zip(*of_ranks)):
+        found = [outcome(row, run) for run in runs]
+        yield row, method, found, verdict(row, method, ranks, found)
