@@ -136,6 +136,7 @@ SEARCHES = [
                           "Optimization/Maximum evaluations": 40}), methods=ONE),
     *(Row(f"degenerate start: the gradient of a limit is rounding, {algorithm}",
           search("prm/bush.prm", **{"Optimization/Algorithm": algorithm, **BUSH,
+                                    "Optimization/Maximum evaluations": 30,
                                     "Body pin/Cells": "48, 6", "Body bush/Cells": "48, 4"}),
           Solved(lambda result: [Figure("gain", float(
               result.summary["optimization"]["objective_final"] <
