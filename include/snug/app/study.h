@@ -18,7 +18,6 @@ void run_study(RunContext &context, const scene::Scene &scene, const Options &op
 /// @throws InputError.
 void validate(RunContext &context, const scene::Scene &scene);
 
-
 /// Read the file of @p options and do what they ask, on all ranks of MPI_COMM_WORLD; the log goes
 /// to standard output. Collective; returns 0.
 /// @throws InputError, SolveError.
