@@ -1,5 +1,8 @@
 #include <snug/app/command_line.h>
 #include <snug/base/errors.h>
+#include <snug/base/values.h>
+
+#include <stdexcept>
 
 namespace snug::app {
 namespace {
@@ -26,9 +29,13 @@ public:
           throw InputError("unexpected argument '" + argument + "', one parameter file is allowed" +
                            hint());
       }
+    if (options.ranks > 0 && !options.estimate)
+      throw InputError("option '--ranks' is for --estimate; mpirun starts ranks" + hint());
     const bool needs_no_file = options.print_parameters || options.help || options.version;
     if (options.file.empty() && !needs_no_file)
       throw InputError("no parameter file" + hint());
+    if (options.advise + options.estimate + options.validate + options.restart > 1)
+      throw InputError("one of --advise, --estimate, --validate and --restart at a time" + hint());
     return options;
   }
 
@@ -43,6 +50,8 @@ private:
       options.sets.push_back(value_of(argument, equals));
     else if (name == "--output")
       options.output = value_of(argument, equals);
+    else if (name == "--ranks")
+      options.ranks = rank_number(value_of(argument, equals));
     else if (bool *flag = flag_called(name))
       {
         if (equals != std::string::npos)
@@ -53,12 +62,30 @@ private:
       throw InputError("unknown option '" + argument + "'" + hint());
   }
 
+  static unsigned int rank_number(const std::string &text)
+  {
+    unsigned int number = 0;
+    try
+      {
+        from_text(text, number);
+      }
+    catch (const std::invalid_argument &)
+      {}
+    if (number == 0)
+      throw InputError("option '--ranks' needs a whole number of at least 1" + hint());
+    return number;
+  }
+
   bool *flag_called(const std::string &name)
   {
     if (name == "--restart")
       return &options.restart;
     if (name == "--validate")
       return &options.validate;
+    if (name == "--advise")
+      return &options.advise;
+    if (name == "--estimate")
+      return &options.estimate;
     if (name == "--print-parameters")
       return &options.print_parameters;
     if (name == "--help" || name == "-h")
@@ -94,6 +121,7 @@ std::string usage()
 {
   return R"(usage:
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
+    snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
     snug --validate FILE.prm | --print-parameters | --help | --version
 
 Finds the shape of elastic bodies that makes their contact best.
@@ -106,6 +134,10 @@ Finds the shape of elastic bodies that makes their contact best.
     --restart           go on with an interrupted optimization
     --validate          read and check the file, list bodies and boundaries with
                         areas and bounding boxes, solve nothing
+    --advise            solve the first state and say what the scene could do without
+                        or lacks: symmetry, rigid bodies, needless cells, locking
+    --estimate          say what a run will take, in memory and seconds, and build
+                        nothing; --ranks N for runs on N MPI ranks
     --print-parameters  all entries, their defaults and meaning (Markdown)
     --help, --version
 

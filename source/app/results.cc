@@ -194,7 +194,8 @@ void Results<dim>::add_last(const double                time,
                             const States               &states,
                             const std::optional<Field> &shape_gradient)
 {
-  const auto errors = estimate(states);
+  last_errors        = estimate(states);
+  const auto &errors = last_errors;
   draw(time, states, shape_gradient, errors);
   // contact may be paired anew before the summary is written
   count_rows();
@@ -222,6 +223,32 @@ void Results<dim>::add_last(const double                time,
         load_case.initial_state = first_states[c];
       summary.load_cases.push_back(load_case);
     }
+}
+
+template <int dim>
+void Results<dim>::advise(const States &states)
+{
+  const RunContext::Timer               timer(problem.context, "advice");
+  std::vector<accuracy::EnergyEstimate> estimates;
+  for (const auto &error : last_errors)
+    estimates.push_back(error.energy);
+  for (unsigned int c = estimates.size(); c < states.size(); ++c) // those of responses had failed
+    estimates.push_back(accuracy::estimate_energy(*problem.solver, states[c]));
+  summary.advice =
+    advice::give<dim>({problem.scene, *problem.solver, *problem.shapes, states, estimates});
+  auto &out = problem.context.out();
+  for (const auto &item : *summary.advice)
+    {
+      out << "advice, " << item.kind << ": " << item.text;
+      if (item.saving > 1.)
+        out << "; " << item.saving << " times "
+            << (item.saves == "time" ? "less time" : "fewer unknowns");
+      if (item.error >= 0.)
+        out << "; error " << 100. * item.error << " %";
+      out << std::endl;
+    }
+  if (summary.advice->empty())
+    out << "advice: none" << std::endl;
 }
 
 template <int dim>
@@ -257,6 +284,7 @@ void Results<dim>::write_summary()
   summary.program     = io::program_info(context);
   summary.work        = context.total_work();
   summary.times       = io::collect_times(context);
+  summary.memory      = io::collect_memory(context);
   if (!io::blas_warning(summary.program).empty())
     summary.warnings.push_back(io::blas_warning(summary.program));
   summary.warnings.insert(summary.warnings.end(), warnings.begin(), warnings.end());

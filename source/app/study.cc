@@ -1,3 +1,4 @@
+#include <snug/advice/cost.h>
 #include <snug/app/interrupt.h>
 #include <snug/app/inventory.h>
 #include <snug/app/optimize.h>
@@ -80,9 +81,12 @@ typename ShapeProblem<dim>::States solve_start(ShapeProblem<dim> &problem, Resul
 }
 
 template <int dim>
-void run_state(ShapeProblem<dim> &problem, Results<dim> &results)
+void run_state(ShapeProblem<dim> &problem, Results<dim> &results, const bool advise)
 {
-  results.add_last(0., solve_start(problem, results));
+  const auto states = solve_start(problem, results);
+  results.add_last(0., states);
+  if (advise)
+    results.advise(states);
   results.write_summary();
 }
 
@@ -126,6 +130,22 @@ std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene
   return build_mesh<dim>(scene, context.communicator());
 }
 
+/// Rank 0 counts; an estimate is no business of the others.
+void print_estimate(RunContext         &context,
+                    const scene::Scene &scene,
+                    unsigned int        ranks,
+                    const bool          stages)
+{
+  everywhere(context.communicator(), [&]() {
+    if (context.rank() == 0)
+      made_of(scene, [&]() {
+        print(advice::estimate_cost(scene, ranks > 0 ? ranks : context.n_ranks(),
+                                    advice::machine_speed()),
+              stages, context.out());
+      });
+  });
+}
+
 template <int dim>
 void validate_in(RunContext &context, const scene::Scene &scene)
 {
@@ -147,6 +167,7 @@ template <int dim>
 void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
 {
   prepare_output(context, scene);
+  print_estimate(context, scene, 0, false);
   ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
   if (!options.restart)
     io::remove_results(context, output_directories(scene));
@@ -154,10 +175,10 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
   results.summary.task = to_text(scene.task);
   results.print_header();
   std::string complaint;
-  switch (scene.task)
+  switch (options.advise ? scene::Task::state : scene.task)
     {
       case scene::Task::state:
-        run_state(problem, results);
+        run_state(problem, results, options.advise);
         break;
       case scene::Task::sensitivity:
         run_sensitivity(problem, results);
@@ -185,8 +206,15 @@ void reserve_blas_buffer()
 }
 } // namespace
 
-void run_study(RunContext &context, const scene::Scene &scene, const Options &options)
+void run_study(RunContext &context, const scene::Scene &given, const Options &options)
 {
+  auto scene = given;
+  if (options.advise)
+    {
+      scene.accuracy.estimate = accuracy::Estimate::energy;
+      if (options.output.empty())
+        scene.output_directory += "/advice"; // the results of runs stay
+    }
   if (options.restart && scene.task != scene::Task::optimize)
     throw InputError(scene.file + ": option '--restart' goes on with an " +
                      "optimization, but 'Task' = " + to_text(scene.task));
@@ -198,6 +226,7 @@ void run_study(RunContext &context, const scene::Scene &scene, const Options &op
 
 void validate(RunContext &context, const scene::Scene &scene)
 {
+  print_estimate(context, scene, 0, false);
   if (scene.dimension == 2)
     validate_in<2>(context, scene);
   else
@@ -211,7 +240,9 @@ int run(const Options &options)
   const scene::Scene scene = scene::read_scene(
     {options.file, scene::read_text(options.file, MPI_COMM_WORLD), options.sets, options.output,
      [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
-  if (options.validate)
+  if (options.estimate)
+    print_estimate(context, scene, options.ranks, true);
+  else if (options.validate)
     {
       validate(context, scene);
       context.out() << options.file << " is valid" << std::endl;

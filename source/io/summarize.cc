@@ -1,5 +1,7 @@
 #include <snug/io/summary.h>
 
+#include <sys/resource.h>
+
 #include <vector>
 
 namespace snug::io {
@@ -85,6 +87,18 @@ Summary::Times collect_times(const RunContext &context)
                 context.communicator());
   return {seconds[0], seconds[1], seconds[2], seconds[3],
           seconds[4], seconds[5], seconds[6], seconds[7]};
+}
+
+/// Linux counts in KiB.
+Summary::Memory collect_memory(const RunContext &context)
+{
+  rusage of_this;
+  getrusage(RUSAGE_SELF, &of_this);
+  const double    here = double(of_this.ru_maxrss) / 1024.;
+  Summary::Memory result;
+  MPI_Allreduce(&here, &result.largest, 1, MPI_DOUBLE, MPI_MAX, context.communicator());
+  MPI_Allreduce(&here, &result.total, 1, MPI_DOUBLE, MPI_SUM, context.communicator());
+  return result;
 }
 
 template Summary::Mesh  summarize(const mesh::BodyMesh<2> &, const mesh::Tearing &);

@@ -196,6 +196,7 @@ std::string Summary::json() const
                {"optimization", summary_part(optimization)},
                {"work", summary_part(work)},
                {"times", summary_part(times)},
+               {"memory", {{"largest", memory.largest}, {"total", memory.total}}},
                {"task", task},
                {"warnings", warnings}};
   // Only with a second state or load case; the keys above are always there.
@@ -203,6 +204,16 @@ std::string Summary::json() const
     text["initial_state"] = summary_part(*initial_state);
   for (const auto &load_case : load_cases)
     text["load_cases"].push_back(summary_part(load_case));
+  if (advice)
+    {
+      text["advice"] = Json::array();
+      for (const auto &item : *advice)
+        text["advice"].push_back({{"kind", item.kind},
+                                  {"text", item.text},
+                                  {"saving", item.saving},
+                                  {"saves", item.saves},
+                                  {"error", item.error}});
+    }
   // File names in messages need not be UTF-8; JSON must be.
   return text.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

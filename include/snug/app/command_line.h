@@ -13,6 +13,9 @@ struct Options
   std::string              output; ///< directory; empty: as in the file
   bool                     restart          = false;
   bool                     validate         = false;
+  bool                     advise           = false;
+  bool                     estimate         = false;
+  unsigned int             ranks            = 0; ///< of the estimate; 0: those of the run
   bool                     print_parameters = false;
   bool                     help             = false;
   bool                     version          = false;

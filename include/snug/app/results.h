@@ -50,6 +50,10 @@ public:
   /// The same of the last design or only one. Collective.
   void add_last(double time, const States &states, const std::optional<Field> &shape_gradient = {});
 
+  /// Print what there is to say of a scene with these states, for the log and the summary.
+  /// Collective.
+  void advise(const States &states);
+
   /// The optimized surface and the control points. Collective.
   void export_shape(const std::vector<double> &design);
 
@@ -87,6 +91,7 @@ private:
   double                          drawn = 0.; ///< the time drawn last
   std::vector<std::string>        warnings;
   std::vector<io::Summary::State> first_states; ///< per load case
+  std::vector<MeshError>          last_errors;  ///< of add_last()
 
   void print_pairs() const;
 };

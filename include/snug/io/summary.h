@@ -1,6 +1,7 @@
 #ifndef snug_io_summary_h
 #define snug_io_summary_h
 
+#include <snug/advice/advice.h>
 #include <snug/base/run_context.h>
 #include <snug/mesh/tearing.h>
 #include <snug/optimization/minimize.h>
@@ -131,6 +132,12 @@ struct Summary
            output = 0., total = 0.; ///< [s]
   };
 
+  /// Of the largest rank and of all together, when it was most [MB].
+  struct Memory
+  {
+    double largest = 0., total = 0.;
+  };
+
   Program                     program;
   Mesh                        mesh;
   State                       state; ///< of the final design; the first load case
@@ -138,10 +145,14 @@ struct Summary
   std::optional<Optimization> optimization;
   Work                        work;
   Times                       times;
+  Memory                      memory;
   std::string                 task;
   std::optional<State>        initial_state; ///< of the first design
   std::vector<LoadCase>       load_cases;    ///< empty if there is only one
   std::vector<std::string>    warnings;
+
+  /// If it was asked for.
+  std::optional<std::vector<advice::Advice>> advice;
 
   /// The JSON text; doubles read back as the same numbers.
   std::string json() const;
@@ -169,6 +180,9 @@ Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &te
 
 template <int dim>
 Summary::State summarize(const state::ContactState<dim> &state);
+
+/// What the ranks have taken so far. Collective.
+Summary::Memory collect_memory(const RunContext &context);
 
 /// Seconds of the stages named as the members of Times, of the slowest
 /// rank. Collective.

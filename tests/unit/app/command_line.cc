@@ -48,6 +48,10 @@ TEST(CommandLine, TakesQuestionsWithoutAFile)
   EXPECT_TRUE(parse({"--version"}).version);
   EXPECT_TRUE(parse({"--print-parameters"}).print_parameters);
   EXPECT_TRUE(parse({"--validate", "a.prm"}).validate);
+  EXPECT_TRUE(parse({"--advise", "a.prm"}).advise);
+  const auto estimate = parse({"--estimate", "--ranks", "16", "a.prm"});
+  EXPECT_TRUE(estimate.estimate);
+  EXPECT_EQ(estimate.ranks, 16u);
 }
 
 TEST(CommandLine, NamesWhatIsWrong)
@@ -63,6 +67,10 @@ TEST(CommandLine, NamesWhatIsWrong)
   expect(error_of({"a.prm", "--set"}), "'--set' needs a value");
   expect(error_of({"a.prm", "--restart=1"}), "'--restart' takes no value");
   expect(error_of({"a.prm", "b.prm"}), "'b.prm'");
+  expect(error_of({"--estimate", "--ranks=0", "a.prm"}), "'--ranks' needs a whole number");
+  expect(error_of({"--estimate", "--ranks=two", "a.prm"}), "'--ranks' needs a whole number");
+  expect(error_of({"--ranks=2", "a.prm"}), "'--ranks' is for --estimate");
+  expect(error_of({"--advise", "--restart", "a.prm"}), "at a time");
 }
 
 TEST(Failure, StatusFollowsTheKindOfError)
