@@ -1,10 +1,45 @@
 #include <snug/accuracy/accuracy_parameters.h>
-#include <snug/base/entries.h>
+#include <snug/accuracy/adaptation.h>
+#include <snug/base/section_check.h>
 
 namespace snug::accuracy {
 void AccuracyParameters::declare(Entries &entries)
 {
   entries.add("Estimate", estimate,
               "What is estimated of the mesh's error, once per state and of the final design.");
+  entries.add(
+    "Target", targets, allowed("a list 'response: error, response: error, ...'"),
+    "Of a state: the mesh is refined until the estimated errors of these responses, names "
+    "in 'Responses' or quantities, are smaller in all load cases: 'peak pressure: 1 %' of "
+    "its value, or 'tip: 0.02' in its units. Faces that meet in contact get one size. "
+    "Empty: the mesh as given.");
+  entries.add("Maximum levels", maximum_levels, between(1., 20.),
+              "Cells are refined up to this level above the coarse cells, with 'Refinements'.");
+  entries.add("Maximum unknowns", maximum_unknowns, positive(), "Finer meshes are not solved.");
+  entries.add(
+    "Marking share", marking_share, between(0.05, 0.95),
+    "Cells with this part of the error are refined at once, or fewer where that is enough.");
+  entries.add("Contact faces", contact_faces, between(2., 100.),
+              "A contact of fewer faces across is refined, whatever its estimated error.");
+  entries.add("Verify", verify, "Also solve the mesh with all cells refined, and compare.");
+}
+
+void AccuracyParameters::check(const SectionCheck &section) const
+{
+  const auto require = [&](const bool good, const std::string &allowed) {
+    section.require(good, "Target", to_text(targets), allowed);
+  };
+  require(targets.empty() || estimate != Estimate::none, "must be empty for 'Estimate' none");
+  section.require(!targets.empty() || !verify, "Verify", to_text(verify),
+                  "must be left out without 'Target'");
+  for (const auto &[name, text] : targets)
+    try
+      {
+        read_target(text);
+      }
+    catch (const std::exception &)
+      {
+        require(false, "the target of '" + name + "' must be like '1 %' or '0.02', above 0");
+      }
 }
 } // namespace snug::accuracy

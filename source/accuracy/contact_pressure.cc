@@ -1,7 +1,6 @@
 #include <snug/accuracy/contact_pressure.h>
-#include <snug/contact/face_tree.h>
+#include <snug/contact/nearest_face.h>
 #include <snug/contact/projection.h>
-#include <snug/faces/closest_point.h>
 #include <snug/faces/outer_edges.h>
 
 namespace snug::accuracy {
@@ -16,30 +15,16 @@ public:
             const faces::FaceShape<dim>              &shape,
             std::vector<double>                       nodal)
     : nodal(std::move(nodal))
-    , faces(faces_of(surface, pair))
     , surface(surface)
     , positions(positions)
     , shape(shape)
-    , edges(surface, faces, shape)
-    , tree(surface, faces, shape, positions)
+    , edges(surface, contact::faces_of(surface, pair.slave), shape)
+    , faces(surface, contact::faces_of(surface, pair.slave), shape, positions)
   {}
 
   double at(const dealii::Tensor<1, dim> &x) const
   {
-    dealii::BoundingBox<dim> cube({dealii::Point<dim>(x), dealii::Point<dim>(x)});
-    cube.extend(tree.bound(x) * (1. + 1e-6) + 1e-6 * tree.extent(tree.nearest_box(x)));
-    faces::ClosestPoint<dim> best;
-    unsigned int             face = 0;
-    best.squared_distance         = std::numeric_limits<double>::max();
-    for (const std::size_t i : tree.meeting(cube))
-      {
-        const auto point = faces::closest_point(shape, tree.nodes(i), x);
-        if (point.squared_distance < best.squared_distance)
-          {
-            best = point;
-            face = faces[i];
-          }
-      }
+    const auto [face, best] = faces.closest(x);
     if (edges.excess(face, best.xi, x - best.position, positions) >= contact::edge_tolerance)
       return 0.;
     const auto values = shape.at(best.xi).value;
@@ -52,22 +37,11 @@ public:
   const std::vector<double> nodal; ///< per surface node
 
 private:
-  const std::vector<unsigned int>           faces;
   const mesh::Surface<dim>                 &surface;
   const typename mesh::Surface<dim>::Field &positions;
   const faces::FaceShape<dim>              &shape;
   const faces::OuterEdges<dim>              edges;
-  const contact::FaceTree<dim>              tree;
-
-  static std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface,
-                                            const contact::Pair      &pair)
-  {
-    std::vector<unsigned int> result;
-    for (unsigned int f = 0; f < surface.faces().size(); ++f)
-      if (contact::Pair::Side(surface.faces()[f].body, surface.faces()[f].boundary) == pair.slave)
-        result.push_back(f);
-    return result;
-  }
+  const contact::NearestFace<dim>           faces;
 };
 
 /// Rows, nodes they act for, hanging nodes, in this order, as each may need those before.
@@ -131,6 +105,13 @@ bool ContactPressure<dim>::is_on(const Face &face) const
 {
   const Boundary boundary(face.body, face.boundary);
   return slave_of.count(boundary) > 0 || master_of.count(boundary) > 0;
+}
+
+template <int dim>
+double ContactPressure<dim>::on_slave_side(const unsigned int            pair,
+                                           const dealii::Tensor<1, dim> &x) const
+{
+  return pairs[pair]->at(x);
 }
 
 template <int dim>

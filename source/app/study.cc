@@ -1,4 +1,5 @@
 #include <snug/advice/cost.h>
+#include <snug/app/adaptation.h>
 #include <snug/app/interrupt.h>
 #include <snug/app/inventory.h>
 #include <snug/app/optimize.h>
@@ -61,11 +62,11 @@ void print_state(std::ostream &out, const state::ContactState<dim> &state)
 }
 
 template <int dim>
-typename ShapeProblem<dim>::States solve_start(ShapeProblem<dim> &problem, Results<dim> &results)
+void report(const ShapeProblem<dim>            &problem,
+            Results<dim>                       &results,
+            typename ShapeProblem<dim>::States &states)
 {
   auto &out = problem.context.out();
-  problem.context.progress("solving the contact problem ...");
-  auto states = problem.solve(problem.shapes->start());
   for (auto &state : states)
     {
       if (problem.scene.report_linear_reference)
@@ -77,6 +78,14 @@ typename ShapeProblem<dim>::States solve_start(ShapeProblem<dim> &problem, Resul
         out << name << ' ' << value << std::endl;
     }
   results.warn(states);
+}
+
+template <int dim>
+typename ShapeProblem<dim>::States solve_start(ShapeProblem<dim> &problem, Results<dim> &results)
+{
+  problem.context.progress("solving the contact problem ...");
+  auto states = problem.solve(problem.shapes->start());
+  report(problem, results, states);
   return states;
 }
 
@@ -163,10 +172,47 @@ void validate_in(RunContext &context, const scene::Scene &scene)
     });
 }
 
-template <int dim>
-void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
+void print_work(RunContext &context, const io::Summary::Adaptation &adaptation)
 {
-  prepare_output(context, scene);
+  unsigned long unknowns = 0, f_mults = 0;
+  for (const auto &mesh : adaptation.meshes)
+    {
+      unknowns += mesh.dofs;
+      f_mults += mesh.f_mults;
+    }
+  auto &out = context.out();
+  out << (adaptation.met ? "targets met" : "targets not met") << " on " << adaptation.meshes.size()
+      << " meshes with " << unknowns << " unknowns and " << f_mults << " F-mults in all;";
+  for (const auto *stage : {"setup", "assembly", "factorization", "solve", "accuracy"})
+    out << ' ' << stage << ' ' << context.seconds(stage) << " s";
+  out << std::endl;
+}
+
+/// A state on the mesh that its targets ask for. @return why they are not met; empty: they are.
+template <int dim>
+std::string run_adapted(RunContext &context, const scene::Scene &scene)
+{
+  Adaptation<dim> adaptation(context, scene);
+  io::remove_results(context, output_directories(scene));
+  const auto   complaint = adaptation.run();
+  Results<dim> results(adaptation.problem());
+  results.summary.task     = to_text(scene.task);
+  results.summary.accuracy = adaptation.summary;
+  print_work(context, adaptation.summary);
+  results.print_header();
+  report(adaptation.problem(), results, adaptation.states());
+  // responses that are no targets are estimated if all are asked for
+  results.add_last(0., adaptation.states(), {},
+                   scene.accuracy.estimate == accuracy::Estimate::responses
+                     ? std::vector<MeshError>()
+                     : adaptation.errors());
+  results.write_summary();
+  return complaint;
+}
+
+template <int dim>
+std::string run_given(RunContext &context, const scene::Scene &scene, const Options &options)
+{
   print_estimate(context, scene, 0, false);
   ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
   if (!options.restart)
@@ -188,6 +234,15 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
         complaint = optimize(problem, results, options.restart);
         break;
     }
+  return complaint;
+}
+
+template <int dim>
+void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
+{
+  prepare_output(context, scene);
+  const auto complaint = scene.accuracy.targets.empty() ? run_given<dim>(context, scene, options)
+                                                        : run_adapted<dim>(context, scene);
   context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"
                 << std::endl;
   if (!complaint.empty())
@@ -212,6 +267,7 @@ void run_study(RunContext &context, const scene::Scene &given, const Options &op
   if (options.advise)
     {
       scene.accuracy.estimate = accuracy::Estimate::energy;
+      scene.accuracy.targets.clear(); // advice is on the mesh as given
       if (options.output.empty())
         scene.output_directory += "/advice"; // the results of runs stay
     }

@@ -30,17 +30,6 @@ bool asks_too_much(const double size, const double contrast)
   return size > 1. / (1. - finer_by) && size * contrast > alike;
 }
 
-/// Ascending, so that the order of rows does not depend on the ranks.
-template <int dim>
-std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
-{
-  std::vector<unsigned int> faces;
-  for (unsigned int f = 0; f < surface.faces().size(); ++f)
-    if (Pair::Side(surface.faces()[f].body, surface.faces()[f].boundary) == side)
-      faces.push_back(f);
-  return faces;
-}
-
 /// Of obstacles, the master side is empty.
 template <int dim>
 PairFaces sides_of(const mesh::Surface<dim> &surface, const Pair &pair)

@@ -1,8 +1,12 @@
 #include <snug/contact/matching.h>
+#include <snug/contact/nearest_face.h>
 #include <snug/contact/projection.h>
 #include <snug/contact/supported_normals.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace snug::contact {
@@ -50,6 +54,66 @@ Matching matching(const PairGeometry<dim> &pair)
   return result;
 }
 
-template Matching matching(const PairGeometry<2> &);
-template Matching matching(const PairGeometry<3> &);
+namespace {
+/// Where normals are opposite by less than this angle [degrees], faces meet.
+const double steepest_meeting = 60.;
+
+/// Centre and unit normal of a face.
+template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
+middle(const mesh::Surface<dim>                 &surface,
+       const faces::FaceShape<dim>              &shape,
+       const unsigned int                        face,
+       const typename mesh::Surface<dim>::Field &positions)
+{
+  const auto            &nodes = surface.faces()[face].nodes;
+  dealii::Point<dim - 1> centre;
+  for (unsigned int d = 0; d < dim - 1; ++d)
+    centre[d] = 0.5;
+  const auto             values = shape.at(centre);
+  dealii::Tensor<1, dim> x;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    x += values.value[k] * positions[nodes[k]];
+  const auto n = faces::area_vector(faces::tangents<dim>(values, nodes, positions));
+  return {x, n / n.norm()};
+}
+} // namespace
+
+template <int dim>
+std::vector<unsigned int> coarse_faces(const mesh::Surface<dim>                 &surface,
+                                       const faces::FaceShape<dim>              &shape,
+                                       const Pair                               &pair,
+                                       const typename mesh::Surface<dim>::Field &positions)
+{
+  std::vector<unsigned int> result;
+  if (pair.obstacle)
+    return result;
+  const double least_cosine = std::cos(steepest_meeting / 180. * dealii::numbers::PI);
+  const auto   slave = faces_of(surface, pair.slave), master = faces_of(surface, pair.master);
+  const auto add = [&](const std::vector<unsigned int> &side, const std::vector<unsigned int> &of) {
+    const NearestFace<dim> other(surface, of, shape, positions);
+    for (const unsigned int face : side)
+      {
+        const auto [x, n]           = middle(surface, shape, face, positions);
+        const unsigned int opposite = other.closest(x).face;
+        if (-(n * middle(surface, shape, opposite, positions).second) >= least_cosine &&
+            mean_face_size(surface, {face}, positions) >
+              coarser_by * mean_face_size(surface, {opposite}, positions))
+          result.push_back(face);
+      }
+  };
+  add(slave, master);
+  add(master, slave);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                  \
+  template Matching                  matching(const PairGeometry<dim> &);                      \
+  template std::vector<unsigned int> coarse_faces(const mesh::Surface<dim> &,                  \
+                                                  const faces::FaceShape<dim> &, const Pair &, \
+                                                  const mesh::Surface<dim>::Field &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::contact

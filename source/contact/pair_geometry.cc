@@ -24,6 +24,16 @@ double face_size(const std::vector<unsigned int>          &nodes,
 } // namespace
 
 template <int dim>
+std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
+{
+  std::vector<unsigned int> faces;
+  for (unsigned int f = 0; f < surface.faces().size(); ++f)
+    if (Pair::Side(surface.faces()[f].body, surface.faces()[f].boundary) == side)
+      faces.push_back(f);
+  return faces;
+}
+
+template <int dim>
 double mean_face_size(const mesh::Surface<dim>                 &surface,
                       const std::vector<unsigned int>          &faces,
                       const typename mesh::Surface<dim>::Field &positions)
@@ -79,6 +89,7 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                   \
+  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Pair::Side &);  \
   template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
                                  const mesh::Surface<dim>::Field &);                            \
   template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,        \

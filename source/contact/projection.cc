@@ -1,7 +1,6 @@
-#include <snug/contact/face_tree.h>
+#include <snug/contact/nearest_face.h>
 #include <snug/contact/normal_rays.h>
 #include <snug/contact/projection.h>
-#include <snug/faces/closest_point.h>
 #include <snug/faces/outer_edges.h>
 
 #include <algorithm>
@@ -9,66 +8,6 @@
 #include <optional>
 
 namespace snug::contact {
-/// The nearest face of a master side.
-template <int dim>
-class MasterSide
-{
-public:
-  struct Found
-  {
-    unsigned int             face; ///< surface index
-    faces::ClosestPoint<dim> point;
-  };
-
-  MasterSide(const mesh::Surface<dim>                 &surface,
-             const std::vector<unsigned int>          &faces,
-             const faces::FaceShape<dim>              &shape,
-             const typename mesh::Surface<dim>::Field &positions)
-    : shape(shape), faces(faces), tree(surface, faces, shape, positions)
-  {}
-
-  Found closest(const dealii::Tensor<1, dim> &p) const
-  {
-    // A little more than the bound, so that faces which are equally close are candidates, too, and
-    // also where the distance is zero.
-    dealii::BoundingBox<dim> cube({dealii::Point<dim>(p), dealii::Point<dim>(p)});
-    cube.extend(tree.bound(p) * (1. + 1e-6) + 1e-6 * tree.extent(tree.nearest_box(p)));
-    // By index, as the first of those that tie is taken: on matching meshes the closest point is
-    // often a corner of four faces, and rounding must not choose between them.
-    const auto                            candidates = tree.meeting(cube);
-    std::vector<faces::ClosestPoint<dim>> points;
-    std::size_t                           best = 0;
-    for (const std::size_t i : candidates)
-      {
-        points.push_back(faces::closest_point(shape, tree.nodes(i), p));
-        if (points.back().squared_distance < points[best].squared_distance)
-          best = points.size() - 1;
-      }
-    std::size_t first = 0;
-    // Ends at `best` at the latest, which ties with itself.
-    while (!ties(points[first], points[best], tree.extent(candidates[best])))
-      ++first;
-    return {faces[candidates[first]], points[first]};
-  }
-
-private:
-  const faces::FaceShape<dim>     &shape;
-  const std::vector<unsigned int> &faces;
-  const FaceTree<dim>              tree;
-
-  /// Equally close: the same point, which faces share, or another one at
-  /// the same distance but for round-off. Points in between are different
-  /// answers, of which the closer is right. @p extent: of a face, with which
-  /// rounding of positions is compared.
-  bool
-  ties(const faces::ClosestPoint<dim> &a, const faces::ClosestPoint<dim> &best, double extent) const
-  {
-    const double apart = (a.position - best.position).norm();
-    return apart <= 1e-11 * extent ||
-           (apart > 1e-3 * extent && a.squared_distance <= best.squared_distance * (1. + 1e-12));
-  }
-};
-
 namespace {
 /// Weights below this are round-off of nodes that do not take part.
 const double least_weight = 1e-12;
@@ -166,7 +105,7 @@ private:
 template <int dim>
 struct Projector<dim>::Search
 {
-  MasterSide<dim>        side;
+  NearestFace<dim>       side;
   MasterRays<dim>        rays;
   faces::OuterEdges<dim> edges;
 };

@@ -178,6 +178,29 @@ Json summary_part(const Work &work)
           {"assembled_subdomains", work.assembled_subdomains}};
 }
 
+Json summary_part(const std::vector<Summary::MeasuredResponse> &responses)
+{
+  Json part = Json::object();
+  for (const auto &response : responses)
+    part[response.name] = {{"value", response.value}, {"error", response.error}};
+  return part;
+}
+
+Json summary_part(const Summary::Adaptation &adaptation)
+{
+  Json meshes = Json::array();
+  for (const auto &mesh : adaptation.meshes)
+    meshes.push_back({{"dofs", mesh.dofs},
+                      {"contact_faces", mesh.contact_faces},
+                      {"tolerance", mesh.tolerance},
+                      {"f_mults", mesh.f_mults},
+                      {"seconds", mesh.seconds},
+                      {"responses", summary_part(mesh.responses)}});
+  return {{"met", adaptation.met},
+          {"meshes", meshes},
+          {"verified", summary_part(adaptation.verified)}};
+}
+
 Json summary_part(const Summary::Times &times)
 {
   return {
@@ -199,7 +222,7 @@ std::string Summary::json() const
                {"memory", {{"largest", memory.largest}, {"total", memory.total}}},
                {"task", task},
                {"warnings", warnings}};
-  // Only with a second state or load case; the keys above are always there.
+  // Only with a second state or load case or with targets; the keys above are always there.
   if (initial_state)
     text["initial_state"] = summary_part(*initial_state);
   for (const auto &load_case : load_cases)
@@ -214,6 +237,8 @@ std::string Summary::json() const
                                   {"saves", item.saves},
                                   {"error", item.error}});
     }
+  if (accuracy)
+    text["accuracy"] = summary_part(*accuracy);
   // File names in messages need not be UTF-8; JSON must be.
   return text.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -162,6 +162,7 @@ void BodyMesh<dim>::collect_cells(const Source &source)
         mesh_cells.push_back({body, source.parts[mesh_cells.size()],
                               geometries[body]->region(source.coarse.coarse_cell(cell->id())),
                               source.nodes_of(cell, relevant)});
+        cell_ids.push_back(cell->id());
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
             // boundary ids are indices of the body's names, see create_coarse_mesh()

@@ -127,7 +127,9 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
   double      cells_each =
     parameters.subdomains == 0 ? cells_by_size : double(n_cells) / parameters.subdomains;
   const unsigned long least =
-    std::min<unsigned long>(n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
+    parameters.at_least_ranks
+      ? std::min<unsigned long>(n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator))
+      : 1;
   Parts parts;
   do
     {

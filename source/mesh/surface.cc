@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace snug::mesh {
 namespace {
@@ -204,6 +205,30 @@ typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::
         result[n_nodes() + i / dim][i % dim] = values[i];
     }
   return result;
+}
+
+template <int dim>
+std::vector<unsigned int> Surface<dim>::cells_of(const std::vector<unsigned int> &faces) const
+{
+  // No two faces have the same nodes.
+  std::set<std::vector<unsigned int>> wanted;
+  for (const unsigned int face : faces)
+    {
+      std::vector<unsigned int> nodes;
+      for (const unsigned int node : surface_faces[face].nodes)
+        nodes.push_back(global_nodes[node]);
+      wanted.insert(nodes);
+    }
+  std::vector<unsigned int> cells;
+  for (const auto &face : mesh.boundary_faces())
+    {
+      std::vector<unsigned int> nodes;
+      for (const unsigned int node : face.nodes)
+        nodes.push_back(mesh.global_node(node));
+      if (wanted.count(nodes) > 0)
+        cells.push_back(face.cell);
+    }
+  return cells;
 }
 
 template <int dim>

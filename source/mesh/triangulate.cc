@@ -54,12 +54,14 @@ void create_coarse_mesh(const Geometries<dim>                             &geome
 }
 
 namespace {
-/// One level for the cells that @p wanted names by body, cell and level. Collective.
+/// One level for the cells that @p wanted names by body, cell and level; false where it names none.
+/// Collective.
 template <int dim>
-void refine_step(
+bool refine_step(
   dealii::parallel::distributed::Triangulation<dim>                             &triangulation,
   const std::function<bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
 {
+  const auto before = triangulation.n_global_active_cells();
   // a formula may fail on the rank of one cell only
   everywhere(deal_ii_compat::communicator(triangulation), [&]() {
     for (const auto &cell : triangulation.active_cell_iterators())
@@ -67,6 +69,7 @@ void refine_step(
         cell->set_refine_flag();
   });
   triangulation.execute_coarsening_and_refinement();
+  return triangulation.n_global_active_cells() > before;
 }
 } // namespace
 
@@ -103,6 +106,12 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
              formulas[body]->value(
                geometries[body]->position(coarse.point(cell, geometry::unit_centre<dim>()))) > 0.;
     });
+  // Level by level; cells that p4est refines to keep neighbours within one may be named, too.
+  while (refine_step<dim>(triangulation,
+                          [&](unsigned int body, const dealii::CellId &cell, unsigned int) {
+                            return bodies[body].refined && bodies[body].refined->count(cell) > 0;
+                          }))
+    ;
 }
 
 template void create_coarse_mesh(const Geometries<2> &,

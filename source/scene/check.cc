@@ -115,6 +115,10 @@ void check(const Scene &scene, const Origins &origins)
   check_shapes(scene, origins);
   check_responses(scene, origins);
   check_gradient(scene, section("Gradient"));
+  scene.accuracy.check(section("Accuracy"));
+  section("Accuracy")
+    .require(scene.accuracy.targets.empty() || scene.task == Task::state, "Target",
+             to_text(scene.accuracy.targets), "must be empty for Task = " + to_text(scene.task));
 }
 
 void require_boundary(const SectionCheck &section,

@@ -112,5 +112,8 @@ void check_responses(const Scene &scene, const Origins &origins)
                         name + "'");
     }
   optimization.check(section);
+  const SectionCheck accuracy("Accuracy", origins, scene.dimension);
+  for (const auto &target : scene.accuracy.targets)
+    require_response(scene, accuracy, "Target", to_text(scene.accuracy.targets), target.first);
 }
 } // namespace snug::scene

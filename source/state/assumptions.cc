@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/state/assumptions.h>
+#include <snug/state/contact_patches.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -37,51 +38,6 @@ line(const std::string &what, double value, const std::string &unit, const std::
   text.precision(2);
   text << what << " up to " << value << unit << advice;
   return text.str();
-}
-/// How many faces the contact of a pair is wide where it is narrowest: the extent of the nodes that
-/// carry force, along the axis of least extent within the face, and half a face at each end. Where
-/// they reach a symmetry plane or another support, as much lies beyond it.
-template <int dim>
-double contact_width(const StateSolver<dim>                   &solver,
-                     const unsigned int                        pair,
-                     const ContactState<dim>                  &state,
-                     const typename mesh::Surface<dim>::Field &x,
-                     const std::vector<double>                &sizes)
-{
-  const auto               &places = solver.contact().places();
-  std::vector<unsigned int> nodes;
-  dealii::Tensor<1, dim>    mean;
-  double                    size = 0., at_support = 1.;
-  bool                      all = true;
-  for (unsigned int i = 0; i < places.size(); ++i)
-    {
-      if (places[i].pair != pair)
-        continue;
-      all = all && state.contact[i].strong;
-      if (!state.contact[i].strong)
-        continue;
-      nodes.push_back(places[i].slave);
-      mean += x[nodes.back()];
-      size += sizes[nodes.back()];
-      if (solver.held().find(solver.surface().global_node(nodes.back())) < solver.held().n_nodes())
-        at_support = 2.;
-    }
-  if (all || nodes.empty())
-    return std::numeric_limits<double>::infinity();
-  mean /= double(nodes.size());
-  size /= double(nodes.size());
-  dealii::SymmetricTensor<2, dim> spread;
-  for (const unsigned int node : nodes)
-    spread += symmetrize(outer_product(x[node] - mean, x[node] - mean));
-  // In descending order: in 2D along the line, in 3D the shorter one in the face.
-  const auto axis  = eigenvectors(spread)[dim - 2].second;
-  double     lower = 0., upper = 0.;
-  for (const unsigned int node : nodes)
-    {
-      lower = std::min(lower, (x[node] - mean) * axis);
-      upper = std::max(upper, (x[node] - mean) * axis);
-    }
-  return at_support * (upper - lower) / size + 1.;
 }
 
 /// Of nodes that meet, gaps and normals have no facets between them.
@@ -163,9 +119,9 @@ Assumptions assess(const StateSolver<dim>               &solver,
       if (state.contact[i].strong)
         result.slip = std::max(result.slip, slips[i]);
     }
-  const auto sizes = contact::node_face_sizes(surface, x);
-  for (unsigned int pair = 0; pair < solver.contact().pairs().size(); ++pair)
-    result.width = std::min(result.width, contact_width(solver, pair, state, x, sizes));
+  for (const auto &patch : contact_patches(solver, state))
+    if (!patch.is_light)
+      result.width = std::min(result.width, patch.width);
   assess_facets(solver, contact_rows, state, result);
   return result;
 }

@@ -21,6 +21,7 @@ from wrong_entries import (input_cases, option_cases, partial_cases,
 MAX_SECONDS = 2.
 
 MESHES = pathlib.Path(__file__).resolve().parents[1] / "meshes"
+ADAPTED = MESHES.parent / "scenes" / "adapted-2d.prm"
 
 
 class Runner:
@@ -198,6 +199,28 @@ def check_unsolved(runner, scene):
         *run, "--set", "Optimization/Constraints=volume: = initial"])
 
 
+def check_targets(runner):
+    """Targets that cannot be met say why, and what to try."""
+    for title, entries, names in [
+            ("too few unknowns", ["Maximum unknowns=300"],
+             ["not met", "'Maximum unknowns'"]),
+            ("too few levels", ["Maximum levels=4"], ["not met", "'Maximum levels'"]),
+            ("a peak without bound", ["Target=edge: 1 %"], ["unbounded", "edge"]),
+            ("a part of nothing", ["Target=still: 1 %"], ["still", "to be zero"])]:
+        settings = ["Responses=edge, still", *(f"Accuracy/{entry}" for entry in entries),
+                    "Response edge/Quantity=von Mises norm", "Response edge/Exponent=30",
+                    "Response still/Quantity=displacement",
+                    "Response still/Face=cylinder.left", "Response still/Component=x",
+                    "Accuracy/Maximum unknowns=20000"]
+        if title == "a peak without bound":
+            # a flat punch: as large stresses at its edges as cells are small
+            settings += ["Body cylinder/Curved faces=", "Body cylinder/Box size=0.5, 1"]
+        if title == "too few unknowns":
+            settings.pop()
+        runner.expect_error(title, [ADAPTED, *(word for setting in settings for word in (
+            "--set", setting))], names, 3)
+
+
 def check_good(runner, scene):
     """What is right ends with 0 and says nothing on standard error."""
     runner.expect_success("--help", ["--help"], "--validate")
@@ -267,6 +290,7 @@ def main():
         runner.expect_error("no supports at all",
                             [runner.write("floating", floating)], [], status=3)
         check_unsolved(runner, scene)
+        check_targets(runner)
         for path in options.unsolvable:
             runner.expect_error(path.name, [path.resolve()], [], status=3)
     print(f"{runner.checked} runs, {runner.failed} wrong")

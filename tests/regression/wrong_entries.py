@@ -30,6 +30,17 @@ def input_cases(body, slave, master):
     core = {"Materials": "steel", own + "Region formulas": "core: x - 0.5",
             own + "Young's modulus": "1"}
     return [
+        wrong("target that is no number", "Accuracy/Target",
+              "potential energy: small", ["1 %"]),
+        wrong("target of nothing", "Accuracy/Target", "potential energy: 0 %",
+              ["above 0"]),
+        wrong("target of no response", "Accuracy/Target", "enrgy: 1 %", ["energy"]),
+        wrong("target without an estimate", "Accuracy/Target",
+              "potential energy: 1 %", ["Estimate"],
+              {"Accuracy/Estimate": "none"}),
+        wrong("target of an optimization", "Accuracy/Target",
+              "potential energy: 1 %", ["optimize"], shape),
+        wrong("verified without a target", "Accuracy/Verify", "true"),
         wrong("unknown entry", own + "Yuong's modulus", "1"),
         Case("unknown subsection", {"Elastcity/Degree": "1"}, ["Elastcity"], []),
         wrong("misspelled choice", "Solver/Method", "active sett",

@@ -5,7 +5,8 @@
 
 namespace snug {
 class Entries;
-}
+class SectionCheck;
+} // namespace snug
 
 namespace snug::accuracy {
 enum class Estimate
@@ -27,8 +28,16 @@ inline Names names(Estimate)
 struct AccuracyParameters
 {
   Estimate estimate = Estimate::energy;
+  /// response -> what its error may be, see read_target(); empty: the mesh as given
+  TextPairs    targets;
+  unsigned int maximum_levels   = 12; ///< of a cell above its coarse cell
+  double       maximum_unknowns = 2e6;
+  double       marking_share    = 0.7; ///< of the error, refined at once
+  double       contact_faces    = 8.;  ///< across a contact, before estimates are trusted
+  bool         verify           = false;
 
   void declare(Entries &entries);
+  void check(const SectionCheck &section) const;
 };
 } // namespace snug::accuracy
 

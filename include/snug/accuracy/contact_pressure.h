@@ -42,6 +42,9 @@ public:
   double
   value(const Face &face, const std::vector<double> &shape, const dealii::Tensor<1, dim> &x) const;
 
+  /// Of a pair, at the point of its slave side closest to @p x; 0 beyond its end.
+  double on_slave_side(unsigned int pair, const dealii::Tensor<1, dim> &x) const;
+
 private:
   class SlaveSide;
   using Boundary = std::pair<unsigned int, unsigned int>; ///< of a body

@@ -47,8 +47,12 @@ public:
   /// States of the first design as summarized; empty before add_first().
   const std::vector<io::Summary::State> &first() const { return first_states; }
 
-  /// The same of the last design or only one. Collective.
-  void add_last(double time, const States &states, const std::optional<Field> &shape_gradient = {});
+  /// The same of the last design or only one, and the errors of its mesh; empty: they are
+  /// estimated. Collective.
+  void add_last(double                        time,
+                const States                 &states,
+                const std::optional<Field>   &shape_gradient = {},
+                const std::vector<MeshError> &errors         = {});
 
   /// Print what there is to say of a scene with these states, for the log and the summary.
   /// Collective.

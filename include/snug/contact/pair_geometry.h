@@ -8,6 +8,10 @@
 #include <cmath>
 
 namespace snug::contact {
+/// The faces of a side, ascending, so that the order of rows does not depend on the ranks.
+template <int dim>
+std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side);
+
 /// Mean edge length of @p faces: diagonal over sqrt(dim-1) [length].
 template <int dim>
 double mean_face_size(const mesh::Surface<dim>                 &surface,

@@ -7,8 +7,11 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <deal.II/grid/cell_id.h>
+
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,6 +122,9 @@ struct BodyMeshParameters
   /// cells are refined where this formula of x, y, z is positive
   std::string  refine_where;
   unsigned int local_refinements = 0;
+  /// Cells of all bodies that have children besides, with all their ancestors; null: none.
+  /// Not an entry.
+  std::shared_ptr<const std::set<dealii::CellId>> refined;
 
   void declare(Entries &entries);
   /// Give lists that were left empty their defaults.

@@ -126,6 +126,32 @@ struct Summary
     std::optional<State> initial_state;
   };
 
+  /// A response of a load case on one of several meshes.
+  struct MeasuredResponse
+  {
+    std::string name; ///< with its load case, if there are several
+    double      value = none, error = none;
+  };
+
+  /// One of the meshes on the way to a target.
+  struct AdaptedMesh
+  {
+    unsigned long                 dofs          = 0;
+    double                        contact_faces = none; ///< across; none where closed all over
+    double                        tolerance     = none;
+    unsigned long                 f_mults       = 0;
+    double                        seconds       = none;
+    std::vector<MeasuredResponse> responses;
+  };
+
+  struct Adaptation
+  {
+    bool                     met = false; ///< all targets
+    std::vector<AdaptedMesh> meshes;
+    /// of the mesh with all cells refined, if that is solved
+    std::vector<MeasuredResponse> verified;
+  };
+
   struct Times
   {
     double setup = 0., assembly = 0., factorization = 0., solve = 0., gradient = 0., accuracy = 0.,
@@ -150,6 +176,7 @@ struct Summary
   std::optional<State>        initial_state; ///< of the first design
   std::vector<LoadCase>       load_cases;    ///< empty if there is only one
   std::vector<std::string>    warnings;
+  std::optional<Adaptation>   accuracy; ///< to a target
 
   /// If it was asked for.
   std::optional<std::vector<advice::Advice>> advice;

@@ -130,6 +130,10 @@ public:
     return index < mesh_cells.size() ? mesh_cells[index] : other_cells[index - mesh_cells.size()];
   }
 
+  /// The id of a cell of cells(): the same on any number of ranks, and in finer meshes that of the
+  /// cell with all its children.
+  const dealii::CellId &cell_id(unsigned int cell) const { return cell_ids[cell]; }
+
   /// Pairs of owned cells (a < b) that share a face or part of one.
   const CellPairs &cell_neighbours() const { return neighbours; }
 
@@ -149,6 +153,7 @@ private:
   Field                           reference;
   std::vector<unsigned int>       hanging_of_node; ///< or a number above all
   std::vector<Cell>               mesh_cells;
+  std::vector<dealii::CellId>     cell_ids;
   std::vector<Face>               mesh_faces;
   std::vector<Hanging>            hanging_nodes;
   CellPairs                       neighbours;

@@ -22,6 +22,8 @@ struct TearingParameters
 {
   unsigned int subdomains = 0;      ///< of all bodies, a target; 0: by size
   std::string  method     = "auto"; ///< a name of partition_table()
+  /// as many as ranks, where there are cells enough; not an entry
+  bool at_least_ranks = true;
 
   void declare(Entries &entries);
 };

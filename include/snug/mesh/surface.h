@@ -50,6 +50,8 @@ public:
   /// Add a surface field to a field of nodes or points at those this rank
   /// owns (hanging nodes included), so that a sum over ranks adds each once.
   void add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const;
+  /// Cells of this rank, as in BodyMesh::cells(), that have one of these faces.
+  std::vector<unsigned int> cells_of(const std::vector<unsigned int> &faces) const;
   /// (surface, local) numbers of the samples on this rank.
   const std::vector<std::pair<unsigned int, unsigned int>> &samples() const
   {

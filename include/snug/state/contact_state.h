@@ -46,8 +46,7 @@ struct Assumptions
   double strain   = 0.; ///< largest of a cell
   double slip     = 0.; ///< largest of an active contact, in faces
   double drift    = 0.; ///< largest of a design off its pairing, in faces
-  /// least of a pair, across where it is narrowest, in faces; infinite where
-  /// all of the slave side is in contact
+  /// least of a patch that is not light, see ContactPatch
   double width = std::numeric_limits<double>::infinity();
   /// of the pair that sees the highest facets instead of what they stand for, by the gaps it
   /// closes: their height and these [length]

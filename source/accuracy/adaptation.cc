@@ -1,0 +1,94 @@
+#include <snug/accuracy/adaptation.h>
+#include <snug/base/values.h>
+#include <snug/mesh/refined_cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+namespace snug::accuracy {
+namespace {
+/// Indicators above this part of the last one that is marked are marked as well: symmetric
+/// cells, whose indicators differ by what the solver leaves, are refined together.
+const double like_the_last = 0.99;
+} // namespace
+
+double Target::allowed(const double response) const
+{
+  return relative ? value * std::abs(response) : value;
+}
+
+Target read_target(const std::string &text)
+{
+  std::size_t       end = 0;
+  Target            target{std::stod(text, &end), false};
+  const std::string rest = trim(text.substr(end));
+  target.relative        = rest == "%";
+  if (target.relative)
+    target.value /= 100.;
+  if (!std::isfinite(target.value) || target.value <= 0. || !(rest.empty() || target.relative))
+    throw std::invalid_argument("no target");
+  return target;
+}
+
+std::vector<bool> mark(const std::vector<double> &indicators,
+                       const double               error,
+                       const double               allowed,
+                       const Marking             &marking)
+{
+  std::vector<bool> marked(indicators.size(), false);
+  const double      sum = std::accumulate(indicators.begin(), indicators.end(), 0.);
+  if (error <= aim * allowed || sum <= 0.)
+    return marked;
+  std::vector<unsigned int> order(indicators.size());
+  std::iota(order.begin(), order.end(), 0u);
+  // Ties by the order of the cells.
+  std::stable_sort(order.begin(), order.end(),
+                   [&](unsigned int a, unsigned int b) { return indicators[a] > indicators[b]; });
+  const double falls  = 1. - std::pow(4., -1. * marking.degree);
+  const double wanted = sum * std::min(marking.share, (1. - aim * allowed / error) / falls);
+  double       so_far = 0., last = 0.;
+  for (const unsigned int cell : order)
+    {
+      if (indicators[cell] <= 0. || (so_far >= wanted && indicators[cell] < like_the_last * last))
+        break;
+      if (so_far < wanted)
+        last = indicators[cell];
+      so_far += indicators[cell];
+      marked[cell] = true;
+    }
+  return marked;
+}
+
+std::vector<dealii::CellId> idle_families(const std::vector<dealii::CellId> &cells,
+                                          const std::vector<double>         &indicators,
+                                          const std::vector<bool>           &keep,
+                                          const unsigned int                 n_children)
+{
+  const double idle =
+    1e-3 * std::accumulate(indicators.begin(), indicators.end(), 0.) / double(cells.size());
+  std::map<dealii::CellId, unsigned int> n_idle;
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    if (mesh::level(cells[cell]) > 0 && !keep[cell] && indicators[cell] < idle)
+      ++n_idle[mesh::parent(cells[cell])];
+  std::vector<dealii::CellId> result;
+  for (const auto &[family, n] : n_idle)
+    if (n == n_children)
+      result.push_back(family);
+  return result;
+}
+
+double step_tolerance(const double error, const bool is_energy, const double least)
+{
+  const double tenth = 0.1 * error;
+  return std::max(least, std::min(first_tolerance, is_energy ? std::sqrt(tenth) : tenth));
+}
+
+bool is_unbounded(const std::vector<double> &errors)
+{
+  const auto n = errors.size();
+  return n > 3 && errors[n - 1] > 0.5 * errors[n - 4];
+}
+} // namespace snug::accuracy

@@ -1,0 +1,48 @@
+#include <snug/accuracy/contact_pressure.h>
+#include <snug/accuracy/transfer.h>
+
+namespace snug::accuracy {
+template <int dim>
+qp::WarmStart transferred(const state::StateSolver<dim>             &from,
+                          const state::ContactState<dim>            &state,
+                          const state::StateSolver<dim>             &to,
+                          const typename mesh::BodyMesh<dim>::Field &positions)
+{
+  std::vector<double> pressures;
+  for (const auto &point : state.contact)
+    pressures.push_back(point.pressure);
+  const ContactPressure<dim> pressure(from, state.positions, pressures);
+  const auto                 x      = to.surface().gather(positions);
+  const auto                 areas  = to.contact().areas(x);
+  const auto                &places = to.contact().places();
+  std::vector<double>        forces;
+  bool                       any = false;
+  for (unsigned int i = 0; i < places.size(); ++i)
+    {
+      forces.push_back(
+        std::max(0., areas[i] * pressure.on_slave_side(places[i].pair, x[places[i].slave])));
+      any = any || forces.back() > 0.;
+    }
+  if (!any)
+    return qp::WarmStart();
+  const auto   &contact_of_row = to.gluing().contact_of_row();
+  qp::WarmStart start{qp::MultiVector(contact_of_row.size()), qp::RowSet(contact_of_row.size(), 1)};
+  for (unsigned int row = 0; row < contact_of_row.size(); ++row)
+    if (contact_of_row[row] < forces.size())
+      {
+        const double force = forces[contact_of_row[row]];
+        start.lambda(row)  = force * to.gluing().contact_scales()[contact_of_row[row]];
+        start.active[row]  = force > 0.;
+      }
+  return start;
+}
+
+#define SNUG_INSTANTIATE(dim)                                          \
+  template qp::WarmStart transferred(const state::StateSolver<dim> &,  \
+                                     const state::ContactState<dim> &, \
+                                     const state::StateSolver<dim> &,  \
+                                     const typename mesh::BodyMesh<dim>::Field &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::accuracy

@@ -1,0 +1,375 @@
+#include <snug/accuracy/transfer.h>
+#include <snug/accuracy/trust.h>
+#include <snug/app/adaptation.h>
+#include <snug/contact/matching.h>
+#include <snug/mesh/refined_cells.h>
+#include <snug/state/assumptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <sstream>
+
+namespace snug::app {
+namespace {
+/// "energy 1.23 +- 0.01 (0.8 %)", or without an error that is not known
+std::string text_of(const std::string &name, const double value, const double error)
+{
+  std::ostringstream text;
+  text << name << ' ' << value;
+  if (!std::isfinite(error))
+    return text.str();
+  text.precision(2);
+  text << " +- " << error;
+  if (value != 0.)
+    text << " (" << 100. * error / std::abs(value) << " %)";
+  return text.str();
+}
+
+template <int dim>
+unsigned long unknowns(const mesh::BodyMesh<dim> &mesh)
+{
+  return dim * mesh.n_global_free_nodes();
+}
+
+/// The least of all load cases.
+template <int dim>
+double contact_faces(const std::vector<state::ContactState<dim>> &states)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto &state : states)
+    least = std::min(least, state.assumptions.width);
+  return least;
+}
+} // namespace
+
+/// Cells are chosen by what the states before tell, which subdomains change by as much as the
+/// tolerance: the same subdomains on any ranks make the same meshes.
+template <int dim>
+Adaptation<dim>::Adaptation(RunContext &context, const scene::Scene &of_user)
+  : context(context), scene(of_user)
+{
+  scene.tearing.at_least_ranks = false;
+  // in two steps: the first adds to the cells
+  auto mesh           = matched_mesh(refined);
+  solved              = stage(std::move(mesh), refined, accuracy::first_tolerance);
+  const auto &targets = scene.accuracy.targets;
+  for (unsigned int j = 0; j < targets.size(); ++j)
+    for (unsigned int c = 0; c < solved->problem->n_load_cases(); ++c)
+      demands.push_back(
+        {(scene.load_cases.size() > 1 ? scene.load_cases[c].name + "." : "") + targets[j].first, c,
+         j, accuracy::read_target(targets[j].second),
+         solved->problem->make_response(targets[j].first)->stationary()});
+}
+
+/// The mesh of the scene with @p cells refined, and with those added that are coarser than what
+/// they meet. Collective.
+template <int dim>
+typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells)
+{
+  began = context.seconds();
+  const RunContext::Timer timer(context, "setup");
+  while (true)
+    {
+      auto       with  = scene;
+      const auto given = std::make_shared<const RefinedCells>(cells);
+      for (auto &body : with.bodies)
+        body.mesh.refined = given;
+      auto                        mesh  = build_mesh<dim>(with, context.communicator());
+      const auto                  pairs = build_model(with, *mesh).pairs;
+      const mesh::Surface<dim>    surface(*mesh, contact::boundaries_of(pairs));
+      const faces::FaceShape<dim> shape(mesh->degree());
+      for (const auto &pair : pairs)
+        add(mesh::gather_cells(*mesh, surface.cells_of(contact::coarse_faces(
+                                        surface, shape, pair, surface.reference_positions()))),
+            cells);
+      if (cells == *given)
+        return mesh;
+    }
+}
+
+template <int dim>
+std::unique_ptr<typename Adaptation<dim>::Stage>
+Adaptation<dim>::stage(Mesh mesh, const RefinedCells &cells, const double tolerance)
+{
+  auto       result = std::make_unique<Stage>(Stage{scene});
+  const auto given  = std::make_shared<const RefinedCells>(cells);
+  for (auto &body : result->scene.bodies)
+    body.mesh.refined = given;
+  result->scene.state_tolerance = tolerance;
+  result->problem = std::make_unique<ShapeProblem<dim>>(context, result->scene, std::move(mesh));
+  return result;
+}
+
+/// States and the values of the targets. Collective.
+template <int dim>
+void Adaptation<dim>::solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const
+{
+  auto &problem = *stage.problem;
+  context.progress("solving the contact problem ...");
+  stage.states = problem.solve(problem.shapes->start(), starts);
+  for (const auto &target : scene.accuracy.targets)
+    stage.responses.push_back(problem.make_response(target.first));
+  for (const auto &demand : demands)
+    stage.measured.push_back(
+      {stage.responses[demand.place]->value(*problem.solver, stage.states[demand.load_case]),
+       std::numeric_limits<double>::infinity()});
+}
+
+/// The errors of a mesh on which they have a meaning. Collective.
+template <int dim>
+void Adaptation<dim>::estimate(Stage &stage) const
+{
+  const RunContext::Timer                      timer(context, "accuracy");
+  const auto                                  &targets = scene.accuracy.targets;
+  std::vector<const response::Response<dim> *> responses;
+  for (const auto &response : stage.responses)
+    responses.push_back(response.get());
+  for (const auto &state : stage.states)
+    {
+      auto estimates =
+        accuracy::estimate(*stage.problem->solver, state, responses, scene.gradient.solves);
+      MeshError error{std::move(estimates.energy), {}};
+      for (unsigned int j = 0; j < targets.size(); ++j)
+        error.responses.emplace_back(targets[j].first, std::move(estimates.responses[j]));
+      stage.errors.push_back(std::move(error));
+    }
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    stage.measured[d].error =
+      stage.errors[demands[d].load_case].responses[demands[d].place].second.error();
+}
+
+/// Another mesh, solved from the states of the last. Collective.
+template <int dim>
+std::unique_ptr<typename Adaptation<dim>::Stage>
+Adaptation<dim>::solve_next(Mesh mesh, const RefinedCells &cells)
+{
+  auto                       next = stage(std::move(mesh), cells, next_tolerance());
+  std::vector<qp::WarmStart> starts;
+  for (const auto &state : solved->states)
+    starts.push_back(
+      accuracy::transferred(*solved->problem->solver, state, *next->problem->solver,
+                            next->problem->positions(next->problem->shapes->start())));
+  solve(*next, starts);
+  return next;
+}
+
+template <int dim>
+void Adaptation<dim>::report(const Stage &stage)
+{
+  io::Summary::AdaptedMesh mesh;
+  mesh.dofs          = unknowns(*stage.problem->mesh);
+  mesh.contact_faces = contact_faces(stage.states);
+  mesh.tolerance     = *stage.scene.state_tolerance;
+  mesh.seconds       = context.seconds() - began;
+  for (const auto &state : stage.states)
+    mesh.f_mults += state.f_mults;
+  auto &out = context.out();
+  out << "mesh " << summary.meshes.size() + 1 << ": " << mesh.dofs << " unknowns";
+  if (std::isfinite(mesh.contact_faces))
+    out << ", contact " << mesh.contact_faces << " faces across";
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const auto &estimate = stage.measured[d];
+      mesh.responses.push_back({demands[d].name, estimate.value, estimate.error});
+      out << ", " << text_of(demands[d].name, estimate.value, estimate.error);
+    }
+  out << ", " << mesh.f_mults << " F-mults to " << mesh.tolerance << ", " << mesh.seconds << " s"
+      << std::endl;
+  summary.meshes.push_back(mesh);
+}
+
+/// Without loads there is rounding, of which nothing can be estimated.
+template <int dim>
+bool Adaptation<dim>::is_at_rest() const
+{
+  return std::all_of(solved->states.begin(), solved->states.end(), [](const auto &state) {
+    return state.assumptions.displacement < state::least_motion;
+  });
+}
+
+template <int dim>
+bool Adaptation<dim>::is_met(const unsigned int demand) const
+{
+  const auto &estimate = solved->measured[demand];
+  return is_at_rest() || estimate.error <= demands[demand].target.allowed(estimate.value);
+}
+
+template <int dim>
+double Adaptation<dim>::next_tolerance() const
+{
+  const double least = scene.state_tolerance.value_or(qp::SolverParameters().relative_tolerance);
+  double       tolerance = std::max(least, accuracy::first_tolerance);
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const auto  &estimate = solved->measured[d];
+      const double size =
+        std::max(std::abs(estimate.value), demands[d].target.allowed(estimate.value));
+      if (size > 0.)
+        tolerance = std::min(tolerance, accuracy::step_tolerance(estimate.error / size,
+                                                                 demands[d].is_energy, least));
+    }
+  return tolerance;
+}
+
+template <int dim>
+bool Adaptation<dim>::fits(const mesh::BodyMesh<dim> &mesh) const
+{
+  return unknowns(mesh) <= scene.accuracy.maximum_unknowns;
+}
+
+template <int dim>
+void Adaptation<dim>::add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const
+{
+  for (const auto &cell : marked)
+    if (mesh::level(cell) < scene.accuracy.maximum_levels)
+      mesh::refine(cell, cells);
+}
+
+/// Cells of contacts of too few faces. @return whether there are any. Collective.
+template <int dim>
+bool Adaptation<dim>::add_doubtful(RefinedCells &cells) const
+{
+  const auto &solver   = *solved->problem->solver;
+  bool        doubtful = false;
+  for (const auto &state : solved->states)
+    {
+      const auto faces = accuracy::doubtful_faces(solver, state, scene.accuracy.contact_faces);
+      doubtful         = doubtful || !faces.empty();
+      add(mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), cells);
+    }
+  return doubtful;
+}
+
+/// Cells of the demands that are not met. Collective.
+template <int dim>
+void Adaptation<dim>::add_marked(RefinedCells &cells) const
+{
+  const auto &mesh = *solved->problem->mesh;
+  const auto  ids  = mesh::all_cells(mesh);
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    if (!is_met(d))
+      {
+        const auto &demand = demands[d];
+        const auto &indicators =
+          solved->errors[demand.load_case].responses[demand.place].second.indicators;
+        const auto                 &estimate = solved->measured[d];
+        std::vector<dealii::CellId> marked;
+        const auto flags = accuracy::mark(mesh::gather_values(mesh, ids, indicators),
+                                          estimate.error, demands[d].target.allowed(estimate.value),
+                                          {scene.degree, scene.accuracy.marking_share});
+        for (unsigned int cell = 0; cell < ids.size(); ++cell)
+          if (flags[cell])
+            marked.push_back(ids[cell]);
+        add(marked, cells);
+      }
+}
+
+/// What keeps demands from ever being met. A response that is zero has the error of the solver, of
+/// which no mesh makes a small part.
+template <int dim>
+std::string Adaptation<dim>::failure()
+{
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      auto       &demand   = demands[d];
+      const auto &measured = solved->measured[d];
+      if (is_met(d))
+        demand.errors.clear();
+      else
+        demand.errors.push_back(measured.error);
+      if (accuracy::is_unbounded(demand.errors))
+        return "the error of " + text_of(demand.name, measured.value, measured.error) +
+               " has not halved in three meshes: " +
+               (demand.target.relative && measured.error > std::abs(measured.value)
+                  ? "it seems to be zero; give its target as a number in its units"
+                  : "it seems to be unbounded, as stresses at sharp edges are; take another "
+                    "response, "
+                    "or round the edge");
+    }
+  return "";
+}
+
+template <int dim>
+std::string Adaptation<dim>::missed(const std::string &advice) const
+{
+  std::string text = "targets are not met:";
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    if (!is_met(d))
+      text += " " + text_of(demands[d].name, solved->measured[d].value, solved->measured[d].error);
+  return text +
+         (contact_faces(solved->states) < scene.accuracy.contact_faces
+            ? " with too few faces across a contact"
+            : "") +
+         "; " + advice;
+}
+
+/// What is left of the error of a mesh when all cells are refined is 4^-p of it.
+template <int dim>
+std::string Adaptation<dim>::verify()
+{
+  RefinedCells cells = refined;
+  add(mesh::all_cells(*solved->problem->mesh), cells);
+  auto mesh = matched_mesh(cells);
+  if (!fits(*mesh))
+    return "the finer mesh that verifies has " + std::to_string(unknowns(*mesh)) +
+           " unknowns; allow more 'Maximum unknowns', or leave out 'Verify'";
+  const auto   fine = solve_next(std::move(mesh), cells);
+  const double part = 1. - std::pow(4., -1. * scene.degree);
+  std::string  failure;
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const double value = fine->measured[d].value;
+      const double error = std::abs(value - solved->measured[d].value) / part;
+      const auto   text  = text_of(demands[d].name, solved->measured[d].value, error);
+      context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
+                    << std::endl;
+      summary.verified.push_back({demands[d].name, value, error});
+      if (error > demands[d].target.allowed(value))
+        failure = "the finer mesh says " + text + ": the target is missed; ask for less";
+    }
+  return failure;
+}
+
+template <int dim>
+std::string Adaptation<dim>::run()
+{
+  solve(*solved, {});
+  while (true)
+    {
+      RefinedCells cells    = refined;
+      const bool   doubtful = !is_at_rest() && add_doubtful(cells);
+      if (!doubtful)
+        estimate(*solved);
+      report(*solved);
+      if (!doubtful)
+        {
+          const auto why = failure();
+          if (!why.empty())
+            return why;
+          add_marked(cells);
+          summary.met = true;
+          for (unsigned int d = 0; d < demands.size(); ++d)
+            summary.met = summary.met && is_met(d);
+          if (summary.met)
+            return scene.accuracy.verify ? verify() : "";
+        }
+      if (cells == refined)
+        return missed("allow more 'Maximum levels', or ask for less");
+      auto mesh = matched_mesh(cells);
+      if (!fits(*mesh))
+        return missed("the next mesh has " + std::to_string(unknowns(*mesh)) +
+                      " unknowns: allow more 'Maximum unknowns', or ask for less");
+      // The mesh that is solved from goes only when the next one is solved.
+      auto next = solve_next(std::move(mesh), cells);
+      solved    = std::move(next);
+      refined   = cells;
+    }
+}
+
+template class Adaptation<2>;
+template class Adaptation<3>;
+} // namespace snug::app

@@ -1,0 +1,191 @@
+#include <snug/accuracy/adaptation.h>
+#include <snug/accuracy/transfer.h>
+#include <snug/accuracy/trust.h>
+#include <snug/mesh/refined_cells.h>
+#include <snug/state/contact_patches.h>
+
+#include <gtest/gtest.h>
+#include <unit/state/test_scene.h>
+
+#include <numeric>
+
+namespace snug::test {
+namespace {
+using accuracy::mark;
+
+std::vector<unsigned int> numbers(const std::vector<bool> &flags)
+{
+  std::vector<unsigned int> result;
+  for (unsigned int i = 0; i < flags.size(); ++i)
+    if (flags[i])
+      result.push_back(i);
+  return result;
+}
+} // namespace
+
+TEST(Marking, TakesTheFewestCellsThatReachTheAim)
+{
+  const std::vector<double> indicators = {1., 8., 2., 4., 1.};
+  // 16 - 3/4 sum <= 0.8 allowed
+  EXPECT_EQ(numbers(mark(indicators, 16., 12.5, {1, 0.9})), std::vector<unsigned int>({1}));
+  EXPECT_EQ(numbers(mark(indicators, 16., 10., {1, 0.9})), std::vector<unsigned int>({1, 3}));
+  // degree 2 takes away 15/16
+  EXPECT_EQ(numbers(mark(indicators, 16., 10.625, {2, 0.9})), std::vector<unsigned int>({1}));
+  // no more than the share of the error, here half of it
+  EXPECT_EQ(numbers(mark(indicators, 16., 1., {1, 0.5})), std::vector<unsigned int>({1}));
+  EXPECT_TRUE(numbers(mark(indicators, 16., 20., {1, 0.7})).empty());
+  EXPECT_TRUE(numbers(mark({0., 0.}, 1., 0.1, {1, 0.7})).empty());
+}
+
+TEST(Marking, ScalesIndicatorsToTheError)
+{
+  EXPECT_EQ(mark({1., 3., 2., 6.}, 12., 6., {1, 0.7}),
+            mark({10., 30., 20., 60.}, 12., 6., {1, 0.7}));
+}
+
+TEST(Marking, TakesEqualCellsTogether)
+{
+  EXPECT_EQ(numbers(mark({1., 5., 5. * (1. - 1e-4), 5., 1.}, 17., 14., {1, 0.7})),
+            std::vector<unsigned int>({1, 2, 3}));
+}
+
+TEST(Target, ReadsPartsAndNumbers)
+{
+  EXPECT_DOUBLE_EQ(accuracy::read_target("1 %").allowed(-50.), 0.5);
+  EXPECT_DOUBLE_EQ(accuracy::read_target("0.2%").allowed(50.), 0.1);
+  EXPECT_DOUBLE_EQ(accuracy::read_target("0.02").allowed(50.), 0.02);
+  for (const char *wrong : {"", "%", "-1 %", "0", "1 N", "inf"})
+    EXPECT_THROW(accuracy::read_target(wrong), std::exception) << wrong;
+}
+
+TEST(StepTolerance, FollowsTheError)
+{
+  EXPECT_DOUBLE_EQ(accuracy::step_tolerance(0.5, false, 1e-6), 1e-2);
+  EXPECT_DOUBLE_EQ(accuracy::step_tolerance(0.02, false, 1e-6), 2e-3);
+  EXPECT_DOUBLE_EQ(accuracy::step_tolerance(1e-4, true, 1e-6), std::sqrt(1e-5));
+  EXPECT_DOUBLE_EQ(accuracy::step_tolerance(1e-9, false, 1e-6), 1e-6);
+  EXPECT_DOUBLE_EQ(accuracy::step_tolerance(1e-9, false, 0.05), 0.05);
+}
+
+TEST(Unbounded, IsWhatDoesNotHalveInThreeMeshes)
+{
+  EXPECT_FALSE(accuracy::is_unbounded({1., 0.9, 0.8}));
+  EXPECT_TRUE(accuracy::is_unbounded({1., 0.9, 0.8, 0.7}));
+  EXPECT_FALSE(accuracy::is_unbounded({9., 1., 0.9, 0.7, 0.4}));
+}
+
+TEST(Families, GoWhereNoneIsKeptOrNeeded)
+{
+  const dealii::CellId     coarse(0, {}), other(1, {});
+  std::set<dealii::CellId> refined;
+  for (const std::uint8_t child : {0, 1})
+    mesh::refine(dealii::CellId(child, {}), refined);
+  std::vector<dealii::CellId> cells;
+  for (const auto &of : refined)
+    for (std::uint8_t child = 0; child < 4; ++child)
+      cells.push_back(dealii::CellId(of.get_coarse_cell_id(), {child}));
+  std::sort(cells.begin(), cells.end());
+  std::vector<double> indicators;
+  std::vector<bool>   keep(cells.size(), false);
+  for (const auto &cell : cells)
+    indicators.push_back(mesh::parent(cell) == coarse ? 1. : 1e-6);
+  EXPECT_EQ(accuracy::idle_families(cells, indicators, keep, 4),
+            std::vector<dealii::CellId>({other}));
+  keep[std::find_if(cells.begin(), cells.end(),
+                    [&](const auto &cell) { return mesh::parent(cell) == other; }) -
+       cells.begin()] = true;
+  EXPECT_TRUE(accuracy::idle_families(cells, indicators, keep, 4).empty());
+}
+
+namespace {
+/// A contact of some faces, to the tolerance between meshes.
+template <int dim>
+TestScene<dim> ball(unsigned int n)
+{
+  auto scene                      = two_blocks<dim>(n, n, 4.);
+  scene.solver.relative_tolerance = accuracy::first_tolerance;
+  return scene;
+}
+
+/// Both solved from nothing, and the finer one from the coarser.
+template <int dim>
+void expect_shorter(const TestScene<dim> &coarse, const TestScene<dim> &fine)
+{
+  Problem<dim> from(coarse), to(fine);
+  const auto   state = from.solve();
+  const auto  &x     = to.mesh.reference_positions();
+  const auto   cold  = to.solver.solve(x, qp::WarmStart());
+  const auto   warm  = to.solver.solve(x, accuracy::transferred(from.solver, state, to.solver, x));
+  EXPECT_NEAR(warm.energy / cold.energy, 1., 1e-3);
+  EXPECT_LE(warm.f_mults, cold.f_mults);
+  EXPECT_LT(warm.dual.outer_iterations, cold.dual.outer_iterations);
+}
+} // namespace
+
+TEST(Transfer, SavesStepsOfTheActiveSet)
+{
+  expect_shorter<2>(ball<2>(16), ball<2>(32));
+  auto axisymmetric = ball<2>(16), finer = ball<2>(32);
+  axisymmetric.idealization = finer.idealization = {mesh::Idealization::Kind::axisymmetric};
+  expect_shorter<2>(axisymmetric, finer);
+  expect_shorter<3>(ball<3>(5), ball<3>(10));
+}
+
+TEST(Transfer, KeepsTheForce)
+{
+  Problem<2> from(ball<2>(16)), to(ball<2>(48));
+  const auto state = from.solve();
+  const auto start =
+    accuracy::transferred(from.solver, state, to.solver, to.mesh.reference_positions());
+  const auto forces = to.solver.gluing().gather_contact(start.lambda.column(0));
+  double     sum    = 0.;
+  for (unsigned int i = 0; i < forces.size(); ++i)
+    sum += forces[i] / to.solver.gluing().contact_scales()[i];
+  // Linear between nodes: the same integral, but for the end of contact.
+  EXPECT_NEAR(sum / state.contact_force.norm(), 1., 0.02);
+}
+
+TEST(Transfer, OfAnOpenContactIsAColdStart)
+{
+  Problem<2> from(ball<2>(8)), to(ball<2>(16));
+  auto       state = from.solve();
+  for (auto &point : state.contact)
+    point.pressure = 0.;
+  const auto start =
+    accuracy::transferred(from.solver, state, to.solver, to.mesh.reference_positions());
+  EXPECT_EQ(start.lambda.n_rows(), 0u);
+}
+
+TEST(Trust, AsksForFacesAcrossEachPatch)
+{
+  Problem<2> problem(ball<2>(32));
+  const auto state   = problem.solve();
+  const auto patches = state::contact_patches(problem.solver, state);
+  ASSERT_EQ(patches.size(), 1u);
+  const double width = patches[0].width;
+  EXPECT_DOUBLE_EQ(width, state.assumptions.width);
+  EXPECT_TRUE(accuracy::doubtful_faces(problem.solver, state, width).empty());
+  const auto faces = accuracy::doubtful_faces(problem.solver, state, width + 1.);
+  // Faces between the active nodes, those at both ends and one more beyond each of these.
+  EXPECT_EQ(faces.size(), state.active_contacts + 3u);
+  for (const unsigned int face : faces)
+    EXPECT_EQ(problem.solver.surface().faces()[face].body,
+              problem.solver.contact().pairs()[0].slave.first);
+}
+
+TEST(Trust, SeesTwoPatches)
+{
+  auto scene = ball<2>(32);
+  // a foundation that is low in the middle, under a flat punch
+  scene.bodies[0].radius                           = 0.;
+  scene.control_points                             = {5, 1};
+  scene.design                                     = {0., 0., -0.2, 0., 0.};
+  scene.bodies[0].loads[face_index(1, 1)].pressure = 1.;
+  Problem<2> problem(scene);
+  const auto state   = problem.solve();
+  const auto patches = state::contact_patches(problem.solver, state);
+  ASSERT_EQ(patches.size(), 2u);
+  EXPECT_EQ(patches[0].rows.size(), patches[1].rows.size());
+  EXPECT_NEAR(state.assumptions.width, std::min(patches[0].width, patches[1].width), 1e-12);
+}
+} // namespace snug::test
