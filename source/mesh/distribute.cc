@@ -123,9 +123,10 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
   unsigned long  n_cells      = 0;
   for (const auto &set : sets)
     n_cells += set.n_global;
-  const auto &partition = choose(partition_table<dim>(), parameters.method).make;
-  double      cells_each =
-    parameters.subdomains == 0 ? cells_by_size : double(n_cells) / parameters.subdomains;
+  const auto         &partition  = choose(partition_table<dim>(), parameters.method).make;
+  double              cells_each = parameters.subdomains == 0
+                                     ? cells_by_size
+                                     : std::max(1., double(n_cells) / parameters.subdomains);
   const unsigned long least =
     parameters.at_least_ranks
       ? std::min<unsigned long>(n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator))

@@ -145,6 +145,7 @@ TEARING = [
     *(Row(f"{parts} subdomains", blocks(parts=parts),
           Solved(even(top=sinks((1, 1), (1e3, 1e3), (.3, .3)))), ALL, quick=parts == 32)
       for parts in (2, 32)),
+    Row("1e9 subdomains wanted", blocks(parts=10**9), Solved(even(bound=1e-4)), quick=True),
     Row("one subdomain per body, round", hump(4, 20, (8, 6), parts=2), dense=True),
     Row("one subdomain per cell, round", hump(4, 20, (8, 6), parts=96), dense=True),
     Row("one subdomain per cell, solid", blocks(parts=128, dim=3),
