@@ -102,12 +102,12 @@ namespace {
 double application_rounding(const DualProblem &problem, const EqualityPart &part)
 {
   // d - F lambda = part.residual
-  MultiVector third(problem.n_owned()), rounding = part.residual;
+  MultiVector third(problem.n_owned()), error = part.residual;
   third.add(1. / 3., part.lambda);
-  rounding.add(-1., problem.d());
-  rounding.add(3., problem.apply(third));
-  part.free_set->project(rounding);
-  return norms(rounding, problem.context().communicator())[0];
+  error.add(-1., problem.d());
+  error.add(3., problem.apply(third));
+  part.free_set->project(error);
+  return norms(error, problem.context().communicator())[0];
 }
 } // namespace
 
