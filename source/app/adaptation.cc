@@ -170,7 +170,7 @@ void Adaptation<dim>::report(const Stage &stage)
   auto &out = context.out();
   out << "mesh " << summary.meshes.size() + 1 << ": " << mesh.dofs << " unknowns";
   if (std::isfinite(mesh.contact_faces))
-    out << ", contact " << mesh.contact_faces << " faces across";
+    out << ", contact " << std::round(10. * mesh.contact_faces) / 10. << " faces across";
   for (unsigned int d = 0; d < demands.size(); ++d)
     {
       const auto &estimate = stage.measured[d];

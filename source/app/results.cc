@@ -29,12 +29,7 @@ template <int dim>
 void Results<dim>::print_header()
 {
   const auto &solver = *problem.solver;
-  const auto  info   = io::program_info(problem.context);
   auto       &out    = problem.context.out();
-  out << "Snug " << info.version << ", deal.II " << info.dealii << ", PETSc " << info.petsc
-      << ", BLAS " << info.blas << '\n';
-  if (!io::blas_warning(info).empty())
-    out << "warning: " << io::blas_warning(info) << '\n';
   out << problem.scene.bodies.size() << " bodies, " << problem.mesh->n_global_cells() << " cells, "
       << dim * problem.mesh->n_global_free_nodes() << " unknowns, " << problem.tearing.n_global
       << " subdomains, " << solver.gluing().n_contact_rows() << " contact rows of "

@@ -172,6 +172,15 @@ void validate_in(RunContext &context, const scene::Scene &scene)
     });
 }
 
+void print_program(RunContext &context)
+{
+  const auto info = io::program_info(context);
+  context.out() << "Snug " << info.version << ", deal.II " << info.dealii << ", PETSc "
+                << info.petsc << ", BLAS " << info.blas << std::endl;
+  if (!io::blas_warning(info).empty())
+    context.out() << "warning: " << io::blas_warning(info) << std::endl;
+}
+
 void print_work(RunContext &context, const io::Summary::Adaptation &adaptation)
 {
   unsigned long unknowns = 0, f_mults = 0;
@@ -241,6 +250,7 @@ template <int dim>
 void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
 {
   prepare_output(context, scene);
+  print_program(context);
   const auto complaint = scene.accuracy.targets.empty() ? run_given<dim>(context, scene, options)
                                                         : run_adapted<dim>(context, scene);
   context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"
