@@ -117,7 +117,7 @@ TEST(ResponseEstimate, IsNotBelowTheErrorOfContactThatEnds)
   for (const unsigned int n : {16, 24, 32})
     for (const double found : effectivities(pushed<2>(n), 4, responses))
       EXPECT_GT(found, 0.8) << n;
-  for (const double found : effectivities(pushed<3>(6), 3, responses))
+  for (const double found : effectivities(pushed<3>(6), 2, responses))
     EXPECT_GT(found, 0.8) << "3D";
 }
 

@@ -17,10 +17,10 @@ std::vector<geometry::BodyMeshParameters> body(geometry::Source shape)
 {
   std::vector<geometry::BodyMeshParameters> bodies(1);
   bodies[0].source            = shape;
-  bodies[0].cells             = std::vector<unsigned int>(dim, 4);
-  bodies[0].round_cells       = {4};
+  bodies[0].cells             = std::vector<unsigned int>(dim, dim == 2 ? 4 : 3);
+  bodies[0].round_cells       = {dim == 2 ? 4u : 2u};
   bodies[0].refine_where      = "x + 0.3*y - 0.4";
-  bodies[0].local_refinements = 2;
+  bodies[0].local_refinements = dim == 2 ? 2 : 1;
   return bodies;
 }
 

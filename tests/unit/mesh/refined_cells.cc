@@ -24,7 +24,7 @@ Bodies disc_and_box(unsigned int dim)
 {
   Bodies bodies(2);
   bodies[0].source             = dim == 2 ? geometry::Source::disc : geometry::Source::sphere;
-  bodies[0].round_cells        = {4};
+  bodies[0].round_cells        = {dim == 2 ? 4u : 2u};
   bodies[0].sampled_boundaries = {"outer"};
   bodies[1].cells              = std::vector<unsigned int>(dim, 2);
   bodies[1].size               = std::vector<double>(dim, 1.);
@@ -41,12 +41,16 @@ std::vector<dealii::CellId> ids(const mesh::BodyMesh<dim> &mesh)
   return mesh::gather_cells(mine, mesh.communicator());
 }
 
+/// How often cells are refined.
+template <int dim>
+constexpr unsigned int n_steps = dim == 2 ? 3 : 2;
+
 /// Refine, again and again, all cells whose number is a multiple of 7.
 template <int dim>
 Cells some_cells(const Bodies &bodies, unsigned int degree, MPI_Comm communicator)
 {
   Cells cells;
-  for (unsigned int step = 0; step < 3; ++step)
+  for (unsigned int step = 0; step < n_steps<dim>; ++step)
     {
       const mesh::BodyMesh<dim> mesh(communicator, refined(bodies, cells), degree);
       const auto                all = ids(mesh);
@@ -88,7 +92,7 @@ void check_balance()
         most[node]               = std::max(most[node], level);
         highest                  = std::max(highest, level);
       }
-  EXPECT_EQ(highest, 3u);
+  EXPECT_EQ(highest, n_steps<dim>);
   for (unsigned int node = 0; node < least.size(); ++node)
     EXPECT_LE(most[node], least[node] + 1);
 }
@@ -105,8 +109,8 @@ void check_true_surface(unsigned int degree)
     if (face.body == 0)
       {
         for (const unsigned int node : face.nodes)
-          if (!mesh.is_hanging(node))
-            EXPECT_NEAR(mesh.reference_positions()[node].norm(), 1., 1e-12);
+          EXPECT_TRUE(mesh.is_hanging(node) ||
+                      std::abs(mesh.reference_positions()[node].norm() - 1.) < 1e-12);
         for (const unsigned int sample : face.samples)
           EXPECT_NEAR(mesh.reference_positions()[sample].norm(), 1., 1e-12);
         n += face.samples.size();
@@ -120,7 +124,8 @@ TEST(RefinedCells, HaveTheirAncestors)
   const dealii::CellId cell(3, {1, 2});
   Cells                cells;
   mesh::refine(cell, cells);
-  EXPECT_EQ(cells, Cells({cell, dealii::CellId(3, {1}), dealii::CellId(3, {})}));
+  const Cells expected = {cell, dealii::CellId(3, {1}), dealii::CellId(3, {})};
+  EXPECT_EQ(cells, expected);
   EXPECT_EQ(mesh::parent(cell), dealii::CellId(3, {1}));
   EXPECT_EQ(mesh::level(cell), 2u);
 }
