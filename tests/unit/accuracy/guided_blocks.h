@@ -1,9 +1,18 @@
 #ifndef snug_tests_unit_accuracy_guided_blocks_h
 #define snug_tests_unit_accuracy_guided_blocks_h
 
+#include <deal.II/base/mpi.h>
+
 #include <unit/state/test_scene.h>
 
 namespace snug::test {
+/// Estimates on several ranks are those of one (IsThatOfOneRank); the truth, which takes finer
+/// meshes, is asked of one rank.
+inline bool is_alone()
+{
+  return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+}
+
 /// Both on rollers at their sides: contact closed all over, no corner, a smooth solution.
 template <int dim>
 TestScene<dim> guided_blocks(unsigned int n, unsigned int m)

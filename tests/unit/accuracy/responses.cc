@@ -84,6 +84,8 @@ const std::vector<response::ResponseParameters> of_smooth_states = {
 
 TEST(ResponseEstimate, IsTheErrorOfSmoothStates)
 {
+  if (!is_alone())
+    GTEST_SKIP();
   const auto expect_effective = [](const auto &scene, const std::string &what,
                                    const double most = 1.25) {
     const auto found = effectivities(scene, 4, of_smooth_states);
@@ -111,6 +113,8 @@ TEST(ResponseEstimate, IsTheErrorOfSmoothStates)
 /// Where energy and gap residual nearly cancel, E is up to several times the error.
 TEST(ResponseEstimate, IsNotBelowTheErrorOfContactThatEnds)
 {
+  if (!is_alone())
+    GTEST_SKIP();
   const std::vector<response::ResponseParameters> responses = {named("potential energy"),
                                                                named("contact force"),
                                                                named("peak pressure")};
@@ -124,6 +128,8 @@ TEST(ResponseEstimate, IsNotBelowTheErrorOfContactThatEnds)
 /// The second order of von Mises norms is left out: sigma_h is of first order.
 TEST(ResponseEstimate, SeesTheFirstOrderOfStressNorms)
 {
+  if (!is_alone())
+    GTEST_SKIP();
   const double found = effectivities(guided_blocks<2>(16, 16), 4, {named("von Mises norm")})[0];
   EXPECT_GT(found, 0.6);
   EXPECT_LT(found, 1.2);
@@ -131,6 +137,8 @@ TEST(ResponseEstimate, SeesTheFirstOrderOfStressNorms)
 
 TEST(ResponseEstimate, SeesFacesAndTheirMeanDisplacement)
 {
+  if (!is_alone())
+    GTEST_SKIP();
   auto scene                                     = two_blocks<2>(8, 8, 0.);
   scene.bodies[0].loads[face_index(1, 1)].factor = [](const dealii::Point<2> &x) {
     return std::cos(dealii::numbers::PI * x[0]) + 1.;
