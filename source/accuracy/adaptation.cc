@@ -1,10 +1,8 @@
 #include <snug/accuracy/adaptation.h>
 #include <snug/base/values.h>
-#include <snug/mesh/refined_cells.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -60,24 +58,6 @@ std::vector<bool> mark(const std::vector<double> &indicators,
       marked[cell] = true;
     }
   return marked;
-}
-
-std::vector<dealii::CellId> idle_families(const std::vector<dealii::CellId> &cells,
-                                          const std::vector<double>         &indicators,
-                                          const std::vector<bool>           &keep,
-                                          const unsigned int                 n_children)
-{
-  const double idle =
-    1e-3 * std::accumulate(indicators.begin(), indicators.end(), 0.) / double(cells.size());
-  std::map<dealii::CellId, unsigned int> n_idle;
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    if (mesh::level(cells[cell]) > 0 && !keep[cell] && indicators[cell] < idle)
-      ++n_idle[mesh::parent(cells[cell])];
-  std::vector<dealii::CellId> result;
-  for (const auto &[family, n] : n_idle)
-    if (n == n_children)
-      result.push_back(family);
-  return result;
 }
 
 double step_tolerance(const double error, const bool is_energy, const double least)

@@ -85,8 +85,6 @@ ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>             
 {
   const auto &surface = solver.surface();
   AssertDimension(of_rows.size(), solver.contact().n_rows());
-  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    surface_nodes[surface.global_node(node)] = node;
   for (const auto &pair : solver.contact().pairs())
     {
       slave_of[pair.slave].push_back(pairs.size());
@@ -127,10 +125,10 @@ double ContactPressure<dim>::value(const Face                   &face,
       for (unsigned int k = 0; k < nodes.size(); ++k)
         {
           // Functions of nodes off the face vanish on it.
-          const auto node = surface_nodes.find(solver.mesh().global_node(nodes[k]));
-          if (node != surface_nodes.end())
+          const unsigned int node = solver.surface().find(solver.mesh().global_node(nodes[k]));
+          if (node < solver.surface().n_nodes())
             for (const unsigned int pair : slaves->second)
-              sum += at_nodes[k] * pairs[pair]->nodal[node->second];
+              sum += at_nodes[k] * pairs[pair]->nodal[node];
         }
     }
   if (const auto masters = master_of.find(boundary); masters != master_of.end())

@@ -6,11 +6,11 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <map>
+#include <algorithm>
 
 namespace snug::accuracy {
 namespace {
-/// Gauss points per direction: pressures and gaps have kinks within faces of no quadrature.
+/// Per direction: pressures and gaps have kinks within faces, which no quadrature knows.
 const unsigned int n_gauss = 4;
 
 /// sum_k w_k field_k
@@ -30,18 +30,15 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                               const state::ContactState<dim> &state)
   : solver(solver)
 {
-  const auto                          &mesh    = solver.mesh();
-  const auto                          &surface = solver.surface();
-  const auto                          &contact = solver.contact();
-  const auto                           held    = solver.held().directions(surface, state.positions);
-  const auto                           x       = surface.gather(state.positions);
-  const auto                           u       = surface.gather(state.displacement);
-  const auto                           here    = mesh::owners_values(mesh, state.positions);
-  std::map<unsigned int, unsigned int> surface_nodes;
-  const faces::FaceShape<dim>          shape(mesh.degree());
-  const dealii::QGauss<dim - 1>        gauss(n_gauss);
-  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    surface_nodes[surface.global_node(node)] = node;
+  const auto                   &mesh    = solver.mesh();
+  const auto                   &surface = solver.surface();
+  const auto                   &contact = solver.contact();
+  const auto                    held    = solver.held().directions(surface, state.positions);
+  const auto                    x       = surface.gather(state.positions);
+  const auto                    u       = surface.gather(state.displacement);
+  const auto                    here    = mesh::owners_values(mesh, state.positions);
+  const faces::FaceShape<dim>   shape(mesh.degree());
+  const dealii::QGauss<dim - 1> gauss(n_gauss);
   for (unsigned int p = 0; p < contact.pairs().size(); ++p)
     {
       const auto gaps = contact.point_gaps(p, x, held);
@@ -55,7 +52,7 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
               dealii::Tensor<1, dim> place, true_place;
               for (unsigned int k = 0; k < face.nodes.size(); ++k)
                 {
-                  point.shape.emplace_back(surface_nodes.at(mesh.global_node(face.nodes[k])),
+                  point.shape.emplace_back(surface.find(mesh.global_node(face.nodes[k])),
                                            values.value[k]);
                   place += values.value[k] * here[face.nodes[k]];
                 }

@@ -9,9 +9,6 @@
 
 namespace snug::advice {
 namespace {
-/// Faces across a contact from where on the estimate may be trusted, times the degree.
-constexpr double trusted_width = 8.;
-
 /// Whether the scene asks for what the estimate of the energy says nothing of.
 bool asks_for_more(const scene::Scene &scene)
 {
@@ -47,13 +44,11 @@ double contact_width(const Subject<dim> &subject)
 template <int dim>
 void add_finer(const Subject<dim> &subject, std::vector<Advice> &advice)
 {
-  double relative = 0.;
-  for (const auto &estimate : subject.estimates)
-    relative = std::max(relative, estimate.relative);
-  const unsigned int p       = subject.mesh().degree();
-  const double       coarser = std::pow(4., p) * relative * relative;
+  const double       relative = subject.largest_error();
+  const unsigned int p        = subject.mesh().degree();
+  const double       coarser  = std::pow(4., p) * relative * relative;
   if (relative == 0. || coarser > 0.8 * subject.target || asks_for_more(subject.scene) ||
-      contact_width(subject) < 2. * trusted_width * p)
+      contact_width(subject) < 2. * subject.scene.accuracy.contact_faces * p)
     return;
   std::ostringstream text;
   text << "the estimated error of the energy is " << 100. * relative * relative

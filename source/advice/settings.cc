@@ -36,9 +36,7 @@ void add_subdomains(const Subject<dim> &subject, std::vector<Advice> &advice)
 template <int dim>
 void add_locking(const Subject<dim> &subject, std::vector<Advice> &advice)
 {
-  double relative = 0.;
-  for (const auto &estimate : subject.estimates)
-    relative = std::max(relative, estimate.relative);
+  const double relative = subject.largest_error();
   if (subject.mesh().idealization().kind == mesh::Idealization::Kind::plane_stress)
     return;
   for (unsigned int b = 0; b < subject.model().bodies.size(); ++b)

@@ -1,7 +1,4 @@
-#include <snug/contact/nearest_face.h>
-#include <snug/contact/normal_rays.h>
 #include <snug/contact/projection.h>
-#include <snug/faces/outer_edges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,84 +28,20 @@ Weights nonzero(const std::vector<double> &values, const std::vector<unsigned in
   return result;
 }
 
+/// @p xi without rounding beyond the edges, if the face contains it.
+template <int dim>
+std::optional<dealii::Point<dim>> inside(dealii::Point<dim> xi)
+{
+  const double round_off = 1e-10;
+  for (int a = 0; a < dim; ++a)
+    {
+      if (xi[a] < -round_off || xi[a] > 1. + round_off)
+        return {};
+      xi[a] = std::clamp(xi[a], 0., 1.);
+    }
+  return xi;
+}
 } // namespace
-
-/// The rays of a master side along its normals.
-template <int dim>
-class MasterRays
-{
-public:
-  using Field = typename mesh::Surface<dim>::Field;
-  using Xi    = dealii::Point<dim - 1>;
-
-  MasterRays(const mesh::Surface<dim>        &surface,
-             const std::vector<unsigned int> &faces,
-             const faces::FaceShape<dim>     &shape,
-             const Field                     &positions,
-             const Field                     &normals)
-    : surface(surface)
-    , shape(shape)
-    , positions(positions)
-    , normals(normals)
-    , at_node(surface.n_nodes())
-  {
-    for (const unsigned int face : faces)
-      for (const unsigned int node : surface.faces()[face].nodes)
-        at_node[node].push_back(face);
-  }
-
-  NormalRays<dim> of(const unsigned int face) const
-  {
-    return {surface.faces()[face], shape, positions, normals};
-  }
-
-  /// Face and coordinates where the ray to @p p begins, near those of the closest point; none
-  /// where the side ends.
-  std::optional<std::pair<unsigned int, Xi>>
-  find(const dealii::Tensor<1, dim> &p, const unsigned int face, const Xi &closest) const
-  {
-    std::vector<unsigned int> candidates = {face};
-    for (const unsigned int node : surface.faces()[face].nodes)
-      candidates.insert(candidates.end(), at_node[node].begin(), at_node[node].end());
-    // The face of the closest point first, then its neighbours by number.
-    std::sort(candidates.begin() + 1, candidates.end());
-    Xi middle;
-    for (int a = 0; a < dim - 1; ++a)
-      middle[a] = 0.5;
-    for (const unsigned int candidate : candidates)
-      if (const auto ray = of(candidate).to(p, candidate == face ? closest : middle))
-        if (const auto xi = inside(ray->values.point))
-          return std::make_pair(candidate, *xi);
-    return {};
-  }
-
-private:
-  const mesh::Surface<dim>              &surface;
-  const faces::FaceShape<dim>           &shape;
-  const Field                           &positions, &normals;
-  std::vector<std::vector<unsigned int>> at_node; ///< faces
-
-  /// @p xi without rounding beyond the edges, if the face contains it.
-  static std::optional<Xi> inside(Xi xi)
-  {
-    const double round_off = 1e-10;
-    for (int a = 0; a < dim - 1; ++a)
-      {
-        if (xi[a] < -round_off || xi[a] > 1. + round_off)
-          return {};
-        xi[a] = std::clamp(xi[a], 0., 1.);
-      }
-    return xi;
-  }
-};
-
-template <int dim>
-struct Projector<dim>::Search
-{
-  NearestFace<dim>       side;
-  MasterRays<dim>        rays;
-  faces::OuterEdges<dim> edges;
-};
 
 template <int dim>
 Projector<dim>::Projector(const mesh::Surface<dim>        &surface,
@@ -119,33 +52,55 @@ Projector<dim>::Projector(const mesh::Surface<dim>        &surface,
   : surface(surface)
   , shape(shape)
   , positions(positions)
-  , search(new Search{{surface, master, shape, positions},
-                      {surface, master, shape, positions, normals},
-                      {surface, master, shape}})
-{}
+  , normals(normals)
+  , side(surface, master, shape, positions)
+  , edges(surface, master, shape)
+  , faces_at(surface.n_nodes())
+{
+  for (const unsigned int face : master)
+    for (const unsigned int node : surface.faces()[face].nodes)
+      faces_at[node].push_back(face);
+}
 
 template <int dim>
-Projector<dim>::~Projector() = default;
+std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
+Projector<dim>::find_ray(const dealii::Tensor<1, dim> &p,
+                         const unsigned int            face,
+                         const dealii::Point<dim - 1> &closest) const
+{
+  std::vector<unsigned int> candidates = {face};
+  for (const unsigned int node : surface.faces()[face].nodes)
+    candidates.insert(candidates.end(), faces_at[node].begin(), faces_at[node].end());
+  // The face of the closest point first, then its neighbours by number.
+  std::sort(candidates.begin() + 1, candidates.end());
+  dealii::Point<dim - 1> middle;
+  for (int a = 0; a < dim - 1; ++a)
+    middle[a] = 0.5;
+  for (const unsigned int candidate : candidates)
+    if (const auto ray = rays(candidate).to(p, candidate == face ? closest : middle))
+      if (const auto xi = inside(ray->values.point))
+        return std::make_pair(candidate, *xi);
+  return {};
+}
 
 template <int dim>
 std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1, dim> &p) const
 {
-  const auto closest = search->side.closest(p);
+  const auto closest = side.closest(p);
   // Beyond the end of the master side the closest point stays on its edge, and the row would
   // hold back a node that passes by the master side.
   const double excess =
-    search->edges.excess(closest.face, closest.point.xi, p - closest.point.position, positions);
+    edges.excess(closest.face, closest.point.xi, p - closest.point.position, positions);
   if (excess >= edge_tolerance)
     return {};
-  const auto ray        = search->rays.find(p, closest.face, closest.point.xi);
+  const auto ray        = find_ray(p, closest.face, closest.point.xi);
   const auto [face, xi] = ray.value_or(std::make_pair(closest.face, closest.point.xi));
   const auto &of        = surface.faces()[face];
   const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
   // Where the ray begins on the side, as in a symmetry plane, nothing ends.
   const double beyond = ray ? 0. : std::max(0., excess);
-  const auto   meets  = of.samples.empty()
-                          ? masters
-                          : nonzero(search->rays.of(face).on_surface(xi).values.value, of.samples);
+  const auto   meets =
+    of.samples.empty() ? masters : nonzero(rays(face).on_surface(xi).values.value, of.samples);
   const double relief = edge_relief(beyond, mean_face_size(surface, {face}, positions));
   return PointProjection<dim>{face, xi, bool(ray), masters, meets, relief};
 }

@@ -74,15 +74,12 @@ NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
 template <int dim>
 void NodeRoles<dim>::find_drivers()
 {
-  const auto                          &surface = face.surface();
-  std::map<unsigned int, unsigned int> surface_node;
-  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    surface_node[surface.global_node(node)] = node;
+  const auto &surface = face.surface();
   for (unsigned int node = 0; node < drivers.size(); ++node)
     {
-      const auto found = surface_node.find(face.mesh().global_node(node));
-      if (found != surface_node.end())
-        drivers[node] = found->second;
+      const unsigned int found = surface.find(face.mesh().global_node(node));
+      if (found < surface.n_nodes())
+        drivers[node] = found;
     }
 }
 

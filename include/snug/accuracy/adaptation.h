@@ -1,9 +1,6 @@
 #ifndef snug_accuracy_adaptation_h
 #define snug_accuracy_adaptation_h
 
-#include <deal.II/grid/cell_id.h>
-
-#include <set>
 #include <string>
 #include <vector>
 
@@ -40,16 +37,6 @@ struct Marking
  */
 std::vector<bool>
 mark(const std::vector<double> &indicators, double error, double allowed, const Marking &marking);
-
-/**
- * Families whose children go: all 2^dim are among @p cells (ascending), none of them kept, and
- * their indicators below 1e-3 of the mean of all.
- * @return the parents, ascending.
- */
-std::vector<dealii::CellId> idle_families(const std::vector<dealii::CellId> &cells,
-                                          const std::vector<double>         &indicators,
-                                          const std::vector<bool>           &keep,
-                                          unsigned int                       n_children);
 
 /// Solver tolerances between meshes.
 constexpr double first_tolerance = 1e-2;

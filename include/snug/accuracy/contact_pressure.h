@@ -52,7 +52,6 @@ private:
   const state::StateSolver<dim>          &solver;
   typename mesh::Surface<dim>::Field      positions;
   faces::FaceShape<dim>                   shape;
-  std::map<unsigned int, unsigned int>    surface_nodes; ///< by global node
   std::vector<std::unique_ptr<SlaveSide>> pairs;
 
   std::map<Boundary, std::vector<unsigned int>> slave_of, master_of; ///< pairs

@@ -13,7 +13,7 @@ namespace snug::accuracy {
 template <int dim>
 struct LoadedDisplacement
 {
-  typename mesh::BodyMesh<dim>::Field displacement; ///< at local nodes, or zero velocities
+  typename mesh::BodyMesh<dim>::Field displacement; ///< at all local nodes
   /// of contact rows, as pressures [force / length^2]
   std::vector<double> pressures;
   double              loads = 1.; ///< factor of those of the load case

@@ -6,6 +6,7 @@
 #include <snug/shape/shapes.h>
 #include <snug/state/state_solver.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -38,6 +39,15 @@ struct Subject
   const std::vector<state::ContactState<dim>> &states;
   const std::vector<accuracy::EnergyEstimate> &estimates;
   double                                       target = 0.01; ///< error that is welcome
+
+  /// The estimated relative error in the energy norm, of all load cases.
+  double largest_error() const
+  {
+    double relative = 0.;
+    for (const auto &estimate : estimates)
+      relative = std::max(relative, estimate.relative);
+    return relative;
+  }
 
   const mesh::BodyMesh<dim> &mesh() const { return solver.mesh(); }
   const state::Model<dim>   &model() const { return solver.model(); }

@@ -33,7 +33,7 @@ struct Cost
   double total;         ///< of optimizations, with as many designs as may be evaluated
 };
 
-/// The cost model of doc/cluster.md; @p speed: of this machine, see machine_speed().
+/// The cost model of doc/advice.md; @p speed: of this machine, see machine_speed().
 Cost estimate_cost(const scene::Scene &scene, unsigned int ranks, double speed);
 
 /// How many times as fast as the machine whose times the model has this one makes stiffness

@@ -1,7 +1,10 @@
 #ifndef snug_contact_projection_h
 #define snug_contact_projection_h
 
+#include <snug/contact/nearest_face.h>
+#include <snug/contact/normal_rays.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/faces/outer_edges.h>
 
 #include <memory>
 #include <optional>
@@ -79,18 +82,29 @@ public:
             const faces::FaceShape<dim>     &shape,
             const Field                     &positions,
             const Field                     &normals);
-  ~Projector();
 
   /// Nothing beyond the edge of the master side.
   std::optional<PointProjection<dim>> onto(const dealii::Tensor<1, dim> &p) const;
 
 private:
-  struct Search;
+  const mesh::Surface<dim>              &surface;
+  const faces::FaceShape<dim>           &shape;
+  const Field                           &positions, &normals;
+  const NearestFace<dim>                 side;
+  const faces::OuterEdges<dim>           edges;
+  std::vector<std::vector<unsigned int>> faces_at; ///< per surface node
 
-  const mesh::Surface<dim>           &surface;
-  const faces::FaceShape<dim>        &shape;
-  const Field                        &positions;
-  const std::unique_ptr<const Search> search;
+  NormalRays<dim> rays(unsigned int face) const
+  {
+    return {surface.faces()[face], shape, positions, normals};
+  }
+
+  /// Face and coordinates where the ray to @p p begins, near those of the closest point; none
+  /// where the side ends.
+  std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
+  find_ray(const dealii::Tensor<1, dim> &p,
+           unsigned int                  face,
+           const dealii::Point<dim - 1> &closest) const;
 };
 
 /// Projections of the slave nodes that do not hang, in the order of the

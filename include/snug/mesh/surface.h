@@ -3,6 +3,7 @@
 
 #include <snug/mesh/body_mesh.h>
 
+#include <algorithm>
 #include <map>
 
 namespace snug::mesh {
@@ -39,6 +40,13 @@ public:
   /// Reference positions of the points.
   const Field &reference_positions() const { return reference; }
   unsigned int global_node(unsigned int surface_node) const { return global_nodes[surface_node]; }
+  /// The surface node of a global one; n_nodes(): it is not on the surface.
+  unsigned int find(unsigned int global) const
+  {
+    const auto place = std::lower_bound(global_nodes.begin(), global_nodes.end(), global);
+    return place == global_nodes.end() || *place != global ? n_nodes()
+                                                           : place - global_nodes.begin();
+  }
   /// Masters (surface nodes, weights) of a hanging node; else empty.
   const std::vector<std::pair<unsigned int, double>> &masters(unsigned int surface_node) const
   {

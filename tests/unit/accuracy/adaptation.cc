@@ -74,29 +74,6 @@ TEST(Unbounded, IsWhatDoesNotHalveInThreeMeshes)
   EXPECT_FALSE(accuracy::is_unbounded({9., 1., 0.9, 0.7, 0.4}));
 }
 
-TEST(Families, GoWhereNoneIsKeptOrNeeded)
-{
-  const dealii::CellId     coarse(0, {}), other(1, {});
-  std::set<dealii::CellId> refined;
-  for (const std::uint8_t child : {0, 1})
-    mesh::refine(dealii::CellId(child, {}), refined);
-  std::vector<dealii::CellId> cells;
-  for (const auto &of : refined)
-    for (std::uint8_t child = 0; child < 4; ++child)
-      cells.push_back(dealii::CellId(of.get_coarse_cell_id(), {child}));
-  std::sort(cells.begin(), cells.end());
-  std::vector<double> indicators;
-  std::vector<bool>   keep(cells.size(), false);
-  for (const auto &cell : cells)
-    indicators.push_back(mesh::parent(cell) == coarse ? 1. : 1e-6);
-  EXPECT_EQ(accuracy::idle_families(cells, indicators, keep, 4),
-            std::vector<dealii::CellId>({other}));
-  keep[std::find_if(cells.begin(), cells.end(),
-                    [&](const auto &cell) { return mesh::parent(cell) == other; }) -
-       cells.begin()] = true;
-  EXPECT_TRUE(accuracy::idle_families(cells, indicators, keep, 4).empty());
-}
-
 namespace {
 /// A contact of some faces, to the tolerance between meshes.
 template <int dim>
