@@ -9,35 +9,31 @@
 
 namespace snug::app {
 template <int dim>
-Results<dim>::Results(const ShapeProblem<dim> &problem) : problem(problem)
+Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 {
-  const auto &solver  = *problem.solver;
-  const auto &contact = solver.contact();
-  for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+  for (unsigned int c = 0; c < of.n_load_cases(); ++c)
     {
-      const std::string directory = problem.n_load_cases() == 1
-                                      ? problem.scene.output_directory
-                                      : path(problem.scene.load_cases[c].name);
-      pictures.push_back({{*problem.mesh, problem.tearing, solver.model().bodies, directory},
-                          {{*problem.mesh, solver.surface(), contact.pairs(), contact.places(),
-                            contact.shared_nodes()},
-                           directory}});
+      const std::string directory = of.n_load_cases() == 1
+                                      ? problem->scene.output_directory
+                                      : path(problem->scene.load_cases[c].name);
+      pictures.push_back({io::FieldOutput<dim>(directory), io::ContactOutput<dim>(directory)});
     }
 }
 
 template <int dim>
 void Results<dim>::print_header()
 {
-  const auto &solver = *problem.solver;
-  auto       &out    = problem.context.out();
-  out << problem.scene.bodies.size() << " bodies, " << problem.mesh->n_global_cells() << " cells, "
-      << dim * problem.mesh->n_global_free_nodes() << " unknowns, " << problem.tearing.n_global
-      << " subdomains, " << solver.gluing().n_contact_rows() << " contact rows of "
-      << solver.gluing().n_rows() << " dual rows, " << problem.shapes->n_variables()
-      << " design variables, " << problem.context.n_ranks() << " ranks" << std::endl;
-  print_import_notes(problem.scene, out);
+  const auto &solver = *problem->solver;
+  auto       &out    = problem->context.out();
+  out << problem->scene.bodies.size() << " bodies, " << problem->mesh->n_global_cells()
+      << " cells, " << dim * problem->mesh->n_global_free_nodes() << " unknowns, "
+      << problem->tearing.n_global << " subdomains, " << solver.gluing().n_contact_rows()
+      << " contact rows of " << solver.gluing().n_rows() << " dual rows, "
+      << problem->shapes->n_variables() << " design variables, " << problem->context.n_ranks()
+      << " ranks" << std::endl;
+  print_import_notes(problem->scene, out);
   print_pairs();
-  warn(unrefined(problem.scene, *problem.mesh));
+  warn(unrefined(problem->scene, *problem->mesh));
   warn(state::matching_warnings(solver.contact().pairs(), solver.contact().matchings()));
   warn(state::overlap_warnings(solver.contact().pairs(), solver.contact().paired_gaps()));
 }
@@ -45,16 +41,16 @@ void Results<dim>::print_header()
 template <int dim>
 void Results<dim>::print_pairs() const
 {
-  auto                     &out     = problem.context.out();
-  const auto               &contact = problem.solver->contact();
-  const auto               &surface = problem.solver->surface();
+  auto                     &out     = problem->context.out();
+  const auto               &contact = problem->solver->contact();
+  const auto               &surface = problem->solver->surface();
   const auto               &pairs   = contact.pairs();
   std::vector<unsigned int> rows(pairs.size(), 0);
   for (const auto &place : contact.places())
     ++rows[place.pair];
-  const faces::FaceShape<dim> shape(problem.mesh->degree());
+  const faces::FaceShape<dim> shape(problem->mesh->degree());
   const auto                  print_side = [&](const contact::Pair::Side &side) {
-    const auto   kind = problem.mesh->geometry(side.first).boundary_shape(side.second);
+    const auto   kind = problem->mesh->geometry(side.first).boundary_shape(side.second);
     const double height = std::max(kind.facet_height, contact::face_height(surface, shape, side));
     out << kind.name;
     if (height > 0.)
@@ -88,7 +84,7 @@ void Results<dim>::warn(const std::vector<std::string> &lines)
     if (std::find(warnings.begin(), warnings.end(), line) == warnings.end())
       {
         warnings.push_back(line);
-        problem.context.out() << "warning: " << line << std::endl;
+        problem->context.out() << "warning: " << line << std::endl;
       }
 }
 
@@ -125,16 +121,21 @@ void Results<dim>::draw(const double                  time,
                         const std::optional<Field>   &gradient,
                         const std::vector<MeshError> &errors)
 {
-  const RunContext::Timer timer(problem.context, "output");
+  const RunContext::Timer timer(problem->context, "output");
   // the last design may be one that was asked for already
   if (time > 0. && time == drawn)
     return;
-  drawn = time;
+  drawn               = time;
+  const auto &solver  = *problem->solver;
+  const auto &contact = solver.contact();
   for (unsigned int c = 0; c < states.size(); ++c)
     {
-      pictures[c].fields.write(time, states[c], gradient ? &*gradient : nullptr,
+      pictures[c].fields.write({*problem->mesh, problem->tearing, solver.model().bodies}, time,
+                               states[c], gradient ? &*gradient : nullptr,
                                errors.empty() ? nullptr : &errors[c].energy.cells);
-      pictures[c].contact.write(time, states[c]);
+      pictures[c].contact.write({*problem->mesh, solver.surface(), contact.pairs(),
+                                 contact.places(), contact.shared_nodes()},
+                                time, states[c]);
     }
 }
 
@@ -143,9 +144,9 @@ std::vector<std::pair<std::string, double>>
 Results<dim>::response_values(const state::ContactState<dim> &state) const
 {
   std::vector<std::pair<std::string, double>> result;
-  for (unsigned int i = 0; i < problem.responses.size(); ++i)
-    result.emplace_back(problem.scene.responses[i].name,
-                        problem.responses[i]->value(*problem.solver, state));
+  for (unsigned int i = 0; i < problem->responses.size(); ++i)
+    result.emplace_back(problem->scene.responses[i].name,
+                        problem->responses[i]->value(*problem->solver, state));
   return result;
 }
 
@@ -172,9 +173,9 @@ std::vector<MeshError> Results<dim>::estimate(const States &states)
 {
   try
     {
-      const auto errors = mesh_errors(problem, states);
-      for (const std::string &line : described(problem, states, errors))
-        problem.context.out() << line << std::endl;
+      const auto errors = mesh_errors(*problem, states);
+      for (const std::string &line : described(*problem, states, errors))
+        problem->context.out() << line << std::endl;
       return errors;
     }
   catch (const SolveError &error)
@@ -212,8 +213,8 @@ void Results<dim>::add_last(const double                  time,
   for (unsigned int c = 0; c < states.size(); ++c)
     {
       io::Summary::LoadCase load_case;
-      load_case.name   = problem.scene.load_cases[c].name;
-      load_case.weight = problem.scene.load_cases[c].weight;
+      load_case.name   = problem->scene.load_cases[c].name;
+      load_case.weight = problem->scene.load_cases[c].weight;
       load_case.state  = summarized(c);
       if (!first_states.empty())
         load_case.initial_state = first_states[c];
@@ -224,15 +225,15 @@ void Results<dim>::add_last(const double                  time,
 template <int dim>
 void Results<dim>::advise(const States &states)
 {
-  const RunContext::Timer               timer(problem.context, "advice");
+  const RunContext::Timer               timer(problem->context, "advice");
   std::vector<accuracy::EnergyEstimate> estimates;
   for (const auto &error : last_errors)
     estimates.push_back(error.energy);
   for (unsigned int c = estimates.size(); c < states.size(); ++c) // those of responses had failed
-    estimates.push_back(accuracy::estimate_energy(*problem.solver, states[c]));
+    estimates.push_back(accuracy::estimate_energy(*problem->solver, states[c]));
   summary.advice =
-    advice::give<dim>({problem.scene, *problem.solver, *problem.shapes, states, estimates});
-  auto &out = problem.context.out();
+    advice::give<dim>({problem->scene, *problem->solver, *problem->shapes, states, estimates});
+  auto &out = problem->context.out();
   for (const auto &item : *summary.advice)
     {
       out << "advice, " << item.kind << ": " << item.text;
@@ -250,14 +251,14 @@ void Results<dim>::advise(const States &states)
 template <int dim>
 void Results<dim>::export_shape(const std::vector<double> &design)
 {
-  if (problem.shapes->n_variables() == 0)
+  if (problem->shapes->n_variables() == 0)
     return;
-  const RunContext::Timer  timer(problem.context, "output");
-  const mesh::Surface<dim> faces(*problem.mesh, problem.shapes->faces());
-  const auto               at_faces = faces.gather(problem.positions(design));
-  const auto               points   = problem.shapes->control_points(design);
-  everywhere(problem.context.communicator(), [&]() {
-    if (problem.context.rank() != 0)
+  const RunContext::Timer  timer(problem->context, "output");
+  const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
+  const auto               at_faces = faces.gather(problem->positions(design));
+  const auto               points   = problem->shapes->control_points(design);
+  everywhere(problem->context.communicator(), [&]() {
+    if (problem->context.rank() != 0)
       return;
     io::write_surface(path("surface"), faces, at_faces);
     io::write_control_points(path("control-points.csv"), points);
@@ -267,16 +268,16 @@ void Results<dim>::export_shape(const std::vector<double> &design)
 template <int dim>
 void Results<dim>::count_rows()
 {
-  summary.mesh                  = io::summarize(*problem.mesh, problem.tearing);
-  summary.mesh.dual_rows        = problem.solver->gluing().n_rows();
-  summary.mesh.contact_rows     = problem.solver->gluing().n_contact_rows();
-  summary.mesh.kernel_dimension = problem.solver->n_kernel();
+  summary.mesh                  = io::summarize(*problem->mesh, problem->tearing);
+  summary.mesh.dual_rows        = problem->solver->gluing().n_rows();
+  summary.mesh.contact_rows     = problem->solver->gluing().n_contact_rows();
+  summary.mesh.kernel_dimension = problem->solver->n_kernel();
 }
 
 template <int dim>
 void Results<dim>::write_summary()
 {
-  const auto &context = problem.context;
+  const auto &context = problem->context;
   summary.program     = io::program_info(context);
   summary.work        = context.total_work();
   summary.times       = io::collect_times(context);

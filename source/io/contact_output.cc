@@ -8,15 +8,17 @@
 #include <algorithm>
 
 namespace snug::io {
-template <int dim>
-ContactOutput<dim>::ContactOutput(const Sources &sources, const std::string &directory)
-  : sources(sources)
-  , directory(directory)
-  // the same for all designs, so gathered once
-  , reference(sources.surface.gather(sources.mesh.reference_positions()))
-{}
-
 namespace {
+template <int dim>
+using Sources = typename ContactOutput<dim>::Sources;
+
+/// At the nodes of the surface, on all ranks.
+template <int dim>
+struct SurfaceFields
+{
+  typename mesh::Surface<dim>::Field reference, positions, displacement;
+};
+
 /// Pressure and gap by the shares of others, flags where all have them.
 /// Force and area stay 0, so that sums over nodes do not count any of them twice.
 template <typename Shares, typename Point>
@@ -34,11 +36,10 @@ state::ContactPoint shared_point(const Shares &shares, const Point &point)
     }
   return result;
 }
-} // namespace
 
 template <int dim>
-std::vector<state::ContactPoint>
-ContactOutput<dim>::nodal_points(const std::vector<state::ContactPoint> &rows) const
+std::vector<state::ContactPoint> nodal_points(const Sources<dim>                     &sources,
+                                              const std::vector<state::ContactPoint> &rows)
 {
   AssertDimension(rows.size(), sources.places.size());
   std::vector<state::ContactPoint> points(sources.surface.n_nodes());
@@ -64,11 +65,11 @@ ContactOutput<dim>::nodal_points(const std::vector<state::ContactPoint> &rows) c
 
 /// Patches do not share nodes, so a node on the edge of two pairs shows each on its own faces.
 template <int dim>
-std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state,
-                                           const Field                    &positions,
-                                           const Field                    &displacement) const
+std::string faces_text(const Sources<dim>             &sources,
+                       const state::ContactState<dim> &state,
+                       const SurfaceFields<dim>       &fields)
 {
-  const auto        points = nodal_points(state.contact);
+  const auto        points = nodal_points<dim>(sources, state.contact);
   const auto       &pairs  = sources.pairs;
   std::vector<bool> candidate(sources.surface.n_nodes(), false);
   for (const auto &row : sources.places)
@@ -92,10 +93,10 @@ std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state
         return pair.slave == std::make_pair(face.body, face.boundary);
       });
       // the first pair counts: a face shows one
-      const bool                       slave  = pair != pairs.end();
-      const double                     number = slave ? double(pair - pairs.begin()) : -1.;
-      Field                            corners;
-      std::vector<std::vector<double>> values;
+      const bool                          slave  = pair != pairs.end();
+      const double                        number = slave ? double(pair - pairs.begin()) : -1.;
+      std::vector<dealii::Tensor<1, dim>> corners;
+      std::vector<std::vector<double>>    values;
       for (const unsigned int node : face.nodes)
         {
           // A master side may share its edge with a slave side.
@@ -105,10 +106,10 @@ std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state
                             double(slave && candidate[node]), double(slave), number,
                             double(face.body)});
           for (unsigned int c = 0; c < dim; ++c)
-            values.back().push_back(displacement[node][c]);
+            values.back().push_back(fields.displacement[node][c]);
           for (unsigned int c = 0; c < dim; ++c)
-            values.back().push_back(positions[node][c] - reference[node][c]);
-          corners.push_back(positions[node]);
+            values.back().push_back(fields.positions[node][c] - fields.reference[node][c]);
+          corners.push_back(fields.positions[node]);
         }
       patches.add(corners, values);
     }
@@ -117,8 +118,9 @@ std::string ContactOutput<dim>::faces_text(const state::ContactState<dim> &state
 
 /// One line per row, nodes of several pairs with several; places are those of the slaves.
 template <int dim>
-std::string ContactOutput<dim>::rows_text(const state::ContactState<dim> &state,
-                                          const Field                    &positions) const
+std::string rows_text(const Sources<dim>             &sources,
+                      const state::ContactState<dim> &state,
+                      const SurfaceFields<dim>       &fields)
 {
   std::string text =
     std::string("pair,x,y,") + (dim == 3 ? "z," : "") + "force,pressure,gap,area,active,weak\n";
@@ -128,30 +130,34 @@ std::string ContactOutput<dim>::rows_text(const state::ContactState<dim> &state,
       const auto &point = state.contact[i];
       text += std::to_string(row.pair);
       for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + exact(positions[row.slave][c]);
+        text += ',' + exact(fields.positions[row.slave][c]);
       for (const double x : {point.force, point.pressure, point.gap, point.area})
         text += ',' + exact(x);
       text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1\n" : ",0\n");
     }
   return text;
 }
+} // namespace
 
 template <int dim>
-void ContactOutput<dim>::write(double time, const state::ContactState<dim> &state)
+void ContactOutput<dim>::write(const Sources                  &of,
+                               const double                    time,
+                               const state::ContactState<dim> &state)
 {
   // collective, so not within everywhere()
-  const Field       positions    = sources.surface.gather(state.positions);
-  const Field       displacement = sources.surface.gather(state.displacement);
-  const std::string stem         = "contact-" + padded(series.size(), 4);
+  const SurfaceFields<dim> fields{of.surface.gather(of.mesh.reference_positions()),
+                                  of.surface.gather(state.positions),
+                                  of.surface.gather(state.displacement)};
+  const std::string        stem = "contact-" + padded(series.size(), 4);
   // on all ranks, since the next stem counts the series
   series.emplace_back(time, stem + ".vtu");
-  const MPI_Comm comm = sources.mesh.communicator();
+  const MPI_Comm comm = of.mesh.communicator();
   // rank 0 writes, and all fail if it cannot, or others would wait for it in the next reduction
   everywhere(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    write_text_file(directory + "/" + stem + ".vtu", faces_text(state, positions, displacement));
-    write_text_file(directory + "/" + stem + ".csv", rows_text(state, positions));
+    write_text_file(directory + "/" + stem + ".vtu", faces_text<dim>(of, state, fields));
+    write_text_file(directory + "/" + stem + ".csv", rows_text<dim>(of, state, fields));
     write_text_file(directory + "/contact.pvd", pvd(series));
   });
 }

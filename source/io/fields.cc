@@ -54,29 +54,31 @@ std::vector<double> field_values(const state::ContactState<dim>      &state,
     values.push_back(design_displacement[c]);
   return values;
 }
+
+/// Global ids, so that subdomains of different ranks get different colours.
+template <int dim>
+std::vector<unsigned int> subdomain_of_cell(const mesh::BodyMesh<dim> &mesh,
+                                            const mesh::Tearing       &tearing)
+{
+  std::vector<unsigned int> result(mesh.cells().size());
+  for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
+    for (const unsigned int cell : tearing.subdomains[s].cells)
+      result[cell] = tearing.first_id + s;
+  return result;
+}
 } // namespace
 
 template <int dim>
-FieldOutput<dim>::FieldOutput(const mesh::BodyMesh<dim>                &mesh,
-                              const mesh::Tearing                      &tearing,
-                              const std::vector<state::BodyModel<dim>> &bodies,
-                              const std::string                        &directory)
-  : mesh(mesh), subdomain_of_cell(mesh.cells().size()), bodies(bodies), directory(directory)
-{
-  for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
-    for (const unsigned int cell : tearing.subdomains[s].cells)
-      // global ids, so that subdomains of different ranks get different colours
-      subdomain_of_cell[cell] = tearing.first_id + s;
-}
-
-template <int dim>
-void FieldOutput<dim>::write(double                                     time,
+void FieldOutput<dim>::write(const Sources                             &of,
+                             double                                     time,
                              const state::ContactState<dim>            &state,
                              const typename mesh::BodyMesh<dim>::Field *shape_gradient,
                              const std::vector<double>                 *errors)
 {
+  const auto           &mesh      = of.mesh;
+  const auto            subdomain = subdomain_of_cell(mesh, of.tearing);
   const auto            gradient  = summed(mesh, shape_gradient);
-  const auto            stress    = nodal_stress(mesh, bodies, state.positions, state.displacement);
+  const auto            stress = nodal_stress(mesh, of.bodies, state.positions, state.displacement);
   const unsigned int    n_regions = n_stress_regions(mesh);
   std::vector<Quantity> quantities{{"displacement", dim},
                                    {"stress", 9},
@@ -102,7 +104,7 @@ void FieldOutput<dim>::write(double                                     time,
           values.push_back(
             field_values(state, stress[node * n_regions + cell.region],
                          state.positions[node] - mesh.reference_positions()[node], node,
-                         {double(cell.body), double(cell.region), double(subdomain_of_cell[k])}));
+                         {double(cell.body), double(cell.region), double(subdomain[k])}));
           if (shape_gradient != nullptr)
             values.back().insert(values.back().end(), gradient.begin() + dim * node,
                                  gradient.begin() + dim * (node + 1));

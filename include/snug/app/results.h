@@ -21,6 +21,9 @@ public:
 
   explicit Results(const ShapeProblem<dim> &problem);
 
+  /// What follows is of this problem: the same scene on another mesh.
+  void watch(const ShapeProblem<dim> &other) { problem = &other; }
+
   /// Print what was read. Collective.
   void print_header();
 
@@ -72,7 +75,7 @@ public:
   /// File @p name of the output directory.
   std::string path(const std::string &name) const
   {
-    return problem.scene.output_directory + "/" + name;
+    return problem->scene.output_directory + "/" + name;
   }
 
   io::Summary summary; ///< its task, gradient and optimization are the task's
@@ -90,7 +93,7 @@ private:
     io::ContactOutput<dim> contact;
   };
 
-  const ShapeProblem<dim>        &problem;
+  const ShapeProblem<dim>        *problem;
   std::vector<Pictures>           pictures;   ///< per load case
   double                          drawn = 0.; ///< the time drawn last
   std::vector<std::string>        warnings;

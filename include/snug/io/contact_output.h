@@ -40,7 +40,7 @@ template <int dim>
 class ContactOutput
 {
 public:
-  /// What it draws on; all must outlive the ContactOutput.
+  /// What a state is of.
   struct Sources
   {
     const mesh::BodyMesh<dim>              &mesh;
@@ -50,25 +50,15 @@ public:
     const std::vector<contact::SharedNode> &shared_nodes;
   };
 
-  /// Files go to @p directory, which must exist. Collective.
-  ContactOutput(const Sources &sources, const std::string &directory);
+  /// Files go to @p directory, which must exist.
+  explicit ContactOutput(const std::string &directory) : directory(directory) {}
 
   /// Add @p state to the series as that of @p time. Collective.
   /// @throws std::runtime_error if a file cannot be written.
-  void write(double time, const state::ContactState<dim> &state);
+  void write(const Sources &of, double time, const state::ContactState<dim> &state);
 
 private:
-  using Field = typename mesh::Surface<dim>::Field;
-
-  std::vector<state::ContactPoint> nodal_points(const std::vector<state::ContactPoint> &rows) const;
-  std::string                      faces_text(const state::ContactState<dim> &state,
-                                              const Field                    &positions,
-                                              const Field                    &displacement) const;
-  std::string rows_text(const state::ContactState<dim> &state, const Field &positions) const;
-
-  Sources                                     sources;
   std::string                                 directory;
-  Field                                       reference;
   std::vector<std::pair<double, std::string>> series;
 };
 } // namespace snug::io

@@ -38,15 +38,16 @@ template <int dim>
 class FieldOutput
 {
 public:
-  /**
-   * @p mesh and @p tearing must outlive this object.
-   * @param[in] bodies Materials and formulations.
-   * @param[in] directory Where the files go; it must exist.
-   */
-  FieldOutput(const mesh::BodyMesh<dim>                &mesh,
-              const mesh::Tearing                      &tearing,
-              const std::vector<state::BodyModel<dim>> &bodies,
-              const std::string                        &directory);
+  /// What a state is of; its mesh may be another than that of the state before.
+  struct Sources
+  {
+    const mesh::BodyMesh<dim>                &mesh;
+    const mesh::Tearing                      &tearing;
+    const std::vector<state::BodyModel<dim>> &bodies; ///< materials and formulations
+  };
+
+  /// Files go to @p directory, which must exist.
+  explicit FieldOutput(const std::string &directory) : directory(directory) {}
 
   /**
    * Add @p state to the series as that of @p time (the number of the
@@ -56,15 +57,13 @@ public:
    * @param[in] errors Estimated, of the cells; null: not written.
    * @throws std::runtime_error if a file cannot be written.
    */
-  void write(double                                     time,
+  void write(const Sources                             &of,
+             double                                     time,
              const state::ContactState<dim>            &state,
              const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr,
              const std::vector<double>                 *errors         = nullptr);
 
 private:
-  const mesh::BodyMesh<dim>                  &mesh;
-  std::vector<unsigned int>                   subdomain_of_cell;
-  std::vector<state::BodyModel<dim>>          bodies;
   std::string                                 directory;
   std::vector<std::pair<double, std::string>> series;
 };

@@ -42,9 +42,10 @@ void expect_linear_fields(unsigned int degree)
   const test::ScratchDirectory scratch;
   const mesh::BodyMesh<dim>    mesh(MPI_COMM_WORLD, test::two_boxes<dim>(true), degree);
   const auto                   materials = test::two_materials();
-  io::FieldOutput<dim> output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<dim>(),
-                              scratch.path);
-  output.write(0., linear_state(mesh));
+  const auto                   tearing   = test::one_subdomain_per_rank(mesh);
+  const auto                   models    = test::two_bodies<dim>();
+  io::FieldOutput<dim>         output(scratch.path);
+  output.write({mesh, tearing, models}, 0., linear_state(mesh));
 
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -96,10 +97,11 @@ TEST(FieldOutput, ListsTimesAndPieces)
 {
   const test::ScratchDirectory scratch;
   const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
-  io::FieldOutput<2> output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<2>(),
-                            scratch.path);
-  output.write(0., linear_state(mesh));
-  output.write(17., linear_state(mesh));
+  const auto                   tearing = test::one_subdomain_per_rank(mesh);
+  const auto                   models  = test::two_bodies<2>();
+  io::FieldOutput<2>           output(scratch.path);
+  output.write({mesh, tearing, models}, 0., linear_state(mesh));
+  output.write({mesh, tearing, models}, 17., linear_state(mesh));
   MPI_Barrier(MPI_COMM_WORLD);
 
   const std::string pvd  = test::read_file(scratch.file("solution.pvd"));
@@ -119,17 +121,18 @@ TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
 {
   const test::ScratchDirectory scratch;
   const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
-  io::FieldOutput<2> output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<2>(),
-                            scratch.path);
-  const auto         state = linear_state(mesh);
-  int                rank;
+  const auto                   tearing = test::one_subdomain_per_rank(mesh);
+  const auto                   models  = test::two_bodies<2>();
+  io::FieldOutput<2>           output(scratch.path);
+  const auto                   state = linear_state(mesh);
+  int                          rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   // all of a node's gradient on one rank, what it is from the position
   auto share = state.displacement;
   for (unsigned int node = 0; node < share.size(); ++node)
     if (mesh.owner(node) != static_cast<unsigned int>(rank))
       share[node] = 0.;
-  output.write(0., state, &share);
+  output.write({mesh, tearing, models}, 0., state, &share);
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   for (unsigned int p = 0; p < vtu.n_points; ++p)
     for (unsigned int c = 0; c < 2; ++c)
@@ -143,9 +146,10 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
   bodies[0].cells = {1, 1};
   const mesh::BodyMesh<2>          mesh(MPI_COMM_WORLD, bodies, 1);
   std::vector<state::BodyModel<2>> models(1);
-  models[0].materials = {{1., 0.3}};
-  io::FieldOutput<2> output(mesh, test::one_subdomain_per_rank(mesh), models, scratch.path);
-  output.write(0., linear_state(mesh));
+  models[0].materials        = {{1., 0.3}};
+  const auto         tearing = test::one_subdomain_per_rank(mesh);
+  io::FieldOutput<2> output(scratch.path);
+  output.write({mesh, tearing, models}, 0., linear_state(mesh));
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   EXPECT_EQ(vtu.n_cells, mesh.cells().size());
 }
@@ -153,9 +157,10 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
 TEST(FieldOutput, EveryRankHearsOfFailure)
 {
   const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
-  io::FieldOutput<2>      output(mesh, test::one_subdomain_per_rank(mesh), test::two_bodies<2>(),
-                                 "/nowhere/at/all");
-  EXPECT_THROW(output.write(0., linear_state(mesh)), std::runtime_error);
+  const auto              tearing = test::one_subdomain_per_rank(mesh);
+  const auto              models  = test::two_bodies<2>();
+  io::FieldOutput<2>      output("/nowhere/at/all");
+  EXPECT_THROW(output.write({mesh, tearing, models}, 0., linear_state(mesh)), std::runtime_error);
 }
 } // namespace
 } // namespace snug
