@@ -15,20 +15,6 @@
 
 namespace snug::app {
 namespace {
-/// "energy 1.23 +- 0.01 (0.8 %)", or without an error that is not known
-std::string text_of(const std::string &name, const double value, const double error)
-{
-  std::ostringstream text;
-  text << name << ' ' << value;
-  if (!std::isfinite(error))
-    return text.str();
-  text.precision(2);
-  text << " +- " << error;
-  if (value != 0.)
-    text << " (" << 100. * error / std::abs(value) << " %)";
-  return text.str();
-}
-
 template <int dim>
 unsigned long unknowns(const mesh::BodyMesh<dim> &mesh)
 {
@@ -49,20 +35,52 @@ double contact_faces(const std::vector<state::ContactState<dim>> &states)
 /// Cells are chosen by what the states before tell, which subdomains change by as much as the
 /// tolerance: the same subdomains on any ranks make the same meshes.
 template <int dim>
-Adaptation<dim>::Adaptation(RunContext &context, const scene::Scene &of_user)
-  : context(context), scene(of_user)
+Adaptation<dim>::Adaptation(RunContext         &context,
+                            const scene::Scene &of_user,
+                            const Design       &design,
+                            const RefinedCells &cells)
+  : context(context), scene(of_user), at(design), refined(cells)
 {
   scene.tearing.at_least_ranks = false;
+  const auto &targets          = scene.accuracy.targets;
+  double      tolerance        = accuracy::first_tolerance;
+  // cells that were refined for the targets have errors of their size
+  if (!cells.empty())
+    for (const auto &target : targets)
+      tolerance =
+        std::min(tolerance, accuracy::step_tolerance(accuracy::read_target(target.second).value,
+                                                     false, least()));
   // in two steps: the first adds to the cells
-  auto mesh           = matched_mesh(refined);
-  solved              = stage(std::move(mesh), refined, accuracy::first_tolerance);
-  const auto &targets = scene.accuracy.targets;
+  auto mesh = matched_mesh(refined);
+  solved    = stage(std::move(mesh), refined, tolerance);
   for (unsigned int j = 0; j < targets.size(); ++j)
     for (unsigned int c = 0; c < solved->problem->n_load_cases(); ++c)
       demands.push_back(
         {(scene.load_cases.size() > 1 ? scene.load_cases[c].name + "." : "") + targets[j].first, c,
          j, accuracy::read_target(targets[j].second),
          solved->problem->make_response(targets[j].first)->stationary()});
+  solve(*solved, {});
+}
+
+template <int dim>
+typename Adaptation<dim>::Design Adaptation<dim>::design(const Stage &stage) const
+{
+  return at.empty() ? stage.problem->shapes->start() : at;
+}
+
+template <int dim>
+scene::Scene Adaptation<dim>::adapted_scene() const
+{
+  auto result            = solved->scene;
+  result.state_tolerance = scene.state_tolerance;
+  return result;
+}
+
+template <int dim>
+accuracy::Measured Adaptation<dim>::objective()
+{
+  const auto combined = solved->problem->combined_objective(solved->states);
+  return {combined.value, objective_error(scene, combined.factors, solved->errors)};
 }
 
 /// The mesh of the scene with @p cells refined, and with those added that are coarser than what
@@ -101,6 +119,8 @@ Adaptation<dim>::stage(Mesh mesh, const RefinedCells &cells, const double tolera
     body.mesh.refined = given;
   result->scene.state_tolerance = tolerance;
   result->problem = std::make_unique<ShapeProblem<dim>>(context, result->scene, std::move(mesh));
+  if (!at.empty())
+    result->problem->solver->pair(result->problem->positions(at));
   return result;
 }
 
@@ -110,7 +130,7 @@ void Adaptation<dim>::solve(Stage &stage, const std::vector<qp::WarmStart> &star
 {
   auto &problem = *stage.problem;
   context.progress("solving the contact problem ...");
-  stage.states = problem.solve(problem.shapes->start(), starts);
+  stage.states = problem.solve(design(stage), starts);
   for (const auto &target : scene.accuracy.targets)
     stage.responses.push_back(problem.make_response(target.first));
   for (const auto &demand : demands)
@@ -150,9 +170,8 @@ Adaptation<dim>::solve_next(Mesh mesh, const RefinedCells &cells)
   auto                       next = stage(std::move(mesh), cells, next_tolerance());
   std::vector<qp::WarmStart> starts;
   for (const auto &state : solved->states)
-    starts.push_back(
-      accuracy::transferred(*solved->problem->solver, state, *next->problem->solver,
-                            next->problem->positions(next->problem->shapes->start())));
+    starts.push_back(accuracy::transferred(*solved->problem->solver, state, *next->problem->solver,
+                                           next->problem->positions(design(*next))));
   solve(*next, starts);
   return next;
 }
@@ -175,7 +194,7 @@ void Adaptation<dim>::report(const Stage &stage)
     {
       const auto &estimate = stage.measured[d];
       mesh.responses.push_back({demands[d].name, estimate.value, estimate.error});
-      out << ", " << text_of(demands[d].name, estimate.value, estimate.error);
+      out << ", " << accuracy::text_of(demands[d].name, estimate);
     }
   out << ", " << mesh.f_mults << " F-mults to " << mesh.tolerance << ", " << mesh.seconds << " s"
       << std::endl;
@@ -195,23 +214,22 @@ template <int dim>
 bool Adaptation<dim>::is_met(const unsigned int demand) const
 {
   const auto &estimate = solved->measured[demand];
-  return is_at_rest() || estimate.error <= demands[demand].target.allowed(estimate.value);
+  return is_at_rest() || estimate.error <= demands[demand].allowed(estimate);
+}
+
+/// The user's.
+template <int dim>
+double Adaptation<dim>::least() const
+{
+  return scene.state_tolerance.value_or(qp::SolverParameters().relative_tolerance);
 }
 
 template <int dim>
 double Adaptation<dim>::next_tolerance() const
 {
-  const double least = scene.state_tolerance.value_or(qp::SolverParameters().relative_tolerance);
-  double       tolerance = std::max(least, accuracy::first_tolerance);
+  double tolerance = std::max(least(), accuracy::first_tolerance);
   for (unsigned int d = 0; d < demands.size(); ++d)
-    {
-      const auto  &estimate = solved->measured[d];
-      const double size =
-        std::max(std::abs(estimate.value), demands[d].target.allowed(estimate.value));
-      if (size > 0.)
-        tolerance = std::min(tolerance, accuracy::step_tolerance(estimate.error / size,
-                                                                 demands[d].is_energy, least));
-    }
+    tolerance = std::min(tolerance, demands[d].tolerance(solved->measured[d], least()));
   return tolerance;
 }
 
@@ -258,9 +276,9 @@ void Adaptation<dim>::add_marked(RefinedCells &cells) const
           solved->errors[demand.load_case].responses[demand.place].second.indicators;
         const auto                 &estimate = solved->measured[d];
         std::vector<dealii::CellId> marked;
-        const auto flags = accuracy::mark(mesh::gather_values(mesh, ids, indicators),
-                                          estimate.error, demands[d].target.allowed(estimate.value),
-                                          {scene.degree, scene.accuracy.marking_share});
+        const auto                  flags =
+          accuracy::mark(mesh::gather_values(mesh, ids, indicators), estimate.error,
+                         demand.allowed(estimate), {scene.degree, scene.accuracy.marking_share});
         for (unsigned int cell = 0; cell < ids.size(); ++cell)
           if (flags[cell])
             marked.push_back(ids[cell]);
@@ -268,29 +286,17 @@ void Adaptation<dim>::add_marked(RefinedCells &cells) const
       }
 }
 
-/// What keeps demands from ever being met. A response that is zero has the error of the solver, of
-/// which no mesh makes a small part.
+/// What keeps a demand from ever being met.
 template <int dim>
 std::string Adaptation<dim>::failure()
 {
+  std::string first;
   for (unsigned int d = 0; d < demands.size(); ++d)
     {
-      auto       &demand   = demands[d];
-      const auto &measured = solved->measured[d];
-      if (is_met(d))
-        demand.errors.clear();
-      else
-        demand.errors.push_back(measured.error);
-      if (accuracy::is_unbounded(demand.errors))
-        return "the error of " + text_of(demand.name, measured.value, measured.error) +
-               " has not halved in three meshes: " +
-               (demand.target.relative && measured.error > std::abs(measured.value)
-                  ? "it seems to be zero; give its target as a number in its units"
-                  : "it seems to be unbounded, as stresses at sharp edges are; take another "
-                    "response, "
-                    "or round the edge");
+      const auto text = demands[d].note(solved->measured[d], is_met(d));
+      first           = first.empty() ? text : first;
     }
-  return "";
+  return first;
 }
 
 template <int dim>
@@ -299,7 +305,7 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
   std::string text = "targets are not met:";
   for (unsigned int d = 0; d < demands.size(); ++d)
     if (!is_met(d))
-      text += " " + text_of(demands[d].name, solved->measured[d].value, solved->measured[d].error);
+      text += " " + accuracy::text_of(demands[d].name, solved->measured[d]);
   return text +
          (contact_faces(solved->states) < scene.accuracy.contact_faces
             ? " with too few faces across a contact"
@@ -324,7 +330,7 @@ std::string Adaptation<dim>::verify()
     {
       const double value = fine->measured[d].value;
       const double error = std::abs(value - solved->measured[d].value) / part;
-      const auto   text  = text_of(demands[d].name, solved->measured[d].value, error);
+      const auto   text  = accuracy::text_of(demands[d].name, {solved->measured[d].value, error});
       context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
                     << std::endl;
       summary.verified.push_back({demands[d].name, value, error});
@@ -335,9 +341,10 @@ std::string Adaptation<dim>::verify()
 }
 
 template <int dim>
-std::string Adaptation<dim>::run()
+std::string Adaptation<dim>::reach(const double factor)
 {
-  solve(*solved, {});
+  for (auto &demand : demands)
+    demand.factor = factor;
   while (true)
     {
       RefinedCells cells    = refined;
@@ -355,7 +362,7 @@ std::string Adaptation<dim>::run()
           for (unsigned int d = 0; d < demands.size(); ++d)
             summary.met = summary.met && is_met(d);
           if (summary.met)
-            return scene.accuracy.verify ? verify() : "";
+            return "";
         }
       if (cells == refined)
         return missed("allow more 'Maximum levels', or ask for less");
@@ -368,6 +375,22 @@ std::string Adaptation<dim>::run()
       solved    = std::move(next);
       refined   = cells;
     }
+}
+
+void print_work(RunContext &context, const io::Summary::Adaptation &adaptation)
+{
+  unsigned long unknowns = 0, f_mults = 0;
+  for (const auto &mesh : adaptation.meshes)
+    {
+      unknowns += mesh.dofs;
+      f_mults += mesh.f_mults;
+    }
+  auto &out = context.out();
+  out << (adaptation.met ? "targets met" : "targets not met") << " on " << adaptation.meshes.size()
+      << " meshes with " << unknowns << " unknowns and " << f_mults << " F-mults in all;";
+  for (const auto *stage : {"setup", "assembly", "factorization", "solve", "accuracy"})
+    out << ' ' << stage << ' ' << context.seconds(stage) << " s";
+  out << std::endl;
 }
 
 template class Adaptation<2>;

@@ -139,6 +139,15 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
   return model;
 }
 
+template <int dim>
+std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene::Scene &scene)
+{
+  const RunContext::Timer timer(context, "setup");
+  return build_mesh<dim>(scene, context.communicator());
+}
+
+template std::unique_ptr<mesh::BodyMesh<2>> timed_mesh(RunContext &, const scene::Scene &);
+template std::unique_ptr<mesh::BodyMesh<3>> timed_mesh(RunContext &, const scene::Scene &);
 template std::unique_ptr<mesh::BodyMesh<2>> build_mesh(const scene::Scene &, MPI_Comm);
 template std::unique_ptr<mesh::BodyMesh<3>> build_mesh(const scene::Scene &, MPI_Comm);
 template state::Model<2> build_model(const scene::Scene &, const mesh::BodyMesh<2> &);

@@ -1,6 +1,8 @@
 #include <snug/app/mesh_error.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace snug::app {
@@ -71,6 +73,23 @@ std::vector<std::string> described(const ShapeProblem<dim>                  &pro
       lines.push_back(line.str());
     }
   return lines;
+}
+
+double objective_error(const scene::Scene           &scene,
+                       const std::vector<double>    &factors,
+                       const std::vector<MeshError> &errors)
+{
+  double sum = errors.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.;
+  for (unsigned int c = 0; c < errors.size(); ++c)
+    {
+      const auto &of        = errors[c].responses;
+      const auto  objective = std::find_if(of.begin(), of.end(), [&](const auto &response) {
+        return response.first == scene.optimization.objective;
+      });
+      sum += objective == of.end() ? std::numeric_limits<double>::quiet_NaN()
+                                   : std::abs(factors[c]) * objective->second.error();
+    }
+  return sum;
 }
 
 #define SNUG_INSTANTIATE(dim)                                                       \

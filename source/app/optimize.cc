@@ -1,23 +1,18 @@
-#include <snug/app/evaluator.h>
-#include <snug/app/interrupt.h>
+#include <snug/app/adaptation.h>
 #include <snug/app/optimize.h>
+#include <snug/app/search.h>
 #include <snug/base/errors.h>
-#include <snug/geometry/imported_mesh.h>
-#include <snug/io/history.h>
-#include <snug/optimization/journal.h>
-#include <snug/scene/read_scene.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <sstream>
 
 namespace snug::app {
 namespace {
-using optimization::Iteration;
 using optimization::OptimizationResult;
-
-/// Moves of slave nodes off their pairing below this, in faces, are none.
-const double unmoved = 1e-3;
 
 /// Drifts of round-off alone: paired anew, the state is the same.
 const double no_drift = 1e-12;
@@ -25,100 +20,6 @@ const double no_drift = 1e-12;
 /// Changes of the objective, and violations of constraints, from which on it is
 /// said that the pairing matters; both relative.
 const double most_change = 1e-3, most_violation = 1e-6;
-
-/// Everything that decides the numbers: the scene but where results go and
-/// when to stop, and of mesh files what is in them, wherever they are.
-std::string fingerprint(scene::Scene scene)
-{
-  scene.output_directory = "";
-  scene.optimization.maximum_evaluations =
-    optimization::OptimizationParameters().maximum_evaluations;
-  for (auto &body : scene.bodies)
-    if (body.mesh.imported)
-      body.mesh.file = "contents " + std::to_string(body.mesh.imported->text_hash);
-  std::ostringstream text;
-  scene::print(scene, text);
-  return text.str();
-}
-
-/// Watches evaluations and iterations: log, history, first picture.
-template <int dim>
-struct Observer
-{
-  ShapeProblem<dim> &problem;
-  Results<dim>      &results;
-  Evaluator<dim>     evaluator{problem};
-  io::History        history{results.path("history.csv"), problem.shapes->n_variables()};
-
-  /// The evaluator's own evaluation, with warnings.
-  optimization::Evaluation evaluate(const std::vector<double> &design);
-
-  /// An iteration of the search that begins after @p before of them.
-  void report(const Iteration &iteration, unsigned int before);
-
-  void log(const std::string &line) const { problem.context.out() << line << std::endl; }
-
-  /// Draw and summarize the first design with its own pairing, if that is
-  /// not done: after a replay it has not been solved in this run.
-  void finish_first()
-  {
-    if (results.first().empty())
-      results.add_first(evaluator.first_states(), {});
-  }
-};
-
-template <int dim>
-optimization::Evaluation Observer<dim>::evaluate(const std::vector<double> &design)
-{
-  problem.context.progress("solving the contact problem ...");
-  auto evaluation = evaluator.evaluate(design);
-  for (const auto &gradient : evaluator.gradients.of_response)
-    if (!gradient.differentiable)
-      results.warn_of_weak_contacts(evaluator.states,
-                                    "; going on with those of the strongly active ones");
-  return evaluation;
-}
-
-template <int dim>
-void Observer<dim>::report(const Iteration &iteration, const unsigned int before)
-{
-  auto &out = problem.context.out();
-  if (before + iteration.number == 0)
-    {
-      if (results.first().empty() && evaluator.design == iteration.x)
-        {
-          const auto &of_objective = evaluator.gradients.of_response.front();
-          if (!of_objective.reason.empty())
-            out << "auto takes " << to_text(of_objective.method)
-                << " for the objective: " << of_objective.reason << std::endl;
-          results.add_first(evaluator.states, of_objective.shape);
-        }
-      out << io::log_header() << std::endl;
-    }
-  io::HistoryLine line;
-  line.iteration            = before + iteration.number;
-  line.objective            = iteration.evaluation.objective;
-  line.constraint_violation = iteration.constraint_violation;
-  line.projected_gradient   = iteration.projected_gradient;
-  line.active_contacts      = iteration.evaluation.active_contacts;
-  line.f_mults              = iteration.evaluation.f_mults;
-  line.scaled_jacobian      = iteration.evaluation.least_scaled_jacobian;
-  line.seconds              = iteration.evaluation.seconds;
-  line.design               = iteration.x;
-  out << io::log_line(line) << std::endl;
-  everywhere(problem.context.communicator(), [&]() {
-    if (problem.context.rank() == 0)
-      history.add(line);
-  });
-  // a replay solves nothing that could be drawn
-  const unsigned int every = problem.scene.optimization.draw_every;
-  if (every > 0 && line.iteration > 0 && line.iteration % every == 0 &&
-      evaluator.design == iteration.x)
-    {
-      finish_first();
-      results.draw(line.iteration, evaluator.states, evaluator.gradients.of_response.front().shape);
-    }
-}
 
 template <int dim>
 void print_end(const ShapeProblem<dim>                  &problem,
@@ -141,16 +42,22 @@ void print_end(const ShapeProblem<dim>                  &problem,
 /// The design found is the best for the pairing it was searched with: say what it is worth where
 /// contact is paired anew. Ends all states.
 template <int dim>
-void measure_paired_anew(Observer<dim> &observer, const OptimizationResult &result)
+void measure_paired_anew(Search<dim>              &search,
+                         const OptimizationResult &result,
+                         const bool                is_paired)
 {
-  auto &[problem, results, evaluator, history] = observer;
-  if (result.end == optimization::End::interrupted || problem.drift(result.x) < no_drift)
+  auto &problem   = search.problem;
+  auto &results   = search.results;
+  auto &evaluator = search.evaluator;
+  if (result.end == optimization::End::interrupted ||
+      (!is_paired && problem.drift(result.x) < no_drift))
     return;
-  evaluator.pair(result.x);
+  if (!is_paired)
+    evaluator.pair(result.x);
   typename Evaluator<dim>::Values values;
   try
     {
-      values = evaluator.values(problem.solve(result.x));
+      values = evaluator.values(is_paired ? evaluator.states : problem.solve(result.x));
     }
   catch (const SolveError &no_state)
     {
@@ -173,25 +80,72 @@ void measure_paired_anew(Observer<dim> &observer, const OptimizationResult &resu
   if (breaks || change > most_change * std::abs(result.objective_final))
     results.warn({line.str() + "; 'Contact/Update pairing' goes on from there"});
   else
-    observer.log(line.str());
+    search.log(line.str());
+}
+
+/// What is known of a result from elsewhere.
+struct Known
+{
+  bool is_paired = false; ///< contact is, at the last design
+  /// of the first design; none (NaN): what the search says, and no error
+  double initial = std::numeric_limits<double>::quiet_NaN(), initial_error = initial;
+  std::vector<MeshError> errors; ///< of the last; empty: they are estimated
+};
+
+/// What the gain is worth, where the error of the objective is estimated. A gain within the error
+/// may be one of the mesh. A first design that breaks constraints may have to get worse.
+template <int dim>
+void measure_gain(Search<dim>              &search,
+                  const Books<dim>         &books,
+                  const OptimizationResult &result,
+                  const Known              &known)
+{
+  auto        &problem  = search.problem;
+  const auto   combined = problem.combined_objective(search.evaluator.states);
+  const double error    = objective_error(problem.scene, combined.factors, search.results.errors());
+  if (!std::isfinite(error))
+    return;
+  io::Summary::Gain gain;
+  gain.initial       = std::isfinite(known.initial) ? known.initial : result.objective_initial;
+  gain.initial_error = known.initial_error;
+  gain.final         = combined.value;
+  gain.final_error   = error;
+  gain.counts        = gain.initial - gain.final > error;
+
+  std::ostringstream line;
+  line << problem.scene.optimization.objective << ' ' << gain.initial;
+  if (std::isfinite(gain.initial_error))
+    line << " +- " << gain.initial_error;
+  line << " -> " << gain.final << " +- " << error << ", by the estimated errors of the meshes";
+  search.log(line.str());
+  search.results.summary.optimization->gain = gain;
+  const bool is_free = books.first_violation <= problem.scene.optimization.constraint_tolerance;
+  if (is_free && !gain.counts)
+    search.results.warn({"the gain of the objective is smaller than its estimated error: it may be "
+                         "one of the mesh alone; ask for a smaller error in 'Accuracy/Target'"});
 }
 
 /// Draw and summarize the design found.
 template <int dim>
-void finish(Observer<dim> &observer, const OptimizationResult &result)
+void finish(Search<dim>              &search,
+            const Books<dim>         &books,
+            const OptimizationResult &result,
+            const Known              &known = {})
 {
-  auto &[problem, results, evaluator, history] = observer;
-  observer.finish_first();
+  auto &problem   = search.problem;
+  auto &results   = search.results;
+  auto &evaluator = search.evaluator;
+  search.finish_first();
   // the last one evaluated may be another, or all were replayed
   if (evaluator.states.empty() || evaluator.design != result.x)
-    observer.evaluate(result.x);
+    search.evaluate(result.x);
   auto       &states       = evaluator.states;
   const auto &of_objective = evaluator.gradients.of_response.front();
   if (problem.scene.report_linear_reference)
     for (auto &state : states)
       state.linear_f_mults = problem.solver->linear_f_mults(state);
   results.warn(states);
-  results.add_last(result.iterations, states, of_objective.shape);
+  results.add_last(result.iterations, states, of_objective.shape, known.errors);
   results.export_shape(result.x);
 
   results.summary.gradient     = io::Summary::Gradient();
@@ -204,83 +158,168 @@ void finish(Observer<dim> &observer, const OptimizationResult &result)
   gradient.values              = result.evaluation.gradient;
   results.summary.optimization = {{result}, to_text(result.algorithm)};
   print_end(problem, result, results.first(), states);
-  measure_paired_anew(observer, result);
+  measure_gain(search, books, result, known);
+  measure_paired_anew(search, result, known.is_paired);
   results.write_summary();
 }
 
-/// One search from @p start; counts and the first objective go on from
-/// those of @p before.
+/// A search per entry, on a mesh made for its start with errors of so many times the targets;
+/// those that follow are on meshes for the targets.
+constexpr std::array<double, 3> phases{{8., 3., 1.}};
+
+/// If the meshes made for the designs found have not agreed by then, they will not.
+constexpr unsigned int most_searches = 8;
+
+/// A search need not see changes of the objective below this part of its error.
+constexpr double part_of_error = 0.3;
+
+/// Searches of which each begins where the one before has ended, until the mesh it was on is also
+/// one for the design found.
 template <int dim>
-OptimizationResult search(Observer<dim>             &observer,
-                          optimization::Journal     &journal,
-                          const std::vector<double> &start,
-                          const OptimizationResult  &before)
+class TargetedSearch
 {
-  auto design_problem     = observer.evaluator.design_problem(start);
-  design_problem.evaluate = [&](const std::vector<double> &x) {
-    check_interrupts(observer.problem.context.communicator());
-    return observer.evaluate(x);
+public:
+  TargetedSearch(RunContext &context, const scene::Scene &scene, bool restart)
+    : context(context), scene(scene), restart(restart)
+  {}
+
+  /// @return what is wrong with the result; empty: nothing.
+  std::string run();
+
+private:
+  using Cells = typename Adaptation<dim>::RefinedCells;
+
+  /// The mesh made for a design.
+  struct Stage
+  {
+    scene::Scene scene;
+    double       tolerance; ///< of a search from there
+    Known        known;
+    std::string  complaint;
+    bool         is_last;
   };
-  optimization::Hooks hooks;
-  hooks.on_iteration = [&](const Iteration &i) { observer.report(i, before.iterations); };
-  hooks.log          = [&](const std::string &line) { observer.log(line); };
-  auto parameters    = observer.problem.scene.optimization;
-  parameters.maximum_evaluations -= before.evaluations;
 
-  auto result = optimization::minimize(journal.journaled(design_problem), parameters, hooks);
-  result.iterations += before.iterations;
-  result.evaluations += before.evaluations;
-  if (before.evaluations > 0)
-    result.objective_initial = before.objective_initial;
-  return result;
+  RunContext                   &context;
+  const scene::Scene           &scene;
+  const bool                    restart;
+  std::unique_ptr<Results<dim>> results;
+  std::unique_ptr<Books<dim>>   books;
+  OptimizationResult            result;
+  accuracy::Measured            initial;
+  Cells                         cells; ///< of the last mesh
+
+  unsigned int most_evaluations() const { return scene.optimization.maximum_evaluations; }
+  void         begin();
+  Stage        adapt(unsigned int n_searches);
+  void         add_meshes(io::Summary::Adaptation of, bool at_targets);
+};
+
+/// The first design, at the targets.
+template <int dim>
+void TargetedSearch<dim>::begin()
+{
+  context.out() << "the first design:" << std::endl;
+  Adaptation<dim> adaptation(context, scene);
+  const auto      complaint = adaptation.reach(1.);
+  if (!complaint.empty())
+    throw SolveError("the first design: " + complaint);
+  const auto &problem       = adaptation.problem();
+  results                   = std::make_unique<Results<dim>>(problem);
+  results->summary.task     = to_text(scene.task);
+  results->summary.accuracy = adaptation.summary;
+  results->print_header();
+  results->warn(adaptation.states());
+  results->add_first(adaptation.states(), {});
+  initial  = adaptation.objective();
+  result.x = problem.shapes->start();
+  books    = std::make_unique<Books<dim>>(*results, problem, scene, restart);
 }
 
-/// Pair contact anew at the result of a search. @return false if slave
-/// nodes are where they were paired, or no other search may follow.
+/// A mesh for the last design found. Of the first phases each begins with the scene's own mesh:
+/// cells refined for other designs are of no use; then cells are only added, to come to an end.
 template <int dim>
-bool pair_anew(Observer<dim> &observer, const OptimizationResult &result)
+typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned int n_searches)
 {
-  const auto &most = observer.problem.scene.optimization.maximum_evaluations;
-  if (!result.success || result.evaluations >= most)
-    return false;
-  const double drift = observer.problem.drift(result.x);
-  if (drift < unmoved)
-    return false;
-  observer.finish_first();
-  observer.problem.context.out() << "contact is paired anew: the design moved slave nodes off the "
-                                    "points they were paired with by up to "
-                                 << drift << " of a face" << std::endl;
-  observer.evaluator.pair(result.x);
-  return true;
+  const bool is_over  = n_searches > 0 && result.evaluations >= most_evaluations();
+  const bool is_tuned = n_searches >= phases.size();
+  const auto factor   = is_over || is_tuned ? 1. : phases[n_searches];
+  context.out() << "the design of iteration " << result.iterations << ", errors of up to " << factor
+                << " times the targets:" << std::endl;
+  Adaptation<dim> adaptation(context, scene, result.x, is_tuned ? cells : Cells());
+  auto            complaint = adaptation.reach(factor);
+  const bool      agrees    = is_tuned && adaptation.cells() == cells;
+  cells                     = adaptation.cells();
+  if (complaint.empty() && scene.accuracy.verify && (is_over || agrees))
+    complaint = adaptation.verify();
+  if (complaint.empty() && n_searches == most_searches && !agrees)
+    complaint = "the meshes made for the designs found still differ after " +
+                std::to_string(most_searches) + " searches; ask for less";
+  add_meshes(adaptation.summary, factor == 1.);
+  const auto objective = adaptation.objective();
+  // what is of the geometry alone has no error
+  const double tolerance = std::isfinite(objective.error) && objective.value != 0.
+                             ? part_of_error * objective.error / std::abs(objective.value)
+                             : 0.;
+  return {adaptation.adapted_scene(),
+          tolerance,
+          {true, initial.value, initial.error, adaptation.errors()},
+          complaint,
+          is_over || agrees || !complaint.empty()};
 }
 
 template <int dim>
-std::string run(ShapeProblem<dim> &problem, Results<dim> &results, const bool restart)
+void TargetedSearch<dim>::add_meshes(io::Summary::Adaptation of, const bool at_targets)
 {
-  Observer<dim>         observer{problem, results};
-  optimization::Journal journal({problem.scene.output_directory, fingerprint(problem.scene),
-                                 restart, problem.context.communicator(),
-                                 [&](const std::string &line) { observer.log(line); }});
+  auto &all = *results->summary.accuracy;
+  of.met    = of.met && at_targets;
+  of.meshes.insert(of.meshes.begin(), all.meshes.begin(), all.meshes.end());
+  all = of;
+}
 
-  auto result = search(observer, journal, problem.shapes->start(), {});
-  // rows of B belong to a pairing: it changes between searches only
-  for (unsigned int round = 0; round < problem.scene.contact.update_pairing; ++round)
+template <int dim>
+std::string TargetedSearch<dim>::run()
+{
+  begin();
+  for (unsigned int n = 0;; ++n)
     {
-      if (!pair_anew(observer, result))
-        break;
-      result = search(observer, journal, result.x, result);
+      const auto        stage = adapt(n);
+      ShapeProblem<dim> problem(context, stage.scene, timed_mesh<dim>(context, stage.scene));
+      results->watch(problem);
+      // limits that are relative to the first design are so with its pairing
+      Search<dim> search(problem, *books);
+      if (result.x != problem.shapes->start())
+        search.evaluator.pair(result.x);
+      if (!stage.is_last)
+        result = search.run(result.x, result, stage.tolerance);
+      const bool is_interrupted = result.end == optimization::End::interrupted;
+      if (!stage.is_last && !is_interrupted)
+        continue;
+      finish(search, *books, result, is_interrupted ? Known() : stage.known);
+      print_work(context, *results->summary.accuracy);
+      return stage.complaint.empty() ? optimization::complaint(result, scene.optimization)
+                                     : stage.complaint;
     }
-  finish(observer, result);
-  return optimization::complaint(result, problem.scene.optimization);
 }
 } // namespace
 
 template <int dim>
 std::string optimize(ShapeProblem<dim> &problem, Results<dim> &results, const bool restart)
 {
-  return run(problem, results, restart);
+  Books<dim>  books(results, problem, problem.scene, restart);
+  Search<dim> search(problem, books);
+  const auto  result = search.run(problem.shapes->start());
+  finish(search, books, result);
+  return optimization::complaint(result, problem.scene.optimization);
+}
+
+template <int dim>
+std::string optimize_to_targets(RunContext &context, const scene::Scene &scene, const bool restart)
+{
+  return TargetedSearch<dim>(context, scene, restart).run();
 }
 
 template std::string optimize(ShapeProblem<2> &, Results<2> &, bool);
 template std::string optimize(ShapeProblem<3> &, Results<3> &, bool);
+template std::string optimize_to_targets<2>(RunContext &, const scene::Scene &, bool);
+template std::string optimize_to_targets<3>(RunContext &, const scene::Scene &, bool);
 } // namespace snug::app

@@ -131,14 +131,6 @@ void prepare_output(const RunContext &context, const scene::Scene &scene)
   });
 }
 
-/// The meshes of a scene, on the books of its setup.
-template <int dim>
-std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene::Scene &scene)
-{
-  const RunContext::Timer timer(context, "setup");
-  return build_mesh<dim>(scene, context.communicator());
-}
-
 /// Rank 0 counts; an estimate is no business of the others.
 void print_estimate(RunContext         &context,
                     const scene::Scene &scene,
@@ -181,29 +173,15 @@ void print_program(RunContext &context)
     context.out() << "warning: " << io::blas_warning(info) << std::endl;
 }
 
-void print_work(RunContext &context, const io::Summary::Adaptation &adaptation)
-{
-  unsigned long unknowns = 0, f_mults = 0;
-  for (const auto &mesh : adaptation.meshes)
-    {
-      unknowns += mesh.dofs;
-      f_mults += mesh.f_mults;
-    }
-  auto &out = context.out();
-  out << (adaptation.met ? "targets met" : "targets not met") << " on " << adaptation.meshes.size()
-      << " meshes with " << unknowns << " unknowns and " << f_mults << " F-mults in all;";
-  for (const auto *stage : {"setup", "assembly", "factorization", "solve", "accuracy"})
-    out << ' ' << stage << ' ' << context.seconds(stage) << " s";
-  out << std::endl;
-}
-
 /// A state on the mesh that its targets ask for. @return why they are not met; empty: they are.
 template <int dim>
 std::string run_adapted(RunContext &context, const scene::Scene &scene)
 {
   Adaptation<dim> adaptation(context, scene);
   io::remove_results(context, output_directories(scene));
-  const auto   complaint = adaptation.run();
+  auto complaint = adaptation.reach(1.);
+  if (complaint.empty() && scene.accuracy.verify)
+    complaint = adaptation.verify();
   Results<dim> results(adaptation.problem());
   results.summary.task     = to_text(scene.task);
   results.summary.accuracy = adaptation.summary;
@@ -217,6 +195,16 @@ std::string run_adapted(RunContext &context, const scene::Scene &scene)
                      : adaptation.errors());
   results.write_summary();
   return complaint;
+}
+
+/// A design on the meshes that its targets ask for.
+template <int dim>
+std::string run_adapted_search(RunContext &context, const scene::Scene &scene, const bool restart)
+{
+  if (!restart)
+    io::remove_results(context, output_directories(scene));
+  catch_interrupts();
+  return optimize_to_targets<dim>(context, scene, restart);
 }
 
 template <int dim>
@@ -251,8 +239,13 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
 {
   prepare_output(context, scene);
   print_program(context);
-  const auto complaint = scene.accuracy.targets.empty() ? run_given<dim>(context, scene, options)
-                                                        : run_adapted<dim>(context, scene);
+  std::string complaint;
+  if (scene.accuracy.targets.empty())
+    complaint = run_given<dim>(context, scene, options);
+  else if (scene.task == scene::Task::optimize)
+    complaint = run_adapted_search<dim>(context, scene, options.restart);
+  else
+    complaint = run_adapted<dim>(context, scene);
   context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"
                 << std::endl;
   if (!complaint.empty())

@@ -131,6 +131,18 @@ Json summary_part(const Summary::Gradient &gradient)
   return part;
 }
 
+template <typename Part>
+Json summary_part(const std::optional<Part> &part);
+
+Json summary_part(const Summary::Gain &gain)
+{
+  return {{"initial", gain.initial},
+          {"initial_error", gain.initial_error},
+          {"final", gain.final},
+          {"final_error", gain.final_error},
+          {"counts", gain.counts}};
+}
+
 Json summary_part(const Summary::Optimization &optimization)
 {
   return {{"algorithm", optimization.algorithm},
@@ -141,6 +153,7 @@ Json summary_part(const Summary::Optimization &optimization)
           {"constraint_violation", optimization.constraint_violation},
           {"objective_paired_anew", optimization.objective_paired_anew},
           {"constraint_violation_paired_anew", optimization.constraint_violation_paired_anew},
+          {"gain", summary_part(optimization.gain)},
           {"projected_gradient", optimization.projected_gradient},
           {"stop_reason", optimization.stop_reason},
           {"design", optimization.x}};

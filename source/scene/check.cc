@@ -76,6 +76,28 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
                     objective + "'");
 }
 
+/// A search needs the error of its objective, and variables that are the same on all meshes.
+void check_targets(const Scene &scene, const SectionCheck &section)
+{
+  const auto &targets = scene.accuracy.targets;
+  if (targets.empty())
+    return;
+  const auto require = [&](const bool good, const std::string &allowed) {
+    section.require(good, "Target", to_text(targets), allowed);
+  };
+  require(scene.task != Task::sensitivity, "must be empty for Task = sensitivity");
+  if (scene.task != Task::optimize)
+    return;
+  const std::string &objective = scene.optimization.objective;
+  require(!response::make_response<3>(*response_called(scene, objective))->needs_solution() ||
+            std::any_of(targets.begin(), targets.end(),
+                        [&](const auto &target) { return target.first == objective; }),
+          "must name the objective, '" + objective + "'");
+  for (const auto &shape : scene.shapes)
+    require(!shape.reads("Filter radius"),
+            "must be empty where shapes are node-wise: each mesh has other variables");
+}
+
 void check_entries(const Scene &scene, const Origins &origins)
 {
   Scene   copy = scene;
@@ -116,9 +138,7 @@ void check(const Scene &scene, const Origins &origins)
   check_responses(scene, origins);
   check_gradient(scene, section("Gradient"));
   scene.accuracy.check(section("Accuracy"));
-  section("Accuracy")
-    .require(scene.accuracy.targets.empty() || scene.task == Task::state, "Target",
-             to_text(scene.accuracy.targets), "must be empty for Task = " + to_text(scene.task));
+  check_targets(scene, section("Accuracy"));
 }
 
 void require_boundary(const SectionCheck &section,

@@ -1,7 +1,7 @@
 #ifndef snug_app_adaptation_h
 #define snug_app_adaptation_h
 
-#include <snug/accuracy/adaptation.h>
+#include <snug/accuracy/demand.h>
 #include <snug/app/mesh_error.h>
 #include <snug/io/summary.h>
 
@@ -9,22 +9,33 @@
 
 namespace snug::app {
 /**
- * Meshes of a scene, each refined where the one before has errors, until the targets are met: a
- * problem of its own for each, solved from the contact forces of the one before and only as exactly
- * as its mesh deserves. Contact faces that meet are kept at one size.
+ * Meshes of a scene at a design, each refined where the one before has errors, until the targets
+ * are met: a problem of its own for each, solved from the contact forces of the one before and only
+ * as exactly as its mesh deserves. Contact faces that meet are kept at one size.
  */
 template <int dim>
 class Adaptation
 {
 public:
-  using States = typename ShapeProblem<dim>::States;
+  using States       = typename ShapeProblem<dim>::States;
+  using Design       = typename ShapeProblem<dim>::Design;
+  using RefinedCells = std::set<dealii::CellId>;
 
-  /// Makes the first mesh; @p context must outlive this. Collective. @throws InputError.
-  Adaptation(RunContext &context, const scene::Scene &scene);
+  /// Makes the first mesh, that of the scene with @p cells refined, and solves at @p design, or at
+  /// the start if there is none; @p context must outlive this. Collective.
+  /// @throws InputError, SolveError.
+  Adaptation(RunContext         &context,
+             const scene::Scene &scene,
+             const Design       &design = {},
+             const RefinedCells &cells  = {});
 
-  /// @return why the targets are not met; empty: they are. Collective.
-  /// @throws SolveError.
-  std::string run();
+  /// Refine until errors are at most @p factor times the targets.
+  /// @return why they are not; empty: they are. Collective. @throws SolveError.
+  std::string reach(double factor);
+
+  /// Compare with the mesh on which all cells are refined. @return why the targets are not met
+  /// there; empty: they are. Collective. @throws SolveError.
+  std::string verify();
 
   /// Of the mesh the targets are met on, or else the last.
   const ShapeProblem<dim> &problem() const { return *solved->problem; }
@@ -32,16 +43,17 @@ public:
   /// Of these, in the responses of the targets; empty where a contact is too narrow.
   const std::vector<MeshError> &errors() const { return solved->errors; }
 
+  /// The value of the objective and its error; none (NaN) if it is no target. Collective.
+  accuracy::Measured objective();
+  /// Refined beyond the scene's own.
+  const RefinedCells &cells() const { return refined; }
+  /// The scene with these; it is solved as exactly as the user's.
+  scene::Scene adapted_scene() const;
+
   io::Summary::Adaptation summary;
 
 private:
-  using Mesh         = std::unique_ptr<mesh::BodyMesh<dim>>;
-  using RefinedCells = std::set<dealii::CellId>;
-
-  struct Measured
-  {
-    double value, error;
-  };
+  using Mesh = std::unique_ptr<mesh::BodyMesh<dim>>;
 
   /// A mesh and what is solved on it.
   struct Stage
@@ -50,26 +62,17 @@ private:
     std::unique_ptr<ShapeProblem<dim>> problem                      = nullptr;
     States                             states                       = {};
     std::vector<std::unique_ptr<response::Response<dim>>> responses = {}; ///< of the targets
-    std::vector<MeshError> errors   = {}; ///< per load case; empty: not trusted
-    std::vector<Measured>  measured = {}; ///< of the demands
+    std::vector<MeshError>          errors   = {}; ///< per load case; empty: not trusted
+    std::vector<accuracy::Measured> measured = {}; ///< of the demands
   };
 
-  /// A target in one load case.
-  struct Demand
-  {
-    std::string         name;             ///< with the load case, if there are several
-    unsigned int        load_case, place; ///< of the target in the entry
-    accuracy::Target    target;
-    bool                is_energy;
-    std::vector<double> errors = {}; ///< on the last meshes that were refined for it
-  };
-
-  RunContext            &context;
-  scene::Scene           scene;
-  std::vector<Demand>    demands;
-  RefinedCells           refined; ///< of the last mesh
-  double                 began;   ///< to make it [s]
-  std::unique_ptr<Stage> solved;
+  RunContext                   &context;
+  scene::Scene                  scene;
+  Design                        at; ///< empty: the start
+  std::vector<accuracy::Demand> demands;
+  RefinedCells                  refined; ///< of the last mesh
+  double                        began;   ///< to make it [s]
+  std::unique_ptr<Stage>        solved;
 
   Mesh                   matched_mesh(RefinedCells &cells);
   std::unique_ptr<Stage> stage(Mesh mesh, const RefinedCells &cells, double tolerance);
@@ -77,8 +80,10 @@ private:
   void                   estimate(Stage &stage) const;
   std::unique_ptr<Stage> solve_next(Mesh mesh, const RefinedCells &cells);
   void                   report(const Stage &stage);
+  Design                 design(const Stage &stage) const;
   bool                   is_at_rest() const;
   bool                   is_met(unsigned int demand) const;
+  double                 least() const;
   double                 next_tolerance() const;
   bool                   fits(const mesh::BodyMesh<dim> &mesh) const;
   void                   add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
@@ -86,8 +91,10 @@ private:
   void                   add_marked(RefinedCells &cells) const;
   std::string            failure();
   std::string            missed(const std::string &advice) const;
-  std::string            verify();
 };
+
+/// Say what targets took.
+void print_work(RunContext &context, const io::Summary::Adaptation &adaptation);
 } // namespace snug::app
 
 #endif

@@ -26,6 +26,10 @@ auto made_of(const scene::Scene &scene, const Make &make)
 template <int dim>
 std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &scene, MPI_Comm communicator);
 
+/// The same, on the books of the run's setup.
+template <int dim>
+std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene::Scene &scene);
+
 /// Mesh entries of all bodies, in their order.
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene);
 

@@ -18,6 +18,11 @@ template <int dim>
 std::vector<MeshError> mesh_errors(const ShapeProblem<dim>                  &problem,
                                    const typename ShapeProblem<dim>::States &states);
 
+/// Of the objective of load cases combined with @p factors; none (NaN) where it is not estimated.
+double objective_error(const scene::Scene           &scene,
+                       const std::vector<double>    &factors,
+                       const std::vector<MeshError> &errors);
+
 /// As lines of the log, relative to the values of @p states where these are not 0.
 template <int dim>
 std::vector<std::string> described(const ShapeProblem<dim>                  &problem,

@@ -15,6 +15,17 @@ namespace snug::app {
  */
 template <int dim>
 std::string optimize(ShapeProblem<dim> &problem, Results<dim> &results, bool restart);
+
+/**
+ * The same to targets of accuracy: a search on a mesh made for its start with errors of 8 times the
+ * targets, one from there with 3 times, and then with the targets, until the mesh is also one for
+ * the design found. The first design and the last are worth what meshes made for them say.
+ * Makes its own output. Collective.
+ * @return what is wrong with the result; empty: nothing.
+ * @throws InputError, SolveError if a first design has no state or no mesh for the targets.
+ */
+template <int dim>
+std::string optimize_to_targets(RunContext &context, const scene::Scene &scene, bool restart);
 } // namespace snug::app
 
 #endif

@@ -57,6 +57,9 @@ public:
                 const std::optional<Field>   &shape_gradient = {},
                 const std::vector<MeshError> &errors         = {});
 
+  /// Of the mesh, per load case, as estimated or given to add_last().
+  const std::vector<MeshError> &errors() const { return last_errors; }
+
   /// Print what there is to say of a scene with these states, for the log and the summary.
   /// Collective.
   void advise(const States &states);

@@ -109,9 +109,17 @@ struct Summary
     std::vector<GradientRow> methods;
   };
 
+  /// The objective of the first and the last design, each with its estimated error.
+  struct Gain
+  {
+    double initial = none, initial_error = none, final = none, final_error = none;
+    bool   counts = false; ///< it is larger than the error at the last design
+  };
+
   struct Optimization : optimization::OptimizationResult
   {
-    std::string algorithm;
+    std::string         algorithm;
+    std::optional<Gain> gain = {}; ///< if errors of the objective are estimated
     /// of the design found with contact paired anew there, if that is
     /// another pairing
     double objective_paired_anew = none, constraint_violation_paired_anew = none;

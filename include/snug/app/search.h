@@ -1,0 +1,71 @@
+#ifndef snug_app_search_h
+#define snug_app_search_h
+
+#include <snug/app/evaluator.h>
+#include <snug/app/results.h>
+#include <snug/io/history.h>
+#include <snug/optimization/journal.h>
+
+namespace snug::app {
+/// What the searches of a run write to, one after the other.
+template <int dim>
+struct Books
+{
+  /// Those of the output directory of @p scene go on if @p restart; its problem may be that of
+  /// another mesh. Collective. @throws InputError.
+  Books(Results<dim>            &results,
+        const ShapeProblem<dim> &problem,
+        const scene::Scene      &scene,
+        bool                     restart);
+
+  Results<dim>         &results;
+  double                first_violation = 0.; ///< of constraints, by the first design
+  io::History           history;
+  optimization::Journal journal;
+};
+
+/**
+ * Searches for the best design of a shape problem, on its mesh: with contact paired anew where the
+ * design has moved slave nodes along the master, with log, history, journal and pictures.
+ */
+template <int dim>
+class Search
+{
+public:
+  /// Arguments must outlive this. May solve the first design, see Evaluator. Collective.
+  Search(ShapeProblem<dim> &problem, Books<dim> &books);
+
+  /**
+   * Minimize from @p start, until the objective changes by less than @p tolerance, relative, or as
+   * little as the scene asks for. Counts and the first objective go on from those of @p before.
+   * Collective. @throws SolveError, TangledMesh if the start has no value.
+   */
+  optimization::OptimizationResult run(const std::vector<double>              &start,
+                                       const optimization::OptimizationResult &before    = {},
+                                       double                                  tolerance = 0.);
+
+  /// The evaluator's own evaluation, with warnings. Collective.
+  optimization::Evaluation evaluate(const std::vector<double> &design);
+
+  /// Draw and summarize the first design with its own pairing, if that is
+  /// not done: after a replay it has not been solved in this run. Collective.
+  void finish_first();
+
+  void log(const std::string &line) const { problem.context.out() << line << std::endl; }
+
+  ShapeProblem<dim> &problem;
+  Results<dim>      &results;
+  Evaluator<dim>     evaluator;
+
+private:
+  using Result = optimization::OptimizationResult;
+
+  void   report(const optimization::Iteration &iteration, unsigned int before);
+  Result run_paired(const std::vector<double> &start, const Result &before, double tolerance);
+  bool   pair_anew(const Result &result);
+
+  Books<dim> &books;
+};
+} // namespace snug::app
+
+#endif

@@ -1,0 +1,42 @@
+#include <snug/accuracy/demand.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace snug::accuracy {
+std::string text_of(const std::string &name, const Measured &measured)
+{
+  std::ostringstream text;
+  text << name << ' ' << measured.value;
+  if (!std::isfinite(measured.error))
+    return text.str();
+  text.precision(2);
+  text << " +- " << measured.error;
+  if (measured.value != 0.)
+    text << " (" << 100. * measured.error / std::abs(measured.value) << " %)";
+  return text.str();
+}
+
+double Demand::tolerance(const Measured &measured, const double least) const
+{
+  const double size = std::max(std::abs(measured.value), allowed(measured));
+  return size > 0. ? step_tolerance(measured.error / size, is_energy, least) : first_tolerance;
+}
+
+/// A response that is zero has the error of the solver, of which no mesh makes a small part.
+std::string Demand::note(const Measured &measured, const bool is_met)
+{
+  if (is_met)
+    errors.clear();
+  else
+    errors.push_back(measured.error);
+  if (!is_unbounded(errors))
+    return "";
+  return "the error of " + text_of(name, measured) + " has not halved in three meshes: " +
+         (target.relative && measured.error > std::abs(measured.value)
+            ? "it seems to be zero; give its target as a number in its units"
+            : "it seems to be unbounded, as stresses at sharp edges are; take another response, "
+              "or round the edge");
+}
+} // namespace snug::accuracy
