@@ -9,10 +9,11 @@ void AccuracyParameters::declare(Entries &entries)
               "What is estimated of the mesh's error, once per state and of the final design.");
   entries.add(
     "Target", targets, allowed("a list 'response: error, response: error, ...'"),
-    "Of a state: the mesh is refined until the estimated errors of these responses, names "
-    "in 'Responses' or quantities, are smaller in all load cases: 'peak pressure: 1 %' of "
-    "its value, or 'tip: 0.02' in its units. Faces that meet in contact get one size. "
-    "Empty: the mesh as given.");
+    "The mesh is refined until the estimated errors of these responses, names in 'Responses' or "
+    "quantities, are smaller in all load cases: 'peak pressure: 1 %' of its value, or 'tip: 0.02' "
+    "in its units. Faces that meet in contact get one size. Designs are sought on meshes for 8, "
+    "3 and 1 times the targets, of which the objective must be one, and verified. Empty: the mesh "
+    "as given.");
   entries.add("Maximum levels", maximum_levels, between(1., 20.),
               "Cells are refined up to this level above the coarse cells, with 'Refinements'.");
   entries.add("Maximum unknowns", maximum_unknowns, positive(), "Finer meshes are not solved.");
@@ -21,7 +22,7 @@ void AccuracyParameters::declare(Entries &entries)
     "Cells with this part of the error are refined at once, or fewer where that is enough.");
   entries.add("Contact faces", contact_faces, between(2., 100.),
               "A contact of fewer faces across is refined, whatever its estimated error.");
-  entries.add("Verify", verify, "Also solve the mesh with all cells refined, and compare.");
+  entries.add("Verify", verify, "Of a state: also solve the mesh with all cells refined, and compare.");
 }
 
 void AccuracyParameters::check(const SectionCheck &section) const

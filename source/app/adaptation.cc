@@ -337,6 +337,8 @@ std::string Adaptation<dim>::verify()
       if (error > demands[d].target.allowed(value))
         failure = "the finer mesh says " + text + ": the target is missed; ask for less";
     }
+  if (!failure.empty())
+    finer = cells;
   return failure;
 }
 

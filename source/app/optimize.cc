@@ -206,7 +206,8 @@ private:
   std::unique_ptr<Books<dim>>   books;
   OptimizationResult            result;
   accuracy::Measured            initial;
-  Cells                         cells; ///< of the last mesh
+  Cells                         cells;              ///< of the last mesh
+  bool                          has_failed = false; ///< no mesh met the last targets
 
   unsigned int most_evaluations() const { return scene.optimization.maximum_evaluations; }
   void         begin();
@@ -237,6 +238,7 @@ void TargetedSearch<dim>::begin()
 
 /// A mesh for the last design found. Of the first phases each begins with the scene's own mesh:
 /// cells refined for other designs are of no use; then cells are only added, to come to an end.
+/// What a mesh is too coarse to see its estimates miss as well: the last one has to be verified.
 template <int dim>
 typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned int n_searches)
 {
@@ -245,26 +247,40 @@ typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned in
   const auto factor   = is_over || is_tuned ? 1. : phases[n_searches];
   context.out() << "the design of iteration " << result.iterations << ", errors of up to " << factor
                 << " times the targets:" << std::endl;
-  Adaptation<dim> adaptation(context, scene, result.x, is_tuned ? cells : Cells());
-  auto            complaint = adaptation.reach(factor);
-  const bool      agrees    = is_tuned && adaptation.cells() == cells;
-  cells                     = adaptation.cells();
-  if (complaint.empty() && scene.accuracy.verify && (is_over || agrees))
-    complaint = adaptation.verify();
+  auto adaptation =
+    std::make_unique<Adaptation<dim>>(context, scene, result.x, is_tuned ? cells : Cells());
+  auto complaint = adaptation->reach(factor);
+  bool agrees    = is_tuned && adaptation->cells() == cells;
+  if (complaint.empty() && (is_over || agrees))
+    complaint = adaptation->verify();
+  add_meshes(adaptation->summary, factor == 1.);
+  if (!adaptation->finer_cells().empty() && !is_over)
+    {
+      const Cells finer = adaptation->finer_cells();
+      adaptation.reset();
+      adaptation = std::make_unique<Adaptation<dim>>(context, scene, result.x, finer);
+      complaint  = adaptation->reach(factor);
+      agrees     = false;
+      add_meshes(adaptation->summary, true);
+    }
+  cells = adaptation->cells();
   if (complaint.empty() && n_searches == most_searches && !agrees)
     complaint = "the meshes made for the designs found still differ after " +
                 std::to_string(most_searches) + " searches; ask for less";
-  add_meshes(adaptation.summary, factor == 1.);
-  const auto objective = adaptation.objective();
+  // a search may leave a design of which no mesh is good enough
+  const bool is_last =
+    is_over || agrees || n_searches == most_searches || (has_failed && !complaint.empty());
+  has_failed           = !complaint.empty();
+  const auto objective = adaptation->objective();
   // what is of the geometry alone has no error
   const double tolerance = std::isfinite(objective.error) && objective.value != 0.
                              ? part_of_error * objective.error / std::abs(objective.value)
                              : 0.;
-  return {adaptation.adapted_scene(),
+  return {adaptation->adapted_scene(),
           tolerance,
-          {true, initial.value, initial.error, adaptation.errors()},
+          {true, initial.value, initial.error, adaptation->errors()},
           complaint,
-          is_over || agrees || !complaint.empty()};
+          is_last};
 }
 
 template <int dim>

@@ -36,6 +36,8 @@ public:
   /// Compare with the mesh on which all cells are refined. @return why the targets are not met
   /// there; empty: they are. Collective. @throws SolveError.
   std::string verify();
+  /// Those of the mesh on which verify() missed them; empty: it has not.
+  const RefinedCells &finer_cells() const { return finer; }
 
   /// Of the mesh the targets are met on, or else the last.
   const ShapeProblem<dim> &problem() const { return *solved->problem; }
@@ -71,7 +73,8 @@ private:
   Design                        at; ///< empty: the start
   std::vector<accuracy::Demand> demands;
   RefinedCells                  refined; ///< of the last mesh
-  double                        began;   ///< to make it [s]
+  RefinedCells                  finer;
+  double                        began; ///< to make it [s]
   std::unique_ptr<Stage>        solved;
 
   Mesh                   matched_mesh(RefinedCells &cells);
