@@ -1,51 +1,16 @@
 """The small scenes of tests/scenes with known answers, and what their options must do.
 
-A check runs a scene with some entries and measures it, where it says so beside the
-same scene with others. A measure returns quantities as (name, value, answer)."""
+See measures.py."""
 
 import base64
-import collections
 import math
 import re
 import struct
 import zlib
 
+import adapted_scenes
 from gallery_runs import solve
-
-
-class Below(float):
-    """An answer that is a bound: the value must be smaller."""
-
-
-Check = collections.namedtuple("Check", "scene entries measure allowed beside",
-                               defaults=[1e-8, None])
-
-
-def error(value, answer):
-    """Relative, of lists to their largest number; of a bound that holds zero."""
-    if isinstance(answer, Below):
-        return 0. if value < answer else math.inf
-    found, known = (x if isinstance(x, list) else [x] for x in (value, answer))
-    if len(found) != len(known) or not all(map(math.isfinite, found)):
-        return math.inf
-    return max(abs(a - b) for a, b in zip(found, known)) / max(map(abs, known))
-
-
-def at(result, path):
-    """What stands in the summary at "state.energy"."""
-    value = result.summary
-    for key in path.split("."):
-        value = value[int(key)] if isinstance(value, list) else value[key]
-    return value
-
-
-def same(*paths, less=(), more=()):
-    """Equal to the scene beside; some numbers are less, or more."""
-    return lambda result, beside: [
-        *((path, at(result, path), at(beside, path)) for path in paths),
-        *((path, at(result, path), Below(at(beside, path))) for path in less),
-        *((path + " beside", at(beside, path), Below(at(result, path)))
-          for path in more)]
+from measures import Below, Check, at, error, same
 
 
 def guided_modulus(E, nu):
@@ -251,29 +216,6 @@ def loose_constraint(result, beside):
             ("compliance", found["objective_final"], Below(9e-3))]
 
 
-def adapted(result, _):
-    """The energy of much finer meshes of degree 2; Hertz's largest pressure."""
-    peak = math.sqrt(0.25 * 1000 / (2 * (1 - .3**2)) / (math.pi * 4))
-    return [("energy", result.state["energy"], -7.8345e-5),
-            ("largest pressure", result.state["max_pressure"], peak)]
-
-
-def adapted_peak(result, _):
-    """Exponent 8, by much finer meshes; uniform ones take 66,000 unknowns."""
-    return [("peak", at(result, "accuracy.meshes.-1.responses.peak pressure.value"), 3.0258),
-            ("unknowns", result.summary["mesh"]["dofs"], Below(1000))]
-
-
-def verified(result, _):
-    found = result.summary["accuracy"]["verified"]["potential energy"]
-    return [("verified error", found["error"], Below(0.01 * abs(found["value"])))]
-
-
-def more_meshes(*results):
-    found, beside = (len(one.summary["accuracy"]["meshes"]) for one in results)
-    return [("meshes beside", beside, Below(found))]
-
-
 BAR_STOPS = {"gradient tolerance": "Optimization/Gradient tolerance=0.1",
              "objective tolerance": "Optimization/Objective tolerance=1e-2",
              "design tolerance": "Optimization/Design tolerance=0.1",
@@ -300,13 +242,7 @@ CHECKS = [
     Check("search", [], rows_of_disc(17, 11), 1e-6),
     Check("search", ["Pair disc.outer: lid/Search distance=0"], rows_of_disc(17, 27),
           1e-6),
-    Check("adapted-2d", [], adapted, 1e-2),
-    Check("adapted-2d", ["Accuracy/Target=peak pressure: 1 %"], adapted_peak, 1e-2),
-    Check("adapted-2d", ["Accuracy/Verify=true"], verified, 1e-2),
-    *(Check("adapted-2d", [entry], more_meshes, 0., [])
-      for entry in ("Accuracy/Marking share=0.3", "Accuracy/Contact faces=20")),
-    Check("adapted-2d", ["Accuracy/Maximum levels=10", "Accuracy/Maximum unknowns=900"],
-          same("state.energy"), 1e-12, []),
+    *adapted_scenes.CHECKS,
     Check("six-blocks", [], six_blocks, 1e-8),
     Check("six-blocks", ["Solver/Preconditioner=lumped"], six_blocks, 1e-8),
     Check("paired-anew", [], paired_anew, 1e-7),

@@ -1,4 +1,5 @@
 #include <snug/app/adaptation.h>
+#include <snug/app/interrupt.h>
 #include <snug/app/optimize.h>
 #include <snug/app/search.h>
 #include <snug/base/errors.h>
@@ -212,6 +213,7 @@ private:
   unsigned int most_evaluations() const { return scene.optimization.maximum_evaluations; }
   void         begin();
   Stage        adapt(unsigned int n_searches);
+  void         search_from_last(Search<dim> &search, double tolerance);
   void         add_meshes(io::Summary::Adaptation of, bool at_targets);
 };
 
@@ -222,14 +224,15 @@ void TargetedSearch<dim>::begin()
   context.out() << "the first design:" << std::endl;
   Adaptation<dim> adaptation(context, scene);
   const auto      complaint = adaptation.reach(1.);
-  if (!complaint.empty())
-    throw SolveError("the first design: " + complaint);
-  const auto &problem       = adaptation.problem();
+  const auto     &problem   = adaptation.problem();
   results                   = std::make_unique<Results<dim>>(problem);
   results->summary.task     = to_text(scene.task);
   results->summary.accuracy = adaptation.summary;
   results->print_header();
   results->warn(adaptation.states());
+  // a search may leave it
+  if (!complaint.empty())
+    results->warn({"of the first design, " + complaint});
   results->add_first(adaptation.states(), {});
   initial  = adaptation.objective();
   result.x = problem.shapes->start();
@@ -292,10 +295,28 @@ void TargetedSearch<dim>::add_meshes(io::Summary::Adaptation of, const bool at_t
   all = of;
 }
 
+/// An interruption while a mesh was made ends the search that was to follow.
+template <int dim>
+void TargetedSearch<dim>::search_from_last(Search<dim> &search, const double tolerance)
+{
+  try
+    {
+      result = search.run(result.x, result, tolerance);
+    }
+  catch (const Interrupted &)
+    {
+      if (result.evaluations == 0)
+        throw;
+      result.end         = optimization::End::interrupted;
+      result.stop_reason = "interrupted";
+    }
+}
+
 template <int dim>
 std::string TargetedSearch<dim>::run()
 {
   begin();
+  catch_interrupts();
   for (unsigned int n = 0;; ++n)
     {
       const auto        stage = adapt(n);
@@ -306,7 +327,7 @@ std::string TargetedSearch<dim>::run()
       if (result.x != problem.shapes->start())
         search.evaluator.pair(result.x);
       if (!stage.is_last)
-        result = search.run(result.x, result, stage.tolerance);
+        search_from_last(search, stage.tolerance);
       const bool is_interrupted = result.end == optimization::End::interrupted;
       if (!stage.is_last && !is_interrupted)
         continue;

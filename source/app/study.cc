@@ -203,7 +203,6 @@ std::string run_adapted_search(RunContext &context, const scene::Scene &scene, c
 {
   if (!restart)
     io::remove_results(context, output_directories(scene));
-  catch_interrupts();
   return optimize_to_targets<dim>(context, scene, restart);
 }
 

@@ -22,7 +22,7 @@ std::string optimize(ShapeProblem<dim> &problem, Results<dim> &results, bool res
  * the design found. The first design and the last are worth what meshes made for them say.
  * Makes its own output. Collective.
  * @return what is wrong with the result; empty: nothing.
- * @throws InputError, SolveError if a first design has no state or no mesh for the targets.
+ * @throws InputError, SolveError if the first design has no state.
  */
 template <int dim>
 std::string optimize_to_targets(RunContext &context, const scene::Scene &scene, bool restart);

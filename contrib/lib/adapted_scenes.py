@@ -1,0 +1,78 @@
+"""The small scenes whose meshes are made for targets of accuracy."""
+
+import math
+
+from gallery_runs import solve
+from measures import Below, Check, at, same
+
+
+def adapted(result, _):
+    """The energy of much finer meshes of degree 2; Hertz's largest pressure."""
+    peak = math.sqrt(0.25 * 1000 / (2 * (1 - .3**2)) / (math.pi * 4))
+    return [("energy", result.state["energy"], -7.8345e-5),
+            ("largest pressure", result.state["max_pressure"], peak)]
+
+
+def adapted_peak(result, _):
+    """Exponent 8, by much finer meshes; uniform ones take 66,000 unknowns."""
+    return [("peak", at(result, "accuracy.meshes.-1.responses.peak pressure.value"), 3.0258),
+            ("unknowns", result.summary["mesh"]["dofs"], Below(1000))]
+
+
+def verified(result, _):
+    found = result.summary["accuracy"]["verified"]["potential energy"]
+    return [("verified error", found["error"], Below(0.01 * abs(found["value"])))]
+
+
+def more_meshes(*results):
+    found, beside = (len(one.summary["accuracy"]["meshes"]) for one in results)
+    return [("meshes beside", beside, Below(found))]
+
+
+def on_fine_faces(design):
+    """The peak of edge-2d's design on faces of 1/512 mm, and 1/64 mm elsewhere."""
+    levels = [f"Body {name}/Local refinements=6" for name in ("cylinder", "plane")]
+    return solve("tests/scenes/edge-2d.prm", "Task=state", "Accuracy/Target=",
+                 f"Shape/Initial={design[0]!r}", *levels).state["responses"]["peak"]
+
+
+def promise(result, _):
+    """One coarse mesh: most of what it gains is not there on a fine one."""
+    found = result.summary["optimization"]
+    before, after = (on_fine_faces(x) for x in ([0.], found["design"]))
+    return [("peak it says", found["objective_final"], Below(.8 * before)),
+            ("four fifths of the fine one", .8 * before, Below(after))]
+
+
+def kept_promise(result, _):
+    """To the target: the fine mesh agrees, and the gain is worth its name."""
+    found = result.summary["optimization"]
+    fine = on_fine_faces(found["design"])
+    error = result.summary["accuracy"]["verified"]["peak"]["error"]
+    return [("peak", found["gain"]["final"], fine),
+            ("verified error", error, Below(.01 * fine)),
+            ("last peak", found["gain"]["final"], Below(.9 * found["gain"]["initial"])),
+            ("counts", float(found["gain"]["counts"]), 1.)]
+
+
+def no_gain(result, _):
+    """Within tight bounds the gain is smaller than the error, which is said."""
+    gain = result.summary["optimization"]["gain"]
+    said = any("smaller than its estimated error" in line
+               for line in result.summary["warnings"])
+    return [("gain", gain["initial"] - gain["final"], Below(gain["final_error"])),
+            ("does not count", 1. - gain["counts"], 1.), ("said", float(said), 1.)]
+
+
+CHECKS = [
+    Check("adapted-2d", [], adapted, 1e-2),
+    Check("adapted-2d", ["Accuracy/Target=peak pressure: 1 %"], adapted_peak, 1e-2),
+    Check("adapted-2d", ["Accuracy/Verify=true"], verified, 1e-2),
+    *(Check("adapted-2d", [entry], more_meshes, 0., [])
+      for entry in ("Accuracy/Marking share=0.3", "Accuracy/Contact faces=20")),
+    Check("adapted-2d", ["Accuracy/Maximum levels=10", "Accuracy/Maximum unknowns=900"],
+          same("state.energy"), 1e-12, []),
+    Check("edge-2d", ["Accuracy/Target="], promise, 0.),
+    Check("edge-2d", [], kept_promise, 1e-2),
+    Check("edge-2d", ["Shape/Bounds=-1e-6, 1e-6"], no_gain, 1e-12),
+]
