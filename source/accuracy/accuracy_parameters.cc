@@ -22,7 +22,8 @@ void AccuracyParameters::declare(Entries &entries)
     "Cells with this part of the error are refined at once, or fewer where that is enough.");
   entries.add("Contact faces", contact_faces, between(2., 100.),
               "A contact of fewer faces across is refined, whatever its estimated error.");
-  entries.add("Verify", verify, "Of a state: also solve the mesh with all cells refined, and compare.");
+  entries.add("Verify", verify,
+              "Of a state: also solve the mesh with all cells refined, and compare.");
 }
 
 void AccuracyParameters::check(const SectionCheck &section) const
