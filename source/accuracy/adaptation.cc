@@ -68,7 +68,8 @@ double step_tolerance(const double error, const bool is_energy, const double lea
 
 bool is_unbounded(const std::vector<double> &errors)
 {
-  const auto n = errors.size();
-  return n > 3 && errors[n - 1] > 0.5 * errors[n - 4];
+  // three, since the first may be of a mesh too coarse to know
+  return errors.size() > 3 &&
+         errors.back() > 2. / 3. * *std::max_element(errors.end() - 4, errors.end() - 1);
 }
 } // namespace snug::accuracy

@@ -33,7 +33,7 @@ std::string Demand::note(const Measured &measured, const bool is_met)
     errors.push_back(measured.error);
   if (!is_unbounded(errors))
     return "";
-  return "the error of " + text_of(name, measured) + " has not halved in three meshes: " +
+  return "the error of " + text_of(name, measured) + " has not fallen by a third in three meshes: " +
          (target.relative && measured.error > std::abs(measured.value)
             ? "it seems to be zero; give its target as a number in its units"
             : "it seems to be unbounded, as stresses at sharp edges are; take another response, "

@@ -63,7 +63,7 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                   for (unsigned int k = 0; k < face.samples.size(); ++k)
                     true_place += on_surface.value[k] * state.positions[face.samples[k]];
                 }
-              const auto gap = gaps->at(true_place);
+              const auto gap = gaps->at(true_place, point.shape);
               if (!gap)
                 continue;
               point.area =

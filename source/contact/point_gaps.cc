@@ -20,13 +20,44 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair) : positions(pair.positi
                                                     positions, pair.held);
   projector    = std::make_unique<Projector<dim>>(pair.surface, master_faces, pair.shape, positions,
                                                normals->normals());
+  if (parameters.method == Method::mortar)
+    {
+      slave_faces   = pair.sides.slave;
+      slave_normals = std::make_unique<SupportedNormals<dim>>(pair.surface, slave_faces, pair.shape,
+                                                              positions, pair.held);
+    }
 }
 
 template <int dim>
 PointGaps<dim>::~PointGaps() = default;
 
+/// On the true surface of the master.
 template <int dim>
-std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x) const
+dealii::Tensor<1, dim> PointGaps<dim>::place(const PointProjection<dim> &foot) const
+{
+  dealii::Tensor<1, dim> y;
+  for (const auto &[point, weight] : foot.surface)
+    y += weight * positions[point];
+  return y;
+}
+
+/// From @p x along the slave's normal: the foot, by the master's normals, of a point that is moved
+/// to it along that. Each step leaves the square of the angle between them.
+template <int dim>
+std::optional<PointProjection<dim>>
+PointGaps<dim>::foot(const dealii::Tensor<1, dim> &x,
+                     const dealii::Tensor<1, dim> &slave_normal) const
+{
+  auto result = projector->onto(x);
+  for (unsigned int step = 0; step < 3 && result; ++step)
+    result = projector->onto(x + (slave_normal * (place(*result) - x)) /
+                                   slave_normal.norm_square() * slave_normal);
+  return result;
+}
+
+template <int dim>
+std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
+                                                const Weights                &slave) const
 {
   PointGap<dim> result;
   if (obstacle)
@@ -39,17 +70,20 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x)
     }
   else
     {
-      const auto foot = projector->onto(x);
-      if (!foot)
+      if (slave_normals)
+        for (const auto &[node, weight] : slave)
+          result.normal += weight * slave_normals->normals()[node];
+      const auto nearest = slave_normals ? foot(x, result.normal) : projector->onto(x);
+      if (!nearest)
         return {};
-      dealii::Tensor<1, dim> to_master = -1. * x;
-      for (const auto &[node, weight] : foot->masters)
-        result.normal -= weight * normals->normals()[node];
-      for (const auto &[point, weight] : foot->surface)
-        to_master += weight * positions[point];
-      result.normal /= result.normal.norm();
-      result.gap     = result.normal * to_master + foot->relief;
-      result.masters = foot->masters;
+      if (!slave_normals)
+        {
+          for (const auto &[node, weight] : nearest->masters)
+            result.normal -= weight * normals->normals()[node];
+          result.normal /= result.normal.norm();
+        }
+      result.gap     = result.normal * (place(*nearest) - x) + nearest->relief;
+      result.masters = nearest->masters;
     }
   if (offset)
     result.gap += offset->value(dealii::Point<dim>(x));

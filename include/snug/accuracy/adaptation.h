@@ -48,8 +48,8 @@ constexpr double first_tolerance = 1e-2;
  */
 double step_tolerance(double error, bool is_energy, double least);
 
-/// Whether errors on meshes refined for them have no limit zero: the last is above half of that
-/// three meshes before.
+/// Whether errors on meshes refined for them have no limit zero: the last is above two thirds of
+/// the largest of the three before.
 bool is_unbounded(const std::vector<double> &errors);
 } // namespace snug::accuracy
 

@@ -67,11 +67,12 @@ TEST(StepTolerance, FollowsTheError)
   EXPECT_DOUBLE_EQ(accuracy::step_tolerance(1e-9, false, 0.05), 0.05);
 }
 
-TEST(Unbounded, IsWhatDoesNotHalveInThreeMeshes)
+TEST(Unbounded, IsWhatDoesNotFallByAThirdInThreeMeshes)
 {
   EXPECT_FALSE(accuracy::is_unbounded({1., 0.9, 0.8}));
   EXPECT_TRUE(accuracy::is_unbounded({1., 0.9, 0.8, 0.7}));
   EXPECT_FALSE(accuracy::is_unbounded({9., 1., 0.9, 0.7, 0.4}));
+  EXPECT_FALSE(accuracy::is_unbounded({0.03, 0.26, 0.21, 0.17})); // the first did not know
 }
 
 namespace {
