@@ -160,6 +160,29 @@ struct Round
 };
 } // namespace
 
+/// From the slave along its own normal, as the rows have it, to the sphere of the master.
+TEST(TrueSurfaces, PointGapsOfMortarPairsAreAlongTheNormalsOfTheSlave)
+{
+  const auto expect_gaps = [](const auto &scene) {
+    const auto contact = scene.contact();
+    const auto gaps    = contact.point_gaps(0, scene.positions, scene.held);
+    const auto rows    = contact.rows(scene.positions);
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        const unsigned int slave = contact.places()[i].slave;
+        const auto         gap   = gaps->at(scene.positions[slave], {{slave, 1.}});
+        ASSERT_TRUE(gap);
+        EXPECT_LT((gap->normal - rows[i].normal).norm(), 1e-12);
+        EXPECT_NEAR(scene.gap(scene.positions[slave] + gap->gap * gap->normal), 0., 1e-7);
+      }
+  };
+  for (const unsigned int degree : {1, 2})
+    {
+      expect_gaps(Socket<2>(5, 4, degree, Method::mortar));
+      expect_gaps(Socket<3>(5, 4, degree, Method::mortar));
+    }
+}
+
 /// Facets would give moments of 1e-3 to 1e-2; each of the bodies has none by itself.
 TEST(TrueSurfaces, RoundBodiesTurnFreely)
 {
