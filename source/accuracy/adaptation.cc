@@ -71,4 +71,10 @@ bool is_unbounded(const std::vector<double> &errors)
   const auto n = errors.size();
   return n > 3 && errors[n - 1] > 0.5 * errors[n - 4];
 }
+
+bool changes_sign(const std::vector<double> &values)
+{
+  return std::any_of(values.end() - std::min<std::ptrdiff_t>(4, values.size()), values.end(),
+                     [&](const double value) { return value * values.back() < 0.; });
+}
 } // namespace snug::accuracy

@@ -186,9 +186,7 @@ void Adaptation<dim>::report(const Stage &stage)
 template <int dim>
 bool Adaptation<dim>::is_at_rest() const
 {
-  return std::all_of(solved->states.begin(), solved->states.end(), [](const auto &state) {
-    return state.assumptions.displacement < state::least_motion;
-  });
+  return std::all_of(solved->states.begin(), solved->states.end(), state::is_at_rest<dim>);
 }
 
 template <int dim>
@@ -281,10 +279,12 @@ std::string Adaptation<dim>::failure()
         demand.errors.clear();
       else
         demand.errors.push_back(measured.error);
+      demand.values.resize(demand.errors.size(), measured.value);
       if (accuracy::is_unbounded(demand.errors))
         return "the error of " + text_of(demand.name, measured.value, measured.error) +
                " has not halved in three meshes: " +
-               (demand.target.relative && measured.error > std::abs(measured.value)
+               (demand.target.relative && (measured.error > std::abs(measured.value) ||
+                                           accuracy::changes_sign(demand.values))
                   ? "it seems to be zero; give its target as a number in its units"
                   : "it seems to be unbounded, as stresses at sharp edges are; take another "
                     "response, "
@@ -344,6 +344,13 @@ std::string Adaptation<dim>::run()
       const bool   doubtful = !is_at_rest() && add_doubtful(cells);
       if (!doubtful)
         estimate(*solved);
+      else
+        // another contact is another problem
+        for (auto &demand : demands)
+          {
+            demand.errors.clear();
+            demand.values.clear();
+          }
       report(*solved);
       if (!doubtful)
         {

@@ -62,6 +62,7 @@ private:
     accuracy::Target    target;
     bool                is_energy;
     std::vector<double> errors = {}; ///< on the last meshes that were refined for it
+    std::vector<double> values = {}; ///< on the same
   };
 
   RunContext            &context;
