@@ -127,7 +127,7 @@ DOUBTFUL = [
     Row("too few levels", target(pressed(), Maximum_levels=3),
         Refused(3, "with too few faces across a contact; allow more 'Maximum levels'"), ONE),
     Row("too few levels for the error", target(pressed(), "potential energy: .1 %",
-                                             Maximum_levels=6),
+                                             Maximum_levels=5),
         Refused(3, "; allow more 'Maximum levels', or ask for less"), ONE, quick=True),
     Row("too few unknowns", target(pressed(), Maximum_unknowns=500),
         Refused(3, "unknowns: allow more 'Maximum unknowns', or ask for less"), ONE),

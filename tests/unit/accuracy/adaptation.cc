@@ -74,6 +74,14 @@ TEST(Unbounded, IsWhatDoesNotHalveInThreeMeshes)
   EXPECT_FALSE(accuracy::is_unbounded({9., 1., 0.9, 0.7, 0.4}));
 }
 
+TEST(Zero, ChangesItsSignWithTheMesh)
+{
+  EXPECT_FALSE(accuracy::changes_sign({}));
+  EXPECT_FALSE(accuracy::changes_sign({-1., -2., -1.}));
+  EXPECT_TRUE(accuracy::changes_sign({1., -1e-3, 1., 1.}));
+  EXPECT_FALSE(accuracy::changes_sign({-1., 1., 2., 3., 4.}));
+}
+
 namespace {
 /// A contact of some faces, to the tolerance between meshes.
 template <int dim>
