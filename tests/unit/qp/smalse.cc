@@ -132,7 +132,7 @@ TEST(Smalse, TurnsAFreeBodyUntilItsContactsAreOpen)
 TEST(Smalse, RaisesThePenaltyForShortLevers)
 {
   DenseData                   data;
-  const std::array<double, 5> places = {0., 0.02, 1., 2., 3.};
+  const std::array<double, 5> places = {{0., 0.02, 1., 2., 3.}};
   data.F                             = dense::Matrix(5, 5);
   data.G                             = dense::Matrix(2, 5);
   data.d                             = dense::Matrix(5);
