@@ -72,4 +72,10 @@ bool is_unbounded(const std::vector<double> &errors)
   return errors.size() > 3 &&
          errors.back() > 2. / 3. * *std::max_element(errors.end() - 4, errors.end() - 1);
 }
+
+bool changes_sign(const std::vector<double> &values)
+{
+  return std::any_of(values.end() - std::min<std::ptrdiff_t>(4, values.size()), values.end(),
+                     [&](const double value) { return value * values.back() < 0.; });
+}
 } // namespace snug::accuracy

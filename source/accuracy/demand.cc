@@ -28,13 +28,17 @@ double Demand::tolerance(const Measured &measured, const double least) const
 std::string Demand::note(const Measured &measured, const bool is_met)
 {
   if (is_met)
-    errors.clear();
+    forget();
   else
-    errors.push_back(measured.error);
+    {
+      errors.push_back(measured.error);
+      values.push_back(measured.value);
+    }
   if (!is_unbounded(errors))
     return "";
-  return "the error of " + text_of(name, measured) + " has not fallen by a third in three meshes: " +
-         (target.relative && measured.error > std::abs(measured.value)
+  return "the error of " + text_of(name, measured) +
+         " has not fallen by a third in three meshes: " +
+         (target.relative && (measured.error > std::abs(measured.value) || changes_sign(values))
             ? "it seems to be zero; give its target as a number in its units"
             : "it seems to be unbounded, as stresses at sharp edges are; take another response, "
               "or round the edge");

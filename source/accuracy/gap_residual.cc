@@ -7,6 +7,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace snug::accuracy {
 namespace {
@@ -124,6 +125,19 @@ GapResidual<dim>::pressures(const std::vector<double> &of_rows) const
   for (auto &rows : of_pairs)
     rows = {everywhere(rows.force), everywhere(rows.area)};
   return of_pairs;
+}
+
+template <int dim>
+std::vector<double> GapResidual<dim>::least(const unsigned int pair) const
+{
+  std::vector<double> result(solver.surface().n_nodes(), std::numeric_limits<double>::infinity());
+  for (const auto &point : points)
+    if (point.pair == pair)
+      for (const auto &[node, value] : point.shape)
+        result[node] = std::min(result[node], point.residual);
+  MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE, MPI_MIN,
+                solver.mesh().communicator());
+  return result;
 }
 
 template class GapResidual<2>;

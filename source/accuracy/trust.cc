@@ -1,8 +1,10 @@
+#include <snug/accuracy/gap_residual.h>
 #include <snug/accuracy/trust.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/state/contact_patches.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace snug::accuracy {
@@ -10,7 +12,8 @@ namespace {
 /// Below this part of a face a gap without a force is closed.
 const double closed_gap = 1e-9;
 
-/// The slave nodes of pairs without a force where these are all but closed.
+/// The slave nodes of pairs without a force where these are all but closed, or where their true
+/// surfaces are, or overlap, within a face.
 template <int dim>
 std::vector<unsigned int> nearly_closed(const state::StateSolver<dim>  &solver,
                                         const state::ContactState<dim> &state)
@@ -29,12 +32,23 @@ std::vector<unsigned int> nearly_closed(const state::StateSolver<dim>  &solver,
         nearest[pair] = i;
     }
   std::vector<unsigned int> nodes;
+  if (std::find(has_force.begin(), has_force.end(), false) == has_force.end())
+    return nodes;
+  const GapResidual<dim> true_gaps(solver, state);
   for (unsigned int pair = 0; pair < nearest.size(); ++pair)
-    if (!has_force[pair] && nearest[pair] < places.size())
+    if (!has_force[pair])
       {
-        const unsigned int node = places[nearest[pair]].slave;
-        const double       gap  = state.contact[nearest[pair]].gap / sizes[node];
-        if (gap > closed_gap && gap < small_gap)
+        if (nearest[pair] < places.size())
+          {
+            const unsigned int node = places[nearest[pair]].slave;
+            const double       gap  = state.contact[nearest[pair]].gap / sizes[node];
+            if (gap > closed_gap && gap < small_gap)
+              nodes.push_back(node);
+          }
+        const auto         least = true_gaps.least(pair);
+        const unsigned int node  = std::min_element(least.begin(), least.end()) - least.begin();
+        if (std::abs(least[node]) > closed_gap * sizes[node] &&
+            least[node] < small_gap * sizes[node])
           nodes.push_back(node);
       }
   return nodes;

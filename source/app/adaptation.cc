@@ -205,9 +205,7 @@ void Adaptation<dim>::report(const Stage &stage)
 template <int dim>
 bool Adaptation<dim>::is_at_rest() const
 {
-  return std::all_of(solved->states.begin(), solved->states.end(), [](const auto &state) {
-    return state.assumptions.displacement < state::least_motion;
-  });
+  return std::all_of(solved->states.begin(), solved->states.end(), state::is_at_rest<dim>);
 }
 
 template <int dim>
@@ -353,6 +351,9 @@ std::string Adaptation<dim>::reach(const double factor)
       const bool   doubtful = !is_at_rest() && add_doubtful(cells);
       if (!doubtful)
         estimate(*solved);
+      else
+        for (auto &demand : demands)
+          demand.forget();
       report(*solved);
       if (!doubtful)
         {

@@ -96,9 +96,7 @@ void Results<dim>::warn(const States &states)
       warn(state::warnings(state.assumptions));
       warn(state.free_bodies);
     }
-  if (std::all_of(states.begin(), states.end(), [](const auto &state) {
-        return state.assumptions.displacement < state::least_motion;
-      }))
+  if (std::all_of(states.begin(), states.end(), state::is_at_rest<dim>))
     warn({"nothing moves: no force, pressure, moment or weight, no prescribed displacement and no "
           "overlap in any load case"});
 }

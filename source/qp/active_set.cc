@@ -171,8 +171,8 @@ void ActiveSetRun::solve_on_set()
 {
   // The limit counts F-mults, the unit of work that all solvers share, not steps.
   if (f_mults() >= parameters.max_iterations)
-    throw not_converged("active set", kkt_here().relative, parameters.relative_tolerance,
-                        f_mults());
+    throw not_converged("active set", kkt_here().relative, parameters.relative_tolerance, f_mults(),
+                        true);
   // Below half of the wanted KKT residual an inner solve would only polish a set that may still
   // change. After a cycle was met the signs of small entries decide, so it may go further down.
   const double least = (care == SetHistory::none ? 0.5 : 0.005) * parameters.relative_tolerance;
@@ -242,7 +242,8 @@ void ActiveSetRun::keep_set()
   if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt)
     {
       if (++stalls > allowed_stalls)
-        throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults());
+        throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults(),
+                            false);
       krylov.reset();
       balance_load();
       refresh_residual();

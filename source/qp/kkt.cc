@@ -150,15 +150,20 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
   return part;
 }
 
-SolveError
-not_converged(const std::string &method, double reached, double tolerance, unsigned long f_mults)
+SolveError not_converged(const std::string &method,
+                         double             reached,
+                         double             tolerance,
+                         unsigned long      f_mults,
+                         bool               out_of_f_mults)
 {
   std::ostringstream text;
   text.precision(2);
   text << "the " << method << " solver reached a relative KKT residual of " << reached
-       << " instead of " << tolerance << " in " << f_mults
-       << " F-mults; allow more F-mults or a larger relative tolerance, "
-          "or try the other solver";
+       << " instead of " << tolerance << " in " << f_mults << " F-mults"
+       << (out_of_f_mults
+             ? "; allow more F-mults or a larger relative tolerance, "
+             : ", where steps gain next to nothing; allow a larger relative tolerance, ")
+       << "or try the other solver";
   return SolveError(text.str());
 }
 } // namespace snug::qp

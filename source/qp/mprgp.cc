@@ -85,6 +85,13 @@ void Mprgp::update_multipliers()
   direction = MultiVector(problem.n_owned(), 0);
 }
 
+void Mprgp::set_penalty(const double rho)
+{
+  g.add(rho - sizes.rho, Qx);
+  sizes.rho = rho;
+  direction = MultiVector(problem.n_owned(), 0);
+}
+
 void Mprgp::set_multipliers(const MultiVector &multipliers)
 {
   g.add(1., multipliers);

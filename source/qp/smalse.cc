@@ -9,7 +9,10 @@
 
 namespace snug::qp {
 namespace {
-const double       penalty_factor    = 10.; ///< rho / ||P F P||
+const double       penalty_factor    = 10.; ///< rho / ||P F P|| at first
+const double       largest_penalty   = 1e5; ///< rho / ||P F P||; beyond, rounding of rho Q x counts
+const unsigned int patience          = 20;  ///< steps in which ||G_b x|| is to fall to
+const double       wanted_fall       = 0.1; ///< this part, or rho is raised
 const double       balancing_factor  = 1.;  ///< M / ||P F P|| at first
 const double       balancing_descent = 0.1; ///< of M when L falls short
 const double       first_accuracy    = 0.1; ///< of ||g^P||, to ||b||
@@ -68,6 +71,7 @@ public:
 private:
   void begin(const WarmStart &start);
   bool certified();
+  void end_step(Mprgp::Stop &stop);
 
   KktResidual
   kkt_of(const FreeSet &free_set, const MultiVector &lambda, const MultiVector &residual) const;
@@ -88,6 +92,7 @@ private:
   Mprgp::Sizes           sizes;
   std::unique_ptr<Mprgp> inner;
   DualSolution           solution;
+  double                 last_value = 0., checked_infeasibility = 0.;
 };
 
 void SmalseRun::begin(const WarmStart &start)
@@ -166,6 +171,30 @@ bool SmalseRun::certified()
   return true;
 }
 
+/// Each step lowers ||G_b x|| by a factor of about 1 / (1 + rho s), s the least eigenvalue of
+/// G_b A^-1 G_b' on the free rows. Where few rows carry slender bodies s is so small that with the
+/// first rho thousands of steps would be needed; the preconditioned inner solves take any rho.
+void SmalseRun::end_step(Mprgp::Stop &stop)
+{
+  const double infeasibility = inner->infeasibility();
+  const double value         = inner->value();
+  if (solution.outer_iterations > 1 &&
+      value < last_value + 0.5 * sizes.rho * infeasibility * infeasibility)
+    stop.gradient_factor *= balancing_descent;
+  inner->update_multipliers();
+  last_value = value;
+  if (solution.outer_iterations % patience > 0)
+    return;
+  if (solution.outer_iterations > patience && infeasibility > wanted_fall * checked_infeasibility &&
+      solution.kkt_residual > parameters.relative_tolerance &&
+      sizes.rho < largest_penalty * sizes.norm)
+    {
+      sizes.rho *= 10.;
+      inner->set_penalty(sizes.rho);
+    }
+  checked_infeasibility = infeasibility;
+}
+
 DualSolution SmalseRun::run(const WarmStart &start)
 {
   begin(start);
@@ -176,7 +205,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
   stop.gradient_floor  = 0.3 * tolerance;
   stop.f_mults         = f_mults_before + parameters.max_iterations;
   double wanted        = parameters.relative_tolerance;
-  double last_value    = 0.;
+  double tried         = 0.; // ||G_b x|| when it was not certified
   while (f_mults() < parameters.max_iterations && solution.outer_iterations < max_outer)
     {
       inner->minimize(stop);
@@ -186,7 +215,11 @@ DualSolution SmalseRun::run(const WarmStart &start)
       line << "SMALSE-M, step " << solution.outer_iterations << ": KKT residual "
            << solution.kkt_residual << ", " << f_mults() << " F-mults";
       context.progress(line.str());
-      if (solution.kkt_residual <= wanted)
+      // What P x lacks in the bounds, the certified state pays for: it falls with ||G_b x||, also
+      // where the KKT residual is at its rounding.
+      if (solution.kkt_residual <= wanted ||
+          (solution.kkt_residual <= parameters.relative_tolerance &&
+           inner->infeasibility() <= 0.1 * tried))
         {
           if (certified())
             {
@@ -194,18 +227,14 @@ DualSolution SmalseRun::run(const WarmStart &start)
               solution.method  = "SMALSE-M";
               return solution;
             }
+          tried = inner->infeasibility();
           wanted *= 0.3;
           stop.gradient_floor *= 0.3;
         }
-      const double infeasibility = inner->infeasibility();
-      const double value         = inner->value();
-      if (solution.outer_iterations > 1 &&
-          value < last_value + 0.5 * sizes.rho * infeasibility * infeasibility)
-        stop.gradient_factor *= balancing_descent;
-      inner->update_multipliers();
-      last_value = value;
+      end_step(stop);
     }
-  throw not_converged("SMALSE-M", kkt_here().relative, parameters.relative_tolerance, f_mults());
+  throw not_converged("SMALSE-M", kkt_here().relative, parameters.relative_tolerance, f_mults(),
+                      f_mults() >= parameters.max_iterations);
 }
 } // namespace
 

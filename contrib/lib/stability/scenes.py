@@ -59,13 +59,13 @@ def energy(value, bound=1e-5):
     return lambda result: [Figure("energy", result.state["energy"], value, bound)]
 
 
-def untorn(text, bound=1e-5):
+def untorn(text, bound=1e-5, names=("energy", "max_pressure")):
     """The figures of bodies in one piece each, with another factorization."""
     def asked(result):
         whole = run(text + section("Decomposition", {"Subdomains": 2}) +
                     section("Solver", {"Factorization": "MUMPS"})).result
         return [Figure(name, result.state[name], whole.state[name] if whole else math.nan, bound)
-                for name in ("energy", "max_pressure")]
+                for name in names]
     return asked
 
 

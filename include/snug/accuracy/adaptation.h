@@ -51,6 +51,10 @@ double step_tolerance(double error, bool is_energy, double least);
 /// Whether errors on meshes refined for them have no limit zero: the last is above two thirds of
 /// the largest of the three before.
 bool is_unbounded(const std::vector<double> &errors);
+
+/// Whether one of the last four values has another sign than the last, as what a solver leaves of a
+/// response that is zero.
+bool changes_sign(const std::vector<double> &values);
 } // namespace snug::accuracy
 
 #endif

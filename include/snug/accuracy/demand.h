@@ -26,12 +26,19 @@ struct Demand
   bool         is_energy;
   double       factor = 1.; ///< that errors may be larger by
   /// on the last meshes that were refined for it
-  std::vector<double> errors = {};
+  std::vector<double> errors = {}, values = {};
 
   double allowed(const Measured &measured) const { return factor * target.allowed(measured.value); }
 
   /// That of the next mesh, see step_tolerance().
   double tolerance(const Measured &measured, double least) const;
+
+  /// Another contact is another problem.
+  void forget()
+  {
+    errors.clear();
+    values.clear();
+  }
 
   /// Note what came of a mesh, on which it @p is_met or not.
   /// @return what keeps it from ever being met; empty: nothing.

@@ -25,6 +25,10 @@ public:
   /// q dA and dA at all points, pair by pair, on all ranks; no q below 0. Collective.
   std::vector<response::PressureRows> pressures(const std::vector<double> &of_rows) const;
 
+  /// Of the slave faces of a pair, at their nodes, the least d of any of their points; infinite at
+  /// other nodes of the surface. Equal on all ranks. Collective.
+  std::vector<double> least(unsigned int pair) const;
+
 private:
   struct Point
   {

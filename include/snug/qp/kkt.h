@@ -85,9 +85,13 @@ struct EqualityPart
  */
 EqualityPart equality_part(const DualProblem &problem, MultiVector &x);
 
-/// The error of a solver that gives up: what was reached, what to try.
-SolveError
-not_converged(const std::string &method, double reached, double tolerance, unsigned long f_mults);
+/// The error of a solver that gives up: what was reached, what to try. Without @p out_of_f_mults
+/// more of them would not help.
+SolveError not_converged(const std::string &method,
+                         double             reached,
+                         double             tolerance,
+                         unsigned long      f_mults,
+                         bool               out_of_f_mults);
 } // namespace snug::qp
 
 #endif

@@ -53,6 +53,9 @@ public:
   /// q <- q + rho Q x: the multiplier step; no F-mult.
   void update_multipliers();
 
+  /// Go on with another rho; no F-mult.
+  void set_penalty(double rho);
+
   /// Set q, a vector in the range of Q.
   void set_multipliers(const MultiVector &q);
 
@@ -107,7 +110,7 @@ private:
 
   const DualProblem       &problem;
   const EqualityPart      &equality;
-  const Sizes              sizes;
+  Sizes                    sizes;
   const MPI_Comm           comm;
   MultiVector              lambda, r, Qx, q, g, direction;
   RowSet                   free;

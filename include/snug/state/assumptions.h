@@ -33,6 +33,14 @@ Assumptions assess(const StateSolver<dim>               &solver,
                    const std::vector<contact::Row<dim>> &contact_rows,
                    const ContactState<dim>              &state);
 
+/// Whether nothing moves but by the rounding of gaps: no load does work, and no prescribed
+/// displacement or overlap drives. Loads that are small, however small, do.
+template <int dim>
+bool is_at_rest(const ContactState<dim> &state)
+{
+  return state.compliance == 0. && state.assumptions.displacement < least_motion;
+}
+
 /// One line for each number that is doubtful.
 std::vector<std::string> warnings(const Assumptions &assumptions);
 

@@ -75,6 +75,14 @@ TEST(Unbounded, IsWhatDoesNotFallByAThirdInThreeMeshes)
   EXPECT_FALSE(accuracy::is_unbounded({0.03, 0.26, 0.21, 0.17})); // the first did not know
 }
 
+TEST(Zero, ChangesItsSignWithTheMesh)
+{
+  EXPECT_FALSE(accuracy::changes_sign({}));
+  EXPECT_FALSE(accuracy::changes_sign({-1., -2., -1.}));
+  EXPECT_TRUE(accuracy::changes_sign({1., -1e-3, 1., 1.}));
+  EXPECT_FALSE(accuracy::changes_sign({-1., 1., 2., 3., 4.}));
+}
+
 namespace {
 /// A contact of some faces, to the tolerance between meshes.
 template <int dim>

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 using namespace snug::qp;
 
@@ -124,6 +125,33 @@ TEST(Smalse, TurnsAFreeBodyUntilItsContactsAreOpen)
       w = problem.gather(w);
       EXPECT_LT(std::max(w(0), w(2)), 1e-9) << method;
     }
+}
+
+/// Two contacts next to each other carry a body with more of them far away: with the first penalty
+/// 5,000 steps would be needed for a tolerance of 1e-9.
+TEST(Smalse, RaisesThePenaltyForShortLevers)
+{
+  DenseData                   data;
+  const std::array<double, 5> places = {{0., 0.02, 1., 2., 3.}};
+  data.F                             = dense::Matrix(5, 5);
+  data.G                             = dense::Matrix(2, 5);
+  data.d                             = dense::Matrix(5);
+  data.e                             = dense::Matrix(2);
+  for (unsigned int i = 0; i < 5; ++i)
+    {
+      data.F(i, i) = 0.1;
+      data.G(0, i) = 1.;
+      data.G(1, i) = places[i];
+      data.d(i)    = i < 2 ? 0. : -1.;
+    }
+  data.e(0) = 1.;
+  data.e(1) = 0.01;
+  data.bounded.assign(5, 1);
+  const DenseProblem problem(data);
+  const auto         solution = solve_by("SMALSE-M", problem, 1e-9);
+  const auto         lambda   = problem.gather(solution.lambda);
+  for (unsigned int i = 0; i < 5; ++i)
+    EXPECT_NEAR(lambda(i), i < 2 ? 0.5 : 0., 1e-7);
 }
 
 TEST(Smalse, PullingLoadEndsWithAnError)
