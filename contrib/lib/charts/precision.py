@@ -202,17 +202,13 @@ SCENES = {"line": lambda: line_contact(.125, (16, 32, 64, 128, 256)),
 NAMES = {"sinks": "displacement", "force": "force"}
 
 
-def solved(scene, entries, times=1):
-    """The quickest of some equal short runs, and {quantity: (value, closed form or None)}."""
-    def once():
-        return result(scene.file, {**scene.entries, "Accuracy/Estimate": "none", **entries})
-    best = once()
-    for _ in range(times - 1 if best.seconds < 1. else 0):
-        best = min(best, once(), key=lambda found: found.seconds)
-    found = {"energy": (best.state["energy"], None)}
-    found.update({quantity: (best.state["responses"][name], None)
-                  for name, quantity in NAMES.items() if name in best.state["responses"]})
-    return best, {**found, **scene.quantities(best)}
+def solved(scene, entries):
+    """The Result of a run, and {quantity: (value, closed form or None)}."""
+    found = result(scene.file, {**scene.entries, "Accuracy/Estimate": "none", **entries})
+    values = {quantity: (found.state["responses"][name], None)
+              for name, quantity in NAMES.items() if name in found.state["responses"]}
+    return found, {"energy": (found.state["energy"], None), **values,
+                   **scene.quantities(found)}
 
 
 def estimates(found):
@@ -231,12 +227,12 @@ def measure(name, quick):
         reference = {"Accuracy/Estimate": "responses", **scene.reference}
         if quick:
             reference = {**reference, **next(iter(scene.series["adapted, degree 2"].values()))}
-        best, answers = solved(scene, reference)
-        unsure = estimates(best) if scene.x == "unknowns" else {}
+        truth, answers = solved(scene, reference)
+        unsure = estimates(truth) if scene.x == "unknowns" else {}
     for series, meshes in scene.series.items():
         for label, entries in list(meshes.items())[:2 if quick else None]:
             try:
-                best, found = solved(scene, entries, 1 if quick else 2)
+                run, found = solved(scene, entries)
             except RunError as reason:
                 failures.append(f"{name}, {series}, {label}: {reason}")
                 continue
@@ -244,8 +240,8 @@ def measure(name, quick):
                 right = answers[quantity][0] if answers else closed
                 rows.append({
                     "scene": name, "series": series, "mesh": label, "quantity": quantity,
-                    "unknowns": best.summary["mesh"]["dofs"], "seconds": best.seconds,
-                    "F-mults": best.state["f_mults"], "value": value,
+                    "unknowns": run.summary["mesh"]["dofs"], "seconds": run.seconds,
+                    "F-mults": run.state["f_mults"], "value": value,
                     "error": abs(value / right - 1)})
                 if scene.x == "tolerance":
                     rows[-1]["tolerance"] = float(label)

@@ -65,13 +65,15 @@ def draw_panels(name, rows, table):
             axis.set_xlabel(LABELS.get(x, x))
             unsure = next(row["estimate"] for row in table if row["quantity"] == quantity)
             if unsure:
-                axis.axhspan(axis.get_ylim()[0], unsure, color="0.9", zorder=0,
-                             label="estimated error\nof the reference")
+                low, high = axis.get_ylim()
+                axis.axhspan(low / 10., unsure, color="0.9", zorder=0,
+                             label="estimated error of the reference")
+                axis.set_ylim(low, high)
         axes[0, column].set_title(quantity, fontsize="medium")
     for axis in axes[:, 0]:
         axis.set_ylabel("relative error")
     figure.suptitle(TITLES[name])
-    legend_below(figure, axes, len(quantities), .4 / len(quantities)**.5 - .06)
+    legend_below(figure, axes, max(3, 2 * len(quantities) - 3), .1)
     return figure
 
 
