@@ -61,7 +61,7 @@ def target(percent, *names):
 @dataclasses.dataclass
 class Scene:
     """One picture: a file, what is set, {series: {label: entries}}, and the entries of the
-    reference, or None where the closed form is exact. Entries None: those that adapt."""
+    reference, or None where the closed form is exact."""
     file: str
     entries: dict
     quantities: object
@@ -187,12 +187,12 @@ def tolerances():
     """The error of loose forces alone: of the same mesh."""
     return Scene(
         "prm/hertz-2d.prm", responses("cylinder.top"), hertz(known_answers.line_contact, 1),
-        {name: {f"1e-{k}": {**tolerance(f"1e-{k}"), **of} for k in range(2, 11)}
+        {name: {f"1e-{k}": {**tolerance(f"1e-{k}"), **of} for k in (2, 3, 4, 6, 8, 10)}
          for name, of in (("active set", {}), ("SMALSE-M", {"Solver/Method": "SMALSE-M"}))},
         tolerance("1e-12"), "tolerance")
 
 
-SCENES = {"line": lambda: line_contact(.125, (16, 32, 64, 128, 256)),
+SCENES = {"line": lambda: line_contact(.125, (16, 32, 64, 128)),
           "wide": lambda: line_contact(2.16, (8, 16, 32, 64, 128)),
           "solid": solid, "section": section, "punch": flat_punch, "fit": shrink_fit,
           "pin": pin_in_hole, "tolerance": tolerances}
