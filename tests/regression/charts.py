@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""The charts of gradients and solvers, small: charts.py CHART SNUG.
+"""The charts, small: charts.py CHART SNUG.
 
 Every chart leaves its table and its picture, and the tables say what the pages claim:
 exact derivatives of a slender body are exact, refined differences do not mind its
 slenderness, and at a weakly active contact the quadratic program gives the derivatives
 of both sides, which the strong set alone does not; the Dirichlet preconditioner takes
-fewer F-mults than the lumped one, and that than none, and warm starts fewer than cold ones.
+fewer F-mults than the lumped one, and that than none, and warm starts fewer than cold ones;
+refined meshes are nearer to the truth with fewer unknowns; adjoint derivatives cost fewer
+F-mults than direct ones, and those fewer than differences.
 """
 
 import csv
@@ -27,13 +29,27 @@ def slender_errors(directory, derivatives):
             if row["derivatives"] == derivatives]
 
 
-CHARTS = {"gradient": ("steps", "slender", "cost", "tolerances", "weak"), "solvers": ("",)}
+CHARTS = {"gradient": ("steps", "slender", "tolerances", "weak"), "solvers": ("",),
+          "precision": ("line", "peers"), "design": ("variables", "searches")}
 
 
 def f_mults(directory, chart, solver):
     """Of the largest value."""
     return [float(row["F-mults"]) for row in read(directory / "solvers.csv")
             if (row["chart"], row["solver"]) == (chart, solver)][-1]
+
+
+def claims_of_cost(directory):
+    """Of precision and design, as below."""
+    refined, even = ([row for row in read(directory / "precision-line.csv")
+                      if (row["quantity"], row["series"]) == ("energy", series)]
+                     for series in ("adapted, degree 1", "uniform, degree 1"))
+    for name in ("unknowns", "error"):
+        yield f"refined, {name}", float(refined[-1][name]) < float(even[0][name])
+    works = {row["method"]: float(row["F-mults"])
+             for row in read(directory / "design-variables.csv")}
+    yield "work of gradients", (works["energy"] < works["adjoint"] < works["direct, block"] <
+                                works["overall, forward"])
 
 
 def claims(directory):
@@ -54,6 +70,7 @@ def claims(directory):
                    for row in sides) / max(abs(float(row[one]))
                                            for row in sides)
 
+    yield from claims_of_cost(directory)
     yield "exact", max(slender_errors(directory, "exact")) < 1e-9
     yield "differences mind slenderness", forward[-1] > 8. * forward[0]
     yield "refined ones do not", max(refined) < 3. * min(refined)

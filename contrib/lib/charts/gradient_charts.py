@@ -4,7 +4,6 @@ import drawing  # first: it chooses pictures without a display
 import matplotlib.pyplot as plt
 from matplotlib.ticker import MaxNLocator
 
-import cost
 import slender
 import steps
 import tolerances
@@ -45,9 +44,18 @@ def panels(columns, height=4.5):
                         layout="constrained", squeeze=False)
 
 
-def add_legend(axis):
-    """Right of the axis."""
-    axis.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize="small")
+def add_legend(axis, *entries):
+    """Right of the axis, of its own curves or of others: handles, labels."""
+    axis.legend(*entries, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize="small")
+
+
+def legend_below(figure, axes, columns, height):
+    """Of all curves of some axes together; height: part of the figure."""
+    labels = {label: handle for axis in axes.flat
+              for handle, label in zip(*axis.get_legend_handles_labels())}
+    figure.get_layout_engine().set(rect=(0, height, 1, 1 - height))
+    figure.legend(labels.values(), labels.keys(), loc="lower center", ncols=columns,
+                  fontsize="small")
 
 
 def draw_steps(output, quick):
@@ -88,35 +96,6 @@ def draw_slender(output, quick):
     axis.minorticks_off()
     add_legend(axis)
     drawing.save(figure, output, "gradient-slender.png")
-
-
-def draw_cost(output, quick):
-    rows = cost.measure(quick)
-    write_csv(output / "gradient-cost.csv", rows)
-    figure, axes = panels(2)
-    for axis, x in zip(axes[0], ("F-mults", "seconds")):
-        shown = [row for row in rows if row[x] > 0]
-        curves(axis, shown, "method", x, "error of dJ")
-        for row in shown:
-            axis.annotate(row["variables"], (row[x], max(row["error of dJ"],
-                                                         FLOOR)),
-                          fontsize="x-small", xytext=(3, 3),
-                          textcoords="offset points")
-        for row in (row for row in rows if row["F-mults"] == 0):
-            if x == "F-mults":
-                axis.axhline(row["error of dJ"], color="black", linewidth=0.6,
-                             linestyle=":")
-    axes[0, 0].set_ylabel("relative error of dJ")
-    figure.suptitle("Error against cost, states solved to 1e-6; numbers: "
-                    "variables; dotted: energy, no F-mult")
-    add_legend(axes[0, 1])
-    drawing.save(figure, output, "gradient-cost.png")
-
-
-def write_large(output, quick):
-    """Tables only."""
-    write_csv(output / "gradient-large.csv", cost.measure_large(quick))
-    write_csv(output / "gradient-many.csv", cost.measure_many(quick))
 
 
 def draw_tolerances(output, quick):
@@ -161,5 +140,5 @@ def draw_weak(output, quick):
     drawing.save(figure, output, "gradient-weak.png")
 
 
-CHARTS = {"steps": draw_steps, "slender": draw_slender, "cost": draw_cost,
-          "large": write_large, "tolerances": draw_tolerances, "weak": draw_weak}
+CHARTS = {"steps": draw_steps, "slender": draw_slender, "tolerances": draw_tolerances,
+          "weak": draw_weak}

@@ -4,7 +4,7 @@ import drawing  # first: it chooses pictures without a display
 import matplotlib.pyplot as plt
 
 import solvers
-from gradient_charts import by, curves
+from gradient_charts import by, curves, legend_below
 from runs import write_csv
 
 
@@ -19,10 +19,7 @@ def draw(output, quick):
         curves(axis, charts[chart], "solver", "x", y, order)
         axis.set_xlabel(chart)
         axis.set_ylabel(y)
-    handles = {label: handle for axis in axes.flat
-               for handle, label in zip(*axis.get_legend_handles_labels())}
-    figure.get_layout_engine().set(rect=(0, .07, 1, .93))
-    figure.legend(handles.values(), handles.keys(), loc="lower center", ncols=5)
+    legend_below(figure, axes, 5, .07)
     drawing.save(figure, output, "solvers.png")
 
 

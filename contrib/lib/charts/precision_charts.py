@@ -1,0 +1,119 @@
+"""The charts of precision: files, pictures and tables of what precision.py and peers.py
+measure."""
+
+import functools
+import math
+
+import drawing  # first: it chooses pictures without a display
+import matplotlib.pyplot as plt
+
+import peers
+import precision
+from gradient_charts import by, curves, legend_below, panels
+from runs import print_table, write_csv
+
+TITLES = {
+    "line": "Line contact, half width 0.05 of the body",
+    "wide": "Line contact, half width 0.2 of the body",
+    "solid": "Point contact of a quarter in 3D, radius 0.23 of the body",
+    "section": "Axisymmetric point contact, radius 0.23 of the body",
+    "punch": "Flat punch", "fit": "Shrink fit", "pin": "Pin in a hole",
+    "tolerance": "Tolerance of the forces, on the mesh 'by hand, degree 1, 16' of the line contact"}
+LABELS = {"seconds": "CPU seconds", "tolerance": "relative tolerance"}
+
+
+def front(rows, x):
+    """What nothing else beats in both: in the order of x."""
+    best, kept = math.inf, []
+    for row in sorted(rows, key=lambda row: (row[x], row["error"])):
+        if row["error"] < best:
+            best = row["error"]
+            kept.append(row)
+    return kept
+
+
+def cheapest(rows, limit):
+    """The quickest row with an error below the limit, as have all finer ones of its
+    series: an error may cross zero by luck."""
+    able = []
+    for group in by(rows, "series").values():
+        good = []
+        for row in reversed(group):
+            if not row["error"] <= limit:
+                break
+            good.append(row)
+        able += good[-1:]
+    if not able:
+        return "not reached"
+    row = min(able, key=lambda row: row["seconds"])
+    return f"{row['series']}, {row['mesh']}: {row['unknowns']} unknowns, {row['seconds']:.2g} s"
+
+
+def draw_panels(name, rows, table):
+    scene = precision.SCENES[name]()
+    quantities = by(rows, "quantity")
+    order = list(by(rows, "series"))
+    figure, axes = plt.subplots(2, len(quantities), squeeze=False, sharey="col",
+                                layout="constrained", figsize=(3.9 * len(quantities) + 1., 8.))
+    for column, (quantity, group) in enumerate(quantities.items()):
+        for axis, x in zip(axes[:, column], (scene.x, "seconds")):
+            curves(axis, group, "series", x, "error", order)
+            best = front(group, x)
+            if x != "tolerance":
+                axis.plot([row[x] for row in best], [row["error"] for row in best], "ko",
+                          markersize=9, fillstyle="none", label="best of all")
+            axis.set_xlabel(LABELS.get(x, x))
+            unsure = next(row["estimate"] for row in table if row["quantity"] == quantity)
+            if unsure:
+                low, high = axis.get_ylim()
+                axis.axhspan(low / 10., unsure, color="0.9", zorder=0,
+                             label="estimated error of the reference")
+                axis.set_ylim(low, high)
+        axes[0, column].set_title(quantity, fontsize="medium")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("relative error")
+    figure.suptitle(TITLES[name])
+    legend_below(figure, axes, max(3, 2 * len(quantities) - 3), .1)
+    return figure
+
+
+def draw(name, output, quick):
+    rows, table, failures = precision.measure(name, quick)
+    write_csv(output / f"precision-{name}.csv", rows)
+    drawing.save(draw_panels(name, rows, table), output, f"precision-{name}.png")
+    groups = by(rows, "quantity")
+    print_table([{
+        "quantity": row["quantity"], "reference": f"{row['value']:.6g}",
+        "estimated error": f"{row['estimate']:.1e}" if row["estimate"] else "",
+        "closed form": f"{row['closed form']:.6g}" if row["closed form"] else "",
+        "reference over it": f"{row['value'] / row['closed form'] - 1:+.2%}"
+        if row["closed form"] else "",
+        **{f"to {limit:.1%}": cheapest(groups[row["quantity"]], limit)
+           for limit in (.01, .001)}} for row in table])
+    print(*failures, sep="\n")
+
+
+def draw_peers(output, quick):
+    rows = peers.measure(quick)
+    write_csv(output / "precision-peers.csv", rows)
+    order = sorted(by(rows, "program"), key=lambda name: (name != "Snug", name))
+    figure, axes = panels(2, 5.)
+    for axis, (scene, group) in zip(axes[0], by(rows, "scene").items()):
+        curves(axis, group, "program", "ratio", "error of p0 [%]", order)
+        for row in group:
+            axis.annotate(f"{row['unknowns'] / 1000:.0f}k",
+                          (row["ratio"], row["error of p0 [%]"]), fontsize="x-small",
+                          xytext=(4, 4), textcoords="offset points")
+        axis.set_title({"a": "(a) line contact", "b": "(b) point contact in 3D"}[scene])
+        axis.set_xlabel("seconds of the contact problem over those of a linear one")
+        axis.set_ylabel("error of the largest pressure [%]")
+        axis.set_xticks(range(1, 10), [str(i) if i in (1, 2, 3, 5) else ""
+                                       for i in range(1, 10)])
+        axis.minorticks_off()
+    legend_below(figure, axes, 3, .13)
+    drawing.save(figure, output, "precision-peers.png")
+    print_table(rows)
+
+
+CHARTS = {**{name: functools.partial(draw, name) for name in precision.SCENES},
+          "peers": draw_peers}
