@@ -380,22 +380,6 @@ std::string Adaptation<dim>::reach(const double factor)
     }
 }
 
-void print_work(RunContext &context, const io::Summary::Adaptation &adaptation)
-{
-  unsigned long unknowns = 0, f_mults = 0;
-  for (const auto &mesh : adaptation.meshes)
-    {
-      unknowns += mesh.dofs;
-      f_mults += mesh.f_mults;
-    }
-  auto &out = context.out();
-  out << (adaptation.met ? "targets met" : "targets not met") << " on " << adaptation.meshes.size()
-      << " meshes with " << unknowns << " unknowns and " << f_mults << " F-mults in all;";
-  for (const auto *stage : {"setup", "assembly", "factorization", "solve", "accuracy"})
-    out << ' ' << stage << ' ' << context.seconds(stage) << " s";
-  out << std::endl;
-}
-
 template class Adaptation<2>;
 template class Adaptation<3>;
 } // namespace snug::app

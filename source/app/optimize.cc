@@ -332,7 +332,7 @@ std::string TargetedSearch<dim>::run()
       if (!stage.is_last && !is_interrupted)
         continue;
       finish(search, *books, result, is_interrupted ? Known() : stage.known);
-      print_work(context, *results->summary.accuracy);
+      results->print_work();
       return stage.complaint.empty() ? optimization::complaint(result, scene.optimization)
                                      : stage.complaint;
     }

@@ -78,6 +78,24 @@ void Results<dim>::print_pairs() const
 }
 
 template <int dim>
+void Results<dim>::print_work() const
+{
+  unsigned long unknowns = 0, f_mults = 0;
+  for (const auto &mesh : summary.accuracy->meshes)
+    {
+      unknowns += mesh.dofs;
+      f_mults += mesh.f_mults;
+    }
+  auto &out = problem->context.out();
+  out << (summary.accuracy->met ? "targets met" : "targets not met") << " on "
+      << summary.accuracy->meshes.size() << " meshes with " << unknowns << " unknowns and "
+      << f_mults << " F-mults in all;";
+  for (const auto *stage : {"setup", "assembly", "factorization", "solve", "accuracy"})
+    out << ' ' << stage << ' ' << problem->context.seconds(stage) << " s";
+  out << std::endl;
+}
+
+template <int dim>
 void Results<dim>::warn(const std::vector<std::string> &lines)
 {
   for (const std::string &line : lines)

@@ -185,7 +185,7 @@ std::string run_adapted(RunContext &context, const scene::Scene &scene)
   Results<dim> results(adaptation.problem());
   results.summary.task     = to_text(scene.task);
   results.summary.accuracy = adaptation.summary;
-  print_work(context, adaptation.summary);
+  results.print_work();
   results.print_header();
   report(adaptation.problem(), results, adaptation.states());
   // responses that are no targets are estimated if all are asked for

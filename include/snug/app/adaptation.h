@@ -95,9 +95,6 @@ private:
   std::string            failure();
   std::string            missed(const std::string &advice) const;
 };
-
-/// Say what targets took.
-void print_work(RunContext &context, const io::Summary::Adaptation &adaptation);
 } // namespace snug::app
 
 #endif

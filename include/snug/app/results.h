@@ -27,6 +27,9 @@ public:
   /// Print what was read. Collective.
   void print_header();
 
+  /// Print what the targets in the summary took.
+  void print_work() const;
+
   /// Print lines as warnings and keep them for the summary, once.
   void warn(const std::vector<std::string> &lines);
 
