@@ -50,6 +50,11 @@ struct ContactScene
         }
   }
 
+  typename io::ContactOutput<dim>::Sources sources() const
+  {
+    return {mesh, surface, pairs, places, shared};
+  }
+
   mesh::BodyMesh<dim>                   mesh;
   std::pair<unsigned int, unsigned int> slave, master;
   mesh::Surface<dim>                    surface;
@@ -64,10 +69,8 @@ void expect_contact_faces(unsigned int degree)
 {
   const test::ScratchDirectory scratch;
   const ContactScene<dim>      scene(degree);
-  io::ContactOutput<dim>       output({scene.mesh, scene.surface, scene.pairs, scene.places,
-                                       scene.shared},
-                                      scratch.path);
-  output.write(0., scene.state);
+  io::ContactOutput<dim>       output(scratch.path);
+  output.write(scene.sources(), 0., scene.state);
   if (!scratch.is_first())
     return;
 
@@ -117,9 +120,8 @@ TEST(ContactOutput, NodesWithoutARowShowTheMeanOfThoseThatActForThem)
   scene.places.pop_back();
   scene.state.contact.pop_back();
   scene.shared.push_back({node, {{0, 0.25}, {1, 0.75}}});
-  io::ContactOutput<2> output({scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
-                              scratch.path);
-  output.write(0., scene.state);
+  io::ContactOutput<2> output(scratch.path);
+  output.write(scene.sources(), 0., scene.state);
   const auto x = scene.surface.gather(scene.state.positions)[node];
   if (!scratch.is_first())
     return;
@@ -141,10 +143,9 @@ TEST(ContactOutput, TableReadsBackBitForBit)
 {
   const test::ScratchDirectory scratch;
   const ContactScene<3>        scene(1);
-  io::ContactOutput<3> output({scene.mesh, scene.surface, scene.pairs, scene.places, scene.shared},
-                              scratch.path);
-  output.write(0., scene.state);
-  output.write(5., scene.state);
+  io::ContactOutput<3>         output(scratch.path);
+  output.write(scene.sources(), 0., scene.state);
+  output.write(scene.sources(), 5., scene.state);
   const auto x = scene.surface.gather(scene.state.positions);
   if (!scratch.is_first())
     return;
@@ -179,11 +180,11 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
   const std::vector<contact::Pair>       pairs;
   const std::vector<contact::RowPlace>   places;
   const std::vector<contact::SharedNode> shared;
-  io::ContactOutput<2>   output({mesh, surface, pairs, places, shared}, scratch.path);
-  state::ContactState<2> state;
+  io::ContactOutput<2>                   output(scratch.path);
+  state::ContactState<2>                 state;
   state.positions    = mesh.reference_positions();
   state.displacement = mesh.reference_positions();
-  output.write(0., state);
+  output.write({mesh, surface, pairs, places, shared}, 0., state);
   if (!scratch.is_first())
     return;
   EXPECT_EQ(test::read_vtu(test::read_file(scratch.file("contact-0000.vtu"))).n_points, 0u);
