@@ -153,7 +153,7 @@ def section():
 def flat_punch():
     def mesh(n):
         return {"Body punch/Local refinements": n, "Body block/Local refinements": n + 1}
-    percent = {1: (5, 2, 1, .5, .2), 2: (1, .5, .2, .1)}
+    percent = {1: (5, 2, 1, .5), 2: (1, .5, .2)}
     return Scene(
         "prm/flat-punch.prm", responses("punch.top"), lambda found: {},
         {**uniform(mesh, 0, 1, 2, 3, 4, 5, 6, last=1, name="by hand"),

@@ -49,6 +49,17 @@ def cheapest(rows, limit):
     return f"{row['series']}, {row['mesh']}: {row['unknowns']} unknowns, {row['seconds']:.2g} s"
 
 
+def finest(rows):
+    """Rows of a table: the last run of each series."""
+    table = []
+    for series, group in by(rows, "series").items():
+        last = [row for row in group if row["mesh"] == group[-1]["mesh"]]
+        table.append({"finest of": series, "mesh": last[0]["mesh"],
+                      "unknowns": last[0]["unknowns"], "seconds": f"{last[0]['seconds']:.2g}",
+                      **{row["quantity"]: f"{row['error']:.1e}" for row in last}})
+    return table
+
+
 def draw_panels(name, rows, table):
     scene = precision.SCENES[name]()
     quantities = by(rows, "quantity")
@@ -88,8 +99,10 @@ def draw(name, output, quick):
         "closed form": f"{row['closed form']:.6g}" if row["closed form"] else "",
         "reference over it": f"{row['value'] / row['closed form'] - 1:+.2%}"
         if row["closed form"] else "",
-        **{f"to {limit:.1%}": cheapest(groups[row["quantity"]], limit)
+        **{f"to {100 * limit:g} %": cheapest(groups[row["quantity"]], limit)
            for limit in (.01, .001)}} for row in table])
+    print()
+    print_table(finest(rows))
     print(*failures, sep="\n")
 
 
