@@ -49,14 +49,15 @@ def cheapest(rows, limit):
     return f"{row['series']}, {row['mesh']}: {row['unknowns']} unknowns, {row['seconds']:.2g} s"
 
 
-def finest(rows):
-    """Rows of a table: the last run of each series."""
+def errors(rows, all_runs):
+    """Rows of a table: all runs or the last one of each series."""
     table = []
     for series, group in by(rows, "series").items():
-        last = [row for row in group if row["mesh"] == group[-1]["mesh"]]
-        table.append({"finest of": series, "mesh": last[0]["mesh"],
-                      "unknowns": last[0]["unknowns"], "seconds": f"{last[0]['seconds']:.2g}",
-                      **{row["quantity"]: f"{row['error']:.1e}" for row in last}})
+        for mesh, run in list(by(group, "mesh").items())[0 if all_runs else -1:]:
+            table.append({"run" if all_runs else "finest of": series, "mesh": mesh,
+                          "unknowns": run[0]["unknowns"], "F-mults": run[0]["F-mults"],
+                          "seconds": f"{run[0]['seconds']:.2g}",
+                          **{row["quantity"]: f"{row['error']:.1e}" for row in run}})
     return table
 
 
@@ -67,12 +68,13 @@ def draw_panels(name, rows, table):
     figure, axes = plt.subplots(2, len(quantities), squeeze=False, sharey="col",
                                 layout="constrained", figsize=(3.9 * len(quantities) + 1., 8.))
     for column, (quantity, group) in enumerate(quantities.items()):
-        for axis, x in zip(axes[:, column], (scene.x, "seconds")):
+        for axis, x in zip(axes[:, column], scene.axes):
             curves(axis, group, "series", x, "error", order)
-            best = front(group, x)
-            if x != "tolerance":
+            if "unknowns" in scene.axes:
+                best = front(group, x)
                 axis.plot([row[x] for row in best], [row["error"] for row in best], "ko",
                           markersize=9, fillstyle="none", label="best of all")
+            axis.set_xscale("linear" if x == "F-mults" else "log")
             axis.set_xlabel(LABELS.get(x, x))
             unsure = next(row["estimate"] for row in table if row["quantity"] == quantity)
             if unsure:
@@ -88,11 +90,12 @@ def draw_panels(name, rows, table):
     return figure
 
 
-def draw(name, output, quick):
-    rows, table, failures = precision.measure(name, quick)
-    write_csv(output / f"precision-{name}.csv", rows)
-    drawing.save(draw_panels(name, rows, table), output, f"precision-{name}.png")
+def print_tables(rows, table, failures):
+    """Answers, and who reaches them; the finest runs; what was not solved."""
     groups = by(rows, "quantity")
+    if "tolerance" in rows[0]:
+        print_table(errors(rows, True))
+        return
     print_table([{
         "quantity": row["quantity"], "reference": f"{row['value']:.6g}",
         "estimated error": f"{row['estimate']:.1e}" if row["estimate"] else "",
@@ -102,8 +105,15 @@ def draw(name, output, quick):
         **{f"to {100 * limit:g} %": cheapest(groups[row["quantity"]], limit)
            for limit in (.01, .001)}} for row in table])
     print()
-    print_table(finest(rows))
+    print_table(errors(rows, False))
     print(*failures, sep="\n")
+
+
+def draw(name, output, quick):
+    rows, table, failures = precision.measure(name, quick)
+    write_csv(output / f"precision-{name}.csv", rows)
+    drawing.save(draw_panels(name, rows, table), output, f"precision-{name}.png")
+    print_tables(rows, table, failures)
 
 
 def draw_peers(output, quick):
