@@ -31,7 +31,7 @@ def hertz(measure, dimension):
 def pin(found):
     _, (_, end, exact) = known_answers.pin_in_hole(found, None)
     return {"peak pressure": (found.state["responses"]["peak"], None),
-            "half width": (end, exact)}
+            "end of contact": (end, exact)}
 
 
 def rings(found):
