@@ -34,7 +34,8 @@ class Result:
 
     def half_width(self, expected, radius, first=0., last=.8):
         """Where the straight line through p^2 over r^2 is zero, first < r /
-        expected < last; radius: a point's r. nan from less than two points."""
+        expected < last; radius: a point's r. nan if it has no zero or less than two
+        points."""
         squares = [(radius(p)**2, p["pressure"]**2) for p in self.points
                    if first < radius(p) / expected < last]
         n = len(squares)
@@ -43,7 +44,8 @@ class Result:
         mean_x, mean_y = (sum(s[i] for s in squares) / n for i in (0, 1))
         slope = (sum((x - mean_x) * (y - mean_y) for x, y in squares) /
                  sum((x - mean_x)**2 for x, _ in squares))
-        return math.sqrt(mean_x - mean_y / slope)
+        square = mean_x - mean_y / slope
+        return math.sqrt(square) if square >= 0. else math.nan
 
 
 def environment():

@@ -81,7 +81,8 @@ def measure_searches(quick):
                   "volume": row["constraint_violation"]} for row in iterations]
         table.append({"picture": picture, "search": name, "evaluations": end["evaluations"],
                       "F-mults": found["work"]["f_mults"], "seconds": rows[-1]["seconds"],
-                      "objective": end["objective_final"], "stopped by": end["stop_reason"]})
+                      "objective": end["objective_final"],
+                      "stopped by": end["stop_reason"]})
     # loosely solved states have objectives below the least one
     best = min(row["objective"] for row in table if row["search"] not in LOOSE)
     start = rows[0]["objective"]

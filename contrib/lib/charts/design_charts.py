@@ -36,6 +36,7 @@ def draw_variables(output, quick):
 def draw_searches(output, quick):
     rows, table = design.measure_searches(quick)
     write_csv(output / "design-searches.csv", rows)
+    seconds = [row["seconds"] for row in rows]
     figure, axes = panels(2, 5.)
     for axis, (picture, group) in zip(axes[0], by(rows, "picture").items()):
         curves(axis, group, "search", "seconds", "distance")
@@ -43,12 +44,12 @@ def draw_searches(output, quick):
         axis.set_xlabel("CPU seconds of the search")
         axis.set_ylabel("objective above the best, relative to the first")
         axis.set_ylim(1e-9, 2.)
-        axis.set_xlim(axes[0, 0].get_xlim())
+        axis.set_xlim(.8 * min(seconds), 1.2 * max(seconds))
         axis.legend(fontsize="small", loc="lower left")
     figure.suptitle("Searches for the least potential energy at fixed volume, 9 heights")
     drawing.save(figure, output, "design-searches.png")
-    print_table([{key: value for key, value in row.items() if key != "picture"}
-                 for row in table])
+    print_table([{**{key: value for key, value in row.items() if key != "picture"},
+                  "objective": f"{row['objective']:.8f}"} for row in table])
 
 
 def write_paper(output, quick):

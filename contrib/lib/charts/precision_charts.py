@@ -49,6 +49,18 @@ def cheapest(rows, limit):
     return f"{row['series']}, {row['mesh']}: {row['unknowns']} unknowns, {row['seconds']:.2g} s"
 
 
+def errors(rows, all_runs):
+    """Rows of a table: all runs or the last one of each series."""
+    table = []
+    for series, group in by(rows, "series").items():
+        for mesh, run in list(by(group, "mesh").items())[0 if all_runs else -1:]:
+            table.append({"run" if all_runs else "finest of": series, "mesh": mesh,
+                          "unknowns": run[0]["unknowns"], "F-mults": run[0]["F-mults"],
+                          "seconds": f"{run[0]['seconds']:.2g}",
+                          **{row["quantity"]: f"{row['error']:.1e}" for row in run}})
+    return table
+
+
 def draw_panels(name, rows, table):
     scene = precision.SCENES[name]()
     quantities = by(rows, "quantity")
@@ -56,12 +68,13 @@ def draw_panels(name, rows, table):
     figure, axes = plt.subplots(2, len(quantities), squeeze=False, sharey="col",
                                 layout="constrained", figsize=(3.9 * len(quantities) + 1., 8.))
     for column, (quantity, group) in enumerate(quantities.items()):
-        for axis, x in zip(axes[:, column], (scene.x, "seconds")):
+        for axis, x in zip(axes[:, column], scene.axes):
             curves(axis, group, "series", x, "error", order)
-            best = front(group, x)
-            if x != "tolerance":
+            if "unknowns" in scene.axes:
+                best = front(group, x)
                 axis.plot([row[x] for row in best], [row["error"] for row in best], "ko",
                           markersize=9, fillstyle="none", label="best of all")
+            axis.set_xscale("linear" if x == "F-mults" else "log")
             axis.set_xlabel(LABELS.get(x, x))
             unsure = next(row["estimate"] for row in table if row["quantity"] == quantity)
             if unsure:
@@ -77,20 +90,30 @@ def draw_panels(name, rows, table):
     return figure
 
 
-def draw(name, output, quick):
-    rows, table, failures = precision.measure(name, quick)
-    write_csv(output / f"precision-{name}.csv", rows)
-    drawing.save(draw_panels(name, rows, table), output, f"precision-{name}.png")
+def print_tables(rows, table, failures):
+    """Answers, and who reaches them; the finest runs; what was not solved."""
     groups = by(rows, "quantity")
+    if "tolerance" in rows[0]:
+        print_table(errors(rows, True))
+        return
     print_table([{
         "quantity": row["quantity"], "reference": f"{row['value']:.6g}",
         "estimated error": f"{row['estimate']:.1e}" if row["estimate"] else "",
         "closed form": f"{row['closed form']:.6g}" if row["closed form"] else "",
         "reference over it": f"{row['value'] / row['closed form'] - 1:+.2%}"
         if row["closed form"] else "",
-        **{f"to {limit:.1%}": cheapest(groups[row["quantity"]], limit)
+        **{f"to {100 * limit:g} %": cheapest(groups[row["quantity"]], limit)
            for limit in (.01, .001)}} for row in table])
+    print()
+    print_table(errors(rows, False))
     print(*failures, sep="\n")
+
+
+def draw(name, output, quick):
+    rows, table, failures = precision.measure(name, quick)
+    write_csv(output / f"precision-{name}.csv", rows)
+    drawing.save(draw_panels(name, rows, table), output, f"precision-{name}.png")
+    print_tables(rows, table, failures)
 
 
 def draw_peers(output, quick):
@@ -103,13 +126,14 @@ def draw_peers(output, quick):
         for row in group:
             axis.annotate(f"{row['unknowns'] / 1000:.0f}k",
                           (row["ratio"], row["error of p0 [%]"]), fontsize="x-small",
-                          xytext=(4, 4), textcoords="offset points")
+                          xytext=(4, -10 if "CalculiX" in row["program"] else 4),
+                          textcoords="offset points")
         axis.set_title({"a": "(a) line contact", "b": "(b) point contact in 3D"}[scene])
         axis.set_xlabel("seconds of the contact problem over those of a linear one")
         axis.set_ylabel("error of the largest pressure [%]")
-        axis.set_xticks(range(1, 10), [str(i) if i in (1, 2, 3, 5) else ""
-                                       for i in range(1, 10)])
+        axis.set_xticks((1, 2, 3, 5, 10), ("1", "2", "3", "5", "10"))
         axis.minorticks_off()
+        axis.set_xlim(.6, 18.)
     legend_below(figure, axes, 3, .13)
     drawing.save(figure, output, "precision-peers.png")
     print_table(rows)
