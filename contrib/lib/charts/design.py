@@ -96,30 +96,23 @@ PAPER = {9: (15, 135, 30), 16: (15, 240, 40)}
 
 
 def measure_paper(quick):
-    """Rows for the file: seconds of the clock, as they are those of several ranks, the least
-    of some runs; all runs take turns, as others may use the machine, too."""
-    best = {}
-    names = ("adjoint", "direct, block", "direct, recycled", "energy")
-    for _ in range(1 if quick else 2):
-        for variables in PAPER:
-            for ranks in (1, 2):
-                for name in names[:1] if quick else names:
-                    method, options, _ = {**METHODS, **ENERGY}[name]
-                    found = gradient(f"prm/hertz-3d-{variables}.prm", {
-                        **({} if method == "energy" else COMPLIANCE),
-                        **(cells(4, "punch", "foundation") if quick else {})},
-                        method, ranks, **options)
-                    add_to(best, found, (variables, ranks, name))
-    return list(best.values())
-
-
-def add_to(best, found, key):
-    """The quicker of both, state and gradient by themselves."""
-    times, of = found["times"], found["gradient"]
-    row = {"variables": key[0], "ranks": key[1], "method": key[2],
-           "state": sum(times[part] for part in ("assembly", "factorization", "solve")),
-           "gradient": of["seconds"], "state F-mults": found["state"]["f_mults"],
-           "F-mults": of["f_mults"]}
-    before = best.get(key, row)
-    best[key] = {**row, **{part: min(row[part], before[part])
-                           for part in ("state", "gradient")}}
+    """Rows for the file: seconds of a processor per rank, also those in which it waits for
+    the other rank."""
+    rows = []
+    names = ("adjoint",) if quick else ("adjoint", "direct, block", "direct, recycled", "energy")
+    for variables in PAPER:
+        for ranks in (1, 2):
+            for name in names:
+                method, options, _ = {**METHODS, **ENERGY}[name]
+                found = gradient(f"prm/hertz-3d-{variables}.prm", {
+                    **({} if method == "energy" else COMPLIANCE),
+                    **(cells(4, "punch", "foundation") if quick else {})},
+                    method, ranks, **options)
+                rows.append({
+                    "variables": variables, "ranks": ranks, "method": name,
+                    "state": on_processor(found, "assembly", "factorization",
+                                          "solve") / ranks,
+                    "gradient": found["share"] * found["gradient"]["seconds"] / ranks,
+                    "state F-mults": found["state"]["f_mults"],
+                    "F-mults": found["gradient"]["f_mults"]})
+    return rows
