@@ -83,6 +83,11 @@ accuracy::Measured Adaptation<dim>::objective()
   return {combined.value, objective_error(scene, combined.factors, solved->errors)};
 }
 
+/// As many as faces that meet may be levels apart at first, or nearly so. Where the cells of two
+/// bodies do not end together, each pass moves a change of size on by a face, and on the other body
+/// then as well: without a limit to the end of the side.
+constexpr unsigned int most_passes = 8;
+
 /// The mesh of the scene with @p cells refined, and with those added that are coarser than what
 /// they meet. Collective.
 template <int dim>
@@ -90,7 +95,7 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells
 {
   began = context.seconds();
   const RunContext::Timer timer(context, "setup");
-  while (true)
+  for (unsigned int pass = 0;; ++pass)
     {
       auto       with  = scene;
       const auto given = std::make_shared<const RefinedCells>(cells);
@@ -104,8 +109,11 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells
         add(mesh::gather_cells(*mesh, surface.cells_of(contact::coarse_faces(
                                         surface, shape, pair, surface.reference_positions()))),
             cells);
-      if (cells == *given)
-        return mesh;
+      if (cells == *given || pass == most_passes)
+        {
+          cells = *given;
+          return mesh;
+        }
     }
 }
 
