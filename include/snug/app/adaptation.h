@@ -73,8 +73,8 @@ private:
   Design                        at; ///< empty: the start
   std::vector<accuracy::Demand> demands;
   RefinedCells                  refined; ///< of the last mesh
-  RefinedCells                  finer;
-  double                        began; ///< to make it [s]
+  RefinedCells                  finer;   ///< see finer_cells()
+  double                        began;   ///< to make it [s]
   std::unique_ptr<Stage>        solved;
 
   Mesh                   matched_mesh(RefinedCells &cells);

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 
 using namespace snug::qp;
 
@@ -94,25 +93,35 @@ TEST(Smalse, StartFromASolutionIsCheaper)
   EXPECT_LT(dense::distance(warm.lambda, cold.lambda), 1e-8);
 }
 
+/// A body under the force 1 at @p load on contacts at @p places of flexibility 0.1, with right-hand
+/// sides @p d.
+DenseData
+body_on_contacts(const std::vector<double> &places, const std::vector<double> &d, const double load)
+{
+  const unsigned int n = places.size();
+  DenseData          data;
+  data.F = dense::Matrix(n, n);
+  data.G = dense::Matrix(2, n);
+  data.d = dense::Matrix(n);
+  data.e = dense::Matrix(2);
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      data.F(i, i) = 0.1;
+      data.G(0, i) = 1.;
+      data.G(1, i) = places[i];
+      data.d(i)    = d[i];
+    }
+  data.e(0) = 1.;
+  data.e(1) = load;
+  data.bounded.assign(n, 1);
+  return data;
+}
+
 /// The load of a body goes through the middle one of three contacts. That leaves it free to turn:
 /// only by an angle that the force does not tell do the other contacts stay open.
 TEST(Smalse, TurnsAFreeBodyUntilItsContactsAreOpen)
 {
-  DenseData data;
-  data.F = dense::Matrix(3, 3);
-  data.G = dense::Matrix(2, 3);
-  data.d = dense::Matrix(3);
-  data.e = dense::Matrix(2);
-  for (unsigned int i = 0; i < 3; ++i)
-    {
-      data.F(i, i) = 0.1;
-      data.G(0, i) = 1.;
-      data.G(1, i) = int(i) - 1;
-    }
-  data.d(0) = -1.;
-  data.d(2) = 0.5;
-  data.e(0) = 1.;
-  data.bounded.assign(3, 1);
+  const DenseData data = body_on_contacts({-1., 0., 1.}, {-1., 0., 0.5}, 0.);
   for (const char *method : {"active set", "SMALSE-M"})
     {
       const DenseProblem problem(data);
@@ -131,22 +140,7 @@ TEST(Smalse, TurnsAFreeBodyUntilItsContactsAreOpen)
 /// 5,000 steps would be needed for a tolerance of 1e-9.
 TEST(Smalse, RaisesThePenaltyForShortLevers)
 {
-  DenseData                   data;
-  const std::array<double, 5> places = {{0., 0.02, 1., 2., 3.}};
-  data.F                             = dense::Matrix(5, 5);
-  data.G                             = dense::Matrix(2, 5);
-  data.d                             = dense::Matrix(5);
-  data.e                             = dense::Matrix(2);
-  for (unsigned int i = 0; i < 5; ++i)
-    {
-      data.F(i, i) = 0.1;
-      data.G(0, i) = 1.;
-      data.G(1, i) = places[i];
-      data.d(i)    = i < 2 ? 0. : -1.;
-    }
-  data.e(0) = 1.;
-  data.e(1) = 0.01;
-  data.bounded.assign(5, 1);
+  const DenseData    data = body_on_contacts({0., 0.02, 1., 2., 3.}, {0., 0., -1., -1., -1.}, 0.01);
   const DenseProblem problem(data);
   const auto         solution = solve_by("SMALSE-M", problem, 1e-9);
   const auto         lambda   = problem.gather(solution.lambda);
