@@ -1,3 +1,4 @@
+#include <snug/accuracy/adaptation.h>
 #include <snug/app/inventory.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
@@ -5,6 +6,8 @@
 #include <snug/state/assumptions.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <ostream>
 
 namespace snug::app {
@@ -247,9 +250,16 @@ void Results<dim>::advise(const States &states)
     estimates.push_back(error.energy);
   for (unsigned int c = estimates.size(); c < states.size(); ++c) // those of responses had failed
     estimates.push_back(accuracy::estimate_energy(*problem->solver, states[c]));
-  summary.advice =
-    advice::give<dim>({problem->scene, *problem->solver, *problem->shapes, states, estimates});
-  auto &out = problem->context.out();
+  advice::Subject<dim> subject{problem->scene, *problem->solver, *problem->shapes, states,
+                               estimates};
+  double               smallest = std::numeric_limits<double>::infinity();
+  for (const auto &[response, text] : problem->scene.accuracy.targets)
+    if (const auto target = accuracy::read_target(text); target.relative)
+      smallest = std::min(smallest, target.value);
+  if (std::isfinite(smallest))
+    subject.target = smallest;
+  summary.advice = advice::give(subject);
+  auto &out      = problem->context.out();
   for (const auto &item : *summary.advice)
     {
       out << "advice, " << item.kind << ": " << item.text;

@@ -16,7 +16,7 @@ End = collections.namedtuple("End", "status seconds lines message")
 SECONDS, MEGABYTES = 60, 3000  # of one run on one rank
 
 
-def run_many(runs, ranks=1):
+def run_many(runs, ranks=1, cwd=None):
     """The End of each list of arguments."""
     program = os.environ.get("SNUG_MANY", str(ROOT / "build/tests/stability/stability.many"))
     parallel = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
@@ -27,7 +27,7 @@ def run_many(runs, ranks=1):
             said = subprocess.run(
                 [*parallel, program, str(SECONDS), str(MEGABYTES)], check=False, text=True,
                 input="".join("\t".join(one) + "\n" for one in left), env=environment(),
-                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, errors="replace",
+                cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, errors="replace",
                 timeout=10 * SECONDS + SECONDS * len(left)).stdout
         except subprocess.TimeoutExpired as stopped:
             said = (stopped.stdout or b"").decode(errors="replace")

@@ -38,7 +38,7 @@ struct Subject
   const shape::Shapes<dim>                    &shapes;
   const std::vector<state::ContactState<dim>> &states;
   const std::vector<accuracy::EnergyEstimate> &estimates;
-  double                                       target = 0.01; ///< error that is welcome
+  double                                       target = 0.01; ///< relative error that is welcome
 
   /// The estimated relative error in the energy norm, of all load cases.
   double largest_error() const
