@@ -2,6 +2,7 @@
 
 import math
 
+import known_answers
 from gallery_runs import solve
 from measures import Below, Check, at, same
 
@@ -33,6 +34,15 @@ def unlike_meshes(result, _):
     """Cells of equal size stay near the contact; to the end of the side it were 26,864."""
     return [("unknowns", result.summary["mesh"]["dofs"], Below(10000)),
             ("energy, by degree 2", result.state["energy"], -14680.8)]
+
+
+def unlike_rings(result, _):
+    """prm/shrink-fit.prm: the error of the energy, p times the interference times half of
+    the circumference, in which the mismatch of both polygons is the largest part."""
+    (_, _, pressure), _ = known_answers.lame("plane stress")(result, None)
+    error = abs(pressure * .002 * 2 * math.pi - result.state["energy"])
+    estimate = result.state["accuracy"]["responses"]["potential energy"]
+    return [("estimate over error", estimate / error, 1.)]
 
 
 def on_fine_faces(design):
@@ -85,4 +95,8 @@ CHECKS = [
     Check("edge-2d", ["Accuracy/Target="], promise, 0.),
     Check("edge-2d", [], kept_promise, 1e-2),
     Check("edge-2d", ["Shape/Bounds=-1e-6, 1e-6"], no_gain, 1e-12),
+    *(Check("../../prm/shrink-fit", ["Accuracy/Estimate=responses",
+                                     f"Body inner/Cells={inner}, 6",
+                                     f"Body outer/Cells={outer}, 6"], unlike_rings, .05)
+      for inner, outer in ((32, 40), (40, 32), (32, 32))),
 ]

@@ -50,26 +50,26 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
               const auto             values     = shape.at(gauss.point(q));
               const auto             on_surface = shape.samples_at(gauss.point(q));
               Point                  point{p, face.cell, {}, 0., 0.};
-              dealii::Tensor<1, dim> place, true_place;
+              dealii::Tensor<1, dim> place, area_vector;
               for (unsigned int k = 0; k < face.nodes.size(); ++k)
                 {
                   point.shape.emplace_back(surface.find(mesh.global_node(face.nodes[k])),
                                            values.value[k]);
                   place += values.value[k] * here[face.nodes[k]];
                 }
-              true_place = place;
+              area_vector = faces::area_vector(faces::tangents<dim>(values, face.nodes, here));
               if (!face.samples.empty())
                 {
-                  true_place = {};
+                  place = {};
                   for (unsigned int k = 0; k < face.samples.size(); ++k)
-                    true_place += on_surface.value[k] * state.positions[face.samples[k]];
+                    place += on_surface.value[k] * state.positions[face.samples[k]];
+                  area_vector = faces::area_vector(
+                    faces::tangents<dim>(on_surface, face.samples, state.positions));
                 }
-              const auto gap = gaps->at(true_place, point.shape);
+              const auto gap = gaps->at(place, point.shape);
               if (!gap)
                 continue;
-              point.area =
-                gauss.weight(q) * mesh.idealization().weight(place) *
-                faces::area_vector(faces::tangents<dim>(values, face.nodes, here)).norm();
+              point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();
               point.residual =
                 gap->gap - gap->normal * (sum<dim>(point.shape, u) - sum<dim>(gap->masters, u));
               points.push_back(point);

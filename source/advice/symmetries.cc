@@ -276,7 +276,7 @@ private:
     if (n == 0)
       return true;
     const mesh::Surface<dim>  faces(subject.mesh(), subject.shapes.faces());
-    const auto                X = faces.reference_positions();
+    const auto               &X = faces.reference_positions();
     std::vector<unsigned int> image;
     for (unsigned int a = 0; a < faces.n_nodes(); ++a)
       {

@@ -192,7 +192,7 @@ std::vector<MeshError> Results<dim>::estimate(const States &states)
 {
   try
     {
-      const auto errors = mesh_errors(*problem, states);
+      auto errors = mesh_errors(*problem, states);
       for (const std::string &line : described(*problem, states, errors))
         problem->context.out() << line << std::endl;
       return errors;

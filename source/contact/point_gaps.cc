@@ -77,11 +77,10 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       if (!nearest)
         return {};
       if (!slave_normals)
-        {
-          for (const auto &[node, weight] : nearest->masters)
-            result.normal -= weight * normals->normals()[node];
-          result.normal /= result.normal.norm();
-        }
+        for (const auto &[node, weight] : nearest->masters)
+          result.normal -= weight * normals->normals()[node];
+      // those of mortar rows are shorter between nodes, and so an offset of them is too large
+      result.normal /= result.normal.norm();
       result.gap     = result.normal * (place(*nearest) - x) + nearest->relief;
       result.masters = nearest->masters;
     }

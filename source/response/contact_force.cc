@@ -62,6 +62,21 @@ public:
     return force;
   }
 
+  /// On the areas of other places.
+  std::optional<double> measured(const state::StateSolver<dim>   &solver,
+                                 const std::vector<PressureRows> &of_pairs) const override
+  {
+    if (parameters.component != Component::normal)
+      return {};
+    const auto chosen = chosen_pairs(solver, parameters.pair);
+    double     force  = 0.;
+    for (unsigned int p = 0; p < chosen.size(); ++p)
+      if (chosen[p])
+        for (const double of_row : of_pairs[p].force)
+          force += of_row;
+    return force;
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {

@@ -34,7 +34,7 @@ private:
   {
     unsigned int                                 pair, cell;
     std::vector<std::pair<unsigned int, double>> shape; ///< surface nodes, values
-    double                                       area;  ///< [length^2]
+    double                                       area;  ///< of the true surface [length^2]
     double                                       residual;
   };
 
