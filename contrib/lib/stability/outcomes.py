@@ -6,7 +6,9 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
+import time
 
 from cases import error, section
 from gallery_runs import ROOT, environment
@@ -102,11 +104,19 @@ def verdict(row, method, ranks, found):
     return "fails: " + "; ".join(wrong) if wrong else found[0].text
 
 
+def timed(what, act):
+    """The result of act(); how long it takes, on standard error."""
+    start = time.monotonic()
+    result = act()
+    print(f"{what}: {time.monotonic() - start:.0f} s", file=sys.stderr)
+    return result
+
+
 def examine(rows, ranks):
     """(row, method, outcomes on each number of ranks, verdict) of all."""
     pairs = [(row, method) for row in rows for method in row.methods]
     jobs = [(of_method(row, method), row.mesh and row.mesh()) for row, method in pairs]
-    of_ranks = [solve_many(jobs, n) for n in ranks]
+    of_ranks = [timed(f"{n} ranks", lambda n=n: solve_many(jobs, n)) for n in ranks]
     for (row, method), runs in zip(pairs, zip(*of_ranks)):
         found = [outcome(row, run) for run in runs]
         yield row, method, found, verdict(row, method, ranks, found)
