@@ -63,6 +63,14 @@ private:
     return kkt_residual(problem, free_set->amplitudes(residual), lambda, residual, scale);
   }
 
+  /// The tolerance, or what rounding allows.
+  bool is_met() const
+  {
+    return kkt.relative <= parameters.relative_tolerance ||
+           (at_rounding && kkt.relative - kkt.feasibility <=
+                             residual_rounding / projection_rounding * kkt.rounding / scale);
+  }
+
   void   begin(const WarmStart &from);
   void   balance_load();
   void   refresh_residual();
@@ -92,6 +100,7 @@ private:
   unsigned int             recurrences = 0;  // since d - F lambda
   unsigned int             outer       = 0;
   bool                     solved      = true; // on the set
+  bool                     at_rounding = false;
   unsigned int             stalls      = 0;
 };
 
@@ -179,7 +188,8 @@ void ActiveSetRun::solve_on_set()
   const auto   inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
                                      narrow<unsigned int>(parameters.max_iterations - f_mults()));
   recurrences += inner.iterations;
-  solved = inner.converged;
+  solved      = inner.converged;
+  at_rounding = inner.at_rounding;
   // w of the rows off the set, which decides who enters, needs the rigid amplitudes of this set.
   kkt        = kkt_here();
   negligible = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
@@ -194,7 +204,7 @@ void ActiveSetRun::solve_on_set()
 /// recurrence of the residual.
 bool ActiveSetRun::finished()
 {
-  if (kkt.relative > parameters.relative_tolerance)
+  if (!is_met())
     return false;
   const MPI_Comm comm = context.communicator();
   clip_rounding(problem.bounded(), negligible, lambda);
@@ -212,7 +222,7 @@ bool ActiveSetRun::finished()
     return true;
   refresh_residual();
   kkt = kkt_here();
-  return kkt.relative <= parameters.relative_tolerance;
+  return is_met();
 }
 
 RowSet ActiveSetRun::next_set() const
@@ -220,7 +230,7 @@ RowSet ActiveSetRun::next_set() const
   RowSet next(mask.size(), 1);
   // With the tolerance met only rows that pull are wrong. Letting others in by the sign of a w that
   // is within the tolerance would start the search again from noise.
-  const bool only_drop = kkt.relative <= parameters.relative_tolerance;
+  const bool only_drop = is_met();
   for (unsigned int i = 0; i < next.size(); ++i)
     if (problem.bounded()[i])
       // The sign of lambda on the set, of w off it; why not lambda + c w is said at ActiveSet. A

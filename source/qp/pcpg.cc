@@ -56,7 +56,9 @@ MultiVector leading_part(const MultiVector               &x,
 class StagnationTest
 {
 public:
-  bool stagnates(double worst)
+  /// Is at once what grows where only rounding is left (@p is_rounding): new directions would be
+  /// of rounding as well, and soon no longer F-orthogonal.
+  bool stagnates(const double worst, const bool is_rounding)
   {
     ++waited;
     if (worst < 0.99 * best)
@@ -64,7 +66,7 @@ public:
         best   = worst;
         waited = 0;
       }
-    return waited > patience;
+    return waited > (is_rounding ? 0 : patience);
   }
 
 private:
@@ -201,7 +203,8 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
       const auto                sizes = norms(both, comm);
       std::vector<unsigned int> remaining;
       std::vector<double>       goals(k);
-      double                    worst = 0.;
+      double                    worst       = 0.;
+      bool                      is_rounding = true;
       if (result.iterations == 0)
         first = sizes;
       for (unsigned int j = 0; j < k; ++j)
@@ -212,12 +215,18 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
           if (sizes[j] <= goals[j])
             continue;
           remaining.push_back(j);
-          worst = std::max(worst, sizes[j] / first[j]);
+          worst       = std::max(worst, sizes[j] / first[j]);
+          is_rounding = is_rounding && sizes[j] <= residual_rounding * sizes[k + j];
         }
       result.residual_norms.assign(sizes.begin(), sizes.begin() + k);
       result.converged = remaining.empty();
-      if (result.converged || result.iterations == max_iterations || test.stagnates(worst))
+      if (result.converged || result.iterations == max_iterations)
         return result;
+      if (test.stagnates(worst, is_rounding))
+        {
+          result.converged = result.at_rounding = is_rounding;
+          return result;
+        }
       std::vector<double> removed;
       const MultiVector   Z = new_directions(leading_part(r, remaining, goals, comm), removed);
       if (Z.n_columns() == 0 || !step(Z, removed, lambda, residual))

@@ -8,7 +8,7 @@ import slender
 import steps
 import tolerances
 import weak
-from runs import write_csv
+from runs import print_table, write_csv
 
 # Below this an error is rounding; logarithmic axes have no zero.
 FLOOR = 1e-16
@@ -61,6 +61,7 @@ def legend_below(figure, axes, columns, height):
 def draw_steps(output, quick):
     rows = steps.measure(quick)
     write_csv(output / "gradient-steps.csv", rows)
+    print_table(rows)
     scenes = by(rows, "scene")
     figure, axes = plt.subplots(len(scenes), 2, squeeze=False, sharex=True,
                                 sharey=True, layout="constrained",
@@ -81,6 +82,7 @@ def draw_steps(output, quick):
 def draw_slender(output, quick):
     rows = slender.measure(quick)
     write_csv(output / "gradient-slender.csv", rows)
+    print_table(rows)
     figure, ((axis,),) = panels(1, 5.)
     for row in rows:
         row["label"] = row["derivatives"] + (
@@ -101,6 +103,7 @@ def draw_slender(output, quick):
 def draw_tolerances(output, quick):
     rows = tolerances.measure(quick)
     write_csv(output / "gradient-tolerances.csv", rows)
+    print_table(rows)
     figure, ((axis,),) = panels(1, 5.)
     curves(axis, rows, "method", "tolerance", "error of dJ")
     axis.set_xlabel("tolerance of the state")
@@ -113,6 +116,8 @@ def draw_tolerances(output, quick):
 def draw_weak(output, quick):
     sides, path, widest = weak.measure(quick)
     write_csv(output / "gradient-weak.csv", sides)
+    print_table([{key: f"{value:.6f}" if isinstance(value, float) else value
+                  for key, value in row.items()} for row in sides])
     write_csv(output / "gradient-weak-path.csv", path)
     figure, axes = panels(2)
     compliance, energy = axes[0]

@@ -5,13 +5,18 @@ import matplotlib.pyplot as plt
 
 import solvers
 from gradient_charts import by, curves, legend_below
-from runs import write_csv
+from runs import print_table, write_csv
 
 
 def draw(output, quick):
     rows = solvers.measure(quick)
     write_csv(output / "solvers.csv", rows)
     charts = by(rows, "chart")
+    print_table([{"chart": chart, "solver": solver,
+                  **{key: " / ".join(f"{row[key]:g}" for row in group)
+                     for key in ("x", "F-mults")}}
+                 for chart, of_chart in charts.items()
+                 for solver, group in by(of_chart, "solver").items()])
     shown = [(chart, "F-mults") for chart in charts] + [("subdomains", "seconds")]
     figure, axes = plt.subplots(2, 4, figsize=(17., 8.), layout="constrained")
     order = sorted({row["solver"] for row in rows})

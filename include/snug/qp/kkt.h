@@ -11,6 +11,10 @@ namespace snug::qp {
 /// motions and some kernels of BLAS.
 constexpr double projection_rounding = 64. * std::numeric_limits<double>::epsilon();
 
+/// A residual that falls no more below this part of d - F lambda, of which it is the difference to
+/// a rigid motion, may be the rounding of both.
+constexpr double residual_rounding = 16. * projection_rounding;
+
 /// The optimality conditions at a point; see kkt_residual().
 struct KktResidual
 {

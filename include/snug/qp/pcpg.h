@@ -11,6 +11,8 @@ struct PcpgResult
   /// Every column is within its tolerance or zero up to rounding; false
   /// if the iterations ran out or the residual no longer falls.
   bool converged = false;
+  /// It is not, but the residual is rounding and falls no more; counts as converged.
+  bool at_rounding = false;
 };
 
 /**
