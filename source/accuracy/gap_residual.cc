@@ -112,7 +112,7 @@ GapResidual<dim>::pressures(const std::vector<double> &of_rows) const
   std::vector<response::PressureRows> of_pairs(solver.contact().pairs().size());
   for (unsigned int i = 0; i < points.size(); ++i)
     {
-      of_pairs[points[i].pair].force.push_back(std::max(0., q[i]) * points[i].area);
+      of_pairs[points[i].pair].force.push_back(q[i] * points[i].area);
       of_pairs[points[i].pair].area.push_back(points[i].area);
     }
   const auto everywhere = [&](const std::vector<double> &values) {

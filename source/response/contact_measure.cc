@@ -57,7 +57,9 @@ public:
     for (unsigned int p = 0; p < chosen.size(); ++p)
       if (chosen[p])
         {
-          rows.force.insert(rows.force.end(), of_pairs[p].force.begin(), of_pairs[p].force.end());
+          // quadratic functions between nodes may be negative where contact ends
+          for (const double force : of_pairs[p].force)
+            rows.force.push_back(std::max(0., force));
           rows.area.insert(rows.area.end(), of_pairs[p].area.begin(), of_pairs[p].area.end());
         }
     return measure(rows).value;

@@ -22,7 +22,7 @@ public:
   /// slave faces. Points beyond the end of the master side do not count.
   std::vector<double> integral(const std::vector<double> &of_rows) const;
 
-  /// q dA and dA at all points, pair by pair, on all ranks; no q below 0. Collective.
+  /// q dA and dA at all points, pair by pair, on all ranks. Collective.
   std::vector<response::PressureRows> pressures(const std::vector<double> &of_rows) const;
 
   /// Of the slave faces of a pair, at their nodes, the least d of any of their points; infinite at
