@@ -5,9 +5,9 @@ Every chart leaves its table and its picture, and the tables say what the pages 
 exact derivatives of a slender body are exact, refined differences do not mind its
 slenderness, and at a weakly active contact the quadratic program gives the derivatives
 of both sides, which the strong set alone does not; the Dirichlet preconditioner takes
-fewer F-mults than the lumped one, and that than none, and warm starts fewer than cold ones;
-refined meshes are nearer to the truth with fewer unknowns; adjoint derivatives cost fewer
-F-mults than direct ones, and those fewer than differences.
+fewer F-mults than the lumped one, and that than none, and warm starts fewer than cold ones,
+next to rounding as well; refined meshes are nearer to the truth with fewer unknowns;
+adjoint derivatives cost fewer F-mults than direct ones, and those fewer than differences.
 """
 
 import csv
