@@ -365,7 +365,7 @@ std::string Adaptation<dim>::reach(const double factor)
       report(*solved);
       if (!doubtful)
         {
-          const auto why = failure();
+          auto why = failure();
           if (!why.empty())
             return why;
           add_marked(cells);
