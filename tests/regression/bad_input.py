@@ -3,7 +3,8 @@
 
 Every wrong input ends with status 2 after less than 2 s and leaves one line on
 standard error that names the file, the entry and the value; a problem without a
-solution ends with 3. On several ranks the line is printed once."""
+solution ends with 3. On several ranks the line is printed once. Many runs on one rank share
+a start of stability.many, which SNUG_MANY names, or that of build/."""
 
 import argparse
 import pathlib
@@ -239,8 +240,8 @@ def check_targets(runner):
             settings += ["Body cylinder/Curved faces=", "Body cylinder/Box size=0.5, 1"]
         if title == "too few unknowns":
             settings.pop()
-        runner.expect_error_of(title, [ADAPTED, *(word for setting in settings for word in (
-            "--set", setting))], names, 3)
+        words = [word for setting in settings for word in ("--set", setting)]
+        runner.expect_error_of(title, [ADAPTED, *words], names, 3)
 
 
 def check_good(runner, scene):

@@ -21,7 +21,7 @@ SNUG_RANDOM = os.environ.get("SNUG_RANDOM", str(ROOT / "build/tests/random/rando
 Solved = collections.namedtuple("Solved", "asked", defaults=[None])
 # words: part of the line that says why.
 Refused = collections.namedtuple("Refused", "status words")
-# As rounding has it, which differs with the ranks.
+# As rounding has it, which differs with the ranks; of rows that have dense or asked.
 SolvedOrRefused = collections.namedtuple("SolvedOrRefused", "status words asked",
                                          defaults=[None])
 
@@ -73,9 +73,7 @@ def refused(end, status, message):
 def outcome(row, run):
     """Of one run; its text begins with "fails" if it is not as expected."""
     status, message, result = run
-    if isinstance(row.end, Refused):
-        return refused(row.end, status, message)
-    if isinstance(row.end, SolvedOrRefused) and not result:
+    if isinstance(row.end, Refused) or isinstance(row.end, SolvedOrRefused) and not result:
         return refused(row.end, status, message)
     if not result:
         return Outcome(f"fails: exit {status}, {message or 'no line'}")
@@ -105,7 +103,7 @@ def verdict(row, method, ranks, found):
         if one.text.startswith("fails"):
             return one.text + (f" ({n} ranks)" if n > 1 else "")
         known = row.dense or isinstance(row.end, Refused) or row.end.asked
-        if not known and one.energy is not None and not math.isclose(one.energy, found[0].energy, rel_tol=1e-4):
+        if not known and not math.isclose(one.energy, found[0].energy, rel_tol=1e-4):
             return f"fails: energy {one.energy} on {n} ranks, {found[0].energy} on {ranks[0]}"
     wrong = unlike_dense(of_method(row, method)) if row.dense else []
     texts = list(dict.fromkeys(one.text for one in found))
