@@ -8,7 +8,7 @@ repository=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 # than the reference BLAS; libnlopt-dev has the CMake package, -cxx- the header.
 # shellcheck disable=SC2034
 run_packages=(g++ cmake ninja-build openmpi-bin libdeal.ii-dev libnlopt-dev
-  libnlopt-cxx-dev nlohmann-json3-dev libopenblas0-serial
+  libnlopt-cxx-dev nlohmann-json3-dev zlib1g-dev libopenblas0-serial
   python3 python3-matplotlib python3-vtk9)
 
 # To test as well. GTest's CMake package refuses to load without gmock.

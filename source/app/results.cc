@@ -19,7 +19,8 @@ Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
       const std::string directory = of.n_load_cases() == 1
                                       ? problem->scene.output_directory
                                       : path(problem->scene.load_cases[c].name);
-      pictures.push_back({io::FieldOutput<dim>(directory), io::ContactOutput<dim>(directory)});
+      pictures.push_back({io::FieldOutput<dim>(directory, problem->scene.output),
+                          io::ContactOutput<dim>(directory, problem->scene.output)});
     }
 }
 

@@ -1,11 +1,13 @@
+#include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/io/contact_output.h>
-#include <snug/io/patch_list.h>
 #include <snug/io/text_file.h>
+#include <snug/io/vtu_grid.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <map>
 
 namespace snug::io {
 namespace {
@@ -63,57 +65,70 @@ std::vector<state::ContactPoint> nodal_points(const Sources<dim>                
   return points;
 }
 
-/// Patches do not share nodes, so a node on the edge of two pairs shows each on its own faces.
+/// A node on the edge of two pairs has a point in each, as each shows its own on its own faces.
 template <int dim>
 std::string faces_text(const Sources<dim>             &sources,
                        const state::ContactState<dim> &state,
-                       const SurfaceFields<dim>       &fields)
+                       const SurfaceFields<dim>       &fields,
+                       const unsigned int              compression)
 {
-  const auto        points = nodal_points<dim>(sources, state.contact);
-  const auto       &pairs  = sources.pairs;
+  const auto        nodal = nodal_points<dim>(sources, state.contact);
+  const auto       &pairs = sources.pairs;
   std::vector<bool> candidate(sources.surface.n_nodes(), false);
   for (const auto &row : sources.places)
     candidate[row.slave] = true;
   // values below have the order of these quantities
-  PatchList<dim - 1, dim> patches({{"pressure", 1},
-                                   {"gap", 1},
-                                   {"force", 1},
-                                   {"area", 1},
-                                   {"active", 1},
-                                   {"weak", 1},
-                                   {"candidate", 1},
-                                   {"slave", 1},
-                                   {"pair", 1},
-                                   {"body", 1},
-                                   {"displacement", dim},
-                                   {"design_displacement", dim}});
+  VtuGrid<dim - 1, dim>                                grid({{"pressure", 1},
+                                                             {"gap", 1},
+                                                             {"force", 1},
+                                                             {"area", 1},
+                                                             {"active", 1},
+                                                             {"weak", 1},
+                                                             {"candidate", 1},
+                                                             {"slave", 1},
+                                                             {"pair", 1},
+                                                             {"body", 1},
+                                                             {"displacement", dim},
+                                                             {"design_displacement", dim}},
+                                                            {});
+  std::map<std::pair<unsigned int, int>, unsigned int> number; // of a node of a pair
   for (const auto &face : sources.surface.faces())
     {
-      const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
+      const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
         return pair.slave == std::make_pair(face.body, face.boundary);
       });
       // the first pair counts: a face shows one
-      const bool                          slave  = pair != pairs.end();
-      const double                        number = slave ? double(pair - pairs.begin()) : -1.;
-      std::vector<dealii::Tensor<1, dim>> corners;
-      std::vector<std::vector<double>>    values;
+      const bool                slave = found != pairs.end();
+      const int                 pair  = slave ? narrow<int>(found - pairs.begin()) : -1;
+      std::vector<unsigned int> corners;
       for (const unsigned int node : face.nodes)
         {
-          // A master side may share its edge with a slave side.
-          const auto point = slave ? points[node] : state::ContactPoint();
-          values.push_back({point.pressure, point.gap, point.force, point.area,
-                            double(point.active), double(point.weak),
-                            double(slave && candidate[node]), double(slave), number,
-                            double(face.body)});
-          for (unsigned int c = 0; c < dim; ++c)
-            values.back().push_back(fields.displacement[node][c]);
-          for (unsigned int c = 0; c < dim; ++c)
-            values.back().push_back(fields.positions[node][c] - fields.reference[node][c]);
-          corners.push_back(fields.positions[node]);
+          const auto [place, is_new] = number.try_emplace({node, pair}, 0);
+          if (is_new)
+            {
+              // A master side may share its edge with a slave side.
+              const auto          point  = slave ? nodal[node] : state::ContactPoint();
+              std::vector<double> values = {point.pressure,
+                                            point.gap,
+                                            point.force,
+                                            point.area,
+                                            double(point.active),
+                                            double(point.weak),
+                                            double(slave && candidate[node]),
+                                            double(slave),
+                                            double(pair),
+                                            double(face.body)};
+              for (unsigned int c = 0; c < dim; ++c)
+                values.push_back(fields.displacement[node][c]);
+              for (unsigned int c = 0; c < dim; ++c)
+                values.push_back(fields.positions[node][c] - fields.reference[node][c]);
+              place->second = grid.add_point(fields.positions[node], values);
+            }
+          corners.push_back(place->second);
         }
-      patches.add(corners, values);
+      grid.add_cell(corners, {});
     }
-  return patches.vtu();
+  return grid.vtu(compression);
 }
 
 /// One line per row, nodes of several pairs with several; places are those of the slaves.
@@ -156,7 +171,8 @@ void ContactOutput<dim>::write(const Sources                  &of,
   everywhere(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    write_text_file(directory + "/" + stem + ".vtu", faces_text<dim>(of, state, fields));
+    write_text_file(directory + "/" + stem + ".vtu",
+                    faces_text<dim>(of, state, fields, compression));
     write_text_file(directory + "/" + stem + ".csv", rows_text<dim>(of, state, fields));
     write_text_file(directory + "/contact.pvd", pvd(series));
   });

@@ -2,11 +2,14 @@
 #include <snug/elasticity/stress.h>
 #include <snug/io/fields.h>
 #include <snug/io/nodal_stress.h>
-#include <snug/io/patch_list.h>
 #include <snug/io/text_file.h>
+#include <snug/io/vtu_grid.h>
 #include <snug/mesh/shared_nodes.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <functional>
+#include <memory>
 
 namespace snug::io {
 namespace {
@@ -32,27 +35,74 @@ std::vector<double> summed(const mesh::BodyMesh<dim>                 &mesh,
   return values;
 }
 
-/// The components of all quantities of FieldOutput at one node.
-/// In the order of the quantities in write(). Stresses of sections too have 3 x 3 components.
-template <int dim>
-std::vector<double> field_values(const state::ContactState<dim>      &state,
-                                 const dealii::SymmetricTensor<2, 3> &stress,
-                                 const dealii::Tensor<1, dim>        &design_displacement,
-                                 unsigned int                         node,
-                                 const std::vector<double>           &cell_values)
+/// A quantity of points and how its components come to the end of a list.
+struct PointField
 {
-  std::vector<double> values;
-  for (unsigned int c = 0; c < dim; ++c)
-    values.push_back(state.displacement[node][c]);
-  for (unsigned int i = 0; i < 3; ++i)
-    for (unsigned int j = 0; j < 3; ++j)
-      values.push_back(stress[i][j]);
-  // of the smoothed stress, not the mean of the cells' own
-  values.push_back(elasticity::von_mises(stress));
-  values.insert(values.end(), cell_values.begin(), cell_values.end());
-  for (unsigned int c = 0; c < dim; ++c)
-    values.push_back(design_displacement[c]);
-  return values;
+  Quantity                                                                           quantity;
+  std::function<void(unsigned int node, unsigned int region, std::vector<double> &)> append;
+};
+
+struct CellField
+{
+  Quantity                                 quantity;
+  std::function<double(unsigned int cell)> value;
+};
+
+template <typename Field>
+std::vector<Quantity> quantities(const std::vector<Field> &fields)
+{
+  std::vector<Quantity> result;
+  for (const auto &field : fields)
+    result.push_back(field.quantity);
+  return result;
+}
+
+/// Those that @p parameters ask for, and what no picture can be without.
+template <typename Field>
+std::vector<Field> written(const std::vector<Field>      &fields,
+                           const scene::OutputParameters &parameters)
+{
+  std::vector<Field> result;
+  for (const auto &field : fields)
+    if (const auto &name = field.quantity.name;
+        name == "displacement" || name == "body" || parameters.has(name))
+      result.push_back(field);
+  return result;
+}
+
+/// In the cells of this rank, which share points: a node has one in each region that meets there.
+template <int dim>
+VtuGrid<dim, dim> grid_of(const mesh::BodyMesh<dim>                 &mesh,
+                          const typename mesh::BodyMesh<dim>::Field &positions,
+                          const std::vector<PointField>             &point_fields,
+                          const std::vector<CellField>              &cell_fields)
+{
+  VtuGrid<dim, dim>         grid(quantities(point_fields), quantities(cell_fields));
+  const unsigned int        n_regions = n_stress_regions(mesh), none = -1;
+  std::vector<unsigned int> number(std::size_t(mesh.n_local_nodes()) * n_regions, none);
+  for (unsigned int k = 0; k < mesh.cells().size(); ++k)
+    {
+      const auto               &cell = mesh.cells()[k];
+      std::vector<unsigned int> points;
+      std::vector<double>       values;
+      for (const unsigned int node : cell.nodes)
+        {
+          unsigned int &point = number[std::size_t(node) * n_regions + cell.region];
+          if (point == none)
+            {
+              values.clear();
+              for (const auto &field : point_fields)
+                field.append(node, cell.region, values);
+              point = grid.add_point(positions[node], values);
+            }
+          points.push_back(point);
+        }
+      values.clear();
+      for (const auto &field : cell_fields)
+        values.push_back(field.value(k));
+      grid.add_cell(points, values);
+    }
+  return grid;
 }
 
 /// Global ids, so that subdomains of different ranks get different colours.
@@ -66,6 +116,42 @@ std::vector<unsigned int> subdomain_of_cell(const mesh::BodyMesh<dim> &mesh,
       result[cell] = tearing.first_id + s;
   return result;
 }
+/// Those of @p dim components at the nodes.
+template <int dim, typename Value>
+PointField vector_field(const std::string &name, const Value &value)
+{
+  return {{name, dim}, [value](const unsigned int node, unsigned int, std::vector<double> &to) {
+            const dealii::Tensor<1, dim> v = value(node);
+            to.insert(to.end(), v.begin_raw(), v.end_raw());
+          }};
+}
+
+/// The smoothed stress, of sections too with 3 x 3 components, and its von Mises stress, not the
+/// mean of the cells' own. Nothing is computed where neither is written.
+template <int dim>
+std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &of,
+                                      const state::ContactState<dim>           &state,
+                                      const scene::OutputParameters            &parameters)
+{
+  if (!parameters.has("stress") && !parameters.has("von_mises"))
+    return {};
+  using Stresses      = std::vector<dealii::SymmetricTensor<2, 3>>;
+  const auto stresses = std::make_shared<const Stresses>(
+    nodal_stress(of.mesh, of.bodies, state.positions, state.displacement));
+  const unsigned int n_regions = n_stress_regions(of.mesh);
+  const auto stress = [stresses, n_regions](const unsigned int node, const unsigned int region) {
+    return (*stresses)[std::size_t(node) * n_regions + region];
+  };
+  return {{{"stress", 9},
+           [stress](const unsigned int node, const unsigned int region, std::vector<double> &to) {
+             for (unsigned int i = 0; i < 9; ++i)
+               to.push_back(stress(node, region)[i / 3][i % 3]);
+           }},
+          {{"von_mises", 1},
+           [stress](const unsigned int node, const unsigned int region, std::vector<double> &to) {
+             to.push_back(elasticity::von_mises(stress(node, region)));
+           }}};
+}
 } // namespace
 
 template <int dim>
@@ -75,44 +161,33 @@ void FieldOutput<dim>::write(const Sources                             &of,
                              const typename mesh::BodyMesh<dim>::Field *shape_gradient,
                              const std::vector<double>                 *errors)
 {
-  const auto           &mesh      = of.mesh;
-  const auto            subdomain = subdomain_of_cell(mesh, of.tearing);
-  const auto            gradient  = summed(mesh, shape_gradient);
-  const auto            stress = nodal_stress(mesh, of.bodies, state.positions, state.displacement);
-  const unsigned int    n_regions = n_stress_regions(mesh);
-  std::vector<Quantity> quantities{{"displacement", dim},
-                                   {"stress", 9},
-                                   {"von_mises", 1},
-                                   {"body", 1},
-                                   {"region", 1},
-                                   {"subdomain", 1},
-                                   {"design_displacement", dim}};
-  if (shape_gradient != nullptr)
-    quantities.push_back({"shape_gradient", dim});
-  if (errors != nullptr)
-    quantities.push_back({"error", 1});
-  PatchList<dim, dim> patches(quantities);
-  for (unsigned int k = 0; k < mesh.cells().size(); ++k)
-    {
-      const auto                         &cell = mesh.cells()[k];
-      std::vector<dealii::Tensor<1, dim>> points;
-      std::vector<std::vector<double>>    values;
-      for (const unsigned int node : cell.nodes)
-        {
-          // on the design, before deformation
-          points.push_back(state.positions[node]);
-          values.push_back(
-            field_values(state, stress[node * n_regions + cell.region],
-                         state.positions[node] - mesh.reference_positions()[node], node,
-                         {double(cell.body), double(cell.region), double(subdomain[k])}));
-          if (shape_gradient != nullptr)
-            values.back().insert(values.back().end(), gradient.begin() + dim * node,
-                                 gradient.begin() + dim * (node + 1));
-          if (errors != nullptr)
-            values.back().push_back((*errors)[k]);
-        }
-      patches.add(points, values);
-    }
+  const auto             &mesh      = of.mesh;
+  const auto              subdomain = subdomain_of_cell(mesh, of.tearing);
+  const auto              gradient  = summed(mesh, shape_gradient);
+  std::vector<PointField> at_points = stress_fields<dim>(of, state, parameters);
+  at_points.push_back({{"body", 1}, [&](const unsigned int node, unsigned int, auto &to) {
+                         to.push_back(mesh.body_of_node(node));
+                       }});
+  at_points.push_back(vector_field<dim>("displacement", [&](const unsigned int node) {
+    return state.displacement[node];
+  }));
+  at_points.push_back(vector_field<dim>("design_displacement", [&](const unsigned int node) {
+    return state.positions[node] - mesh.reference_positions()[node];
+  }));
+  if (shape_gradient)
+    at_points.push_back(vector_field<dim>("shape_gradient", [&](const unsigned int node) {
+      dealii::Tensor<1, dim> v;
+      for (unsigned int c = 0; c < dim; ++c)
+        v[c] = gradient[std::size_t(dim) * node + c];
+      return v;
+    }));
+  std::vector<CellField> of_cells = {
+    {{"region", 1}, [&](const unsigned int cell) { return mesh.cells()[cell].region; }},
+    {{"subdomain", 1}, [&](const unsigned int cell) { return subdomain[cell]; }}};
+  if (errors)
+    of_cells.push_back({{"error", 1}, [&](const unsigned int cell) { return (*errors)[cell]; }});
+  const auto grid =
+    grid_of(mesh, state.positions, written(at_points, parameters), written(of_cells, parameters));
 
   const MPI_Comm           comm = mesh.communicator();
   const auto               rank = dealii::Utilities::MPI::this_mpi_process(comm);
@@ -123,10 +198,10 @@ void FieldOutput<dim>::write(const Sources                             &of,
     pieces.push_back(stem + "." + padded(r, 4) + ".vtu");
   series.emplace_back(time, stem + ".pvtu");
   everywhere(comm, [&] {
-    write_text_file(directory + "/" + pieces[rank], patches.vtu());
+    write_text_file(directory + "/" + pieces[rank], grid.vtu(parameters.compression));
     if (rank != 0)
       return;
-    write_text_file(directory + "/" + stem + ".pvtu", patches.pvtu(pieces));
+    write_text_file(directory + "/" + stem + ".pvtu", grid.pvtu(pieces));
     write_text_file(directory + "/solution.pvd", pvd(series));
   });
 }

@@ -138,6 +138,7 @@ void check(const Scene &scene, const Origins &origins)
   check_responses(scene, origins);
   check_gradient(scene, section("Gradient"));
   scene.accuracy.check(section("Accuracy"));
+  scene.output.check(section("Output"));
   check_targets(scene, section("Accuracy"));
 }
 

@@ -119,5 +119,7 @@ void declare(Entries &entries, Scene &scene)
                 "does not read stay as they are.");
   entries.begin_section("Optimization", "Finding the best shape.");
   scene.optimization.declare(entries);
+  entries.begin_section("Output", "What is written of states, in 'Output directory'.");
+  scene.output.declare(entries);
 }
 } // namespace snug::scene

@@ -3,6 +3,7 @@
 
 #include <snug/contact/contact.h>
 #include <snug/mesh/surface.h>
+#include <snug/scene/output_parameters.h>
 #include <snug/state/contact_state.h>
 
 #include <string>
@@ -51,7 +52,9 @@ public:
   };
 
   /// Files go to @p directory, which must exist.
-  explicit ContactOutput(const std::string &directory) : directory(directory) {}
+  ContactOutput(const std::string &directory, const scene::OutputParameters &parameters)
+    : directory(directory), compression(parameters.compression)
+  {}
 
   /// Add @p state to the series as that of @p time. Collective.
   /// @throws std::runtime_error if a file cannot be written.
@@ -59,6 +62,7 @@ public:
 
 private:
   std::string                                 directory;
+  unsigned int                                compression;
   std::vector<std::pair<double, std::string>> series;
 };
 } // namespace snug::io

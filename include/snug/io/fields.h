@@ -2,6 +2,7 @@
 #define snug_io_fields_h
 
 #include <snug/mesh/tearing.h>
+#include <snug/scene/output_parameters.h>
 #include <snug/state/assembler.h>
 #include <snug/state/contact_state.h>
 
@@ -16,7 +17,7 @@ namespace snug::io {
  *
  * Points lie on the design, before deformation: "warp by vector
  * displacement" shows the deformed bodies, by minus design_displacement
- * those of the reference.
+ * those of the reference. Cells share points, within each region of a body.
  *
  * | field               | components | units            |
  * |---------------------|------------|------------------|
@@ -24,11 +25,11 @@ namespace snug::io {
  * | stress              | 9          | force / length^2 |
  * | von_mises           | 1          | force / length^2 |
  * | body                | 1          | index of `Bodies`|
- * | region              | 1          | index in the body |
- * | subdomain           | 1          | global id        |
  * | design_displacement | 3          | length           |
  * | shape_gradient      | 3          | objective / length |
- * | error               | 1          | (force length)^(1/2) |
+ * | region, of cells    | 1          | index in the body |
+ * | subdomain, of cells | 1          | global id        |
+ * | error, of cells     | 1          | (force length)^(1/2) |
  *
  * Stress is smoothed as nodal_stress() says; von Mises is that of the
  * smoothed stress. In 2D the component zz is the stress across the section,
@@ -47,7 +48,9 @@ public:
   };
 
   /// Files go to @p directory, which must exist.
-  explicit FieldOutput(const std::string &directory) : directory(directory) {}
+  FieldOutput(const std::string &directory, const scene::OutputParameters &parameters)
+    : directory(directory), parameters(parameters)
+  {}
 
   /**
    * Add @p state to the series as that of @p time (the number of the
@@ -65,6 +68,7 @@ public:
 
 private:
   std::string                                 directory;
+  scene::OutputParameters                     parameters;
   std::vector<std::pair<double, std::string>> series;
 };
 } // namespace snug::io

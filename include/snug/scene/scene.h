@@ -13,6 +13,7 @@
 #include <snug/qp/solver.h>
 #include <snug/response/response_parameters.h>
 #include <snug/scene/load_parameters.h>
+#include <snug/scene/output_parameters.h>
 #include <snug/sensitivity/gradient_parameters.h>
 #include <snug/shape/shape_parameters.h>
 
@@ -98,6 +99,7 @@ struct Scene
   qp::SolverParameters                      solver;
   std::optional<double>                     state_tolerance; ///< none: see declare()
   accuracy::AccuracyParameters              accuracy;
+  OutputParameters                          output;
   sensitivity::GradientParameters           gradient;
   std::vector<response::ResponseParameters> responses; ///< named ones
   optimization::OptimizationParameters      optimization;

@@ -69,7 +69,7 @@ void expect_contact_faces(unsigned int degree)
 {
   const test::ScratchDirectory scratch;
   const ContactScene<dim>      scene(degree);
-  io::ContactOutput<dim>       output(scratch.path);
+  io::ContactOutput<dim>       output(scratch.path, {});
   output.write(scene.sources(), 0., scene.state);
   if (!scratch.is_first())
     return;
@@ -120,7 +120,7 @@ TEST(ContactOutput, NodesWithoutARowShowTheMeanOfThoseThatActForThem)
   scene.places.pop_back();
   scene.state.contact.pop_back();
   scene.shared.push_back({node, {{0, 0.25}, {1, 0.75}}});
-  io::ContactOutput<2> output(scratch.path);
+  io::ContactOutput<2> output(scratch.path, {});
   output.write(scene.sources(), 0., scene.state);
   const auto x = scene.surface.gather(scene.state.positions)[node];
   if (!scratch.is_first())
@@ -143,7 +143,7 @@ TEST(ContactOutput, TableReadsBackBitForBit)
 {
   const test::ScratchDirectory scratch;
   const ContactScene<3>        scene(1);
-  io::ContactOutput<3>         output(scratch.path);
+  io::ContactOutput<3>         output(scratch.path, {});
   output.write(scene.sources(), 0., scene.state);
   output.write(scene.sources(), 5., scene.state);
   const auto x = scene.surface.gather(scene.state.positions);
@@ -180,7 +180,7 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
   const std::vector<contact::Pair>       pairs;
   const std::vector<contact::RowPlace>   places;
   const std::vector<contact::SharedNode> shared;
-  io::ContactOutput<2>                   output(scratch.path);
+  io::ContactOutput<2>                   output(scratch.path, {});
   state::ContactState<2>                 state;
   state.positions    = mesh.reference_positions();
   state.displacement = mesh.reference_positions();

@@ -44,7 +44,7 @@ void expect_linear_fields(unsigned int degree)
   const auto                   materials = test::two_materials();
   const auto                   tearing   = test::one_subdomain_per_rank(mesh);
   const auto                   models    = test::two_bodies<dim>();
-  io::FieldOutput<dim>         output(scratch.path);
+  io::FieldOutput<dim>         output(scratch.path, {});
   output.write({mesh, tearing, models}, 0., linear_state(mesh));
 
   int rank;
@@ -77,8 +77,10 @@ void expect_linear_fields(unsigned int degree)
       for (unsigned int i = 0; i < 3; ++i)
         deviator[i][i] -= trace(sigma) / 3.;
       EXPECT_NEAR(entry(vtu, "von_mises", p), std::sqrt(1.5) * deviator.norm(), 1e-5);
-      EXPECT_EQ(entry(vtu, "subdomain", p), rank);
     }
+  for (const float subdomain : vtu.arrays.at("subdomain"))
+    EXPECT_EQ(subdomain, rank);
+  EXPECT_EQ(vtu.arrays.at("subdomain").size(), vtu.n_cells);
 }
 
 TEST(FieldOutput, HoldsALinearStateIn2D)
@@ -93,13 +95,46 @@ TEST(FieldOutput, HoldsALinearStateIn3D)
   expect_linear_fields<3>(2);
 }
 
+/// 3 x 2 and 2 x 1 cells, degree 2, on one rank: as many points as nodes.
+TEST(FieldOutput, CellsShareTheirPoints)
+{
+  const test::ScratchDirectory scratch;
+  const mesh::BodyMesh<2>      mesh(MPI_COMM_SELF, test::two_boxes<2>(false), 2);
+  const auto                   tearing = test::one_subdomain_per_rank(mesh);
+  const auto                   models  = test::two_bodies<2>();
+  io::FieldOutput<2>           output(scratch.path, {});
+  output.write({mesh, tearing, models}, 0., linear_state(mesh));
+  const auto vtu = test::read_vtu(test::read_file(scratch.file("solution-0000.0000.vtu")));
+  EXPECT_EQ(vtu.n_points, mesh.n_local_nodes());
+}
+
+TEST(FieldOutput, WritesWhatIsAskedForAtAnyCompression)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_SELF, test::two_boxes<2>(false), 1);
+  const auto              tearing = test::one_subdomain_per_rank(mesh);
+  const auto              models  = test::two_bodies<2>();
+  const auto              written = [&](const scene::OutputParameters &parameters) {
+    const test::ScratchDirectory scratch;
+    io::FieldOutput<2>           output(scratch.path, parameters);
+    output.write({mesh, tearing, models}, 0., linear_state(mesh));
+    return test::read_vtu(test::read_file(scratch.file("solution-0000.0000.vtu")));
+  };
+  const auto all = written({});
+  for (const unsigned int level : {0, 9})
+    EXPECT_EQ(written({scene::OutputParameters().fields, level}).arrays, all.arrays);
+  auto few = all.arrays;
+  for (const char *name : {"stress", "region", "subdomain", "design_displacement"})
+    few.erase(name);
+  EXPECT_EQ(written({{"von_mises"}, 1}).arrays, few);
+}
+
 TEST(FieldOutput, ListsTimesAndPieces)
 {
   const test::ScratchDirectory scratch;
   const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
   const auto                   tearing = test::one_subdomain_per_rank(mesh);
   const auto                   models  = test::two_bodies<2>();
-  io::FieldOutput<2>           output(scratch.path);
+  io::FieldOutput<2>           output(scratch.path, {});
   output.write({mesh, tearing, models}, 0., linear_state(mesh));
   output.write({mesh, tearing, models}, 17., linear_state(mesh));
   MPI_Barrier(MPI_COMM_WORLD);
@@ -123,7 +158,7 @@ TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
   const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
   const auto                   tearing = test::one_subdomain_per_rank(mesh);
   const auto                   models  = test::two_bodies<2>();
-  io::FieldOutput<2>           output(scratch.path);
+  io::FieldOutput<2>           output(scratch.path, {});
   const auto                   state = linear_state(mesh);
   int                          rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -148,7 +183,7 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
   std::vector<state::BodyModel<2>> models(1);
   models[0].materials        = {{1., 0.3}};
   const auto         tearing = test::one_subdomain_per_rank(mesh);
-  io::FieldOutput<2> output(scratch.path);
+  io::FieldOutput<2> output(scratch.path, {});
   output.write({mesh, tearing, models}, 0., linear_state(mesh));
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   EXPECT_EQ(vtu.n_cells, mesh.cells().size());
@@ -159,7 +194,7 @@ TEST(FieldOutput, EveryRankHearsOfFailure)
   const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
   const auto              tearing = test::one_subdomain_per_rank(mesh);
   const auto              models  = test::two_bodies<2>();
-  io::FieldOutput<2>      output("/nowhere/at/all");
+  io::FieldOutput<2>      output("/nowhere/at/all", {});
   EXPECT_THROW(output.write({mesh, tearing, models}, 0., linear_state(mesh)), std::runtime_error);
 }
 } // namespace

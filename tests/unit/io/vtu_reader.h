@@ -39,16 +39,19 @@ inline std::vector<float> decode_vtu_array(std::string text)
   text.erase(std::remove_if(text.begin(), text.end(), blank), text.end());
   if (text.empty())
     return {};
-  const auto    head = dealii::Utilities::decode_base64(text.substr(0, 24));
+  const auto head = dealii::Utilities::decode_base64(text.substr(0, 24));
+  if (head.size() < 16)
+    return {}; // no block
   std::uint32_t header[4];
   std::memcpy(header, head.data(), sizeof(header));
-  const auto         block = dealii::Utilities::decode_base64(text.substr(24));
-  std::vector<float> values(header[1] / sizeof(float));
-  uLongf             size = header[1];
+  const auto         block  = dealii::Utilities::decode_base64(text.substr(24));
+  const auto         length = header[2] > 0 ? header[2] : header[1]; // of the only block
+  std::vector<float> values(length / sizeof(float));
+  uLongf             size = length;
   if (header[0] != 1 ||
       uncompress(reinterpret_cast<Bytef *>(values.data()), &size, block.data(), header[3]) !=
         Z_OK ||
-      size != header[1])
+      size != length)
     throw std::runtime_error("damaged VTU array");
   return values;
 }

@@ -1,0 +1,29 @@
+#ifndef snug_scene_output_parameters_h
+#define snug_scene_output_parameters_h
+
+#include <string>
+#include <vector>
+
+namespace snug {
+class Entries;
+class SectionCheck;
+} // namespace snug
+
+namespace snug::scene {
+/// Entries of `subsection Output`.
+struct OutputParameters
+{
+  /// besides displacement and body
+  std::vector<std::string> fields      = {"stress",    "von_mises",           "region",
+                                          "subdomain", "design_displacement", "shape_gradient",
+                                          "error"};
+  unsigned int             compression = 1; ///< level of zlib
+
+  bool has(const std::string &field) const;
+
+  void declare(Entries &entries);
+  void check(const SectionCheck &section) const;
+};
+} // namespace snug::scene
+
+#endif

@@ -1,0 +1,29 @@
+#include <snug/base/entries.h>
+#include <snug/base/section_check.h>
+#include <snug/scene/output_parameters.h>
+
+#include <algorithm>
+
+namespace snug::scene {
+bool OutputParameters::has(const std::string &field) const
+{
+  return std::find(fields.begin(), fields.end(), field) != fields.end();
+}
+
+void OutputParameters::declare(Entries &entries)
+{
+  entries.add("Fields", fields,
+              "What solution.pvd shows of the bodies besides displacement and body: any of these. "
+              "Those that are left out take neither time nor room.");
+  entries.add("Compression", compression, between(0., 9.),
+              "Of *.vtu: 0: none; 1: fast; 9: smallest.");
+}
+
+void OutputParameters::check(const SectionCheck &section) const
+{
+  const OutputParameters all;
+  for (const auto &field : fields)
+    section.require(all.has(field), "Fields", to_text(fields),
+                    "must name fields among " + to_text(all.fields));
+}
+} // namespace snug::scene
