@@ -37,12 +37,34 @@ def unlike_meshes(result, _):
 
 
 def unlike_rings(result, _):
-    """prm/shrink-fit.prm: the error of the energy, p times the interference times half of
-    the circumference, in which the mismatch of both polygons is the largest part."""
+    """prm/shrink-fit.prm: the errors of the energy, p times the interference times half of
+    the circumference, in which the mismatch of both polygons is the largest part, and of
+    the force."""
     (_, _, pressure), _ = known_answers.lame("plane stress")(result, None)
-    error = abs(pressure * .002 * 2 * math.pi - result.state["energy"])
+    right = {"potential energy": pressure * .002 * 2 * math.pi,
+             "force": pressure * 4 * math.pi}
+    found = {"potential energy": result.state["energy"], **result.state["responses"]}
+    estimates = result.state["accuracy"]["responses"]
+    return [(f"estimate over error, {name}", estimates[name] / abs(right[name] - found[name]), 1.)
+            for name in right]
+
+
+def round_solids(result, _):
+    """tests/scenes/lame-sphere.prm: of the energies, half of the pressures times the
+    interferences times an eighth of the sphere."""
+    cavity, shell = known_answers.lame_spheres()
+    right = (cavity * .002**2 + shell * .001**2) * math.pi / 4
+    error = abs(right - result.state["energy"])
     estimate = result.state["accuracy"]["responses"]["potential energy"]
     return [("estimate over error", estimate / error, 1.)]
+
+
+def pressed_ball(result, _):
+    """Half of pressure times strain times the volume, and nothing strained unevenly: what
+    the mesh lacks is volume."""
+    right = -.5 * 3 * (1 - 2 * .3) / 1000 * math.pi / 6
+    estimate = result.state["accuracy"]["responses"]["potential energy"]
+    return [("estimate over error", estimate / abs(right - result.state["energy"]), 1.)]
 
 
 def on_fine_faces(design):
@@ -97,6 +119,16 @@ CHECKS = [
     Check("edge-2d", ["Shape/Bounds=-1e-6, 1e-6"], no_gain, 1e-12),
     *(Check("../../prm/shrink-fit", ["Accuracy/Estimate=responses",
                                      f"Body inner/Cells={inner}, 6",
-                                     f"Body outer/Cells={outer}, 6"], unlike_rings, .05)
+                                     f"Body outer/Cells={outer}, 6",
+                                     "Responses=force",
+                                     "Response force/Quantity=contact force"],
+            unlike_rings, .05)
       for inner, outer in ((32, 40), (40, 32), (32, 32))),
+    *(Check("pressed-ball", settings, pressed_ball, .01)
+      for settings in ([], ["Body ball/Cells=7"],
+                       ["Element degree=2", "Solver/Relative tolerance=1e-9"])),
+    *(Check("lame-sphere", ["Accuracy/Estimate=responses", *settings], round_solids, .25)
+      for settings in ([], ["Element degree=2", "Solver/Relative tolerance=1e-9",
+                            "Body ball/Cells=4", "Body shell/Cells=4, 4"],
+                       ["Body pearl/Cells=6", "Body ball/Cells=4", "Body shell/Cells=4, 3"])),
 ]

@@ -86,6 +86,14 @@ def gmsh_pin(result, _):
                        lambda p: math.hypot(p["x"], p["y"]))
 
 
+def lame_spheres():
+    """Of a ball in a rigid cavity and in a shell, the pressures over the interference; all
+    radii are 1, the shell's outer one is 2."""
+    E, nu = 1000, .3
+    shell = ((1 - 2 * nu) + (1 + nu) * 2**3 / 2) / (E * (2**3 - 1))
+    return E / (1 - 2 * nu), 1 / ((1 - 2 * nu) / E + shell)
+
+
 def lame(model):
     """Pressure of an interference 0.002 at radius 2 between rings from 1 to 2
     and 2 to 3."""

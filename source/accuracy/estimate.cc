@@ -1,6 +1,7 @@
 #include <snug/accuracy/estimate.h>
 #include <snug/accuracy/gap_residual.h>
 #include <snug/accuracy/local_errors.h>
+#include <snug/accuracy/surface_layer.h>
 #include <snug/mesh/shared_nodes.h>
 #include <snug/sensitivity/methods.h>
 #include <snug/state/contact_results.h>
@@ -25,6 +26,17 @@ const double adjoint_tolerance = 1e-4;
 double pressure(const double force, const double area)
 {
   return area > 0. ? force / area : 0.;
+}
+
+/// u + factor v
+template <int dim>
+std::vector<dealii::Tensor<1, dim>> sum(std::vector<dealii::Tensor<1, dim>>        u,
+                                        const double                               factor,
+                                        const std::vector<dealii::Tensor<1, dim>> &v)
+{
+  for (unsigned int node = 0; node < u.size(); ++node)
+    u[node] += factor * v[node];
+  return u;
 }
 
 template <int dim>
@@ -57,9 +69,9 @@ public:
   {
     LoadedDisplacement<dim> z;
     z.displacement =
-      mesh::owners_values(solver.mesh(), state::nodal_values(solver, solution.primal, column[j]));
-    for (unsigned int node = 0; node < z.displacement.size(); ++node)
-      z.displacement[node] -= derivative.stiffness * u.displacement[node];
+      sum(mesh::owners_values(solver.mesh(),
+                              state::nodal_values(solver, solution.primal, column[j])),
+          -derivative.stiffness, u.displacement);
     const auto forces = solver.gluing().gather_contact(solution.dual.column(column[j]));
     for (unsigned int i = 0; i < forces.size(); ++i)
       {
@@ -130,7 +142,9 @@ ResponseEstimate response_estimate(const std::vector<double> &cells,
 } // namespace
 
 /// The adjoint of the energy is the state itself, with the opposite sign: no local problem of its
-/// own.
+/// own. Pressures of rows are of second order, which at degree 2 is less than displacements have:
+/// there products of errors are as large as what rows do more than pressures, which is left out,
+/// and the size of the reading is all that is known of it.
 template <int dim>
 Estimates estimate(const state::StateSolver<dim>                      &solver,
                    const state::ContactState<dim>                     &state,
@@ -156,18 +170,26 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
   if (responses.empty())
     return result;
   const GapResidual<dim> gaps(solver, state);
+  const auto             layer = SurfaceLayer<dim>(solver, state).works(all);
   for (unsigned int j = 0; j < n; ++j)
     {
       const bool          is_geometry = !responses[j]->needs_solution();
       const double        sign        = is_geometry ? 0. : responses[j]->stationary() ? -1. : 1.;
-      std::vector<double> cells, contact = gaps.integral(all[place[j]].pressures);
-      for (const auto &of_cell : products)
-        cells.push_back(sign * of_cell[place[j]] + derivatives[j].stiffness / 2. * of_cell[0]);
+      const double        s           = derivatives[j].stiffness;
+      const auto         &z           = all[place[j]];
+      std::vector<double> cells, contact = gaps.integral(z.pressures);
+      for (unsigned int cell = 0; cell < products.size(); ++cell)
+        cells.push_back(sign * (products[cell][place[j]] - layer[cell][place[j]]) +
+                        s / 2. * (products[cell][0] - layer[cell][0]));
       for (double &of_cell : contact)
         of_cell *= sign;
-      result.responses.push_back(response_estimate(cells, contact, solver.mesh().communicator()));
+      auto       one       = response_estimate(cells, contact, solver.mesh().communicator());
+      const bool is_linear = solver.mesh().degree() == 1;
+      if (is_linear && place[j] > 0)
+        one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
       if (const auto read = responses[j]->measured(solver, gaps.pressures(all[0].pressures)))
-        result.responses[j].reading = *read - responses[j]->value(solver, state);
+        (is_linear ? one.contact : one.reading) += *read - responses[j]->value(solver, state);
+      result.responses.push_back(std::move(one));
     }
   return result;
 }

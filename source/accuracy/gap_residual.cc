@@ -29,27 +29,26 @@ dealii::Tensor<1, dim> sum(const std::vector<std::pair<unsigned int, double>> &w
 template <int dim>
 GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                               const state::ContactState<dim> &state)
-  : solver(solver)
+  : solver(solver), positions(solver.surface().gather(state.positions))
 {
   const auto                   &mesh    = solver.mesh();
   const auto                   &surface = solver.surface();
   const auto                   &contact = solver.contact();
   const auto                    held    = solver.held().directions(surface, state.positions);
-  const auto                    x       = surface.gather(state.positions);
   const auto                    u       = surface.gather(state.displacement);
   const auto                    here    = mesh::owners_values(mesh, state.positions);
   const faces::FaceShape<dim>   shape(mesh.degree());
   const dealii::QGauss<dim - 1> gauss(n_gauss);
   for (unsigned int p = 0; p < contact.pairs().size(); ++p)
     {
-      const auto gaps = contact.point_gaps(p, x, held);
+      const auto gaps = contact.point_gaps(p, positions, held);
       for (const auto &face : mesh.boundary_faces())
         if (contact::Pair::Side(face.body, face.boundary) == contact.pairs()[p].slave)
           for (unsigned int q = 0; q < gauss.size(); ++q)
             {
               const auto             values     = shape.at(gauss.point(q));
               const auto             on_surface = shape.samples_at(gauss.point(q));
-              Point                  point{p, face.cell, {}, 0., 0.};
+              Point                  point{p, face.cell, {}, 0., 0., {}};
               dealii::Tensor<1, dim> place, area_vector;
               for (unsigned int k = 0; k < face.nodes.size(); ++k)
                 {
@@ -70,11 +69,38 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
               if (!gap)
                 continue;
               point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();
-              point.residual =
-                gap->gap - gap->normal * (sum<dim>(point.shape, u) - sum<dim>(gap->masters, u));
+              point.gap  = *gap;
+              point.residual = gap->gap - jump(point, u);
               points.push_back(point);
             }
     }
+}
+
+/// n . [v]
+template <int dim>
+double GapResidual<dim>::jump(const Point &point, const typename mesh::Surface<dim>::Field &v) const
+{
+  return point.gap.normal * (sum<dim>(point.shape, v) - sum<dim>(point.gap.masters, v));
+}
+
+template <int dim>
+double GapResidual<dim>::excess_work(const std::vector<state::ContactPoint>    &rows,
+                                     const typename mesh::BodyMesh<dim>::Field &v) const
+{
+  const auto          on_surface = solver.surface().gather(v);
+  std::vector<double> pressures;
+  for (const auto &row : rows)
+    pressures.push_back(row.pressure);
+  const auto p    = values(pressures);
+  double     work = 0.;
+  for (unsigned int i = 0; i < points.size(); ++i)
+    work += p[i] * jump(points[i], on_surface) * points[i].area;
+  work                    = -dealii::Utilities::MPI::sum(work, solver.mesh().communicator());
+  const auto coefficients = solver.contact().rows(positions);
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    for (const auto &[node, c] : coefficients[i].coefficients)
+      work += rows[i].force * (c * on_surface[node]);
+  return work;
 }
 
 /// Of the pair at each point.

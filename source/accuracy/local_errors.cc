@@ -10,15 +10,12 @@ LocalErrors<dim>::LocalErrors(const state::StateSolver<dim>  &solver,
   : solver(solver)
   , state(state)
   , mesh(solver.mesh())
-  , positions(mesh::owners_values(mesh, state.positions))
-  , displacement(mesh::owners_values(mesh, state.displacement))
+  , fields(solver, state)
+  , applied(solver, state)
   , held(mesh.cells().size())
 {
   for (const auto &body : solver.model().bodies)
-    {
-      elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
-      spaces.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
-    }
+    spaces.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
   const auto gauss = mesh::lagrange_gauss_points<dim - 1>(mesh.degree() + 1);
   for (unsigned int face = 0; face < 2 * dim; ++face)
     {
@@ -43,10 +40,10 @@ LocalErrors<dim>::LocalErrors(const state::StateSolver<dim>  &solver,
 
 /// Bodies share functions, whatever their material.
 template <int dim>
-typename LocalErrors<dim>::FacePoints
+typename LocalErrors<dim>::FaceShapes
 LocalErrors<dim>::points(const std::vector<dealii::Point<dim>> &at) const
 {
-  FacePoints result;
+  FaceShapes result;
   for (const auto &point : at)
     {
       result.shapes.push_back(mesh::lagrange_point<dim>(mesh.degree(), point));
@@ -60,23 +57,6 @@ std::vector<unsigned char> LocalErrors<dim>::placing(const mesh::InteriorFace<di
 {
   std::vector<unsigned char> result = {face.face, face.child, face.origin};
   result.insert(result.end(), face.axes.begin(), face.axes.end());
-  return result;
-}
-
-template <int dim>
-const elasticity::Material &
-LocalErrors<dim>::material(const typename mesh::BodyMesh<dim>::Cell &cell) const
-{
-  return solver.model().bodies[cell.body].material(cell);
-}
-
-template <int dim>
-typename LocalErrors<dim>::Nodes LocalErrors<dim>::at_cell(const unsigned int cell,
-                                                           const Field       &field) const
-{
-  Nodes result;
-  for (const unsigned int node : mesh.known_cell(cell).nodes)
-    result.push_back(field[node]);
   return result;
 }
 
@@ -99,7 +79,7 @@ void LocalErrors<dim>::find_held()
   for (const auto &face : mesh.boundary_faces())
     {
       auto      &directions = held[face.cell][face.number];
-      const auto X          = at_cell(face.cell, positions);
+      const auto X          = fields.positions(face.cell);
       const auto hold       = [&](dealii::Tensor<1, dim> v) {
         for (const auto &other : directions)
           v -= (v * other) * other;
@@ -119,51 +99,24 @@ void LocalErrors<dim>::find_held()
           }
       bool on_axis = mesh.idealization().is_axisymmetric();
       for (const unsigned int node : face.nodes)
-        on_axis = on_axis && positions[node][0] == 0.;
+        on_axis = on_axis && fields.local_positions[node][0] == 0.;
       if (on_axis)
         hold(dealii::Point<dim>::unit_vector(0));
     }
 }
 
-/// Of the displacement, less what acts as one: the flux that is continuous between cells.
-template <int dim>
-std::vector<dealii::SymmetricTensor<2, 3>>
-LocalErrors<dim>::stresses(const unsigned int                           cell,
-                           const Loaded                                &of,
-                           const std::vector<mesh::LagrangePoint<dim>> &at) const
-{
-  const auto &the_cell  = mesh.known_cell(cell);
-  const auto &element   = elements[the_cell.body];
-  const auto &substance = material(the_cell);
-  const auto  X         = at_cell(cell, positions);
-  auto        result    = element.stresses(X, substance, at_cell(cell, of.displacement), at);
-  if (of.more && of.more->stress &&
-      (of.more->body.empty() || solver.model().body_names[the_cell.body] == of.more->body))
-    {
-      const auto sigma = element.stresses(X, substance, at_cell(cell, displacement), at);
-      for (unsigned int q = 0; q < at.size(); ++q)
-        result[q] -= of.more->stress(substance, sigma[q]);
-    }
-  return result;
-}
-
+/// At the points of the quadrature; empty: none.
 template <int dim>
 typename LocalErrors<dim>::Nodes LocalErrors<dim>::body_forces(const unsigned int cell,
-                                                               const double       factor) const
+                                                               const Loaded      &of) const
 {
   const auto &the_cell = mesh.cells()[cell];
-  const auto &loads    = solver.model().load_cases[state.load_case].bodies[the_cell.body];
   Nodes       b;
-  if (factor == 0. || !(loads.body_force || loads.gravity.norm() > 0.))
+  if (!applied.act_in(the_cell, of))
     return b;
-  const auto reference = at_cell(cell, mesh.reference_positions());
+  const auto reference = fields.at_cell(cell, mesh.reference_positions());
   for (const auto &shape : spaces[the_cell.body].quadrature)
-    {
-      b.push_back(factor * material(the_cell).density * loads.gravity);
-      if (loads.body_force)
-        b.back() +=
-          factor * loads.body_force(dealii::Point<dim>(elasticity::value(shape, reference)));
-    }
+    b.push_back(applied.by_volume(the_cell, elasticity::value(shape, reference), of));
   return b;
 }
 
@@ -176,17 +129,13 @@ void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual
     {
       const auto &at           = face_points[face.face];
       const auto &at_neighbour = beyond.at(placing(face));
-      const auto  X            = at_cell(face.cell, positions);
-      const auto  here         = stresses(face.cell, of, at.shapes);
-      const auto  there        = stresses(face.neighbour, of, at_neighbour.shapes);
+      const auto  X            = fields.positions(face.cell);
+      const auto  here         = fields.fluxes(face.cell, of, at.shapes);
+      const auto  there        = fields.fluxes(face.neighbour, of, at_neighbour.shapes);
       for (unsigned int q = 0; q < here.size(); ++q)
         {
-          const auto             area = area_vector(at.shapes[q], face.face, X);
-          const auto             mean = 0.5 * (here[q] + there[q]);
-          dealii::Tensor<1, dim> force;
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              force[c] += mean[c][d] * area[d];
+          const auto force =
+            traction<dim>(0.5 * (here[q] + there[q]), area_vector(at.shapes[q], face.face, X));
           if (face.cell < n_owned)
             elasticity::add_force<dim>(at.functions[q], force, r[face.cell]);
           if (face.neighbour < n_owned)
@@ -198,37 +147,24 @@ void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual
 template <int dim>
 void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) const
 {
-  const auto &bodies    = solver.model().load_cases[state.load_case].bodies;
-  const auto  tractions = solver.resultants().tractions(state.positions);
   for (const auto &face : mesh.boundary_faces())
-    {
-      const std::pair<unsigned int, unsigned int> boundary(face.body, face.boundary);
-      const auto found     = bodies[face.body].boundaries.find(face.boundary);
-      const auto linear    = tractions[state.load_case].find(boundary);
-      const bool is_loaded = of.loads != 0. && found != bodies[face.body].boundaries.end();
-      const bool has_more  = of.more && of.more->traction && of.more->boundary == boundary;
-      if (!is_loaded && !has_more)
-        continue;
-      const auto  X         = at_cell(face.cell, positions);
-      const auto  reference = at_cell(face.cell, mesh.reference_positions());
-      const auto &on_face   = face_points[face.number];
-      for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
-        {
-          const auto            &shape = on_face.shapes[q];
-          const auto             area  = area_vector(shape, face.number, X);
-          const auto             at    = dealii::Point<dim>(elasticity::value(shape, reference));
-          dealii::Tensor<1, dim> force;
-          if (is_loaded && found->second.pressure)
-            force -= of.loads * found->second.pressure(at) * area;
-          if (is_loaded && found->second.traction)
-            force += of.loads * area.norm() * found->second.traction(at);
-          if (is_loaded && linear != tractions[state.load_case].end())
-            force += of.loads * area.norm() * linear->second.value(elasticity::value(shape, X));
-          if (has_more)
-            force += area.norm() * of.more->traction(area / area.norm());
-          elasticity::add_force<dim>(on_face.functions[q], force, r[face.cell]);
-        }
-    }
+    if (applied.act_on(face, of))
+      {
+        const auto  X         = fields.positions(face.cell);
+        const auto  reference = fields.at_cell(face.cell, mesh.reference_positions());
+        const auto &on_face   = face_points[face.number];
+        for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
+          {
+            const auto          &shape = on_face.shapes[q];
+            const FacePoint<dim> point{elasticity::value(shape, reference),
+                                       elasticity::value(shape, X),
+                                       area_vector(shape, face.number, X)};
+            elasticity::add_force<dim>(on_face.functions[q],
+                                       applied.by_area(face, point, of) +
+                                         applied.spread(face, point, of),
+                                       r[face.cell]);
+          }
+      }
 }
 
 template <int dim>
@@ -239,7 +175,7 @@ void LocalErrors<dim>::add_contact(const std::vector<double> &pressures,
   for (const auto &face : mesh.boundary_faces())
     if (contact.is_on(face))
       {
-        const auto  X       = at_cell(face.cell, positions);
+        const auto  X       = fields.positions(face.cell);
         const auto &on_face = face_points[face.number];
         for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
           {
@@ -280,15 +216,15 @@ LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
     {
       const auto &the_cell = mesh.cells()[cell];
       const auto &space    = spaces[the_cell.body];
-      const auto  X        = at_cell(cell, positions);
-      if (!problem || !problem->fits(space, X, material(the_cell), held[cell]))
-        problem =
-          std::make_unique<elasticity::LocalError<dim>>(space, X, material(the_cell), held[cell]);
+      const auto  X        = fields.positions(cell);
+      if (!problem || !problem->fits(space, X, fields.material(cell), held[cell]))
+        problem = std::make_unique<elasticity::LocalError<dim>>(space, X, fields.material(cell),
+                                                                held[cell]);
       std::vector<Residual> errors;
       for (unsigned int i = 0; i < n; ++i)
         {
-          problem->add_residual(stresses(cell, of[i], space.quadrature),
-                                body_forces(cell, of[i].loads), residuals[i][cell]);
+          problem->add_residual(fields.fluxes(cell, of[i], space.quadrature),
+                                body_forces(cell, of[i]), residuals[i][cell]);
           errors.push_back(residuals[i][cell]);
           problem->solve(errors.back());
         }

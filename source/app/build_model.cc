@@ -69,7 +69,8 @@ std::vector<std::string> held_along_normals(const scene::Scene &scene)
 }
 } // namespace
 
-/// True surfaces are asked for where contact, normal supports and shaped faces are.
+/// True surfaces are asked for where contact, normal supports and shaped faces are, and by
+/// estimates for responses.
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene)
 {
   auto faces = held_along_normals(scene);
@@ -86,6 +87,8 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
     {
       parameters.push_back(body.mesh);
       parameters.back().is_designed = is_designed;
+      parameters.back().samples_all_curved =
+        scene.accuracy.estimate == accuracy::Estimate::responses || !scene.accuracy.targets.empty();
       for (const auto &face : faces)
         if (face.rfind(body.name + ".", 0) == 0)
           parameters.back().sampled_boundaries.push_back(face.substr(body.name.size() + 1));

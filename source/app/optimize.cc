@@ -19,6 +19,10 @@ constexpr std::array<double, 3> phases{{8., 3., 1.}};
 /// If the meshes made for the designs found have not agreed by then, they will not.
 constexpr unsigned int most_searches = 8;
 
+/// Designs of which no mesh is good enough: a search on the mesh that failed leaves them, where
+/// others are better.
+constexpr unsigned int most_failures = 3;
+
 /// A search need not see changes of the objective below this part of its error.
 constexpr double part_of_error = 0.3;
 
@@ -55,11 +59,12 @@ private:
   std::unique_ptr<Books<dim>>   books;
   OptimizationResult            result;
   accuracy::Measured            initial;
-  Cells                         cells;              ///< of the last mesh
-  bool                          has_failed = false; ///< no mesh met the last targets
+  Cells                         cells;          ///< of the last mesh
+  unsigned int                  n_failures = 0; ///< how often no mesh met the targets
 
   unsigned int most_evaluations() const { return scene.optimization.maximum_evaluations; }
   void         begin();
+  bool         says_the_same(Adaptation<dim> &adaptation) const;
   Stage        adapt(unsigned int n_searches);
   void         search_from_last(Search<dim> &search, double tolerance);
   void         add_meshes(io::Summary::Adaptation of, bool at_targets);
@@ -87,6 +92,17 @@ void TargetedSearch<dim>::begin()
   books    = std::make_unique<Books<dim>>(*results, problem, scene, restart);
 }
 
+/// The mesh that the search was on with cells added for matching alone meets the targets at once,
+/// and changes the objective by less than its error.
+template <int dim>
+bool TargetedSearch<dim>::says_the_same(Adaptation<dim> &adaptation) const
+{
+  const auto objective = adaptation.objective();
+  return adaptation.summary.met && adaptation.summary.meshes.size() == 1 &&
+         std::isfinite(objective.error) &&
+         std::abs(objective.value - result.objective_final) <= objective.error;
+}
+
 /// A mesh for the last design found. Of the first phases each begins with the scene's own mesh:
 /// cells refined for other designs are of no use; then cells are only added, to come to an end.
 /// What a mesh is too coarse to see its estimates miss as well: the last one has to be verified.
@@ -101,7 +117,7 @@ typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned in
   auto adaptation =
     std::make_unique<Adaptation<dim>>(context, scene, result.x, is_tuned ? cells : Cells());
   auto complaint = adaptation->reach(factor);
-  bool agrees    = is_tuned && adaptation->cells() == cells;
+  bool agrees    = is_tuned && (adaptation->cells() == cells || says_the_same(*adaptation));
   if (complaint.empty() && (is_over || agrees))
     complaint = adaptation->verify();
   add_meshes(adaptation->summary, factor == 1.);
@@ -118,10 +134,9 @@ typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned in
   if (complaint.empty() && n_searches == most_searches && !agrees)
     complaint = "the meshes made for the designs found still differ after " +
                 std::to_string(most_searches) + " searches; ask for less";
-  // a search may leave a design of which no mesh is good enough
+  n_failures += !complaint.empty();
   const bool is_last =
-    is_over || agrees || n_searches == most_searches || (has_failed && !complaint.empty());
-  has_failed           = !complaint.empty();
+    is_over || agrees || n_searches == most_searches || n_failures == most_failures;
   const auto objective = adaptation->objective();
   // what is of the geometry alone has no error
   const double tolerance = std::isfinite(objective.error) && objective.value != 0.

@@ -217,10 +217,12 @@ void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParamete
       for (const unsigned int f : cell->face_indices())
         if (cell->at_boundary(f))
           {
-            const auto &geometry = *geometries[face->body];
-            const auto &wanted   = bodies[face->body].sampled_boundaries;
-            const auto &name     = geometry.boundary_names()[face->boundary];
-            if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+            const auto &geometry  = *geometries[face->body];
+            const auto &body      = bodies[face->body];
+            const auto &wanted    = body.sampled_boundaries;
+            const auto &name      = geometry.boundary_names()[face->boundary];
+            const bool  is_wanted = std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+            if (is_wanted || body.samples_all_curved)
               {
                 const unsigned int first = reference.size();
                 for (const unsigned int i : oriented_face_nodes<dim>(all, surface_degree, f))
@@ -230,7 +232,7 @@ void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParamete
                     reference.push_back(geometry.position(point));
                     logical.push_back(geometry.logical(point));
                   }
-                if (!bodies[face->body].is_designed && is_flat(*face))
+                if (!(is_wanted && body.is_designed) && is_flat(*face))
                   {
                     face->samples.clear();
                     reference.resize(first);

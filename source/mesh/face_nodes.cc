@@ -35,6 +35,24 @@ std::vector<unsigned int> oriented_face_nodes(const std::vector<unsigned int> &c
   return nodes;
 }
 
+/// By the same tangents.
+template <int dim>
+dealii::Point<dim> point_on_face(const unsigned int face, const dealii::Point<dim - 1> &xi)
+{
+  const unsigned int normal = face / 2;
+  const bool         upper  = face % 2 == 1;
+  dealii::Point<dim> point;
+  point[normal] = upper ? 1. : 0.;
+  if constexpr (dim == 2)
+    point[1 - normal] = (normal == 0) != upper ? 1. - xi[0] : xi[0];
+  else
+    for (unsigned int i = 0; i < 2; ++i)
+      point[(normal + 1 + (upper ? i : 1 - i)) % 3] = xi[i];
+  return point;
+}
+
+template dealii::Point<2> point_on_face<2>(unsigned int, const dealii::Point<1> &);
+template dealii::Point<3> point_on_face<3>(unsigned int, const dealii::Point<2> &);
 template std::vector<unsigned int>
 oriented_face_nodes<2>(const std::vector<unsigned int> &, unsigned int, unsigned int);
 template std::vector<unsigned int>

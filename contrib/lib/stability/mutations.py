@@ -126,6 +126,8 @@ def make(number, directory):
     path.write_text(text(number))
     return [str(path), f"--output={directory / 'output'}",
             "--set=Optimization/Maximum evaluations=2",
+            # Targets that no mesh meets are not hangs.
+            "--set=Accuracy/Maximum unknowns=10000",
             *(["--validate"] if original_of(number).parent == LARGE else [])]
 
 

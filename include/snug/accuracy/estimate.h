@@ -17,19 +17,21 @@ struct EnergyEstimate
 };
 
 /**
- * How far a response J(u_h) on a mesh is from J(u):
+ * How far a response J(u_h, p_h) on a mesh is from J(u, p):
  * @f[ J - J_h \approx \sum_K \bigl(a_K(e_u, e_z) + \tfrac s2 a_K(e_u, e_u)\bigr)
- *     + \int q_\eta\,(g - n\cdot[u_h])\,dA, @f]
- * e_u and e_z the local errors of the state and of its adjoint, q_eta the adjoint's contact forces
- * by area, and s the stiffness of FieldDerivative.
+ *     - B(u_h, z) - \tfrac s2 B(u_h, u_h)
+ *     + \int q_\eta\,(g - n\cdot[u_h])\,dA
+ *     + \lambda\cdot c(z + s u_h) - \int p_h\,n\cdot[z + s u_h]\,dA + J(p_h) - J_h, @f]
+ * e_u and e_z the local errors of the state and of its adjoint less s u_h, B of SurfaceLayer,
+ * q_eta the adjoint's contact forces by area, c the contact rows, and s the stiffness of
+ * FieldDerivative. The last difference is that of pressures between nodes and those that J reads:
+ * at degree 2 its size, and not what is before it.
  */
 struct ResponseEstimate
 {
-  double cells   = 0.; ///< the sum over cells, signed
-  double contact = 0.; ///< the integral, signed
-  /// what the response itself misses of the pressures it reads: those at Gauss points less those
-  /// at nodes, signed
-  double reading = 0.;
+  double cells   = 0.; ///< the sum over cells, less what lies beyond their faces, signed
+  double contact = 0.; ///< the integrals, the sum over rows and the last difference, signed
+  double reading = 0.; ///< the last difference, where it is not in contact
   /// Of this rank's cells: sizes of their parts in both.
   std::vector<double> indicators;
 

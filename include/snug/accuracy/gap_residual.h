@@ -22,6 +22,13 @@ public:
   /// slave faces. Points beyond the end of the master side do not count.
   std::vector<double> integral(const std::vector<double> &of_rows) const;
 
+  /// What the forces of the rows do on a displacement @p v of the local nodes, less what
+  /// their pressures do between the rows, too:
+  ///   sum_i force_i c_i . v - int p n . [v] dA  [force length],
+  /// c_i the coefficients of row i. Equal on all ranks. Collective.
+  double excess_work(const std::vector<state::ContactPoint>    &rows,
+                     const typename mesh::BodyMesh<dim>::Field &v) const;
+
   /// q dA and dA at all points, pair by pair, on all ranks. Collective.
   std::vector<response::PressureRows> pressures(const std::vector<double> &of_rows) const;
 
@@ -36,11 +43,14 @@ private:
     std::vector<std::pair<unsigned int, double>> shape; ///< surface nodes, values
     double                                       area;  ///< of the true surface [length^2]
     double                                       residual;
+    contact::PointGap<dim>                       gap;
   };
 
-  const state::StateSolver<dim> &solver;
-  std::vector<Point>             points;
+  const state::StateSolver<dim>     &solver;
+  typename mesh::Surface<dim>::Field positions; ///< of the surface
+  std::vector<Point>                 points;
 
+  double              jump(const Point &point, const typename mesh::Surface<dim>::Field &v) const;
   std::vector<double> values(const std::vector<double> &of_rows) const;
 };
 } // namespace snug::accuracy

@@ -117,6 +117,8 @@ struct BodyMeshParameters
   /// whether designs may curve those that are flat: not entries.
   std::vector<std::string> sampled_boundaries;
   bool                     is_designed = false;
+  /// Whether the true surface is asked for wherever it is curved: not an entry.
+  bool samples_all_curved = false;
 
   unsigned int refinements = 0;
   /// cells are refined where this formula of x, y, z is positive

@@ -1,3 +1,5 @@
+#include <snug/mesh/face_nodes.h>
+#include <snug/mesh/lagrange.h>
 #include <snug/mesh/surface.h>
 
 #include <deal.II/base/mpi.h>
@@ -5,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 using namespace snug;
 
@@ -156,4 +159,27 @@ TEST(Surface, GatherAndAddOwnedMoveEachNodeOnce)
   for (const auto &value : gathered)
     expected += value[1];
   EXPECT_EQ(dealii::Utilities::MPI::sum(total, MPI_COMM_WORLD), expected);
+}
+
+/// The tangents of both are the same.
+template <int dim>
+void expect_points_at_the_nodes()
+{
+  const unsigned int        p       = 2;
+  const auto                lattice = mesh::lagrange_nodes<dim>(p);
+  std::vector<unsigned int> all(lattice.size());
+  std::iota(all.begin(), all.end(), 0u);
+  for (unsigned int face = 0; face < 2 * dim; ++face)
+    {
+      const auto nodes    = mesh::oriented_face_nodes<dim>(all, p, face);
+      const auto on_faces = mesh::lagrange_nodes<dim - 1>(p);
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        EXPECT_EQ(mesh::point_on_face<dim>(face, on_faces[k].point), lattice[nodes[k]].point);
+    }
+}
+
+TEST(PointOnFace, IsWhereTheOrientedNodesAre)
+{
+  expect_points_at_the_nodes<2>();
+  expect_points_at_the_nodes<3>();
 }

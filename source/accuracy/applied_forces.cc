@@ -1,0 +1,79 @@
+#include <snug/accuracy/applied_forces.h>
+
+namespace snug::accuracy {
+template <int dim>
+AppliedForces<dim>::AppliedForces(const state::StateSolver<dim>  &solver,
+                                  const state::ContactState<dim> &state)
+  : model(solver.model())
+  , bodies(solver.model().load_cases[state.load_case].bodies)
+  , tractions(solver.resultants().tractions(state.positions)[state.load_case])
+{}
+
+/// Null: none.
+template <int dim>
+const state::BoundaryLoad<dim> *AppliedForces<dim>::load(const Face &face) const
+{
+  const auto &boundaries = bodies[face.body].boundaries;
+  const auto  found      = boundaries.find(face.boundary);
+  return found == boundaries.end() ? nullptr : &found->second;
+}
+
+template <int dim>
+bool AppliedForces<dim>::act_on(const Face &face, const LoadedDisplacement<dim> &of) const
+{
+  const bool has_more =
+    of.more && of.more->traction && of.more->boundary == std::make_pair(face.body, face.boundary);
+  return has_more || (of.loads != 0. && load(face));
+}
+
+template <int dim>
+dealii::Tensor<1, dim> AppliedForces<dim>::by_area(const Face                    &face,
+                                                   const FacePoint<dim>          &point,
+                                                   const LoadedDisplacement<dim> &of) const
+{
+  const auto                     reference = dealii::Point<dim>(point.reference);
+  const double                   dA        = point.area.norm();
+  const state::BoundaryLoad<dim> none, *here = of.loads != 0. ? load(face) : nullptr;
+  const auto                    &given = here ? *here : none;
+  dealii::Tensor<1, dim>         force;
+  if (given.pressure)
+    force -= of.loads * given.pressure(reference) * point.area;
+  if (given.traction)
+    force += of.loads * dA * given.traction(reference);
+  if (of.more && of.more->traction && of.more->boundary == std::make_pair(face.body, face.boundary))
+    force += dA * of.more->traction(point.area / dA);
+  return force;
+}
+
+template <int dim>
+dealii::Tensor<1, dim> AppliedForces<dim>::spread(const Face                    &face,
+                                                  const FacePoint<dim>          &point,
+                                                  const LoadedDisplacement<dim> &of) const
+{
+  const auto found = tractions.find({face.body, face.boundary});
+  if (of.loads == 0. || found == tractions.end())
+    return {};
+  return of.loads * point.area.norm() * found->second.value(point.position);
+}
+
+template <int dim>
+bool AppliedForces<dim>::act_in(const Cell &cell, const LoadedDisplacement<dim> &of) const
+{
+  return of.loads != 0. && (bodies[cell.body].body_force || bodies[cell.body].gravity.norm() > 0.);
+}
+
+template <int dim>
+dealii::Tensor<1, dim> AppliedForces<dim>::by_volume(const Cell                    &cell,
+                                                     const dealii::Tensor<1, dim>  &reference,
+                                                     const LoadedDisplacement<dim> &of) const
+{
+  const auto            &loads   = bodies[cell.body];
+  dealii::Tensor<1, dim> density = model.bodies[cell.body].material(cell).density * loads.gravity;
+  if (loads.body_force)
+    density += loads.body_force(dealii::Point<dim>(reference));
+  return of.loads * density;
+}
+
+template class AppliedForces<2>;
+template class AppliedForces<3>;
+} // namespace snug::accuracy

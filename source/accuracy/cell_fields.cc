@@ -1,0 +1,60 @@
+#include <snug/accuracy/cell_fields.h>
+#include <snug/mesh/shared_nodes.h>
+
+namespace snug::accuracy {
+template <int dim>
+CellFields<dim>::CellFields(const state::StateSolver<dim>  &solver,
+                            const state::ContactState<dim> &state)
+  : local_positions(mesh::owners_values(solver.mesh(), state.positions))
+  , displacement(mesh::owners_values(solver.mesh(), state.displacement))
+  , solver(solver)
+{
+  for (const auto &body : solver.model().bodies)
+    elements.emplace_back(solver.mesh().degree(), solver.mesh().idealization(), body.formulation);
+}
+
+template <int dim>
+typename CellFields<dim>::Nodes CellFields<dim>::at_cell(const unsigned int cell,
+                                                         const Field       &field) const
+{
+  Nodes result;
+  for (const unsigned int node : solver.mesh().known_cell(cell).nodes)
+    result.push_back(field[node]);
+  return result;
+}
+
+template <int dim>
+const elasticity::Material &CellFields<dim>::material(const unsigned int cell) const
+{
+  const auto &the_cell = solver.mesh().known_cell(cell);
+  return solver.model().bodies[the_cell.body].material(the_cell);
+}
+
+template <int dim>
+std::vector<dealii::SymmetricTensor<2, 3>>
+CellFields<dim>::stresses(const unsigned int cell, const Field &u, const Shapes &at) const
+{
+  return elements[solver.mesh().known_cell(cell).body].stresses(positions(cell), material(cell),
+                                                                at_cell(cell, u), at);
+}
+
+template <int dim>
+std::vector<dealii::SymmetricTensor<2, 3>>
+CellFields<dim>::fluxes(const unsigned int             cell,
+                        const LoadedDisplacement<dim> &of,
+                        const Shapes                  &at) const
+{
+  auto        result = stresses(cell, of.displacement, at);
+  const auto &body   = solver.model().body_names[solver.mesh().known_cell(cell).body];
+  if (of.more && of.more->stress && (of.more->body.empty() || body == of.more->body))
+    {
+      const auto sigma = stresses(cell, displacement, at);
+      for (unsigned int q = 0; q < at.size(); ++q)
+        result[q] -= of.more->stress(material(cell), sigma[q]);
+    }
+  return result;
+}
+
+template class CellFields<2>;
+template class CellFields<3>;
+} // namespace snug::accuracy
