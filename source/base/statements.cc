@@ -89,6 +89,9 @@ public:
     std::string rest;
     if (line.empty())
       return;
+    // Messages, which quote what they are about, would end there.
+    if (line.find('\0') != std::string::npos)
+      throw InputError(place + ": holds a byte that is zero; is it a text file?");
     if (begins_with(line, "subsection", rest) && !rest.empty())
       {
         sections.push_back(tidy(rest));

@@ -51,6 +51,7 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
 
 GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
                                        const Factorization    package,
+                                       FillOrderings         &orderings,
                                        RunContext            &the_context)
   : system(the_system), context(the_context), K_rho(coupled_pattern(the_system))
 {
@@ -59,7 +60,7 @@ GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
   for (unsigned int i = 0; i < system.n_dofs(); ++i)
     for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
       place_of_K.push_back(K_rho.position(i, K.columns[p]));
-  factor = std::make_unique<SparseFactor>(K_rho, package);
+  factor = std::make_unique<SparseFactor>(K_rho, package, &orderings);
   ++context.work.symbolic_factorizations;
 }
 

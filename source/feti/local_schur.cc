@@ -35,8 +35,13 @@ void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::Mul
 LocalSchur::LocalSchur(const SubdomainSystem &the_system,
                        bool                   the_lumped,
                        Factorization          the_package,
+                       FillOrderings         &the_orderings,
                        RunContext            &the_context)
-  : system(the_system), context(the_context), lumped(the_lumped), package(the_package)
+  : system(the_system)
+  , context(the_context)
+  , lumped(the_lumped)
+  , package(the_package)
+  , orderings(the_orderings)
 {}
 
 void LocalSchur::choose_boundary(bool with_fixing_dofs)
@@ -122,7 +127,7 @@ void LocalSchur::factorize(const std::string &what)
         }
       if (!lumped && n_i > 0)
         {
-          factor = std::make_unique<SparseFactor>(ii.matrix, package);
+          factor = std::make_unique<SparseFactor>(ii.matrix, package, &orderings);
           ++context.work.symbolic_factorizations;
         }
     }

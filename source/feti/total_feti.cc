@@ -55,11 +55,11 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
   for (const SubdomainSystem &system : systems)
     {
       inverses.push_back(
-        std::make_unique<GeneralizedInverse>(system, parameters.factorization, run));
+        std::make_unique<GeneralizedInverse>(system, parameters.factorization, orderings, run));
       if (parameters.preconditioner != Preconditioner::none)
         schur.push_back(
           std::make_unique<LocalSchur>(system, parameters.preconditioner == Preconditioner::lumped,
-                                       parameters.factorization, run));
+                                       parameters.factorization, orderings, run));
     }
 }
 

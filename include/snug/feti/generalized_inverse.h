@@ -33,7 +33,10 @@ class GeneralizedInverse
 public:
   /// Symbolic factorization for the pattern of @p system.K, which must
   /// outlive this object. Counts one symbolic factorization.
-  GeneralizedInverse(const SubdomainSystem &system, Factorization package, RunContext &context);
+  GeneralizedInverse(const SubdomainSystem &system,
+                     Factorization          package,
+                     FillOrderings         &orderings,
+                     RunContext            &context);
 
   /// Numeric factorization of the present K and R. Counts one.
   void factorize(const std::string &what);

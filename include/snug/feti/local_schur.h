@@ -18,10 +18,11 @@ namespace snug::feti {
 class LocalSchur
 {
 public:
-  /// @p system must outlive this object.
+  /// @p system and @p orderings must outlive this object.
   LocalSchur(const SubdomainSystem &system,
              bool                   lumped,
              Factorization          package,
+             FillOrderings         &orderings,
              RunContext            &context);
 
   /// For the present K and R.
@@ -50,6 +51,7 @@ private:
   RunContext                   &context;
   const bool                    lumped;
   const Factorization           package;
+  FillOrderings                &orderings;
   bool                          has_fixing_dofs = false;
   unsigned int                  n_b = 0, n_i = 0;
   std::vector<unsigned int>     position_b, position_i;

@@ -4,6 +4,7 @@
 #include <snug/base/petsc_handle.h>
 #include <snug/feti/csr_matrix.h>
 #include <snug/feti/feti_parameters.h>
+#include <snug/feti/fill_orderings.h>
 
 namespace snug::feti {
 /**
@@ -19,8 +20,9 @@ public:
   /**
    * @param[in] matrix referenced, not copied: it must outlive this object
    *   and keep its arrays. Only its pattern is used here.
+   * @param[in] orderings where CHOLMOD takes its order from; null: it tries some of its own.
    */
-  SparseFactor(const CsrMatrix &matrix, Factorization package);
+  SparseFactor(const CsrMatrix &matrix, Factorization package, FillOrderings *orderings = nullptr);
 
   /**
    * Factorize the present values of the matrix.

@@ -131,6 +131,7 @@ private:
   RunContext                                      &run;
   CoarseSpace                                      coarse;
   RowGram                                          gram;
+  FillOrderings                                    orderings;
   std::vector<std::unique_ptr<GeneralizedInverse>> inverses;
   std::vector<std::unique_ptr<LocalSchur>>         schur;
   /// B D^{-1} of each subdomain on the boundary positions of its schur

@@ -46,8 +46,9 @@ double largest(const qp::MultiVector &x)
 class Packages : public ::testing::TestWithParam<feti::Factorization>
 {
 protected:
-  std::ostringstream log;
-  RunContext         context{MPI_COMM_WORLD, log};
+  std::ostringstream  log;
+  RunContext          context{MPI_COMM_WORLD, log};
+  feti::FillOrderings orderings;
 };
 
 TEST_P(Packages, InvertsOnTheRange)
@@ -56,7 +57,7 @@ TEST_P(Packages, InvertsOnTheRange)
     {
       // the kernel is what the geometry says
       EXPECT_LT(largest(times(system.K, system.R)), 1e-12);
-      feti::GeneralizedInverse inverse(system, GetParam(), context);
+      feti::GeneralizedInverse inverse(system, GetParam(), orderings, context);
       inverse.factorize("test");
       const auto      x  = random_columns(system.n_dofs(), 3);
       const auto      Kx = times(system.K, x);
@@ -73,7 +74,7 @@ TEST_P(Packages, InvertsOnTheRange)
 TEST_P(Packages, FollowsNewNumbers)
 {
   auto                     system = examples()[0];
-  feti::GeneralizedInverse inverse(system, GetParam(), context);
+  feti::GeneralizedInverse inverse(system, GetParam(), orderings, context);
   inverse.factorize("test");
   for (double &value : system.K.values)
     value *= 7.;
@@ -99,11 +100,12 @@ TEST(LocalSchur, IsTheSchurComplement)
   for (unsigned int dof = 0; dof < system.n_dofs(); ++dof)
     if (dof % 10 < 2 || dof == 15)
       system.B.push_back({0, dof, 1.});
-  std::ostringstream log;
-  RunContext         context(MPI_COMM_WORLD, log);
+  std::ostringstream  log;
+  RunContext          context(MPI_COMM_WORLD, log);
+  feti::FillOrderings orderings;
   for (const bool lumped : {false, true})
     {
-      feti::LocalSchur schur(system, lumped, feti::Factorization::CHOLMOD, context);
+      feti::LocalSchur schur(system, lumped, feti::Factorization::CHOLMOD, orderings, context);
       schur.factorize("test");
       const auto &position = schur.boundary_position();
       const auto  x        = random_columns(schur.n_boundary(), 2);
@@ -138,15 +140,16 @@ TEST(LocalSchur, IsTheSchurComplement)
 /// Many rows along one axis leave a body free to move along the others.
 TEST(LocalSchur, HoldsWhereRowsLeaveRigidMotions)
 {
-  std::ostringstream log;
-  RunContext         context(MPI_COMM_WORLD, log);
+  std::ostringstream  log;
+  RunContext          context(MPI_COMM_WORLD, log);
+  feti::FillOrderings orderings;
   for (auto &system : examples())
     {
       const unsigned int dim = system.R.n_columns() == 3 ? 2 : 3;
       for (unsigned int dof = dim - 1; dof < system.n_dofs(); dof += dim)
         if (dof < system.n_dofs() / 2)
           system.B.push_back({0, dof, 1.});
-      feti::LocalSchur schur(system, false, feti::Factorization::CHOLMOD, context);
+      feti::LocalSchur schur(system, false, feti::Factorization::CHOLMOD, orderings, context);
       EXPECT_NO_THROW(schur.factorize("the body"));
       EXPECT_GT(schur.n_boundary(), system.B.size());
     }

@@ -110,6 +110,22 @@ TEST(ReadScene, LaterStatementsOfAFileWinAndLineEndsDoNotMatter)
   EXPECT_EQ(printed(read_with({}, windows)), printed(read_with({})));
 }
 
+/// A message that quotes it would end there.
+TEST(ReadScene, RefusesBytesThatAreZero)
+{
+  std::string text = scene_text();
+  text.insert(text.find('=') + 2, 1, '\0');
+  try
+    {
+      read_with({}, text);
+      FAIL();
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("holds a byte that is zero"), std::string::npos);
+    }
+}
+
 TEST(PrintScene, ReadsBackToTheSameScene)
 {
   // Numbers without a short decimal form, and every kind of value.

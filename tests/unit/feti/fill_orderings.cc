@@ -1,0 +1,84 @@
+#include <snug/feti/fill_orderings.h>
+#include <snug/feti/sparse_factor.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace snug;
+
+namespace {
+/// The five-point Laplacian of n x n points, whose rows are numbered backwards if asked for.
+feti::CsrMatrix laplacian(const unsigned int n, const bool backwards = false)
+{
+  const unsigned int                 N = n * n;
+  std::vector<std::vector<PetscInt>> rows(N);
+  const auto                         number = [&](unsigned int i, unsigned int j) {
+    return backwards ? N - 1 - (i * n + j) : i * n + j;
+  };
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        auto &row = rows[number(i, j)];
+        row.push_back(number(i, j));
+        if (i > 0)
+          row.push_back(number(i - 1, j));
+        if (i + 1 < n)
+          row.push_back(number(i + 1, j));
+        if (j > 0)
+          row.push_back(number(i, j - 1));
+        if (j + 1 < n)
+          row.push_back(number(i, j + 1));
+        std::sort(row.begin(), row.end());
+      }
+  auto A = feti::CsrMatrix::from_rows(rows, N);
+  for (unsigned int i = 0; i < N; ++i)
+    for (PetscInt p = A.row_start[i]; p < A.row_start[i + 1]; ++p)
+      A.values[p] = A.columns[p] == PetscInt(i) ? 4.5 : -1.;
+  return A;
+}
+} // namespace
+
+TEST(FillOrderings, AreOnesOfAllRows)
+{
+  feti::FillOrderings orderings;
+  for (const unsigned int n : {1, 2, 13})
+    {
+      auto rows = orderings.of(laplacian(n));
+      std::sort(rows.begin(), rows.end());
+      ASSERT_EQ(rows.size(), n * n);
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        EXPECT_EQ(rows[i], PetscInt(i));
+    }
+  EXPECT_TRUE(orderings.of(feti::CsrMatrix::from_rows({}, 0)).empty());
+}
+
+TEST(FillOrderings, ArePatternsNotMatrices)
+{
+  feti::FillOrderings orderings, others;
+  auto                A     = laplacian(9);
+  const auto         *first = &orderings.of(A);
+  A.values[0]               = 7.;
+  EXPECT_EQ(&orderings.of(A), first);
+  EXPECT_NE(&orderings.of(laplacian(8)), first);
+  // what was asked for before does not matter
+  others.of(laplacian(8));
+  EXPECT_EQ(others.of(A), *first);
+}
+
+TEST(FillOrderings, LeaveTheInverseAsItIs)
+{
+  const auto          A = laplacian(20, true);
+  feti::FillOrderings orderings;
+  feti::SparseFactor  ordered(A, feti::Factorization::CHOLMOD, &orderings),
+    other(A, feti::Factorization::CHOLMOD);
+  qp::MultiVector b(A.n_rows), x(A.n_rows), y(A.n_rows);
+  for (unsigned int i = 0; i < A.n_rows; ++i)
+    b(i) = 1. + i % 5;
+  for (auto *factor : {&ordered, &other})
+    factor->factorize("the Laplacian");
+  ordered.solve(b, x);
+  other.solve(b, y);
+  for (unsigned int i = 0; i < A.n_rows; ++i)
+    EXPECT_NEAR(x(i), y(i), 1e-13 * std::abs(y(i)));
+}
