@@ -43,6 +43,9 @@ struct Demand
   /// Note what came of a mesh, on which it @p is_met or not.
   /// @return what keeps it from ever being met; empty: nothing.
   std::string note(const Measured &measured, bool is_met);
+
+private:
+  bool is_noise() const;
 };
 } // namespace snug::accuracy
 
