@@ -19,11 +19,16 @@ const state::BoundaryLoad<dim> *AppliedForces<dim>::load(const Face &face) const
 }
 
 template <int dim>
+bool AppliedForces<dim>::has_more(const Face &face, const LoadedDisplacement<dim> &of)
+{
+  return of.more && of.more->traction &&
+         of.more->boundary == std::make_pair(face.body, face.boundary);
+}
+
+template <int dim>
 bool AppliedForces<dim>::act_on(const Face &face, const LoadedDisplacement<dim> &of) const
 {
-  const bool has_more =
-    of.more && of.more->traction && of.more->boundary == std::make_pair(face.body, face.boundary);
-  return has_more || (of.loads != 0. && load(face));
+  return has_more(face, of) || (of.loads != 0. && load(face));
 }
 
 template <int dim>
@@ -40,7 +45,7 @@ dealii::Tensor<1, dim> AppliedForces<dim>::by_area(const Face                   
     force -= of.loads * given.pressure(reference) * point.area;
   if (given.traction)
     force += of.loads * dA * given.traction(reference);
-  if (of.more && of.more->traction && of.more->boundary == std::make_pair(face.body, face.boundary))
+  if (has_more(face, of))
     force += dA * of.more->traction(point.area / dA);
   return force;
 }

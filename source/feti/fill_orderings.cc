@@ -1,5 +1,6 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/fill_orderings.h>
+#include <snug/qp/row_set.h>
 
 #include <metis.h>
 
@@ -8,24 +9,15 @@
 
 namespace snug::feti {
 namespace {
-/// Two hashes of the numbers of rows and columns, each a product and a shift per number (Steele,
-/// Lea, Flood, OOPSLA 2014).
+/// Two hashes of the numbers of rows and columns, from two beginnings.
 std::array<std::uint64_t, 2> fingerprint(const CsrMatrix &pattern)
 {
-  std::array<std::uint64_t, 2> sums = {{0x9e3779b97f4a7c15u, 0xc2b2ae3d27d4eb4fu}};
-  const auto                   add  = [&](const std::vector<PetscInt> &numbers) {
-    for (const PetscInt number : numbers)
-      {
-        const auto x = static_cast<std::uint64_t>(number);
-        sums[0]      = (sums[0] ^ x) * 0xbf58476d1ce4e5b9u;
-        sums[0] ^= sums[0] >> 29;
-        sums[1] = (sums[1] ^ x) * 0x94d049bb133111ebu;
-        sums[1] ^= sums[1] >> 31;
-      }
-  };
-  add(pattern.row_start);
-  add(pattern.columns);
-  return sums;
+  std::array<std::uint64_t, 2> hashes = {{1, 2}};
+  for (auto &hash : hashes)
+    for (const auto *numbers : {&pattern.row_start, &pattern.columns})
+      for (const PetscInt number : *numbers)
+        hash = qp::scramble(hash + static_cast<std::uint64_t>(number));
+  return hashes;
 }
 
 std::vector<PetscInt> nested_dissection(const CsrMatrix &pattern)

@@ -161,9 +161,9 @@ void FieldOutput<dim>::write(const Sources                             &of,
                              const typename mesh::BodyMesh<dim>::Field *shape_gradient,
                              const std::vector<double>                 *errors)
 {
-  const auto             &mesh      = of.mesh;
-  const auto              subdomain = subdomain_of_cell(mesh, of.tearing);
-  const auto              gradient  = summed(mesh, shape_gradient);
+  const auto &mesh      = of.mesh;
+  const auto  subdomain = subdomain_of_cell(mesh, of.tearing);
+  const auto  gradient  = summed(mesh, parameters.has("shape_gradient") ? shape_gradient : nullptr);
   std::vector<PointField> at_points = stress_fields<dim>(of, state, parameters);
   at_points.push_back({{"body", 1}, [&](const unsigned int node, unsigned int, auto &to) {
                          to.push_back(mesh.body_of_node(node));

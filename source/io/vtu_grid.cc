@@ -18,7 +18,7 @@ namespace snug::io {
 namespace {
 using Bytes = std::vector<unsigned char>;
 
-/// Of VTK's default for compressed arrays: small enough for any reader, large enough for zlib.
+/// Of the blocks of a compressed array, in bytes: readers unpack one at a time.
 const std::size_t block_size = 1 << 20;
 
 template <typename T>

@@ -18,7 +18,8 @@ long long first_row(unsigned int n_owned, MPI_Comm comm)
   return rank == 0 ? 0 : first;
 }
 
-/// The finalizer of the SplitMix64 generator (Steele, Lea, Flood 2014).
+} // namespace
+
 std::uint64_t scramble(std::uint64_t x)
 {
   x += 0x9e3779b97f4a7c15u;
@@ -26,7 +27,6 @@ std::uint64_t scramble(std::uint64_t x)
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);
 }
-} // namespace
 
 bool any(bool mine, MPI_Comm comm)
 {

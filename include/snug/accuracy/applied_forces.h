@@ -43,6 +43,8 @@ public:
 private:
   using Tractions = typename state::ResultantLoads<dim>::Tractions::value_type;
 
+  static bool has_more(const Face &face, const LoadedDisplacement<dim> &of);
+
   const state::BoundaryLoad<dim> *load(const Face &face) const;
 
   const state::Model<dim>                  &model;

@@ -27,8 +27,8 @@ namespace snug::mesh {
  * Behind the nodes come the samples: points of the true surface of boundary
  * faces of this rank, (surface_degree+1)^(dim-1) per face in tensor order.
  * Faces of bodies' sampled boundaries have them, unless the face is flat and
- * stays so. Positions, velocities and gradients run over nodes and samples,
- * displacements over nodes.
+ * stays so, and other curved ones where all are asked for. Positions, velocities and gradients run
+ * over nodes and samples, displacements over nodes.
  */
 template <int dim>
 class BodyMesh

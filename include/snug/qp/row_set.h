@@ -9,6 +9,10 @@ namespace snug::qp {
 /// True if @p mine is on any rank. Collective.
 bool any(bool mine, MPI_Comm comm);
 
+/// What hashes are made of: the finalizer of the SplitMix64 generator (Steele, Lea, Flood, OOPSLA
+/// 2014), one to one.
+std::uint64_t scramble(std::uint64_t x);
+
 /// A number that tells sets apart (a hash), equal on all ranks for the
 /// same distribution of rows. Collective.
 std::uint64_t fingerprint(const RowSet &rows, MPI_Comm comm);

@@ -24,6 +24,23 @@ state::ContactState<dim> linear_state(const mesh::BodyMesh<dim> &mesh)
   return state;
 }
 
+/// A mesh and all that is written beside its states.
+template <int dim>
+struct Bodies
+{
+  Bodies(const bool hanging, const unsigned int degree)
+    : mesh(MPI_COMM_WORLD, test::two_boxes<dim>(hanging), degree)
+    , tearing(test::one_subdomain_per_rank(mesh))
+    , models(test::two_bodies<dim>())
+  {}
+
+  typename io::FieldOutput<dim>::Sources sources() const { return {mesh, tearing, models}; }
+
+  const mesh::BodyMesh<dim>                mesh;
+  const mesh::Tearing                      tearing;
+  const std::vector<state::BodyModel<dim>> models;
+};
+
 std::string piece_of_rank(const std::string &stem)
 {
   int rank;
@@ -41,17 +58,15 @@ template <int dim>
 void expect_linear_fields(unsigned int degree)
 {
   const test::ScratchDirectory scratch;
-  const mesh::BodyMesh<dim>    mesh(MPI_COMM_WORLD, test::two_boxes<dim>(true), degree);
+  const Bodies<dim>            bodies(true, degree);
   const auto                   materials = test::two_materials();
-  const auto                   tearing   = test::one_subdomain_per_rank(mesh);
-  const auto                   models    = test::two_bodies<dim>();
   io::FieldOutput<dim>         output(scratch.path, {});
-  output.write({mesh, tearing, models}, 0., linear_state(mesh));
+  output.write(bodies.sources(), 0., linear_state(bodies.mesh));
 
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
-  EXPECT_EQ(vtu.n_cells, mesh.cells().size() * std::lround(std::pow(degree, dim)));
+  EXPECT_EQ(vtu.n_cells, bodies.mesh.cells().size() * std::lround(std::pow(degree, dim)));
   const auto A = test::displacement_gradient<dim>();
   for (unsigned int p = 0; p < vtu.n_points; ++p)
     {
@@ -100,27 +115,23 @@ TEST(FieldOutput, HoldsALinearStateIn3D)
 TEST(FieldOutput, CellsShareTheirPoints)
 {
   const test::ScratchDirectory scratch;
-  const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 2);
-  const auto                   tearing = test::one_subdomain_per_rank(mesh);
-  const auto                   models  = test::two_bodies<2>();
+  const Bodies<2>              bodies(false, 2);
   io::FieldOutput<2>           output(scratch.path, {});
-  output.write({mesh, tearing, models}, 0., linear_state(mesh));
+  output.write(bodies.sources(), 0., linear_state(bodies.mesh));
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   std::set<unsigned int> nodes;
-  for (const auto &cell : mesh.cells())
+  for (const auto &cell : bodies.mesh.cells())
     nodes.insert(cell.nodes.begin(), cell.nodes.end());
   EXPECT_EQ(vtu.n_points, nodes.size());
 }
 
 TEST(FieldOutput, WritesWhatIsAskedForAtAnyCompression)
 {
-  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
-  const auto              tearing = test::one_subdomain_per_rank(mesh);
-  const auto              models  = test::two_bodies<2>();
-  const auto              written = [&](const scene::OutputParameters &parameters) {
+  const Bodies<2> bodies(false, 1);
+  const auto      written = [&](const scene::OutputParameters &parameters) {
     const test::ScratchDirectory scratch;
     io::FieldOutput<2>           output(scratch.path, parameters);
-    output.write({mesh, tearing, models}, 0., linear_state(mesh));
+    output.write(bodies.sources(), 0., linear_state(bodies.mesh));
     return test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   };
   const auto all = written({});
@@ -135,12 +146,10 @@ TEST(FieldOutput, WritesWhatIsAskedForAtAnyCompression)
 TEST(FieldOutput, ListsTimesAndPieces)
 {
   const test::ScratchDirectory scratch;
-  const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
-  const auto                   tearing = test::one_subdomain_per_rank(mesh);
-  const auto                   models  = test::two_bodies<2>();
+  const Bodies<2>              bodies(false, 1);
   io::FieldOutput<2>           output(scratch.path, {});
-  output.write({mesh, tearing, models}, 0., linear_state(mesh));
-  output.write({mesh, tearing, models}, 17., linear_state(mesh));
+  output.write(bodies.sources(), 0., linear_state(bodies.mesh));
+  output.write(bodies.sources(), 17., linear_state(bodies.mesh));
   MPI_Barrier(MPI_COMM_WORLD);
 
   const std::string pvd  = test::read_file(scratch.file("solution.pvd"));
@@ -159,19 +168,17 @@ TEST(FieldOutput, ListsTimesAndPieces)
 TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
 {
   const test::ScratchDirectory scratch;
-  const mesh::BodyMesh<2>      mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
-  const auto                   tearing = test::one_subdomain_per_rank(mesh);
-  const auto                   models  = test::two_bodies<2>();
+  const Bodies<2>              bodies(false, 1);
   io::FieldOutput<2>           output(scratch.path, {});
-  const auto                   state = linear_state(mesh);
+  const auto                   state = linear_state(bodies.mesh);
   int                          rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   // all of a node's gradient on one rank, what it is from the position
   auto share = state.displacement;
   for (unsigned int node = 0; node < share.size(); ++node)
-    if (mesh.owner(node) != static_cast<unsigned int>(rank))
+    if (bodies.mesh.owner(node) != static_cast<unsigned int>(rank))
       share[node] = 0.;
-  output.write({mesh, tearing, models}, 0., state, &share);
+  output.write(bodies.sources(), 0., state, &share);
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   for (unsigned int p = 0; p < vtu.n_points; ++p)
     for (unsigned int c = 0; c < 2; ++c)
@@ -195,11 +202,9 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
 
 TEST(FieldOutput, EveryRankHearsOfFailure)
 {
-  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
-  const auto              tearing = test::one_subdomain_per_rank(mesh);
-  const auto              models  = test::two_bodies<2>();
-  io::FieldOutput<2>      output("/nowhere/at/all", {});
-  EXPECT_THROW(output.write({mesh, tearing, models}, 0., linear_state(mesh)), std::runtime_error);
+  const Bodies<2>    bodies(false, 1);
+  io::FieldOutput<2> output("/nowhere/at/all", {});
+  EXPECT_THROW(output.write(bodies.sources(), 0., linear_state(bodies.mesh)), std::runtime_error);
 }
 } // namespace
 } // namespace snug
