@@ -158,6 +158,25 @@ Element<dim>::stresses(const Nodes                                 &X,
 }
 
 template <int dim>
+double Element<dim>::aspect(const Nodes &X) const
+{
+  double largest = 1.;
+  for (const auto &shape : gauss)
+    {
+      // Columns of the Jacobian are the cell's axes.
+      const auto axes    = transpose(jacobian(shape, X));
+      double     longest = 0., shortest = std::numeric_limits<double>::max();
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          longest  = std::max(longest, axes[axis].norm());
+          shortest = std::min(shortest, axes[axis].norm());
+        }
+      largest = std::max(largest, longest / shortest);
+    }
+  return largest;
+}
+
+template <int dim>
 double Element<dim>::quality(const Nodes &X) const
 {
   // Nodes as well as Gauss points: the determinant of a bilinear cell is smallest at a corner.

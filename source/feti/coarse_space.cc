@@ -1,12 +1,12 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/coarse_space.h>
+#include <snug/feti/couplings.h>
 #include <snug/qp/direction_basis.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace snug::feti {
 namespace {
@@ -16,40 +16,6 @@ const double kernel_cut = 1e-13;
 
 /// Those below, of motions that the rows hardly see, would take too many digits from A^-1.
 const double weak_cut = 1e-5;
-
-using Pair = std::pair<unsigned int, unsigned int>;
-
-/// The union over ranks of sorted pairs.
-std::vector<Pair> unite(const std::set<Pair> &mine, MPI_Comm comm)
-{
-  std::vector<unsigned int> flat;
-  for (const Pair &pair : mine)
-    {
-      flat.push_back(pair.first);
-      flat.push_back(pair.second);
-    }
-  int n_ranks, count = narrow<int>(flat.size());
-  MPI_Comm_size(comm, &n_ranks);
-  std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  for (int r = 0; r < n_ranks; ++r)
-    starts[r + 1] = starts[r] + counts[r];
-  std::vector<unsigned int> all(starts.back());
-  MPI_Allgatherv(flat.data(), count, MPI_UNSIGNED, all.data(), counts.data(), starts.data(),
-                 MPI_UNSIGNED, comm);
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < all.size(); i += 2)
-    pairs.emplace_back(all[i], all[i + 1]);
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
-}
-
-/// The order of the sum depends on the number of ranks, and with it the last digits.
-void sum_over_ranks(std::vector<double> &values, MPI_Comm comm)
-{
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), narrow<int>(values.size()), MPI_DOUBLE, MPI_SUM, comm);
-}
 } // namespace
 
 CoarseSpace::CoarseSpace(const RowLayout &the_layout, const SubdomainTable &the_table)
@@ -88,7 +54,7 @@ CoarseSpace::CoarseSpace(const RowLayout &the_layout, const SubdomainTable &the_
 void CoarseSpace::build_pattern()
 {
   const unsigned int m = table.n_modes, n_subdomains = narrow<unsigned int>(table.body.size());
-  std::set<Pair>     couplings, bounded_couplings;
+  std::set<Coupling>     couplings, bounded_couplings;
   // Also subdomains without rows have their place on the diagonal.
   for (unsigned int s = 0; s < n_subdomains; ++s)
     couplings.emplace(s, s);
@@ -96,7 +62,7 @@ void CoarseSpace::build_pattern()
     for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
       for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
         {
-          const Pair pair(block_subdomain[a], block_subdomain[b]);
+          const Coupling pair(block_subdomain[a], block_subdomain[b]);
           couplings.insert(pair);
           // Contact rows come and go with the set: only the places they reach are summed per face.
           if (layout.bounded()[row])
@@ -108,12 +74,12 @@ void CoarseSpace::build_pattern()
       couplings.emplace(i / m, j / m);
   const auto                         pairs = unite(couplings, layout.communicator());
   std::vector<std::vector<PetscInt>> rows(n_kernel());
-  for (const Pair &pair : pairs)
+  for (const Coupling &pair : pairs)
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
         rows[pair.first * m + i].push_back(pair.second * m + j);
   gram = CsrMatrix::from_rows(rows, n_kernel());
-  for (const Pair &pair : unite(bounded_couplings, layout.communicator()))
+  for (const Coupling &pair : unite(bounded_couplings, layout.communicator()))
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
         bounded_places.push_back(gram.position(pair.first * m + i, pair.second * m + j));

@@ -58,6 +58,18 @@ void TotalFeti::FetiFreeSet::project(qp::MultiVector &x) const
   subtract_rigid_part(x, alpha);
 }
 
+std::vector<double> TotalFeti::FetiFreeSet::deflate(qp::MultiVector &x) const
+{
+  return feti.deflation ? feti.deflation->remove_from(x) : FreeSet::deflate(x);
+}
+
+void TotalFeti::FetiFreeSet::minimize_over_deflated(qp::MultiVector &lambda,
+                                                    qp::MultiVector &residual) const
+{
+  if (feti.deflation)
+    feti.deflation->correct(lambda, residual);
+}
+
 qp::MultiVector TotalFeti::FetiFreeSet::precondition(const qp::MultiVector &r) const
 {
   qp::MultiVector z = r;

@@ -10,5 +10,8 @@ void FetiParameters::declare(Entries &entries)
   entries.add("Scaling", scaling,
               "How the preconditioner weighs the copies of a node: by their stiffness, for bodies "
               "of different moduli, or by their number.");
+  entries.add("Soft modes", soft_modes,
+              "Subdomains of which motions that would take many iterations are found beforehand, "
+              "once for a mesh: auto: all but compact ones of compact cells.");
 }
 } // namespace snug::feti

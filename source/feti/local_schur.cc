@@ -152,4 +152,15 @@ qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const
   ib.matrix.transpose_multiply_add(-1., inner, y);
   return y;
 }
+
+qp::MultiVector on_boundary(const qp::MultiVector &x, const LocalSchur &schur)
+{
+  qp::MultiVector result(schur.n_boundary(), x.n_columns());
+  const auto     &position = schur.boundary_position();
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < x.n_rows(); ++i)
+      if (position[i] < schur.n_boundary())
+        result(position[i], k) = x(i, k);
+  return result;
+}
 } // namespace snug::feti

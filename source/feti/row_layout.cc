@@ -86,6 +86,9 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   const unsigned int        n = narrow<unsigned int>(bounded.size());
   MPI_Allgather(&n, 1, MPI_UNSIGNED, first.data() + 1, 1, MPI_UNSIGNED, comm);
   std::partial_sum(first.begin(), first.end(), first.begin());
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  first_owned = first[rank];
 
   std::vector<unsigned int> entry_rows;
   // As doubles, which hold such integers exactly, so that one gather serves places and values.

@@ -1,6 +1,8 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/total_feti.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +13,13 @@ std::string name_of_subdomain(const SubdomainTable &table, unsigned int id)
 {
   return "the stiffness of subdomain " + std::to_string(id) + " of body " +
          table.body_names[table.body[id]];
+}
+
+/// 1/D of entries that have it second.
+void set_compliances_to_one(std::vector<double> &entries, const unsigned int width)
+{
+  for (std::size_t e = 1; e < entries.size(); e += width)
+    entries[e] = 1.;
 }
 
 /// y += B x
@@ -61,6 +70,13 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
           std::make_unique<LocalSchur>(system, parameters.preconditioner == Preconditioner::lumped,
                                        parameters.factorization, orderings, run));
     }
+  bool likely = false;
+  for (const SubdomainSystem &system : systems)
+    likely = likely || !system.compact;
+  if (parameters.preconditioner != Preconditioner::none &&
+      parameters.soft_modes != SoftModesOf::none)
+    knows_soft_modes = parameters.soft_modes == SoftModesOf::likely &&
+                       dealii::Utilities::MPI::logical_or(likely, run.communicator()) == false;
 }
 
 /// Factorizations may fail on one rank only: everywhere() turns that into an error of all, or the
@@ -89,6 +105,8 @@ void TotalFeti::update_preconditioner()
       if (outdated[s])
         schur[s]->factorize(name_of_subdomain(coarse.subdomains(), coarse.subdomains().first + s));
   });
+  // Also where only other subdomains have changed: a patch reaches over to them.
+  deflation_outdated = true;
   outdated.assign(systems.size(), false);
   weight_rows();
 }
@@ -103,31 +121,36 @@ void TotalFeti::set_loads(const qp::MultiVector &g)
   // First, as bodies that nothing holds may be what the preconditioner would fail at.
   check_equilibrium();
   update_preconditioner();
+  update_deflation();
   const RunContext::Timer timer(run, "solve");
   dual_load = multiply_B(apply_inverse(loads()));
   dual_load.add(-1., gap);
 }
 
-/// Brings B, 1/D and B R of each entry to the owner of its row, for G, W and the estimate of F_ii.
+/// Brings B, 1/D and B R of each entry to the owner of its row.
+std::vector<double> TotalFeti::gather_entries() const
+{
+  std::vector<double> values;
+  for (const SubdomainSystem &system : systems)
+    for (const BEntry &entry : system.B)
+      {
+        values.push_back(entry.value);
+        values.push_back(1. / system.K.diagonal(entry.dof));
+        for (unsigned int mode = 0; mode < coarse.subdomains().n_modes; ++mode)
+          values.push_back(entry.value * system.R(entry.dof, mode));
+      }
+  return layout.gather_entries(entry_width(), values);
+}
+
+/// For G, W and the estimate of F_ii.
 void TotalFeti::gather_rows()
 {
-  const unsigned int           n_modes = coarse.subdomains().n_modes;
-  const unsigned int           width   = 2 + n_modes;
-  const bool                   scaled  = parameters.scaling == Scaling::stiffness;
-  std::vector<double>          values;
+  const bool                   scaled = parameters.scaling == Scaling::stiffness;
+  const unsigned int           width  = entry_width();
   std::vector<qp::MultiVector> Z;
   for (const SubdomainSystem &system : systems)
-    {
-      Z.push_back(system.Z);
-      for (const BEntry &entry : system.B)
-        {
-          values.push_back(entry.value);
-          values.push_back(1. / system.K.diagonal(entry.dof));
-          for (unsigned int mode = 0; mode < n_modes; ++mode)
-            values.push_back(entry.value * system.R(entry.dof, mode));
-        }
-    }
-  auto gathered = layout.gather_entries(width, values);
+    Z.push_back(system.Z);
+  auto gathered = gather_entries();
   F_diagonal.assign(n_owned(), 0.);
   const auto &start = layout.entry_start();
   for (unsigned int row = 0; row < n_owned(); ++row)
@@ -138,8 +161,7 @@ void TotalFeti::gather_rows()
         F_diagonal[row] += entry[0] * entry[0] * entry[1];
       }
   if (!scaled)
-    for (std::size_t e = 0; e < start.back(); ++e)
-      gathered[e * width + 1] = 1.;
+    set_compliances_to_one(gathered, width);
   // The numbers of G begin after B and 1/D; a rank that owns no rows has none at all.
   coarse.update(std::vector<double>(gathered.begin() + std::min<std::size_t>(2, gathered.size()),
                                     gathered.end()),
@@ -163,6 +185,54 @@ void TotalFeti::weight_rows()
           entry.dof = position[entry.dof];
         }
     }
+}
+
+void TotalFeti::find_soft_modes()
+{
+  knows_soft_modes = true;
+  update_preconditioner();
+  const RunContext::Timer timer(run, "soft modes");
+  auto                    entries = gather_entries();
+  if (parameters.scaling != Scaling::stiffness)
+    set_compliances_to_one(entries, entry_width());
+  const unsigned int first   = coarse.subdomains().first;
+  const auto         columns = jump_columns(layout, gram, entries, entry_width(), first,
+                                            narrow<unsigned int>(systems.size()));
+  const auto neighbours = stiffness_of_neighbours(systems, columns, first, run.communicator());
+  std::vector<RowForces> forces;
+  double                 largest   = 0.;
+  unsigned int           n_vectors = 0;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto modes =
+        soft_modes(systems[s], *inverses[s], *schur[s], columns[s], neighbours[s], first + s);
+      if (modes.mu.empty())
+        continue;
+      forces.push_back(row_forces(modes, columns[s], first + s));
+      n_vectors += narrow<unsigned int>(modes.mu.size());
+      largest = std::max(largest, modes.mu.front());
+    }
+  const auto n_subdomains =
+    dealii::Utilities::MPI::sum(narrow<unsigned int>(forces.size()), run.communicator());
+  n_vectors = dealii::Utilities::MPI::sum(n_vectors, run.communicator());
+  largest   = dealii::Utilities::MPI::max(largest, run.communicator());
+  if (n_vectors == 0)
+    return;
+  run.out() << "soft modes: " << n_vectors << " of " << n_subdomains
+            << " subdomains, the softest " << largest << " times stiffer by its jumps"
+            << std::endl;
+  deflation          = std::make_unique<Deflation>(systems, layout, coarse.subdomains(), forces);
+  deflation_outdated = true;
+}
+
+/// Costs K^+ of as many columns per subdomain as its patch has soft modes, but no F-mult.
+void TotalFeti::update_deflation()
+{
+  if (!deflation || !deflation_outdated)
+    return;
+  const RunContext::Timer timer(run, "soft modes");
+  deflation->update(inverses, schur);
+  deflation_outdated = false;
 }
 
 /// F x = B K^+ B' x. K^+ is one of many generalized inverses: F differs from that of another one by

@@ -90,6 +90,7 @@ Pcpg::Pcpg(const DualProblem &the_problem, const FreeSet &the_face, DirectionBas
 
 void Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
 {
+  free_set.minimize_over_deflated(lambda, residual);
   if (basis.P.n_columns() == 0)
     return;
   // As P'FP = unit I the minimum over the span has the coefficients P'r / unit.
@@ -100,7 +101,7 @@ void Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
 
 std::vector<double> Pcpg::orthogonalise(MultiVector &x) const
 {
-  std::vector<double> removed(x.n_columns(), 0.);
+  auto removed = free_set.deflate(x);
   if (basis.P.n_columns() == 0)
     return removed;
   const MultiVector parts = inner_products(basis.FP, x, comm);

@@ -88,6 +88,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
       systems[s].body        = subdomain.body;
       systems[s].K           = assemblers[s]->sparsity();
       systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
+      systems[s].compact     = assemblers[s]->is_compact(positions);
     }
   glue(positions);
 }
@@ -105,6 +106,7 @@ void StateProblem<dim>::glue(const Field &positions)
                                            subdomain_table(mesh, tearing, model.body_names),
                                            model.feti, context);
   geometry.positions.clear();
+  paired_at = positions;
 }
 
 template <int dim>
@@ -216,6 +218,13 @@ void StateProblem<dim>::set_geometry(const Field &positions)
 template <int dim>
 const Geometry<dim> &StateProblem<dim>::set(const Field &positions, const unsigned int load_case)
 {
+  if (feti->misses_soft_modes())
+    {
+      // Where contact was paired, and not where states happen to be asked for: a run that was
+      // interrupted finds the same ones again.
+      set_geometry(paired_at);
+      feti->find_soft_modes();
+    }
   set_geometry(positions);
   if (loaded_case == load_case)
     return geometry;

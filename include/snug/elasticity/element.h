@@ -128,6 +128,10 @@ public:
    */
   double scaled_jacobian(const Nodes &X) const;
 
+  /// How much longer the cell is along one of its axes than along another,
+  /// the largest ratio over its Gauss points; 1 for squares and cubes.
+  double aspect(const Nodes &X) const;
+
   /// sum ((1 - q) / scale)^p over Gauss points and nodes with
   /// q = det J / prod_d |J e_d|, p >= 1: 0 where the coordinate lines meet
   /// at right angles.

@@ -12,6 +12,8 @@ public:
 
   const qp::RowSet   &rows() const override;
   void                project(qp::MultiVector &x) const override;
+  std::vector<double> deflate(qp::MultiVector &x) const override;
+  void minimize_over_deflated(qp::MultiVector &lambda, qp::MultiVector &residual) const override;
   qp::MultiVector     precondition(const qp::MultiVector &r) const override;
   qp::MultiVector     amplitudes(const qp::MultiVector &x) const override;
   std::vector<double> make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override;

@@ -39,12 +39,24 @@ inline Names names(Scaling)
   return {{"stiffness"}, {"multiplicity"}};
 }
 
+enum class SoftModesOf
+{
+  likely,
+  all,
+  none
+};
+inline Names names(SoftModesOf)
+{
+  return {{"auto"}, {"all"}, {"none"}};
+}
+
 /// Entries of `subsection Solver` that Total FETI reads.
 struct FetiParameters
 {
   Factorization  factorization  = Factorization::CHOLMOD;
   Preconditioner preconditioner = Preconditioner::Dirichlet;
   Scaling        scaling        = Scaling::stiffness;
+  SoftModesOf    soft_modes     = SoftModesOf::likely;
 
   void declare(Entries &entries);
 };

@@ -59,6 +59,9 @@ private:
   Part                          ib, ii;
   std::unique_ptr<SparseFactor> factor;
 };
+
+/// Rows of x, of all unknowns, at the boundary.
+qp::MultiVector on_boundary(const qp::MultiVector &x, const LocalSchur &schur);
 } // namespace snug::feti
 
 #endif

@@ -37,6 +37,9 @@ public:
   unsigned int      n_owned() const { return narrow<unsigned int>(is_bounded.size()); }
   unsigned int      n_local() const { return narrow<unsigned int>(local_rows.size()); }
   const qp::RowSet &bounded() const { return is_bounded; }
+  /// Global row of an owned one.
+  unsigned int global_row(unsigned int owned_row) const { return first_owned + owned_row; }
+  unsigned int global_row_of_local(unsigned int local_row) const { return local_rows[local_row]; }
   /// Local row of a global row this rank touches.
   unsigned int local_row(unsigned int global_row) const;
 
@@ -61,6 +64,7 @@ private:
 
   MPI_Comm                                           comm;
   qp::RowSet                                         is_bounded;
+  unsigned int                                       first_owned; ///< as global row
   std::vector<unsigned int>                          local_rows; ///< ascending global rows
   petsc::StarForest                                  row_forest, entry_forest;
   std::vector<unsigned int>                          start;

@@ -27,7 +27,8 @@ struct BEntry
  */
 struct SubdomainSystem
 {
-  unsigned int              body = 0;
+  unsigned int              body    = 0;
+  bool                      compact = false; ///< in shape and cells: without soft modes
   CsrMatrix                 K;
   std::vector<double>       f;
   std::vector<BEntry>       B;

@@ -3,6 +3,7 @@
 
 #include <snug/base/narrow.h>
 #include <snug/feti/coarse_space.h>
+#include <snug/feti/deflation.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/feti/generalized_inverse.h>
 #include <snug/feti/local_schur.h>
@@ -34,6 +35,16 @@ public:
   /// brings the preconditioner. Collective.
   /// @param[in] changed subdomains of this rank whose K and R changed.
   void update(const std::vector<bool> &changed);
+
+  /// Whether find_soft_modes() is still to be called: it is wanted, and has work.
+  bool misses_soft_modes() const { return !knows_soft_modes; }
+
+  /**
+   * Find the soft modes of the subdomains with their present matrices; the
+   * coarse vectors of PCPG are theirs from now on, whatever the matrices.
+   * Collective.
+   */
+  void find_soft_modes();
 
   /// Take the loads f from the systems. Collective.
   /// @param[in] g right-hand side of the owned rows [length].
@@ -118,7 +129,11 @@ public:
 private:
   class FetiFreeSet;
 
-  void gather_rows();
+  /// Numbers that gather_entries() has for each.
+  unsigned int        entry_width() const { return 2 + coarse.subdomains().n_modes; }
+  std::vector<double> gather_entries() const;
+  void                update_deflation();
+  void                gather_rows();
   void weight_rows();
   void check_equilibrium() const;
   void update_preconditioner();
@@ -137,6 +152,9 @@ private:
   /// B D^{-1} of each subdomain on the boundary positions of its schur
   std::vector<std::vector<BEntry>> weighted_B;
   std::vector<bool>                outdated; ///< preconditioners of subdomains
+  bool                             knows_soft_modes = true;
+  std::unique_ptr<Deflation>       deflation; ///< null: not wanted, or no mode is soft
+  bool                             deflation_outdated = false;
   qp::MultiVector                  gap, dual_load, rigid_load;
   double                           gross_load = 0.;
   std::vector<double>              F_diagonal;

@@ -32,6 +32,20 @@ public:
   /// x <- P_M x (zero off M).
   virtual void project(MultiVector &x) const = 0;
 
+  /**
+   * x <- x - C (C'FC)^{-1} C'F x, F-orthogonal to directions C that are
+   * known for every face; without any x stays.
+   * @return the squares of the F-norms of what was removed, one per column.
+   */
+  virtual std::vector<double> deflate(MultiVector &x) const
+  {
+    return std::vector<double>(x.n_columns(), 0.);
+  }
+
+  /// Minimize over the span of C: lambda += C (C'FC)^{-1} C'r, and
+  /// r = d - F lambda with it.
+  virtual void minimize_over_deflated(MultiVector &, MultiVector &) const {}
+
   /// z = M^{-1}_M r (zero off M, not projected). Counts r.n_columns.
   virtual MultiVector precondition(const MultiVector &r) const = 0;
 

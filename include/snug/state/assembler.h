@@ -55,6 +55,10 @@ public:
   /// motions move.
   std::vector<unsigned int> fixing_dofs(const Field &positions) const;
 
+  /// Whether it is nearly a cube of cells near cubes of one material (a square in the plane): no
+  /// motion is then much softer than its neighbours are.
+  bool is_compact(const Field &positions) const;
+
   /// Subdomain cells and loaded boundary faces as (mesh index).
   const std::vector<unsigned int> &cells() const { return subdomain.cells; }
   const std::vector<unsigned int> &loaded_faces() const { return faces; }

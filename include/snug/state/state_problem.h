@@ -81,6 +81,7 @@ private:
   std::vector<double>       scaled_jacobians; ///< least, per subdomain
   /// of the matrices in systems and feti; no positions: none
   Geometry<dim>               geometry;
+  Field                       paired_at;   ///< positions of the last pairing
   std::optional<unsigned int> loaded_case; ///< of feti's loads
   /// f per load case and subdomain
   std::vector<std::vector<std::vector<double>>> loads;

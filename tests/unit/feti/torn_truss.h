@@ -14,15 +14,19 @@ namespace snug::test {
  * lowest nodes are fixed, and a punch of 2 blocks above it, on rollers at
  * its left side unless @p floating, with contact rows node to node, or
  * node to segment (two master nodes) if asked. Contact normals are the
- * vertical but for slopes of the size of @p slope that differ.
+ * vertical but for slopes of the size of @p slope that differ. Cells are
+ * @p height high and one wide.
  */
 class TornTruss
 {
 public:
-  TornTruss(bool floating, bool node_to_segment, double slope = 0.);
+  TornTruss(bool floating, bool node_to_segment, double slope = 0., double height = 1.);
 
   /// Total FETI of this rank's blocks.
   std::unique_ptr<feti::TotalFeti> make(const feti::FetiParameters &parameters);
+
+  /// Of what make() has made.
+  const feti::RowLayout &row_layout() const { return *layout; }
 
   /// Values of all rows -> owned ones.
   qp::MultiVector owned(const qp::MultiVector &all) const;
@@ -62,16 +66,16 @@ private:
   void                      fill_dense();
 };
 
-inline TornTruss::TornTruss(bool floating, bool node_to_segment, double slope)
+inline TornTruss::TornTruss(bool floating, bool node_to_segment, double slope, double height)
 {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
   const int c = 3;
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i)
-      blocks.emplace_back(0, Node{i * c, j * c}, Node{(i + 1) * c, (j + 1) * c});
+      blocks.emplace_back(0, Node{i * c, j * c}, Node{(i + 1) * c, (j + 1) * c}, height);
   for (int i = 0; i < 2; ++i)
-    blocks.emplace_back(1, Node{i * c, 7}, Node{(i + 1) * c, 9});
+    blocks.emplace_back(1, Node{i * c, 7}, Node{(i + 1) * c, 9}, height);
   start.assign(1, 0);
   for (const Block &block : blocks)
     {
@@ -218,6 +222,8 @@ inline std::unique_ptr<feti::TotalFeti> TornTruss::make(const feti::FetiParamete
   for (unsigned int i = 0; i < gap.n_rows(); ++i)
     gap(i) = layout->bounded()[i] ? 0.01 : 0.;
   feti->update(std::vector<bool>(mine.size(), true));
+  if (parameters.soft_modes == feti::SoftModesOf::all)
+    feti->find_soft_modes();
   feti->set_loads(gap);
   return feti;
 }

@@ -20,14 +20,16 @@ struct Block
   unsigned int      body;
   Node              first, last;
   std::vector<Node> nodes;
+  double            height; ///< of a cell; flat ones bend easily
 
-  Block(unsigned int body, const Node &first, const Node &last);
+  Block(unsigned int body, const Node &first, const Node &last, double height = 1.);
 
-  unsigned int slot(const Node &node) const;
+  unsigned int        slot(const Node &node) const;
+  std::vector<double> position(const Node &node) const;
 };
 
-inline Block::Block(unsigned int body, const Node &first, const Node &last)
-  : body(body), first(first), last(last)
+inline Block::Block(unsigned int body, const Node &first, const Node &last, double height)
+  : body(body), first(first), last(last), height(height)
 {
   nodes = {first};
   for (unsigned int d = 0; d < first.size(); ++d)
@@ -47,12 +49,13 @@ inline unsigned int Block::slot(const Node &node) const
   return std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
 }
 
-/// Slightly bent positions, so that nothing is symmetric by chance.
-inline std::vector<double> position(const Node &node)
+/// Slightly bent, so that nothing is symmetric by chance.
+inline std::vector<double> Block::position(const Node &node) const
 {
   std::vector<double> x(node.begin(), node.end());
   for (unsigned int d = 0; d < x.size(); ++d)
     x[d] += 0.1 * std::sin(1.3 * node[0] + 0.7 * node[1] + d);
+  x.back() *= height;
   return x;
 }
 
@@ -68,8 +71,8 @@ inline Matrix dense_stiffness(const Block &block)
           same_cell = same_cell && std::abs(block.nodes[a][d] - block.nodes[b][d]) <= 1;
         if (!same_cell)
           continue;
-        const auto x      = position(block.nodes[a]);
-        const auto y      = position(block.nodes[b]);
+        const auto x      = block.position(block.nodes[a]);
+        const auto y      = block.position(block.nodes[b]);
         double     square = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           square += (x[d] - y[d]) * (x[d] - y[d]);
@@ -94,7 +97,7 @@ inline qp::MultiVector rigid_motions(const Block &block, const std::vector<doubl
   qp::MultiVector    R(dim * block.nodes.size(), dim == 2 ? 3 : 6);
   for (unsigned int a = 0; a < block.nodes.size(); ++a)
     {
-      auto x = position(block.nodes[a]);
+      auto x = block.position(block.nodes[a]);
       for (unsigned int d = 0; d < dim; ++d)
         {
           x[d] -= centre[d];
@@ -150,7 +153,7 @@ inline feti::SubdomainSystem truss_system(const Block               &block,
   for (unsigned int a = 0; a < block.nodes.size(); ++a)
     if (block.body == 1)
       system.f[dim * a + dim - 1] = -1. - 0.1 * (a % 3);
-  system.R = rigid_motions(block, position(block.nodes[0]));
+  system.R = rigid_motions(block, block.position(block.nodes[0]));
   orthonormalise(system.R);
   system.Z = qp::transpose_times(system.R, rigid_motions(block, centre_of_body));
   const std::set<unsigned int> corners = {0, block.slot(block.last), block.slot([&]() {

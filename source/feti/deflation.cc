@@ -1,0 +1,472 @@
+#include <snug/base/narrow.h>
+#include <snug/feti/couplings.h>
+#include <snug/feti/deflation.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace snug::feti {
+namespace {
+/// Relative to the diagonal: takes nothing from what G_L and F see, and
+/// makes definite what they do not, as hinges between parts of a patch, and
+/// vectors that others span.
+const double shift = 1e-10;
+
+/// Parts of |G c| over |G_L| |c| that the shift leaves in one pass are below this part of them.
+const unsigned int balancing_passes = 3;
+
+/// Add B' of the columns of @p C, rows of which are local, to @p y on the
+/// numbering of B.
+void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &local, qp::MultiVector &y)
+{
+  for (unsigned int k = 0; k < y.n_columns(); ++k)
+    for (const BEntry &entry : B)
+      y(entry.dof, k) += entry.value * local(entry.row, k);
+}
+
+void sum(qp::MultiVector &x, MPI_Comm comm)
+{
+  MPI_Allreduce(MPI_IN_PLACE, x.column(0), narrow<int>(x.n_rows() * x.n_columns()), MPI_DOUBLE,
+                MPI_SUM, comm);
+}
+
+/// Rows of a <- a + x
+void add_to_rows(const std::vector<unsigned int> &numbers,
+                 const qp::MultiVector           &x,
+                 qp::MultiVector                 &a)
+{
+  for (unsigned int k = 0; k < a.n_columns(); ++k)
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      a(numbers[i], k) += x(i, k);
+}
+
+/// Rows of y with the given numbers.
+qp::MultiVector rows_of(const qp::MultiVector &y, const std::vector<unsigned int> &numbers)
+{
+  qp::MultiVector result(narrow<unsigned int>(numbers.size()), y.n_columns());
+  for (unsigned int k = 0; k < y.n_columns(); ++k)
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      result(i, k) = y(numbers[i], k);
+  return result;
+}
+
+/// The rows of one patch that no other subdomain shares, ascending.
+class Patch
+{
+public:
+  /// A row of one of its subdomains.
+  struct Touch
+  {
+    unsigned int  row;      ///< global
+    unsigned int  copies;   ///< subdomains of the row
+    unsigned int  member;   ///< of the patch
+    const double *G;        ///< n_modes numbers
+  };
+
+  Patch(std::vector<Touch> touches, const unsigned int n_members, const unsigned int the_n_modes)
+    : n_modes(the_n_modes), n(n_members * the_n_modes), gram(n)
+  {
+    std::sort(touches.begin(), touches.end(), [](const Touch &a, const Touch &b) {
+      return std::make_pair(a.row, a.member) < std::make_pair(b.row, b.member);
+    });
+    for (auto first = touches.begin(); first != touches.end();)
+      {
+        const auto last = std::find_if(first, touches.end(),
+                                       [&](const Touch &touch) { return touch.row != first->row; });
+        if (last - first == narrow<std::ptrdiff_t>(first->copies))
+          {
+            start.push_back(narrow<unsigned int>(inner.size()));
+            inner.insert(inner.end(), first, last);
+          }
+        first = last;
+      }
+    start.push_back(narrow<unsigned int>(inner.size()));
+    factorize();
+  }
+
+  unsigned int n_rows() const { return narrow<unsigned int>(start.size()) - 1; }
+
+  /// Subdomains of row i; the first is the lowest.
+  const Touch *begin(unsigned int i) const { return &inner[start[i]]; }
+  const Touch *end(unsigned int i) const { return &inner[0] + start[i + 1]; }
+
+  /// c <- c - G_L' (G_L G_L')^+ G_L c
+  void balance(std::vector<double> &c) const
+  {
+    for (unsigned int pass = 0; pass < balancing_passes; ++pass)
+      {
+        dealii::Vector<double> alpha(n);
+        for (unsigned int i = 0; i < n_rows(); ++i)
+          for (const Touch *t = begin(i); t != end(i); ++t)
+            for (unsigned int m = 0; m < n_modes; ++m)
+              alpha[t->member * n_modes + m] += t->G[m] * c[i];
+        gram.solve(alpha);
+        for (unsigned int i = 0; i < n_rows(); ++i)
+          for (const Touch *t = begin(i); t != end(i); ++t)
+            for (unsigned int m = 0; m < n_modes; ++m)
+              c[i] -= t->G[m] * alpha[t->member * n_modes + m];
+      }
+  }
+
+private:
+  void factorize()
+  {
+    for (unsigned int i = 0; i < n_rows(); ++i)
+      for (const Touch *a = begin(i); a != end(i); ++a)
+        // LAPACK reads the lower triangle
+        for (const Touch *b = begin(i); b <= a; ++b)
+          for (unsigned int k = 0; k < n_modes; ++k)
+            for (unsigned int l = 0; l < n_modes; ++l)
+              gram(a->member * n_modes + k, b->member * n_modes + l) += a->G[k] * b->G[l];
+    double largest = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      largest = std::max(largest, gram(i, i));
+    for (unsigned int i = 0; i < n; ++i)
+      gram(i, i) += shift * largest;
+    gram.set_property(dealii::LAPACKSupport::symmetric);
+    gram.compute_cholesky_factorization();
+  }
+
+  unsigned int                     n_modes, n;
+  std::vector<Touch>               inner;
+  std::vector<unsigned int>        start;
+  dealii::LAPACKFullMatrix<double> gram;
+};
+} // namespace
+
+RowForces
+row_forces(const SoftModes &modes, const JumpColumns &columns, const unsigned int subdomain)
+{
+  RowForces              result;
+  std::set<unsigned int> patch = {subdomain};
+  result.subdomain             = subdomain;
+  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
+    {
+      for (const auto &copy : columns.copies[i])
+        patch.insert(copy.subdomain);
+      for (const auto &force : columns.forces[i])
+        result.rows.push_back(force.row);
+    }
+  result.patch.assign(patch.begin(), patch.end());
+  std::sort(result.rows.begin(), result.rows.end());
+  result.rows.erase(std::unique(result.rows.begin(), result.rows.end()), result.rows.end());
+  const auto k  = narrow<unsigned int>(modes.mu.size());
+  result.values = qp::MultiVector(narrow<unsigned int>(result.rows.size()), k);
+  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
+    for (const auto &force : columns.forces[i])
+      {
+        const auto row = narrow<unsigned int>(
+          std::lower_bound(result.rows.begin(), result.rows.end(), force.row) -
+          result.rows.begin());
+        for (unsigned int j = 0; j < k; ++j)
+          result.values(row, j) += force.value * modes.forces(columns.dofs[i], j);
+      }
+  return result;
+}
+
+Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
+                     const RowLayout                    &the_layout,
+                     const SubdomainTable               &the_table,
+                     std::vector<RowForces>              the_raw)
+  : systems(the_systems)
+  , layout(the_layout)
+  , table(the_table)
+  , rank_of(the_table.first, the_layout.communicator())
+  , raw(std::move(the_raw))
+  , wanted_by(the_systems.size())
+  , parts(the_systems.size())
+{
+  const MPI_Comm comm = layout.communicator();
+  unsigned int   mine = 0;
+  for (const RowForces &of_subdomain : raw)
+    mine += of_subdomain.values.n_columns();
+  // Ids in the order of the subdomains, which is that of the ranks.
+  MPI_Scan(&mine, &first_id, 1, MPI_UNSIGNED, MPI_SUM, comm);
+  first_id -= mine;
+  n_global = dealii::Utilities::MPI::sum(mine, comm);
+
+  // Of each row the number of subdomains, and the lowest of them.
+  qp::MultiVector owned(layout.n_owned(), 2);
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    if (!layout.bounded()[row])
+      {
+        const auto &unknowns = layout.entry_unknowns();
+        const auto  begin = layout.entry_start()[row], end = layout.entry_start()[row + 1];
+        for (unsigned int e = begin; e < end; ++e)
+          owned(row, 0) += e == begin || unknowns[e].first != unknowns[e - 1].first;
+        owned(row, 1) = unknowns[begin].first;
+      }
+  const auto local = layout.to_local(owned);
+  for (unsigned int row = 0; row < layout.n_local(); ++row)
+    {
+      n_copies.push_back(static_cast<unsigned int>(local(row, 0)));
+      const auto lowest = static_cast<unsigned int>(local(row, 1));
+      if (n_copies.back() > 0 && lowest >= table.first && lowest - table.first < parts.size())
+        parts[lowest - table.first].rows.push_back(row);
+    }
+
+  std::map<unsigned int, std::vector<unsigned int>> questions;
+  for (const RowForces &of_subdomain : raw)
+    for (const unsigned int t : of_subdomain.patch)
+      questions[rank_of(t)].push_back(t);
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, questions))
+    for (const unsigned int t : message.second)
+      wanted_by[t - table.first].insert(message.first);
+}
+
+/// Those of the subdomains of all patches of this rank.
+Deflation::Numbers Deflation::gather_rows() const
+{
+  const unsigned int                          m = table.n_modes;
+  std::map<unsigned int, std::vector<double>> out;
+  std::vector<unsigned int>                   place(layout.n_local());
+  for (unsigned int t = 0; t < systems.size(); ++t)
+    {
+      if (wanted_by[t].empty())
+        continue;
+      std::vector<unsigned int> rows;
+      for (const BEntry &entry : systems[t].B)
+        if (n_copies[entry.row] > 0)
+          rows.push_back(entry.row);
+      std::sort(rows.begin(), rows.end());
+      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+      const std::size_t   header = 2, width = 2 + m;
+      std::vector<double> message(header + rows.size() * width, 0.);
+      message[0] = table.first + t;
+      message[1] = double(rows.size() * width);
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        {
+          place[rows[i]]                  = i;
+          message[header + i * width]     = layout.global_row_of_local(rows[i]);
+          message[header + i * width + 1] = n_copies[rows[i]];
+        }
+      for (const BEntry &entry : systems[t].B)
+        if (n_copies[entry.row] > 0)
+          for (unsigned int k = 0; k < m; ++k)
+            message[header + place[entry.row] * width + 2 + k] +=
+              entry.value * systems[t].R(entry.dof, k);
+      for (const unsigned int rank : wanted_by[t])
+        out[rank].insert(out[rank].end(), message.begin(), message.end());
+    }
+  Numbers result;
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
+    for (auto p = message.second.begin(); p != message.second.end();)
+      {
+        auto      &of_subdomain = result[static_cast<unsigned int>(*p++)];
+        const auto size         = static_cast<std::ptrdiff_t>(*p++);
+        of_subdomain.assign(p, p + size);
+        p += size;
+      }
+  return result;
+}
+
+/// C of the subdomains of this rank, with ids that ascend.
+Deflation::Numbers Deflation::balanced_vectors() const
+{
+  const auto                                  rows = gather_rows();
+  const unsigned int                          m    = table.n_modes;
+  std::map<unsigned int, std::vector<double>> out;
+  unsigned int                                id = first_id;
+  for (const RowForces &of_subdomain : raw)
+    {
+      const auto               &members = of_subdomain.patch;
+      std::vector<Patch::Touch> touches;
+      for (unsigned int member = 0; member < members.size(); ++member)
+        {
+          const auto &of_member = rows.at(members[member]);
+          for (std::size_t i = 0; i < of_member.size(); i += 2 + m)
+            touches.push_back({static_cast<unsigned int>(of_member[i]),
+                               static_cast<unsigned int>(of_member[i + 1]), member,
+                               &of_member[i + 2]});
+        }
+      const Patch patch(touches, narrow<unsigned int>(members.size()), m);
+      for (unsigned int v = 0; v < of_subdomain.values.n_columns(); ++v, ++id)
+        {
+          std::vector<double> c(patch.n_rows(), 0.);
+          unsigned int        j = 0;
+          for (unsigned int i = 0; i < patch.n_rows(); ++i)
+            {
+              // both ascend
+              while (j < of_subdomain.rows.size() && of_subdomain.rows[j] < patch.begin(i)->row)
+                ++j;
+              if (j < of_subdomain.rows.size() && of_subdomain.rows[j] == patch.begin(i)->row)
+                c[i] = of_subdomain.values(j, v);
+            }
+          patch.balance(c);
+          std::vector<std::vector<double>> of_member(members.size());
+          for (unsigned int i = 0; i < patch.n_rows(); ++i)
+            for (const auto *t = patch.begin(i); t != patch.end(i); ++t)
+              {
+                of_member[t->member].push_back(t->row);
+                of_member[t->member].push_back(c[i]);
+              }
+          for (unsigned int member = 0; member < members.size(); ++member)
+            {
+              auto &to = out[rank_of(members[member])];
+              to.insert(to.end(), {double(members[member]), double(id),
+                                   double(of_member[member].size())});
+              to.insert(to.end(), of_member[member].begin(), of_member[member].end());
+            }
+        }
+    }
+  // Messages come rank by rank, and ids ascend with the ranks.
+  Numbers result;
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
+    for (auto p = message.second.begin(); p != message.second.end();)
+      {
+        auto      &of_subdomain = result[static_cast<unsigned int>(*p++)];
+        const auto end          = p + 2 + static_cast<std::ptrdiff_t>(p[1]);
+        of_subdomain.insert(of_subdomain.end(), p, end);
+        p = end;
+      }
+  return result;
+}
+
+/// Keeps what @p vectors have of subdomain s of this rank. @return B'C
+qp::MultiVector Deflation::take(const unsigned int s, const std::vector<double> &vectors)
+{
+  Part &part = parts[s];
+  part.ids.clear();
+  part.C = qp::MultiVector(narrow<unsigned int>(part.rows.size()), 0);
+  qp::MultiVector forces(systems[s].n_dofs(), 0), c(layout.n_local());
+  for (auto p = vectors.begin(); p != vectors.end();)
+    {
+      part.ids.push_back(static_cast<unsigned int>(p[0]));
+      const auto begin = p + 2, end = begin + static_cast<std::ptrdiff_t>(p[1]);
+      for (p = begin; p != end; p += 2)
+        c(layout.local_row(static_cast<unsigned int>(p[0]))) = p[1];
+      qp::MultiVector counted(part.C.n_rows()), force(forces.n_rows());
+      for (unsigned int i = 0; i < part.rows.size(); ++i)
+        counted(i) = c(part.rows[i]);
+      add_transposed(systems[s].B, c, force);
+      part.C.append(counted);
+      forces.append(force);
+      for (p = begin; p != end; p += 2)
+        c(layout.local_row(static_cast<unsigned int>(p[0]))) = 0.;
+    }
+  return forces;
+}
+
+void Deflation::build_pattern()
+{
+  std::set<Coupling> couplings;
+  for (const Part &part : parts)
+    for (const unsigned int i : part.ids)
+      for (const unsigned int j : part.ids)
+        couplings.emplace(i, j);
+  std::vector<std::vector<PetscInt>> rows(n_global);
+  for (const Coupling &coupling : unite(couplings, layout.communicator()))
+    rows[coupling.first].push_back(coupling.second);
+  E = CsrMatrix::from_rows(rows, n_global);
+  // CHOLMOD whatever the package of the stiffness: like the coarse problem it is solved on every
+  // rank.
+  factor = std::make_unique<SparseFactor>(E, Factorization::CHOLMOD);
+}
+
+void Deflation::update(const std::vector<std::unique_ptr<GeneralizedInverse>> &inverses,
+                       const std::vector<std::unique_ptr<LocalSchur>>         &schur)
+{
+  const auto                   vectors = balanced_vectors();
+  std::vector<qp::MultiVector> products(systems.size());
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto found = vectors.find(table.first + s);
+      if (found == vectors.end())
+        continue;
+      Part           &part   = parts[s];
+      const auto      forces = take(s, found->second);
+      qp::MultiVector motions(forces.n_rows(), forces.n_columns());
+      inverses[s]->apply(forces, motions);
+      products[s] = transpose_times(forces, motions);
+      part.X      = on_boundary(motions, *schur[s]);
+      part.B      = systems[s].B;
+      for (BEntry &entry : part.B)
+        entry.dof = schur[s]->boundary_position()[entry.dof];
+    }
+  if (!factor)
+    build_pattern();
+  std::fill(E.values.begin(), E.values.end(), 0.);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto &ids = parts[s].ids;
+      for (unsigned int i = 0; i < ids.size(); ++i)
+        for (unsigned int j = 0; j < ids.size(); ++j)
+          E.values[E.position(ids[i], ids[j])] += products[s](i, j);
+    }
+  sum_over_ranks(E.values, layout.communicator());
+  for (unsigned int i = 0; i < n_global; ++i)
+    {
+      double &diagonal = E.values[E.position(i, i)];
+      diagonal         = diagonal > 0. ? (1. + shift) * diagonal : 1.;
+    }
+  factor->factorize("the coarse problem of the soft modes");
+}
+
+qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
+{
+  qp::MultiVector y(n_global, b.n_columns());
+  factor->solve(b, y);
+  return y;
+}
+
+/// C y
+qp::MultiVector Deflation::multiply(const qp::MultiVector &y) const
+{
+  qp::MultiVector local(layout.n_local(), y.n_columns());
+  for (const Part &part : parts)
+    if (!part.ids.empty())
+      {
+        const auto c = times(part.C, rows_of(y, part.ids));
+        for (unsigned int k = 0; k < y.n_columns(); ++k)
+          for (unsigned int i = 0; i < part.rows.size(); ++i)
+            local(part.rows[i], k) = c(i, k);
+      }
+  return layout.to_owned(local);
+}
+
+std::vector<double> Deflation::remove_from(qp::MultiVector &x) const
+{
+  const auto      local = layout.to_local(x);
+  qp::MultiVector a(n_global, x.n_columns()); // (F C)'x
+  for (const Part &part : parts)
+    if (!part.ids.empty())
+      {
+        qp::MultiVector forces(part.X.n_rows(), x.n_columns());
+        add_transposed(part.B, local, forces);
+        add_to_rows(part.ids, transpose_times(part.X, forces), a);
+      }
+  sum(a, layout.communicator());
+  const auto y = solve(a);
+  x.add(-1., multiply(y));
+  std::vector<double> removed(x.n_columns(), 0.);
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < n_global; ++i)
+      removed[k] += a(i, k) * y(i, k);
+  return removed;
+}
+
+void Deflation::correct(qp::MultiVector &lambda, qp::MultiVector &residual) const
+{
+  const auto      r = layout.to_local(residual);
+  qp::MultiVector b(n_global, lambda.n_columns()); // C'r
+  for (const Part &part : parts)
+    if (!part.ids.empty())
+      add_to_rows(part.ids, transpose_times(part.C, rows_of(r, part.rows)), b);
+  sum(b, layout.communicator());
+  const auto y = solve(b);
+  lambda.add(1., multiply(y));
+  qp::MultiVector jumps(layout.n_local(), lambda.n_columns()); // F C y
+  for (const Part &part : parts)
+    if (!part.ids.empty())
+      {
+        const auto motions = times(part.X, rows_of(y, part.ids));
+        for (unsigned int k = 0; k < lambda.n_columns(); ++k)
+          for (const BEntry &entry : part.B)
+            jumps(entry.row, k) += entry.value * motions(entry.dof, k);
+      }
+  residual.add(-1., layout.to_owned(jumps));
+}
+} // namespace snug::feti

@@ -1,0 +1,177 @@
+#include <snug/base/narrow.h>
+#include <snug/feti/jump_columns.h>
+#include <snug/qp/row_set.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace snug::feti {
+namespace {
+using Unknown = std::pair<unsigned int, unsigned int>; // subdomain, dof
+
+/// Equality rows and unknowns of this rank, in groups that no row joins.
+struct Groups
+{
+  std::vector<Unknown>                   unknowns; ///< ascending
+  std::vector<std::vector<unsigned int>> entries;  ///< gathered ones of each unknown
+  std::vector<std::vector<unsigned int>> members;  ///< unknowns of each group, ascending
+};
+
+Groups groups_of(const RowLayout &layout, const qp::RowSet &equality)
+{
+  const auto                                  &start = layout.entry_start();
+  std::map<Unknown, std::vector<unsigned int>> entries;
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    if (equality[row])
+      for (unsigned int e = start[row]; e < start[row + 1]; ++e)
+        entries[layout.entry_unknowns()[e]].push_back(e);
+  Groups                    groups;
+  std::vector<unsigned int> first(layout.n_owned(), 0), root;
+  for (const auto &[unknown, of_unknown] : entries)
+    {
+      groups.unknowns.push_back(unknown);
+      groups.entries.push_back(of_unknown);
+    }
+  root.resize(groups.unknowns.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](unsigned int i) {
+    while (root[i] != i)
+      i = root[i] = root[root[i]];
+    return i;
+  };
+  const unsigned int        none = narrow<unsigned int>(root.size());
+  std::vector<unsigned int> unknown_of_row(layout.n_owned(), none);
+  for (unsigned int i = 0; i < root.size(); ++i)
+    for (const unsigned int e : groups.entries[i])
+      {
+        const auto row =
+          narrow<unsigned int>(std::upper_bound(start.begin(), start.end(), e) - start.begin() - 1);
+        if (unknown_of_row[row] == none)
+          unknown_of_row[row] = i;
+        // The root is the first of its group.
+        const unsigned int a = find(unknown_of_row[row]), b = find(i);
+        root[std::max(a, b)] = std::min(a, b);
+      }
+  std::map<unsigned int, unsigned int> group_of_root;
+  for (unsigned int i = 0; i < root.size(); ++i)
+    {
+      const auto found =
+        group_of_root.emplace(find(i), narrow<unsigned int>(groups.members.size())).first;
+      if (found->second == groups.members.size())
+        groups.members.emplace_back();
+      groups.members[found->second].push_back(i);
+    }
+  return groups;
+}
+} // namespace
+
+SubdomainRanks::SubdomainRanks(const unsigned int first, MPI_Comm comm)
+  : first_of_rank(dealii::Utilities::MPI::all_gather(comm, first))
+{}
+
+unsigned int SubdomainRanks::operator()(const unsigned int subdomain) const
+{
+  // A rank without subdomains has the first id of the next one: the last of equals has it.
+  return narrow<unsigned int>(
+    std::upper_bound(first_of_rank.begin(), first_of_rank.end(), subdomain) -
+    first_of_rank.begin() - 1);
+}
+
+/// The owner of the rows of a group has all of it; subdomains are told their columns.
+std::vector<JumpColumns> jump_columns(const RowLayout           &layout,
+                                      const RowGram             &gram,
+                                      const std::vector<double> &entries,
+                                      const unsigned int         stride,
+                                      const unsigned int         first,
+                                      const unsigned int         n_subdomains)
+{
+  const auto equality = qp::complement(layout.bounded());
+  const auto groups   = groups_of(layout, equality);
+  const auto &start   = layout.entry_start();
+  std::vector<unsigned int> row_of_entry;
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    row_of_entry.insert(row_of_entry.end(), start[row + 1] - start[row], row);
+  std::size_t width = 0;
+  for (const auto &members : groups.members)
+    width = std::max(width, members.size());
+  // Groups do not meet in W: one column serves an unknown of each.
+  qp::MultiVector X(layout.n_owned(), narrow<unsigned int>(width));
+  for (const auto &members : groups.members)
+    for (unsigned int k = 0; k < members.size(); ++k)
+      for (const unsigned int e : groups.entries[members[k]])
+        X(row_of_entry[e], k) =
+          entries[std::size_t(e) * stride] * entries[std::size_t(e) * stride + 1];
+  RowGram::Factor(gram, equality).solve(X);
+
+  const MPI_Comm                              comm = layout.communicator();
+  const SubdomainRanks                        rank_of(first, comm);
+  std::map<unsigned int, std::vector<double>> out;
+  for (const auto &members : groups.members)
+    for (unsigned int k = 0; k < members.size(); ++k)
+      {
+        const Unknown            &unknown = groups.unknowns[members[k]];
+        std::vector<double>       copies;
+        std::vector<unsigned int> rows;
+        for (const unsigned int other : members)
+          {
+            double sum = 0.;
+            for (const unsigned int e : groups.entries[other])
+              {
+                rows.push_back(row_of_entry[e]);
+                sum += entries[std::size_t(e) * stride] * X(row_of_entry[e], k) *
+                       entries[std::size_t(e) * stride + 1];
+              }
+            // B_D' B e_i = D^-1 B' W^-1 B e_i, where X has W^-1 B D^-1 e_i
+            const double D = 1. / entries[std::size_t(groups.entries[members[k]][0]) * stride + 1];
+            copies.insert(copies.end(), {double(groups.unknowns[other].first),
+                                         double(groups.unknowns[other].second), D * sum});
+          }
+        std::sort(rows.begin(), rows.end());
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        auto &buffer = out[rank_of(unknown.first)];
+        buffer.insert(buffer.end(), {double(unknown.first), double(unknown.second),
+                                     double(rows.size()), double(members.size())});
+        for (const unsigned int row : rows)
+          buffer.insert(buffer.end(), {double(layout.global_row(row)), X(row, k)});
+        buffer.insert(buffer.end(), copies.begin(), copies.end());
+      }
+
+  std::vector<JumpColumns> result(n_subdomains);
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, out))
+    for (auto p = message.second.begin(); p != message.second.end();)
+      {
+        auto          &columns = result[static_cast<unsigned int>(*p++) - first];
+        const auto     dof     = static_cast<unsigned int>(*p++);
+        const auto     n_rows = static_cast<unsigned int>(*p++), n_copies = static_cast<unsigned int>(*p++);
+        columns.dofs.push_back(dof);
+        columns.forces.emplace_back();
+        for (unsigned int i = 0; i < n_rows; ++i, p += 2)
+          columns.forces.back().push_back({static_cast<unsigned int>(p[0]), p[1]});
+        columns.copies.emplace_back();
+        for (unsigned int i = 0; i < n_copies; ++i, p += 3)
+          columns.copies.back().push_back(
+            {static_cast<unsigned int>(p[0]), static_cast<unsigned int>(p[1]), p[2]});
+      }
+  for (auto &columns : result)
+    {
+      // Messages come rank by rank.
+      std::vector<unsigned int> order(columns.dofs.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+        return columns.dofs[a] < columns.dofs[b];
+      });
+      JumpColumns sorted;
+      for (const unsigned int i : order)
+        {
+          sorted.dofs.push_back(columns.dofs[i]);
+          sorted.forces.push_back(std::move(columns.forces[i]));
+          sorted.copies.push_back(std::move(columns.copies[i]));
+        }
+      columns = std::move(sorted);
+    }
+  return result;
+}
+} // namespace snug::feti

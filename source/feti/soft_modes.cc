@@ -1,0 +1,291 @@
+#include <snug/base/narrow.h>
+#include <snug/feti/soft_modes.h>
+#include <snug/qp/independent_columns.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <random>
+
+namespace snug::feti {
+namespace {
+/// The c of mu > c. Uniform boxes have none above 2.5; with 5 instead of 4 linear solves take 1 to 2
+/// F-mults more, with 7 another 4.
+const double cut = 4.;
+
+/// More of a subdomain are left to PCPG: their vectors would cost more than the iterations.
+const unsigned int most_modes = 24;
+
+/// Columns of a step of the Krylov space.
+const unsigned int block = 8;
+
+/// Steps at least: a first one with half of the cut tells that there is no mode.
+const unsigned int usual_steps = 3;
+
+/// Parts of a column of the Krylov space that depend on the others are below this.
+const double dependence = 1e-8;
+
+using Entries = std::vector<JumpStiffness>;
+
+/// A of one subdomain on its boundary unknowns.
+class JumpEnergy
+{
+public:
+  JumpEnergy(const LocalSchur  &the_schur,
+             const JumpColumns &columns,
+             const Entries     &the_neighbours,
+             unsigned int       subdomain)
+    : schur(the_schur), diagonal(the_schur.n_boundary(), 0.)
+  {
+    const auto &position = schur.boundary_position();
+    for (unsigned int i = 0; i < columns.dofs.size(); ++i)
+      for (const auto &copy : columns.copies[i])
+        if (copy.subdomain == subdomain)
+          {
+            own.push_back({position[copy.dof], position[columns.dofs[i]], copy.value});
+            if (copy.dof == columns.dofs[i])
+              diagonal[position[copy.dof]] = copy.value;
+          }
+    for (const auto &entry : the_neighbours)
+      neighbours.push_back({position[entry.i], position[entry.j], entry.value});
+  }
+
+  /// A x
+  qp::MultiVector operator()(const qp::MultiVector &x) const
+  {
+    qp::MultiVector jump(x.n_rows(), x.n_columns()), result = jump;
+    for (unsigned int k = 0; k < x.n_columns(); ++k)
+      for (const JumpStiffness &p : own)
+        jump(p.i, k) += p.value * x(p.j, k);
+    const auto forces = schur.apply(jump);
+    for (unsigned int k = 0; k < x.n_columns(); ++k)
+      {
+        for (const JumpStiffness &p : own)
+          result(p.j, k) += p.value * forces(p.i, k);
+        for (const JumpStiffness &p : neighbours)
+          result(p.i, k) += p.value * x(p.j, k);
+      }
+    return result;
+  }
+
+  /// y with B_s' B_D y = P_s'y = A x. Where supports couple the unknowns of a
+  /// node, P_s is taken as its diagonal.
+  qp::MultiVector forces(const qp::MultiVector &x) const
+  {
+    // below, an unknown that is all of its node's stiffness causes no jump
+    const double    least = 1e-12;
+    qp::MultiVector jump(x.n_rows(), x.n_columns()), others = jump;
+    for (unsigned int k = 0; k < x.n_columns(); ++k)
+      {
+        for (const JumpStiffness &p : own)
+          jump(p.i, k) += p.value * x(p.j, k);
+        for (const JumpStiffness &p : neighbours)
+          others(p.i, k) += p.value * x(p.j, k);
+      }
+    qp::MultiVector result = schur.apply(jump);
+    for (unsigned int k = 0; k < x.n_columns(); ++k)
+      for (unsigned int i = 0; i < x.n_rows(); ++i)
+        if (diagonal[i] > least)
+          result(i, k) += others(i, k) / diagonal[i];
+    return result;
+  }
+
+private:
+  const LocalSchur   &schur;
+  Entries             own, neighbours;
+  std::vector<double> diagonal; ///< of P_s
+};
+
+/// The transpose of on_boundary(): zero at the other unknowns.
+qp::MultiVector
+from_boundary(const qp::MultiVector &x, const LocalSchur &schur, const unsigned int n)
+{
+  qp::MultiVector result(n, x.n_columns());
+  const auto     &position = schur.boundary_position();
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < n; ++i)
+      if (position[i] < schur.n_boundary())
+        result(i, k) = x(position[i], k);
+  return result;
+}
+
+/// Eigenpairs of a symmetric matrix, largest first.
+struct Eigenpairs
+{
+  std::vector<double> values;
+  qp::MultiVector     vectors;
+};
+
+Eigenpairs eigenpairs(const qp::MultiVector &H)
+{
+  const unsigned int               n = H.n_columns();
+  dealii::LAPACKFullMatrix<double> matrix(n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      matrix(i, j) = 0.5 * (H(i, j) + H(j, i));
+  // semidefinite: singular values are eigenvalues
+  matrix.compute_svd();
+  Eigenpairs result{{}, qp::MultiVector(n, n)};
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      result.values.push_back(matrix.singular_value(j));
+      for (unsigned int i = 0; i < n; ++i)
+        result.vectors(i, j) = matrix.get_svd_vt()(j, i);
+    }
+  return result;
+}
+
+unsigned int count_above(const std::vector<double> &descending, const double least)
+{
+  return narrow<unsigned int>(std::find_if(descending.begin(), descending.end(),
+                                           [&](const double mu) { return mu <= least; }) -
+                              descending.begin());
+}
+
+qp::MultiVector independent(const qp::MultiVector &gram)
+{
+  return qp::orthonormal_combinations(gram, std::vector<double>(gram.n_columns(), 0.), dependence);
+}
+} // namespace
+
+/// Each subdomain t knows K_t and, from its own columns, who is at its unknowns, but what s causes
+/// there stands in the columns of s: s asks with these, t answers.
+std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> &systems,
+                                             const std::vector<JumpColumns>     &columns,
+                                             const unsigned int                  first,
+                                             MPI_Comm                            comm)
+{
+  const SubdomainRanks                        rank_of(first, comm);
+  std::map<unsigned int, std::vector<double>> questions, answers;
+  for (unsigned int s = 0; s < columns.size(); ++s)
+    {
+      // unknowns of t, with the s, i and P of every column that reaches them
+      std::map<unsigned int, std::vector<double>> of_neighbour;
+      for (unsigned int i = 0; i < columns[s].dofs.size(); ++i)
+        for (const auto &copy : columns[s].copies[i])
+          if (copy.subdomain != first + s && copy.value != 0.)
+            {
+              auto &list = of_neighbour[copy.subdomain];
+              list.insert(list.end(),
+                          {double(copy.dof), double(columns[s].dofs[i]), copy.value});
+            }
+      for (const auto &[t, list] : of_neighbour)
+        {
+          auto &out = questions[rank_of(t)];
+          out.insert(out.end(), {double(first + s), double(t), double(list.size())});
+          out.insert(out.end(), list.begin(), list.end());
+        }
+    }
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, questions))
+    for (auto p = message.second.begin(); p != message.second.end();)
+      {
+        const double      s    = *p++;
+        const auto        t    = static_cast<unsigned int>(*p++);
+        const std::size_t size = static_cast<std::size_t>(*p++);
+        // (unknown j of t, unknown i of s, P_ji), by j
+        std::vector<std::array<double, 3>> reached;
+        for (std::size_t i = 0; i < size; i += 3, p += 3)
+          reached.push_back({p[0], p[1], p[2]});
+        std::sort(reached.begin(), reached.end());
+        const CsrMatrix         &K = systems[t - first].K;
+        std::vector<std::size_t> start(K.n_rows + 1, 0);
+        for (const auto &entry : reached)
+          ++start[static_cast<std::size_t>(entry[0]) + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        auto       &out  = answers[message.first];
+        out.insert(out.end(), {s, double(t), 0.});
+        const auto  place_of_size = out.size() - 1;
+        for (const auto &a : reached)
+          {
+            const auto j = static_cast<std::size_t>(a[0]);
+            for (PetscInt place = K.row_start[j]; place < K.row_start[j + 1]; ++place)
+              for (auto b = start[K.columns[place]]; b < start[K.columns[place] + 1]; ++b)
+                out.insert(out.end(), {a[1], reached[b][1], a[2] * reached[b][2] * K.values[place]});
+          }
+        out[place_of_size] = double(out.size() - place_of_size - 1);
+      }
+  // The sum over neighbours in their global order, whatever ranks they are on.
+  std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> parts; // of s and t
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, answers))
+    for (auto p = message.second.begin(); p != message.second.end();)
+      {
+        const auto        s    = static_cast<unsigned int>(*p++);
+        const auto        t    = static_cast<unsigned int>(*p++);
+        const std::size_t size = static_cast<std::size_t>(*p++);
+        parts[{s, t}].assign(p, p + narrow<std::ptrdiff_t>(size));
+        p += narrow<std::ptrdiff_t>(size);
+      }
+  std::vector<Entries> result(systems.size());
+  for (const auto &[st, part] : parts)
+    for (std::size_t i = 0; i < part.size(); i += 3)
+      result[st.first - first].push_back({static_cast<unsigned int>(part[i]),
+                                          static_cast<unsigned int>(part[i + 1]), part[i + 2]});
+  return result;
+}
+
+SoftModes soft_modes(const SubdomainSystem    &system,
+                     const GeneralizedInverse &inverse,
+                     const LocalSchur         &schur,
+                     const JumpColumns        &columns,
+                     const Entries            &neighbours,
+                     const unsigned int        subdomain)
+{
+  const JumpEnergy   A(schur, columns, neighbours, subdomain);
+  const unsigned int n = system.n_dofs(), n_b = schur.n_boundary();
+  // Rigid motions have no energy, their mu is infinite; the natural coarse space takes care of
+  // them. The others are those that are A-orthogonal to them, for which K^+ A is defined.
+  const auto R = on_boundary(system.R, schur), AR = A(R);
+  const auto C = independent(transpose_times(R, AR));
+  const auto N = times(R, C), AN = times(AR, C); // N'AN = I
+  const auto off_rigid = [&](qp::MultiVector &x) {
+    x.add_product(-1., N, transpose_times(AN, x));
+  };
+  std::mt19937    random(1);
+  qp::MultiVector V(n_b, block), basis(n_b, 0), S_basis(n_b, 0), A_basis(n_b, 0);
+  for (unsigned int k = 0; k < block; ++k)
+    for (unsigned int i = 0; i < n_b; ++i)
+      V(i, k) = double(random()) / double(std::mt19937::max()) - 0.5;
+  off_rigid(V);
+  SoftModes       result{qp::MultiVector(n, 0), {}};
+  qp::MultiVector AV = A(V), U;
+  for (unsigned int step = 1; basis.n_columns() + block <= n_b; ++step)
+    {
+      // V <- K^+ A V, so that S V is the A V of before.
+      qp::MultiVector x(n, AV.n_columns());
+      inverse.apply(from_boundary(AV, schur, n), x);
+      V                  = on_boundary(x, schur);
+      qp::MultiVector SV = AV;
+      off_rigid(V);
+      // twice, or rounding would leave parts along the first, largest ones
+      for (unsigned int sweep = 0; sweep < 2 && basis.n_columns() > 0; ++sweep)
+        {
+          const auto parts = transpose_times(S_basis, V);
+          V.add_product(-1., basis, parts);
+          SV.add_product(-1., S_basis, parts);
+        }
+      const auto D = independent(transpose_times(V, SV));
+      if (D.n_columns() == 0)
+        break;
+      V  = times(V, D);
+      AV = A(V);
+      basis.append(V);
+      S_basis.append(times(SV, D));
+      A_basis.append(AV);
+      const auto pairs = eigenpairs(transpose_times(basis, A_basis));
+      result.mu        = pairs.values;
+      U                = pairs.vectors;
+      const auto k     = count_above(result.mu, cut);
+      if (k >= most_modes || (step >= usual_steps && 2 * k <= basis.n_columns()))
+        break;
+    }
+  result.mu.resize(std::min(most_modes, count_above(result.mu, cut)));
+  if (!result.mu.empty())
+    result.forces = from_boundary(
+      A.forces(times(basis, U.columns_from(0, narrow<unsigned int>(result.mu.size())))), schur, n);
+  return result;
+}
+} // namespace snug::feti
