@@ -221,8 +221,9 @@ BodyCounts count_body(const scene::Body &body, const unsigned int degree)
 template <int dim>
 Counts count_in(const scene::Scene &scene, const unsigned int ranks)
 {
-  Counts                        result;
-  std::vector<double>           cells;
+  Counts              result;
+  std::vector<double> cells, each;
+  const auto          by_size = mesh::cells_per_subdomain(dim, scene.degree, idealization(scene));
   std::map<std::string, double> nodes_of_face;
   for (const auto &body : scene.bodies)
     {
@@ -230,6 +231,7 @@ Counts count_in(const scene::Scene &scene, const unsigned int ranks)
       for (const auto &[name, nodes] : of.boundary_nodes)
         nodes_of_face[body.name + "." + name] = nodes;
       cells.push_back(of.cells);
+      each.push_back(of.has_layers ? by_size.compact : by_size.other);
       result.cells += of.cells;
       result.nodes += of.nodes;
       result.coarse_cells += of.coarse_cells;
@@ -243,16 +245,17 @@ Counts count_in(const scene::Scene &scene, const unsigned int ranks)
       result.contact_rows +=
         either && master != nodes_of_face.end() ? std::max(slave, master->second) : slave;
     }
-  double each = scene.tearing.subdomains > 0
-                  ? result.cells / scene.tearing.subdomains
-                  : mesh::cells_per_subdomain(dim, scene.degree, idealization(scene));
+  if (scene.tearing.subdomains > 0)
+    each.assign(cells.size(), result.cells / scene.tearing.subdomains);
   do
     {
       result.subdomains = 0.;
-      for (const double of_body : cells)
-        result.subdomains += std::max(1., std::round(of_body / each));
-      each /= 2.;
-  } while (result.subdomains < std::min<double>(ranks, result.cells) && each > 0.1);
+      for (unsigned int body = 0; body < cells.size(); ++body)
+        {
+          result.subdomains += std::max(1., std::round(cells[body] / each[body]));
+          each[body] /= 2.;
+        }
+  } while (result.subdomains < std::min<double>(ranks, result.cells) && each.front() > 0.1);
   return result;
 }
 } // namespace

@@ -14,7 +14,7 @@ void add_subdomains(const Subject<dim> &subject, std::vector<Advice> &advice)
 {
   const auto  &mesh = subject.mesh();
   const double n = subject.solver.tearing().n_global, each = mesh.n_global_cells() / n,
-               by_size = mesh::cells_per_subdomain(dim, mesh.degree(), mesh.idealization());
+               by_size = mesh::cells_per_subdomain(dim, mesh.degree(), mesh.idealization()).compact;
   const double ranks   = subject.solver.context().n_ranks();
   if (subject.scene.tearing.subdomains == 0 || each >= 0.25 * by_size || n <= ranks)
     return;

@@ -94,7 +94,8 @@ void Results<dim>::print_work() const
   out << (summary.accuracy->met ? "targets met" : "targets not met") << " on "
       << summary.accuracy->meshes.size() << " meshes with " << unknowns << " unknowns and "
       << f_mults << " F-mults in all;";
-  for (const auto *stage : {"setup", "assembly", "factorization", "solve", "accuracy"})
+  for (const auto *stage :
+       {"setup", "assembly", "factorization", "soft modes", "solve", "accuracy"})
     out << ' ' << stage << ' ' << problem->context.seconds(stage) << " s";
   out << std::endl;
 }

@@ -7,14 +7,15 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <random>
 
 namespace snug::feti {
 namespace {
-/// The c of mu > c. Uniform boxes have none above 2.5; with 5 instead of 4 linear solves take 1 to 2
-/// F-mults more, with 7 another 4.
+/// The c of mu > c. Uniform boxes have none above 2.5; with 5 instead of 4 linear solves take 1 to
+/// 2 F-mults more, with 7 another 4.
 const double cut = 4.;
 
 /// More of a subdomain are left to PCPG: their vectors would cost more than the iterations.
@@ -170,8 +171,7 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
           if (copy.subdomain != first + s && copy.value != 0.)
             {
               auto &list = of_neighbour[copy.subdomain];
-              list.insert(list.end(),
-                          {double(copy.dof), double(columns[s].dofs[i]), copy.value});
+              list.insert(list.end(), {double(copy.dof), double(columns[s].dofs[i]), copy.value});
             }
       for (const auto &[t, list] : of_neighbour)
         {
@@ -186,6 +186,11 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
         const double      s    = *p++;
         const auto        t    = static_cast<unsigned int>(*p++);
         const std::size_t size = static_cast<std::size_t>(*p++);
+        if (!systems[t - first].outflow.empty())
+          {
+            p += narrow<std::ptrdiff_t>(size);
+            continue;
+          }
         // (unknown j of t, unknown i of s, P_ji), by j
         std::vector<std::array<double, 3>> reached;
         for (std::size_t i = 0; i < size; i += 3, p += 3)
@@ -196,15 +201,16 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
         for (const auto &entry : reached)
           ++start[static_cast<std::size_t>(entry[0]) + 1];
         std::partial_sum(start.begin(), start.end(), start.begin());
-        auto       &out  = answers[message.first];
+        auto &out = answers[message.first];
         out.insert(out.end(), {s, double(t), 0.});
-        const auto  place_of_size = out.size() - 1;
+        const auto place_of_size = out.size() - 1;
         for (const auto &a : reached)
           {
             const auto j = static_cast<std::size_t>(a[0]);
             for (PetscInt place = K.row_start[j]; place < K.row_start[j + 1]; ++place)
               for (auto b = start[K.columns[place]]; b < start[K.columns[place] + 1]; ++b)
-                out.insert(out.end(), {a[1], reached[b][1], a[2] * reached[b][2] * K.values[place]});
+                out.insert(out.end(),
+                           {a[1], reached[b][1], a[2] * reached[b][2] * K.values[place]});
           }
         out[place_of_size] = double(out.size() - place_of_size - 1);
       }
@@ -222,8 +228,8 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
   std::vector<Entries> result(systems.size());
   for (const auto &[st, part] : parts)
     for (std::size_t i = 0; i < part.size(); i += 3)
-      result[st.first - first].push_back({static_cast<unsigned int>(part[i]),
-                                          static_cast<unsigned int>(part[i + 1]), part[i + 2]});
+      result[st.first - first].push_back(
+        {static_cast<unsigned int>(part[i]), static_cast<unsigned int>(part[i + 1]), part[i + 2]});
   return result;
 }
 
@@ -241,9 +247,7 @@ SoftModes soft_modes(const SubdomainSystem    &system,
   const auto R = on_boundary(system.R, schur), AR = A(R);
   const auto C = independent(transpose_times(R, AR));
   const auto N = times(R, C), AN = times(AR, C); // N'AN = I
-  const auto off_rigid = [&](qp::MultiVector &x) {
-    x.add_product(-1., N, transpose_times(AN, x));
-  };
+  const auto off_rigid = [&](qp::MultiVector &x) { x.add_product(-1., N, transpose_times(AN, x)); };
   std::mt19937    random(1);
   qp::MultiVector V(n_b, block), basis(n_b, 0), S_basis(n_b, 0), A_basis(n_b, 0);
   for (unsigned int k = 0; k < block; ++k)
@@ -287,5 +291,20 @@ SoftModes soft_modes(const SubdomainSystem    &system,
     result.forces = from_boundary(
       A.forces(times(basis, U.columns_from(0, narrow<unsigned int>(result.mu.size())))), schur, n);
   return result;
+}
+
+void add_outflow(const SubdomainSystem &system, SoftModes &modes)
+{
+  if (system.outflow.empty())
+    return;
+  double largest = 0.;
+  for (const double flow : system.outflow)
+    largest = std::max(largest, std::abs(flow));
+  qp::MultiVector forces(system.n_dofs());
+  for (unsigned int i = 0; i < system.n_dofs(); ++i)
+    // of the size of a stiffness, as those of the modes
+    forces(i) = system.K.mean_diagonal() / largest * system.outflow[i];
+  modes.forces.append(forces);
+  modes.mu.push_back(std::numeric_limits<double>::infinity());
 }
 } // namespace snug::feti

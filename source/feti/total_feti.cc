@@ -70,13 +70,19 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
           std::make_unique<LocalSchur>(system, parameters.preconditioner == Preconditioner::lumped,
                                        parameters.factorization, orderings, run));
     }
-  bool likely = false;
+  if (parameters.preconditioner == Preconditioner::none ||
+      parameters.soft_modes == SoftModesOf::none)
+    return;
+  bool slender = false, incompressible = false;
   for (const SubdomainSystem &system : systems)
-    likely = likely || !system.compact;
-  if (parameters.preconditioner != Preconditioner::none &&
-      parameters.soft_modes != SoftModesOf::none)
-    knows_soft_modes = parameters.soft_modes == SoftModesOf::likely &&
-                       dealii::Utilities::MPI::logical_or(likely, run.communicator()) == false;
+    {
+      slender        = slender || !system.compact;
+      incompressible = incompressible || !system.outflow.empty();
+    }
+  seeks_modes = parameters.soft_modes == SoftModesOf::all ||
+                dealii::Utilities::MPI::logical_or(slender, run.communicator());
+  knows_soft_modes =
+    !seeks_modes && !dealii::Utilities::MPI::logical_or(incompressible, run.communicator());
 }
 
 /// Factorizations may fail on one rank only: everywhere() turns that into an error of all, or the
@@ -195,32 +201,43 @@ void TotalFeti::find_soft_modes()
   auto                    entries = gather_entries();
   if (parameters.scaling != Scaling::stiffness)
     set_compliances_to_one(entries, entry_width());
-  const unsigned int first   = coarse.subdomains().first;
-  const auto         columns = jump_columns(layout, gram, entries, entry_width(), first,
-                                            narrow<unsigned int>(systems.size()));
-  const auto neighbours = stiffness_of_neighbours(systems, columns, first, run.communicator());
+  const unsigned int first = coarse.subdomains().first;
+  const auto         columns =
+    jump_columns(layout, gram, entries, entry_width(), first, narrow<unsigned int>(systems.size()));
+  std::vector<std::vector<JumpStiffness>> neighbours;
+  if (seeks_modes)
+    neighbours = stiffness_of_neighbours(systems, columns, first, run.communicator());
   std::vector<RowForces> forces;
-  double                 largest   = 0.;
-  unsigned int           n_vectors = 0;
+  double                 largest = 0.;
+  // vectors, subdomains that have some, and those that are nearly incompressible
+  std::vector<unsigned int> counts(3, 0);
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      const auto modes =
-        soft_modes(systems[s], *inverses[s], *schur[s], columns[s], neighbours[s], first + s);
+      SoftModes modes{qp::MultiVector(systems[s].n_dofs(), 0), {}};
+      if (seeks_modes)
+        modes =
+          soft_modes(systems[s], *inverses[s], *schur[s], columns[s], neighbours[s], first + s);
+      if (!modes.mu.empty())
+        largest = std::max(largest, modes.mu.front());
+      add_outflow(systems[s], modes);
       if (modes.mu.empty())
         continue;
       forces.push_back(row_forces(modes, columns[s], first + s));
-      n_vectors += narrow<unsigned int>(modes.mu.size());
-      largest = std::max(largest, modes.mu.front());
+      counts[0] += narrow<unsigned int>(modes.mu.size());
+      ++counts[1];
+      counts[2] += !systems[s].outflow.empty();
     }
-  const auto n_subdomains =
-    dealii::Utilities::MPI::sum(narrow<unsigned int>(forces.size()), run.communicator());
-  n_vectors = dealii::Utilities::MPI::sum(n_vectors, run.communicator());
-  largest   = dealii::Utilities::MPI::max(largest, run.communicator());
-  if (n_vectors == 0)
+  dealii::Utilities::MPI::sum(counts, run.communicator(), counts);
+  largest = dealii::Utilities::MPI::max(largest, run.communicator());
+  run.work.soft_modes += counts[0];
+  if (counts[0] == 0)
     return;
-  run.out() << "soft modes: " << n_vectors << " of " << n_subdomains
-            << " subdomains, the softest " << largest << " times stiffer by its jumps"
-            << std::endl;
+  run.out() << "soft modes: " << counts[0] << " of " << counts[1] << " subdomains";
+  if (counts[2] > 0)
+    run.out() << ", the volume of " << counts[2] << " nearly incompressible ones among them";
+  if (largest > 0.)
+    run.out() << ", the softest " << largest << " times stiffer by its jumps";
+  run.out() << std::endl;
   deflation          = std::make_unique<Deflation>(systems, layout, coarse.subdomains(), forces);
   deflation_outdated = true;
 }

@@ -188,7 +188,8 @@ Json summary_part(const Work &work)
           {"coarse_solves", work.coarse_solves},
           {"symbolic_factorizations", work.symbolic_factorizations},
           {"numeric_factorizations", work.numeric_factorizations},
-          {"assembled_subdomains", work.assembled_subdomains}};
+          {"assembled_subdomains", work.assembled_subdomains},
+          {"soft_modes", work.soft_modes}};
 }
 
 Json summary_part(const std::vector<Summary::MeasuredResponse> &responses)
@@ -216,10 +217,15 @@ Json summary_part(const Summary::Adaptation &adaptation)
 
 Json summary_part(const Summary::Times &times)
 {
-  return {
-    {"setup", times.setup},   {"assembly", times.assembly}, {"factorization", times.factorization},
-    {"solve", times.solve},   {"gradient", times.gradient}, {"accuracy", times.accuracy},
-    {"output", times.output}, {"total", times.total}};
+  return {{"setup", times.setup},
+          {"assembly", times.assembly},
+          {"factorization", times.factorization},
+          {"soft_modes", times.soft_modes},
+          {"solve", times.solve},
+          {"gradient", times.gradient},
+          {"accuracy", times.accuracy},
+          {"output", times.output},
+          {"total", times.total}};
 }
 } // namespace
 

@@ -38,6 +38,48 @@ typename CellSet<dim>::Key key(const typename Refined<dim>::active_cell_iterator
   return {{level << 32 | static_cast<unsigned int>(parent->index()), path}};
 }
 
+/// From one face's centre to that of the opposite one.
+template <int dim>
+using CellAxes = std::array<dealii::Tensor<1, dim>, dim>;
+
+template <int dim>
+CellAxes<dim> axes_of(const geometry::BodyGeometry<dim> &geometry,
+                      const geometry::CoarseCells<dim>  &coarse,
+                      const dealii::CellId              &cell)
+{
+  CellAxes<dim> axes;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      auto low = geometry::unit_centre<dim>(), high = low;
+      low[d]  = 0.;
+      high[d] = 1.;
+      axes[d] =
+        geometry.position(coarse.point(cell, high)) - geometry.position(coarse.point(cell, low));
+    }
+  return axes;
+}
+
+/// Of the cell's section across an axis.
+double area_across(const CellAxes<2> &axes, const unsigned int axis)
+{
+  return axes[1 - axis].norm();
+}
+
+double area_across(const CellAxes<3> &axes, const unsigned int axis)
+{
+  return dealii::cross_product_3d(axes[(axis + 1) % 3], axes[(axis + 2) % 3]).norm();
+}
+
+template <int dim>
+bool is_slender(const CellAxes<dim> &axes)
+{
+  std::vector<double> lengths;
+  for (const auto &axis : axes)
+    lengths.push_back(axis.norm());
+  const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+  return *longest > compact_aspect * *shortest;
+}
+
 /// Whether the body is refined evenly, so that its cells lie in layers. Collective.
 template <int dim>
 bool has_one_level(unsigned int body, const Refined<dim> &refined)
@@ -62,8 +104,9 @@ CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
                       const Refined<dim>                &refined)
 {
   CellSet<dim> set;
-  set.communicator = deal_ii_compat::communicator(refined);
-  set.size         = geometry.extent();
+  set.communicator        = deal_ii_compat::communicator(refined);
+  set.size                = geometry.extent();
+  unsigned long n_slender = 0;
   for (const auto &cell : refined.active_cell_iterators())
     if (cell->is_locally_owned() && cell->material_id() == body)
       {
@@ -72,6 +115,8 @@ CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
           geometry.logical(coarse.point(cell->id(), geometry::unit_centre<dim>())));
         set.numbers.push_back(number);
         set.keys.push_back(key<dim>(cell));
+        const auto axes = axes_of(geometry, coarse, cell->id());
+        n_slender += is_slender<dim>(axes);
         for (const unsigned int f : cell->face_indices())
           if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
             {
@@ -79,11 +124,15 @@ CellSet<dim> cell_set(const geometry::BodyGeometry<dim> &geometry,
               // One side enters the pair: of equal cells the one with the smaller number, else the
               // finer one. The other may belong to another rank.
               if (number < other || cell->neighbor_is_coarser(f))
-                set.neighbours.push_back({{number, other}});
+                {
+                  set.neighbours.push_back({{number, other}});
+                  set.areas.push_back(area_across(axes, f / 2));
+                }
             }
       }
-  set.n_global = dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(), set.communicator);
-  set.layered  = geometry.has_grid() && has_one_level(body, refined);
+  set.n_global  = dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(), set.communicator);
+  set.n_slender = dealii::Utilities::MPI::sum(n_slender, set.communicator);
+  set.layered   = geometry.has_grid() && has_one_level(body, refined);
   return set;
 }
 
@@ -112,21 +161,32 @@ struct Parts
   }
 };
 
+/// Whether parts are cubes of nearly cubic cells, but for some.
+template <int dim>
+bool makes_cubes(const CellSet<dim> &set, const std::string &method)
+{
+  const double few = 0.1;
+  return set.layered && method != "METIS" && set.n_slender <= few * set.n_global;
+}
+
 /// Parts are halved until every rank can have one; slabs may be empty, so the numbers are counted
 /// rather than computed. Collective.
 template <int dim>
 Parts decide_parts(const std::vector<CellSet<dim>> &sets,
                    const TearingParameters         &parameters,
-                   double                           cells_by_size)
+                   const CellsPerSubdomain         &by_size)
 {
   const MPI_Comm communicator = sets.front().communicator;
   unsigned long  n_cells      = 0;
   for (const auto &set : sets)
     n_cells += set.n_global;
-  const auto         &partition  = choose(partition_table<dim>(), parameters.method).make;
-  double              cells_each = parameters.subdomains == 0
-                                     ? cells_by_size
-                                     : std::max(1., double(n_cells) / parameters.subdomains);
+  const auto         &partition = choose(partition_table<dim>(), parameters.method).make;
+  std::vector<double> cells_each;
+  for (const auto &set : sets)
+    if (parameters.subdomains == 0)
+      cells_each.push_back(makes_cubes(set, parameters.method) ? by_size.compact : by_size.other);
+    else
+      cells_each.push_back(std::max(1., double(n_cells) / parameters.subdomains));
   const unsigned long least =
     parameters.at_least_ranks
       ? std::min<unsigned long>(n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator))
@@ -135,13 +195,13 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
   do
     {
       parts = Parts();
-      for (const auto &set : sets)
+      for (unsigned int body = 0; body < sets.size(); ++body)
         {
-          parts.of_body.push_back(partition(set, cells_each));
+          parts.of_body.push_back(partition(sets[body], cells_each[body]));
           parts.cells.push_back(cells_of_parts(parts.of_body.back(), communicator));
+          cells_each[body] /= 2.;
         }
-      cells_each /= 2.;
-  } while (parts.n_filled() < least && cells_each > 0.1);
+  } while (parts.n_filled() < least && cells_each.front() > 0.1);
   return parts;
 }
 
@@ -220,18 +280,21 @@ ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned in
   return ranks;
 }
 
-double cells_per_subdomain(const unsigned int  dim,
-                           const unsigned int  degree,
-                           const Idealization &idealization)
+CellsPerSubdomain cells_per_subdomain(const unsigned int  dim,
+                                      const unsigned int  degree,
+                                      const Idealization &idealization)
 {
-  const double edge = dim == 3 ? 5. : (idealization.is_axisymmetric() ? 64. : 12.);
-  return std::pow(edge / degree, dim);
+  const auto cells = [&](const double edge) { return std::pow(edge / degree, dim); };
+  if (idealization.is_axisymmetric())
+    return {cells(64.), cells(64.)};
+  return dim == 3 ? CellsPerSubdomain{cells(5.), cells(6.3)}
+                  : CellsPerSubdomain{cells(12.), cells(14.)};
 }
 
 template <int dim>
 std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
                                      const TearingParameters &parameters,
-                                     double                   cells_by_size,
+                                     const CellsPerSubdomain &by_size,
                                      const Refined<dim>      &refined,
                                      dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
@@ -239,7 +302,7 @@ std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
   std::vector<CellSet<dim>>        sets;
   for (unsigned int body = 0; body < geometries.size(); ++body)
     sets.push_back(cell_set(*geometries[body], body, coarse, refined));
-  const Parts parts = decide_parts(sets, parameters, cells_by_size);
+  const Parts parts = decide_parts(sets, parameters, by_size);
   const auto  ranks =
     ranks_of_parts(parts.cells,
                    dealii::Utilities::MPI::n_mpi_processes(deal_ii_compat::communicator(refined)));
@@ -267,10 +330,10 @@ std::vector<unsigned int> distribute(const Geometries<dim>   &geometries,
   return received_parts(result, sent);
 }
 
-#define SNUG_INSTANTIATE(dim)                                   \
-  template std::vector<unsigned int> distribute(                \
-    const Geometries<dim> &, const TearingParameters &, double, \
-    const dealii::parallel::distributed::Triangulation<dim> &,  \
+#define SNUG_INSTANTIATE(dim)                                                      \
+  template std::vector<unsigned int> distribute(                                   \
+    const Geometries<dim> &, const TearingParameters &, const CellsPerSubdomain &, \
+    const dealii::parallel::distributed::Triangulation<dim> &,                     \
     dealii::parallel::fullydistributed::Triangulation<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -1,3 +1,4 @@
+#include <snug/mesh/partition.h>
 #include <snug/state/assembler.h>
 #include <snug/state/rigid_modes.h>
 
@@ -6,12 +7,15 @@
 
 namespace snug::state {
 namespace {
-/// Nodes of a compact subdomain over those of a cube of as many cells: slabs of 5 x 5 x 2 cells have
-/// 1.05, parts of METIS 1.1 and more.
-const double most_nodes = 1.025;
+/// Nodes of a compact subdomain over those of a cube of as many cells: slabs of 5 x 5 x 2 cells
+/// have 1.05, parts of METIS 1.1 and more.
+const double most_nodes_of_cube = 1.025;
 
-/// Of its cells.
-const double largest_aspect = 1.8;
+/// In the plane, over those of a square; parts of METIS have 1.02.
+const double most_nodes_of_square = 1.01;
+
+/// Of Poisson's ratio. At 0.45 F-mults are a quarter more than at 0.3, which does not pay vectors.
+const double most_compressible = 0.46;
 } // namespace
 
 template <int dim>
@@ -202,16 +206,36 @@ bool Assembler<dim>::is_compact(const Field &positions) const
   // nodes, have more.
   const double edge  = std::pow(cells().size(), 1. / dim) * mesh.degree() + 1.;
   const double usual = std::pow(edge, dim);
-  if (subdomain.nodes.size() > most_nodes * usual)
+  if (subdomain.nodes.size() > (dim == 2 ? most_nodes_of_square : most_nodes_of_cube) * usual)
     return false;
   for (unsigned int i = 0; i < cells().size(); ++i)
     {
       if (&material(i) != &material(0))
         return false;
-      if (the_element.aspect(cell_field(i, positions)) > largest_aspect)
+      if (the_element.aspect(cell_field(i, positions)) > mesh::compact_aspect)
         return false;
     }
   return true;
+}
+
+template <int dim>
+std::vector<double> Assembler<dim>::outflow(const Field &positions) const
+{
+  std::vector<double> result;
+  if (mesh.idealization().kind == mesh::Idealization::Kind::plane_stress ||
+      model.bodies[subdomain.body].formulation == elasticity::Formulation::standard)
+    return result;
+  for (unsigned int i = 0; i < cells().size(); ++i)
+    if (material(i).poissons_ratio > most_compressible)
+      {
+        Nodes      gradient;
+        const auto X = cell_field(i, positions);
+        gradient.resize(X.size());
+        the_element.add_volume_gradient(X, 1., gradient);
+        result.resize(n_dofs(), 0.);
+        add_cell_vector(i, 1., gradient, result.data());
+      }
+  return result;
 }
 
 template <int dim>

@@ -64,7 +64,8 @@ def cold(chart, x, solver, entries):
     """Of one state; parts of the run that do not depend on the solver do not count."""
     found = run(BLOCKS, {"Task": "state", "Accuracy/Estimate": "none", **entries})
     return row(chart, x, solver, found["state"]["f_mults"],
-               sum(found["times"][part] for part in ("assembly", "factorization", "solve")))
+               sum(found["times"][part]
+                   for part in ("assembly", "factorization", "soft_modes", "solve")))
 
 
 def warm(x, solver, entries, start):

@@ -20,6 +20,7 @@ struct Work
   unsigned long symbolic_factorizations     = 0;
   unsigned long numeric_factorizations      = 0;
   unsigned long assembled_subdomains        = 0;
+  unsigned long soft_modes                  = 0; ///< found, coarse vectors of the dual problem
 };
 
 /**

@@ -70,8 +70,8 @@ private:
   };
 
   /// Per subdomain (global id) for each of its equality rows the global row, the number of its
-  /// subdomains and n_modes numbers of G; or, of C, (id, number of rows, (global row, value) of each)
-  /// for each vector.
+  /// subdomains and n_modes numbers of G; or, of C, (id, number of rows, (global row, value) of
+  /// each) for each vector.
   using Numbers = std::map<unsigned int, std::vector<double>>;
 
   Numbers         gather_rows() const;

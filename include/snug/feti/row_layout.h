@@ -65,7 +65,7 @@ private:
   MPI_Comm                                           comm;
   qp::RowSet                                         is_bounded;
   unsigned int                                       first_owned; ///< as global row
-  std::vector<unsigned int>                          local_rows; ///< ascending global rows
+  std::vector<unsigned int>                          local_rows;  ///< ascending global rows
   petsc::StarForest                                  row_forest, entry_forest;
   std::vector<unsigned int>                          start;
   std::vector<unsigned int>                          order; ///< of gathered entries

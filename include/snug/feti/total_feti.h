@@ -134,11 +134,11 @@ private:
   std::vector<double> gather_entries() const;
   void                update_deflation();
   void                gather_rows();
-  void weight_rows();
-  void check_equilibrium() const;
-  void update_preconditioner();
-  void precondition(qp::MultiVector &x) const;
-  void add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const;
+  void                weight_rows();
+  void                check_equilibrium() const;
+  void                update_preconditioner();
+  void                precondition(qp::MultiVector &x) const;
+  void                add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const;
 
   const std::vector<SubdomainSystem>              &systems;
   const RowLayout                                 &layout;
@@ -153,6 +153,7 @@ private:
   std::vector<std::vector<BEntry>> weighted_B;
   std::vector<bool>                outdated; ///< preconditioners of subdomains
   bool                             knows_soft_modes = true;
+  bool                             seeks_modes      = false; ///< by eigenproblems
   std::unique_ptr<Deflation>       deflation; ///< null: not wanted, or no mode is soft
   bool                             deflation_outdated = false;
   qp::MultiVector                  gap, dual_load, rigid_load;

@@ -162,8 +162,8 @@ struct Summary
 
   struct Times
   {
-    double setup = 0., assembly = 0., factorization = 0., solve = 0., gradient = 0., accuracy = 0.,
-           output = 0., total = 0.; ///< [s]
+    double setup = 0., assembly = 0., factorization = 0., soft_modes = 0., solve = 0.,
+           gradient = 0., accuracy = 0., output = 0., total = 0.; ///< [s]
   };
 
   /// Of the largest rank and of all together, when it was most [MB].

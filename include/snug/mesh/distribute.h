@@ -8,21 +8,29 @@
 #include <deal.II/distributed/fully_distributed_tria.h>
 
 namespace snug::mesh {
+/// Of a part by size.
+struct CellsPerSubdomain
+{
+  double compact; ///< where subdomains are cubes of nearly cubic cells, which have no soft modes
+  double other;
+};
+
 /**
- * Cells of a subdomain that keep factorizations and coarse problem in
- * balance: 5 Q1 cells per edge in 3D, 12 in 2D; fewer cells of higher
- * degree, by their nodes. Axisymmetric subdomains can all but turn and move
- * along the radius, which the coarse space does not know, the motion along
- * the axis being their only rigid one: the more there are, the more
- * iterations, so they have 64 cells per edge.
+ * Cells of a subdomain that keep factorizations, iterations, soft modes and
+ * coarse problem in balance: 5 Q1 cells per edge in 3D and 12 in 2D where
+ * subdomains are compact, else 6.3 and 14. Fewer cells of higher degree, by their nodes.
+ * Axisymmetric subdomains can all but turn and move along the radius, the
+ * motion along the axis being their only rigid one: with 64 cells per edge
+ * few soft modes are left.
  */
-double cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &idealization);
+CellsPerSubdomain
+cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &idealization);
 
 /**
  * Decide the parts into which the bodies are torn and give whole parts to
  * the ranks, so that subdomains do not depend on the number of ranks.
  *
- * A part by size has @p cells_by_size cells; there are as many parts as
+ * Parts by size have the cells of @p by_size; there are as many parts as
  * ranks where there are cells enough. Every body is
  * spread over all ranks in runs of consecutive parts; ranks differ by at
  * most about two parts in their numbers of cells.
@@ -37,7 +45,7 @@ template <int dim>
 std::vector<unsigned int>
 distribute(const Geometries<dim>                                   &geometries,
            const TearingParameters                                 &parameters,
-           double                                                   cells_by_size,
+           const CellsPerSubdomain                                 &by_size,
            const dealii::parallel::distributed::Triangulation<dim> &refined,
            dealii::parallel::fullydistributed::Triangulation<dim>  &result);
 

@@ -45,10 +45,15 @@ struct CellSet
   std::vector<Key>                keys;
   /// by their numbers; each pair of the body on one rank only
   CellPairs              neighbours;
-  unsigned long          n_global; ///< cells of the body
-  dealii::Tensor<1, dim> size;     ///< along the logical axes
-  bool                   layered;  ///< all cells lie in layers along the logical axes
+  std::vector<double>    areas;     ///< of the faces that these share [length^(dim-1)]
+  unsigned long          n_global;  ///< cells of the body
+  unsigned long          n_slender; ///< of those, axes differ by more than compact_aspect
+  dealii::Tensor<1, dim> size;      ///< along the logical axes
+  bool                   layered;   ///< all cells lie in layers along the logical axes
 };
+
+/// Longest over shortest axis of cells of which cubes of cells are nearly cubes.
+constexpr double compact_aspect = 1.8;
 
 /// Parts of one body, the same on any number of ranks.
 struct Partition
@@ -72,7 +77,8 @@ const ChoiceTable<Partition(const CellSet<dim> &, double)> &partition_table();
 template <int dim>
 Partition grid_partition(const CellSet<dim> &set, double cells_each);
 
-/// Row "METIS": the cell graph of the whole body, gathered on one rank.
+/// Row "METIS": the cell graph of the whole body, gathered on one rank, whose edges weigh as much
+/// as the faces' areas: parts of flat cells are not flat.
 template <int dim>
 Partition graph_partition(const CellSet<dim> &set, double cells_each);
 } // namespace snug::mesh

@@ -134,3 +134,23 @@ TEST(QuarterPoint, MidNodesMayNotReachTheQuarterPoint)
   EXPECT_NEAR(quality(0.25), 0., 1e-14);
   EXPECT_LT(quality(0.2), 0.);
 }
+
+TYPED_TEST(Quality, AspectIsTheRatioOfTheLongestAxisToTheShortest)
+{
+  constexpr int          dim = TestFixture::dim;
+  dealii::Tensor<2, dim> A;
+  for (unsigned int d = 0; d < dim; ++d)
+    A[d][d] = 2. + 7. * d;
+  const double expected = A[dim - 1][dim - 1] / A[0][0];
+  EXPECT_NEAR(this->element.aspect(this->cube), 1., 1e-14);
+  EXPECT_NEAR(this->element.aspect(times<dim>(A, this->cube)), expected, 1e-13);
+  // a turn by 30 degrees, another unit
+  dealii::Tensor<2, dim> Q   = dealii::unit_symmetric_tensor<dim>();
+  const double           sin = 0.5, cos = std::sqrt(0.75);
+  Q[0][0] = Q[1][1] = 1e-6 * cos;
+  Q[1][0]           = 1e-6 * sin;
+  Q[0][1]           = -Q[1][0];
+  for (unsigned int d = 2; d < dim; ++d)
+    Q[d][d] = 1e-6;
+  EXPECT_NEAR(this->element.aspect(times<dim>(Q * A, this->cube)), expected, 1e-13);
+}

@@ -12,20 +12,6 @@ namespace {
 using namespace snug;
 using namespace snug::test;
 
-Matrix product(const Matrix &A, const Matrix &B)
-{
-  Matrix C(A.m(), B.n());
-  A.mmult(C, B);
-  return C;
-}
-
-Matrix transposed(const Matrix &A)
-{
-  Matrix T(A.n(), A.m());
-  T.copy_transposed(A);
-  return T;
-}
-
 /// B without contact rows, B_D = W^-1 B D^-1 and P_D = B_D'B, dense.
 struct DenseJumps
 {
@@ -208,8 +194,9 @@ TEST_P(SoftModes, AreTheEigenvectorsOfTheJumps)
       const auto modes =
         feti::soft_modes(system, inverse, schur, columns[s], neighbours[s], first + s);
 
-      const Matrix K = dense_stiffness(truss.blocks[first + s]), P = block_of_P(first + s, first + s);
-      Matrix       A = product(transposed(P), product(dense_schur(system, K), P));
+      const Matrix K = dense_stiffness(truss.blocks[first + s]),
+                   P = block_of_P(first + s, first + s);
+      Matrix A       = product(transposed(P), product(dense_schur(system, K), P));
       for (const auto &entry : neighbours[s])
         A(entry.i, entry.j) += entry.value;
       const auto expected = eigenvalues(A, K, system.R);
@@ -222,8 +209,34 @@ TEST_P(SoftModes, AreTheEigenvectorsOfTheJumps)
   EXPECT_GE(n_modes, 6u); // flat cells have some
 }
 
-INSTANTIATE_TEST_SUITE_P(, SoftModes,
-                         ::testing::Values(std::make_pair(false, false), std::make_pair(true, true)));
+TEST_P(SoftModes, OutflowIsOneMoreAndItsNeighboursHaveNoBound)
+{
+  auto systems = problem->subdomains();
+  for (auto &system : systems)
+    for (unsigned int i = 0; i < system.n_dofs(); ++i)
+      system.outflow.push_back((i % 3) - 1.5);
+  const auto found = feti::stiffness_of_neighbours(systems, columns, first, MPI_COMM_WORLD);
+  for (unsigned int s = 0; s < columns.size(); ++s)
+    {
+      EXPECT_TRUE(found[s].empty());
+      const unsigned int n = systems[s].n_dofs();
+      feti::SoftModes    modes{qp::MultiVector(n, 2), {9., 8.}};
+      feti::add_outflow(systems[s], modes);
+      ASSERT_EQ(modes.forces.n_columns(), 3u);
+      EXPECT_TRUE(std::isinf(modes.mu[2]));
+      for (unsigned int i = 0; i < n; ++i)
+        EXPECT_NEAR(modes.forces(i, 2) * 1.5, systems[s].outflow[i] * systems[s].K.mean_diagonal(),
+                    1e-12);
+      systems[s].outflow.clear();
+      feti::add_outflow(systems[s], modes);
+      EXPECT_EQ(modes.mu.size(), 3u);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(,
+                         SoftModes,
+                         ::testing::Values(std::make_pair(false, false),
+                                           std::make_pair(true, true)));
 
 class Deflation : public ::testing::TestWithParam<std::pair<bool, bool>>
 {
@@ -325,6 +338,8 @@ TEST_P(Deflation, MinimizesOverItsSpan)
     EXPECT_LT(more[k], 1e-8 * steps[k]);
 }
 
-INSTANTIATE_TEST_SUITE_P(, Deflation,
-                         ::testing::Values(std::make_pair(false, false), std::make_pair(true, true)));
+INSTANTIATE_TEST_SUITE_P(,
+                         Deflation,
+                         ::testing::Values(std::make_pair(false, false),
+                                           std::make_pair(true, true)));
 } // namespace

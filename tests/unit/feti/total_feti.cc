@@ -7,20 +7,6 @@ namespace {
 using namespace snug;
 using namespace snug::test;
 
-Matrix product(const Matrix &A, const Matrix &B)
-{
-  Matrix C(A.m(), B.n());
-  A.mmult(C, B);
-  return C;
-}
-
-Matrix transposed(const Matrix &A)
-{
-  Matrix T(A.n(), A.m());
-  T.copy_transposed(A);
-  return T;
-}
-
 /// Moore-Penrose inverse of a singular symmetric A with orthonormal kernel N.
 Matrix pseudo_inverse(const Matrix &A, const Matrix &N)
 {

@@ -13,6 +13,20 @@ namespace snug::test {
 using Matrix = dealii::FullMatrix<double>;
 using Node   = std::vector<int>; ///< grid coordinates, 2 or 3
 
+inline Matrix product(const Matrix &A, const Matrix &B)
+{
+  Matrix C(A.m(), B.n());
+  A.mmult(C, B);
+  return C;
+}
+
+inline Matrix transposed(const Matrix &A)
+{
+  Matrix T(A.n(), A.m());
+  T.copy_transposed(A);
+  return T;
+}
+
 /// A block of a pin-jointed truss: grid nodes first..last, bars to all
 /// neighbours of the same cell. Rigid but for its 3 or 6 motions.
 struct Block

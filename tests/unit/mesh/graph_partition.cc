@@ -6,36 +6,46 @@
 
 using namespace snug;
 
-TEST(GraphPartition, CutsASquareNearlyAsShortAsRectanglesDo)
+/// Of n x n cells of size (a, 1) in n parts: the length of the cuts.
+double cut_length(const unsigned int n, const double a)
 {
-  // 32 x 32 cells in 32 parts: rectangles of 8 x 4 cells cut 3 * 32 + 7 * 32 = 320 faces
-  const unsigned int n = 32;
-  mesh::CellSet<2>   set;
+  mesh::CellSet<2> set;
   set.communicator = MPI_COMM_WORLD;
-  std::vector<std::array<unsigned int, 2>> faces;
-  for (unsigned int i = 0; i < n * n; ++i)
-    {
-      if (i % n + 1 < n)
-        faces.push_back({{i, i + 1}});
-      if (i + n < n * n)
-        faces.push_back({{i, i + n}});
-    }
   // all cells are on rank 0
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    {
-      for (unsigned int i = 0; i < n * n; ++i)
-        {
-          set.numbers.push_back(i);
-          set.keys.push_back({{0, i}});
-        }
-      set.neighbours = faces;
-    }
+    for (unsigned int i = 0; i < n * n; ++i)
+      {
+        set.numbers.push_back(i);
+        set.keys.push_back({{0, i}});
+        if (i % n + 1 < n)
+          {
+            set.neighbours.push_back({{i, i + 1}});
+            set.areas.push_back(1.);
+          }
+        if (i + n < n * n)
+          {
+            set.neighbours.push_back({{i, i + n}});
+            set.areas.push_back(a);
+          }
+      }
   const auto partition = mesh::graph_partition(set, n);
-  EXPECT_EQ(partition.n_parts, 32u);
-  if (partition.part.empty())
-    return;
-  unsigned int cut = 0;
-  for (const auto &face : faces)
-    cut += partition.part[face[0]] != partition.part[face[1]];
-  EXPECT_LE(cut, 1.2 * 320);
+  EXPECT_EQ(partition.n_parts, n);
+  double cut = 0.;
+  for (unsigned int p = 0; p < set.areas.size(); ++p)
+    if (partition.part[set.neighbours[p][0]] != partition.part[set.neighbours[p][1]])
+      cut += set.areas[p];
+  return dealii::Utilities::MPI::sum(cut, MPI_COMM_WORLD);
+}
+
+TEST(GraphPartition, CutsASquareNearlyAsShortAsRectanglesDo)
+{
+  // 32 x 32 cells in 32 parts: rectangles of 8 x 4 cells cut 3 * 32 + 7 * 32
+  EXPECT_LE(cut_length(32, 1.), 1.2 * 320);
+}
+
+TEST(GraphPartition, PartsOfFlatCellsAreNotFlat)
+{
+  // 32 parts of area 320, squares with a perimeter of 71.6 each but for the outer 704; parts of as
+  // many cells in both directions would cut 1640
+  EXPECT_LE(cut_length(32, 10.), 1.3 * (32 * 71.6 - 704) / 2.);
 }

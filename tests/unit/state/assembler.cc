@@ -89,6 +89,74 @@ TEST(Assembler, BodyModesAreContinuous)
     }
 }
 
+/// Of all subdomains of a scene.
+unsigned int count_compact(const TestScene<3> &scene)
+{
+  Problem<3>   problem(scene);
+  unsigned int n = 0;
+  for (const auto &system : problem.solver.feti(problem.solve()).subdomains())
+    n += system.compact;
+  return dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD);
+}
+
+TEST(Assembler, CubesOfNearlyCubicCellsOfOneMaterialAreCompact)
+{
+  auto scene       = two_blocks<3>(4, 4, 0.);
+  scene.subdomains = 2;
+  EXPECT_EQ(count_compact(scene), 2u);
+  scene.degree = 2;
+  EXPECT_EQ(count_compact(scene), 2u);
+  scene.degree          = 1;
+  scene.bodies[0].cells = {2, 4, 4}; // cells of aspect 2, and 32 are no cube
+  EXPECT_EQ(count_compact(scene), 1u);
+  scene.bodies[1].core_from = 0.5;
+  EXPECT_EQ(count_compact(scene), 0u);
+  // half as many cells again, of the same size, in one part: no cube
+  scene                    = two_blocks<3>(4, 4, 0.);
+  scene.subdomains         = 2;
+  scene.bodies[0].size[0]  = 1.5;
+  scene.bodies[0].cells[0] = 6;
+  EXPECT_EQ(count_compact(scene), 1u);
+}
+
+TEST(Assembler, OutflowIsTheChangeOfVolumeOfNearlyIncompressibleCells)
+{
+  auto scene                  = loaded_scene<3>(1);
+  scene.bodies[1].formulation = elasticity::Formulation::B_bar;
+  scene.bodies[1].material    = {1000., 0.499};
+  Problem<3>   problem(scene);
+  const auto   state = problem.solve();
+  const auto   x     = problem.positions(scene.design);
+  unsigned int n     = 0;
+  for (unsigned int s = 0; s < problem.tearing.subdomains.size(); ++s)
+    {
+      const auto &system    = problem.solver.feti(state).subdomains()[s];
+      const auto &assembler = *problem.solver.assemblers()[s];
+      const auto &subdomain = problem.tearing.subdomains[s];
+      const auto  outflow   = assembler.outflow(x);
+      EXPECT_EQ(outflow.empty(), subdomain.body == 0);
+      if (outflow.empty())
+        continue;
+      ++n;
+      // Rigid motions change no volume; u = x changes it by three times itself.
+      double volume = 0., change = 0.;
+      for (unsigned int i = 0; i < assembler.cells().size(); ++i)
+        volume += assembler.element().volume(assembler.cell_field(i, x));
+      for (unsigned int i = 0; i < subdomain.nodes.size(); ++i)
+        for (unsigned int d = 0; d < 3; ++d)
+          change += outflow[3 * i + d] * x[subdomain.nodes[i]][d];
+      EXPECT_NEAR(change, 3. * volume, 1e-12);
+      for (unsigned int mode = 0; mode < 6; ++mode)
+        {
+          double of_rigid = 0.;
+          for (unsigned int i = 0; i < system.n_dofs(); ++i)
+            of_rigid += outflow[i] * system.R(i, mode);
+          EXPECT_NEAR(of_rigid, 0., 1e-13);
+        }
+    }
+  EXPECT_GT(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 0u);
+}
+
 TEST(Assembler, LoadsHaveTheRightResultant)
 {
   // a flat unit box: resultant = traction + pressure + weight
