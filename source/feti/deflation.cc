@@ -6,17 +6,29 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace snug::feti {
 namespace {
-/// Relative to the diagonal: takes nothing from what G_L and F see, and
-/// makes definite what they do not, as hinges between parts of a patch, and
-/// vectors that others span.
-const double shift = 1e-10;
+/// Relative to the diagonal of G_L G_L': takes nothing from what G_L sees, and makes definite what
+/// it does not, as hinges between parts of a patch.
+const double patch_shift = 1e-10;
+
+/// Part of a vector below which what equilibrium leaves of it is rounding.
+const double rounding = 1e-6;
+
+/// Relative to the diagonal of E, for vectors that others span.
+const double shift = 1e-12;
 
 /// Parts of |G c| over |G_L| |c| that the shift leaves in one pass are below this part of them.
 const unsigned int balancing_passes = 3;
+
+double norm(const std::vector<double> &c)
+{
+  return std::sqrt(std::inner_product(c.begin(), c.end(), c.begin(), 0.));
+}
 
 /// Add B' of the columns of @p C, rows of which are local, to @p y on the
 /// numbering of B.
@@ -60,10 +72,10 @@ public:
   /// A row of one of its subdomains.
   struct Touch
   {
-    unsigned int  row;      ///< global
-    unsigned int  copies;   ///< subdomains of the row
-    unsigned int  member;   ///< of the patch
-    const double *G;        ///< n_modes numbers
+    unsigned int  row;    ///< global
+    unsigned int  copies; ///< subdomains of the row
+    unsigned int  member; ///< of the patch
+    const double *G;      ///< n_modes numbers
   };
 
   Patch(std::vector<Touch> touches, const unsigned int n_members, const unsigned int the_n_modes)
@@ -125,7 +137,7 @@ private:
     for (unsigned int i = 0; i < n; ++i)
       largest = std::max(largest, gram(i, i));
     for (unsigned int i = 0; i < n; ++i)
-      gram(i, i) += shift * largest;
+      gram(i, i) += patch_shift * largest;
     gram.set_property(dealii::LAPACKSupport::symmetric);
     gram.compute_cholesky_factorization();
   }
@@ -158,9 +170,9 @@ row_forces(const SoftModes &modes, const JumpColumns &columns, const unsigned in
   for (unsigned int i = 0; i < columns.dofs.size(); ++i)
     for (const auto &force : columns.forces[i])
       {
-        const auto row = narrow<unsigned int>(
-          std::lower_bound(result.rows.begin(), result.rows.end(), force.row) -
-          result.rows.begin());
+        const auto row =
+          narrow<unsigned int>(std::lower_bound(result.rows.begin(), result.rows.end(), force.row) -
+                               result.rows.begin());
         for (unsigned int j = 0; j < k; ++j)
           result.values(row, j) += force.value * modes.forces(columns.dofs[i], j);
       }
@@ -295,7 +307,10 @@ Deflation::Numbers Deflation::balanced_vectors() const
               if (j < of_subdomain.rows.size() && of_subdomain.rows[j] == patch.begin(i)->row)
                 c[i] = of_subdomain.values(j, v);
             }
+          const double whole = norm(c);
           patch.balance(c);
+          if (norm(c) < rounding * whole)
+            c.assign(c.size(), 0.);
           std::vector<std::vector<double>> of_member(members.size());
           for (unsigned int i = 0; i < patch.n_rows(); ++i)
             for (const auto *t = patch.begin(i); t != patch.end(i); ++t)
@@ -306,8 +321,8 @@ Deflation::Numbers Deflation::balanced_vectors() const
           for (unsigned int member = 0; member < members.size(); ++member)
             {
               auto &to = out[rank_of(members[member])];
-              to.insert(to.end(), {double(members[member]), double(id),
-                                   double(of_member[member].size())});
+              to.insert(to.end(),
+                        {double(members[member]), double(id), double(of_member[member].size())});
               to.insert(to.end(), of_member[member].begin(), of_member[member].end());
             }
         }
@@ -397,18 +412,43 @@ void Deflation::update(const std::vector<std::unique_ptr<GeneralizedInverse>> &i
           E.values[E.position(ids[i], ids[j])] += products[s](i, j);
     }
   sum_over_ranks(E.values, layout.communicator());
-  for (unsigned int i = 0; i < n_global; ++i)
-    {
-      double &diagonal = E.values[E.position(i, i)];
-      diagonal         = diagonal > 0. ? (1. + shift) * diagonal : 1.;
-    }
-  factor->factorize("the coarse problem of the soft modes");
+  scale_E();
+  // The shift makes solutions as large as 1 / shift, and is there to.
+  factor->factorize("the coarse problem of the soft modes",
+                    std::numeric_limits<double>::infinity());
 }
 
+/// To unit diagonal, with the shift.
+void Deflation::scale_E()
+{
+  scale.assign(n_global, 1.);
+  for (unsigned int i = 0; i < n_global; ++i)
+    // zero is what equilibrium has left nothing of
+    if (const double diagonal = E.diagonal(i); diagonal > 0.)
+      scale[i] = 1. / std::sqrt(diagonal);
+  for (unsigned int i = 0; i < n_global; ++i)
+    for (PetscInt p = E.row_start[i]; p < E.row_start[i + 1]; ++p)
+      E.values[p] *= scale[i] * scale[E.columns[p]];
+  for (unsigned int i = 0; i < n_global; ++i)
+    E.values[E.position(i, i)] = 1. + shift;
+}
+
+/// What the shift leaves of C'r no later direction could take away, as all are F-orthogonal to C:
+/// one step of refinement, of which the residual is shift y.
 qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
 {
-  qp::MultiVector y(n_global, b.n_columns());
-  factor->solve(b, y);
+  qp::MultiVector scaled = b, y(n_global, b.n_columns()), left = y;
+  const auto      rescale = [&](qp::MultiVector &x) {
+    for (unsigned int k = 0; k < x.n_columns(); ++k)
+      for (unsigned int i = 0; i < n_global; ++i)
+        x(i, k) *= scale[i];
+  };
+  rescale(scaled);
+  factor->solve(scaled, y);
+  left.add(shift, y);
+  factor->solve(left, scaled);
+  y.add(1., scaled);
+  rescale(y);
   return y;
 }
 

@@ -86,7 +86,7 @@ SparseFactor::SparseFactor(const CsrMatrix    &the_matrix,
   petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, solution.put()));
 }
 
-void SparseFactor::factorize(const std::string &what)
+void SparseFactor::factorize(const std::string &what, const double singular_size)
 {
   if (matrix.n_rows == 0) // CHOLMOD takes no empty matrix
     return;
@@ -111,10 +111,10 @@ void SparseFactor::factorize(const std::string &what)
   petsc::check(MatFactorGetError(factor, &kept));
   if (kept == MAT_FACTOR_OUTMEMORY)
     throw std::bad_alloc();
-  check(what);
+  check(what, singular_size);
 }
 
-void SparseFactor::check(const std::string &what) const
+void SparseFactor::check(const std::string &what, const double singular_size) const
 {
   qp::MultiVector b(matrix.n_rows), x(matrix.n_rows);
   double          largest = 0.;
@@ -144,9 +144,7 @@ void SparseFactor::check(const std::string &what) const
     throw SolveError("the factorization of " + what +
                      " is inaccurate or the matrix holds NaN: look for "
                      "degenerate cells and extreme material constants");
-  // b is the diagonal, about; a solution of this size has lost all but
-  // five digits: the matrix is singular up to round-off
-  const double singular_size = 1e11;
+  // b is the diagonal, about
   if (!(energy > 0. && size < singular_size))
     throw_not_definite(what);
 }

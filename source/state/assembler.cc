@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace snug::state {
 namespace {
@@ -202,20 +203,21 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
 template <int dim>
 bool Assembler<dim>::is_compact(const Field &positions) const
 {
-  // Of cubes of m^dim cells of degree p: (m p + 1)^dim nodes; ragged parts, and those with hanging
-  // nodes, have more.
+  // Of cubes of m^dim cells of degree p: (m p + 1)^dim nodes; ragged parts have more.
   const double edge  = std::pow(cells().size(), 1. / dim) * mesh.degree() + 1.;
   const double usual = std::pow(edge, dim);
   if (subdomain.nodes.size() > (dim == 2 ? most_nodes_of_square : most_nodes_of_cube) * usual)
     return false;
+  double smallest = std::numeric_limits<double>::max(), largest = 0.;
   for (unsigned int i = 0; i < cells().size(); ++i)
     {
-      if (&material(i) != &material(0))
+      const auto X = cell_field(i, positions);
+      if (&material(i) != &material(0) || the_element.aspect(X) > mesh::compact_aspect)
         return false;
-      if (the_element.aspect(cell_field(i, positions)) > mesh::compact_aspect)
-        return false;
+      smallest = std::min(smallest, the_element.volume(X));
+      largest  = std::max(largest, the_element.volume(X));
     }
-  return true;
+  return largest <= std::pow(mesh::compact_aspect, dim) * smallest;
 }
 
 template <int dim>

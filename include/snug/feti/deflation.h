@@ -78,6 +78,7 @@ private:
   Numbers         balanced_vectors() const;
   qp::MultiVector take(unsigned int s, const std::vector<double> &vectors);
   void            build_pattern();
+  void            scale_E();
   qp::MultiVector multiply(const qp::MultiVector &y) const;
   qp::MultiVector solve(const qp::MultiVector &b) const;
 
@@ -91,6 +92,7 @@ private:
   std::vector<std::set<unsigned int>> wanted_by; ///< ranks, of the rows of each subdomain
   std::vector<Part>                   parts;
   CsrMatrix                           E;
+  std::vector<double>                 scale; ///< makes its diagonal 1
   std::unique_ptr<SparseFactor>       factor;
 };
 } // namespace snug::feti

@@ -28,15 +28,17 @@ public:
    * Factorize the present values of the matrix.
    * @throws SolveError if the matrix is not positive definite, holds NaN,
    *   or the solution of one check system is wrong (packages can fail
-   *   silently); @p what names the matrix.
+   *   silently); @p what names the matrix. It counts as singular where
+   *   entries of a solution that should be of order one are above
+   *   @p singular_size: 1e11 leaves five digits.
    */
-  void factorize(const std::string &what);
+  void factorize(const std::string &what, double singular_size = 1e11);
 
   /// x = A^{-1} b for every column.
   void solve(const qp::MultiVector &b, qp::MultiVector &x) const;
 
 private:
-  void check(const std::string &what) const;
+  void check(const std::string &what, double singular_size) const;
 
   const CsrMatrix &matrix;
   petsc::Matrix    wrapped;

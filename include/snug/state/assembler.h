@@ -55,8 +55,8 @@ public:
   /// motions move.
   std::vector<unsigned int> fixing_dofs(const Field &positions) const;
 
-  /// Whether it is nearly a cube of cells near cubes of one material (a square in the plane): no
-  /// motion is then much softer than its neighbours are.
+  /// Whether it is nearly a cube of cells near cubes of one size and material (a square in the
+  /// plane): no motion is then much softer than its neighbours are.
   bool is_compact(const Field &positions) const;
 
   /// d V / d u at the unknowns, of the volume V of the cells that are nearly incompressible; empty:

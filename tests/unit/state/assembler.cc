@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <unit/state/test_scene.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace {
 using namespace snug;
 using namespace snug::test;
@@ -111,11 +113,16 @@ TEST(Assembler, CubesOfNearlyCubicCellsOfOneMaterialAreCompact)
   EXPECT_EQ(count_compact(scene), 1u);
   scene.bodies[1].core_from = 0.5;
   EXPECT_EQ(count_compact(scene), 0u);
-  // half as many cells again, of the same size, in one part: no cube
+  // hanging nodes: cells of two sizes
+  scene                         = two_blocks<3>(4, 4, 0.);
+  scene.subdomains              = 2;
+  scene.bodies[0].refined_below = 0.45;
+  EXPECT_EQ(count_compact(scene), 1u);
+  // three cubes in one part
   scene                    = two_blocks<3>(4, 4, 0.);
   scene.subdomains         = 2;
-  scene.bodies[0].size[0]  = 1.5;
-  scene.bodies[0].cells[0] = 6;
+  scene.bodies[0].size[0]  = 3.;
+  scene.bodies[0].cells[0] = 12;
   EXPECT_EQ(count_compact(scene), 1u);
 }
 
