@@ -50,6 +50,9 @@ private:
       options.sets.push_back(value_of(argument, equals));
     else if (name == "--output")
       options.output = value_of(argument, equals);
+    else if (name == "--petsc")
+      options.petsc +=
+        (options.petsc.empty() ? "" : " ") + petsc_options(value_of(argument, equals));
     else if (name == "--ranks")
       options.ranks = rank_number(value_of(argument, equals));
     else if (bool *flag = flag_called(name))
@@ -60,6 +63,15 @@ private:
       }
     else
       throw InputError("unknown option '" + argument + "'" + hint());
+  }
+
+  static std::string petsc_options(const std::string &text)
+  {
+    const auto trimmed = trim(text);
+    if (trimmed.size() < 2 || trimmed[0] != '-')
+      throw InputError("option '--petsc' needs options of PETSc, as \"-NAME VALUE\", not '" + text +
+                       "'" + hint());
+    return trimmed;
   }
 
   static unsigned int rank_number(const std::string &text)
@@ -121,6 +133,7 @@ std::string usage()
 {
   return R"(usage:
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
+                  [--petsc "-NAME VALUE ..."]...
     snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
     snug --validate FILE.prm | --print-parameters | --help | --version
 
@@ -131,6 +144,9 @@ Finds the shape of elastic bodies that makes their contact best.
                         change an entry of the file, for example
                         --set "Body punch/Box cells=4, 4, 4" --set Task=state
     --output DIR        leave the results there
+    --petsc "-NAME VALUE ..."
+                        options of PETSc, for example another package for K^+:
+                        --petsc "-kplus_pc_factor_mat_solver_type mumps"
     --restart           go on with an interrupted optimization
     --validate          read and check the file, list bodies and boundaries with
                         areas and bounding boxes, solve nothing
@@ -144,7 +160,8 @@ Finds the shape of elastic bodies that makes their contact best.
 Exit status: 0 done; 2 the input is wrong; 3 the problem has no solution or was
 not solved to its tolerance; 1 anything else. An optimization that is interrupted
 or runs out of evaluations ends with 0 if its design meets the constraints, else
-with 3. Options of PETSc are taken from the environment variable PETSC_OPTIONS.
+with 3. Options of PETSc are taken from the environment variable PETSC_OPTIONS
+as well; what nobody asked for is named when the run ends (doc/cluster.md).
 )";
 }
 } // namespace snug::app

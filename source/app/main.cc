@@ -35,6 +35,17 @@ void keep_freed_memory()
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
+/// By the environment variable: PETSc asks for some of them when it begins. The last one of a name
+/// holds.
+void pass_to_petsc(const std::string &options)
+{
+  if (options.empty())
+    return;
+  const char       *set = std::getenv("PETSC_OPTIONS");
+  const std::string all = (set != nullptr ? set + std::string(" ") : "") + options;
+  setenv("PETSC_OPTIONS", all.c_str(), 1);
+}
+
 /// Print what --help, --version and --print-parameters ask for.
 bool answer(const app::Options &options, std::ostream &out)
 {
@@ -71,6 +82,7 @@ int main(int argc, char *argv[])
         std::cerr << "snug: " << one_line(error) << std::endl;
       return app::exit_status(error);
     }
+  pass_to_petsc(options.petsc);
   // PETSc would take our options for its own and print its own help.
   int                                      no_options = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_options, argv, 1);

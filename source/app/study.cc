@@ -6,6 +6,8 @@
 #include <snug/app/sensitivity.h>
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
+#include <snug/base/petsc_options.h>
+#include <snug/feti/sparse_factor.h>
 #include <snug/io/text_file.h>
 #include <snug/scene/read_scene.h>
 
@@ -251,6 +253,13 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
     throw SolveError(complaint);
 }
 
+/// A misspelt one would not show otherwise.
+void warn_of_unused_petsc_options(RunContext &context)
+{
+  for (const auto &option : petsc::unused_options(context.communicator()))
+    context.out() << "warning: PETSc option " << option << " was not used" << std::endl;
+}
+
 /// OpenBLAS takes its buffer at the first call that needs one, and tries for ever where there
 /// is no memory: have it at once, if there is some.
 void reserve_blas_buffer()
@@ -280,6 +289,7 @@ void run_study(RunContext &context, const scene::Scene &given, const Options &op
     run_task<2>(context, scene, options);
   else
     run_task<3>(context, scene, options);
+  warn_of_unused_petsc_options(context);
 }
 
 void validate(RunContext &context, const scene::Scene &scene)
@@ -298,6 +308,7 @@ int run(const Options &options)
   const scene::Scene scene = scene::read_scene(
     {options.file, scene::read_text(options.file, MPI_COMM_WORLD), options.sets, options.output,
      [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
+  feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
     print_estimate(context, scene, options.ranks, true);
   else if (options.validate)

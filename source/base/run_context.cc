@@ -84,13 +84,14 @@ double RunContext::seconds() const
 Work RunContext::total_work() const
 {
   Work          total    = work;
-  unsigned long local[3] = {work.symbolic_factorizations, work.numeric_factorizations,
-                            work.assembled_subdomains};
-  unsigned long sum[3];
-  MPI_Allreduce(local, sum, 3, MPI_UNSIGNED_LONG, MPI_SUM, comm);
+  unsigned long local[4] = {work.symbolic_factorizations, work.numeric_factorizations,
+                            work.assembled_subdomains, work.subdomain_solves};
+  unsigned long sum[4];
+  MPI_Allreduce(local, sum, 4, MPI_UNSIGNED_LONG, MPI_SUM, comm);
   total.symbolic_factorizations = sum[0];
   total.numeric_factorizations  = sum[1];
   total.assembled_subdomains    = sum[2];
+  total.subdomain_solves        = sum[3];
   return total;
 }
 

@@ -54,7 +54,7 @@ CoarseSpace::CoarseSpace(const RowLayout &the_layout, const SubdomainTable &the_
 void CoarseSpace::build_pattern()
 {
   const unsigned int m = table.n_modes, n_subdomains = narrow<unsigned int>(table.body.size());
-  std::set<Coupling>     couplings, bounded_couplings;
+  std::set<Coupling> couplings, bounded_couplings;
   // Also subdomains without rows have their place on the diagonal.
   for (unsigned int s = 0; s < n_subdomains; ++s)
     couplings.emplace(s, s);

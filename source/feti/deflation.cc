@@ -378,7 +378,7 @@ void Deflation::build_pattern()
   E = CsrMatrix::from_rows(rows, n_global);
   // CHOLMOD whatever the package of the stiffness: like the coarse problem it is solved on every
   // rank.
-  factor = std::make_unique<SparseFactor>(E, Factorization::CHOLMOD);
+  factor = std::make_unique<SparseFactor>(E, FactorOf::soft_modes, Factorization::CHOLMOD);
 }
 
 void Deflation::update(const std::vector<std::unique_ptr<GeneralizedInverse>> &inverses,

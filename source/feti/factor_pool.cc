@@ -9,7 +9,7 @@ std::shared_ptr<FactorPool::Item> FactorPool::take(const CsrMatrix &matrix) cons
 {
   std::unique_ptr<Item> item;
   if (spare->empty())
-    item = std::make_unique<Item>(matrix);
+    item = std::make_unique<Item>(matrix, of);
   else
     {
       item = std::move(spare->back());

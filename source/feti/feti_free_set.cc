@@ -15,7 +15,10 @@ const qp::RowSet &TotalFeti::FetiFreeSet::rows() const
 const CoarseProblem &TotalFeti::FetiFreeSet::coarse_problem() const
 {
   if (!problem)
-    problem = std::make_unique<CoarseProblem>(feti.coarse, free);
+    {
+      problem = std::make_unique<CoarseProblem>(feti.coarse, free);
+      ++feti.run.work.coarse_factorizations;
+    }
   return *problem;
 }
 

@@ -60,7 +60,7 @@ GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
   for (unsigned int i = 0; i < system.n_dofs(); ++i)
     for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
       place_of_K.push_back(K_rho.position(i, K.columns[p]));
-  factor = std::make_unique<SparseFactor>(K_rho, package, &orderings);
+  factor = std::make_unique<SparseFactor>(K_rho, FactorOf::kplus, package, &orderings);
   ++context.work.symbolic_factorizations;
 }
 
@@ -76,6 +76,7 @@ void GeneralizedInverse::factorize(const std::string &what)
 
 void GeneralizedInverse::apply(const qp::MultiVector &b, qp::MultiVector &x) const
 {
+  context.work.subdomain_solves += b.n_columns();
   factor->solve(b, x);
 }
 } // namespace snug::feti

@@ -127,7 +127,8 @@ void LocalSchur::factorize(const std::string &what)
         }
       if (!lumped && n_i > 0)
         {
-          factor = std::make_unique<SparseFactor>(ii.matrix, package, &orderings);
+          factor =
+            std::make_unique<SparseFactor>(ii.matrix, FactorOf::dirichlet, package, &orderings);
           ++context.work.symbolic_factorizations;
         }
     }
@@ -148,6 +149,7 @@ qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const
     return y;
   qp::MultiVector load(n_i, x.n_columns()), inner(n_i, x.n_columns());
   ib.matrix.multiply_add(1., x, load);
+  context.work.subdomain_solves += x.n_columns();
   factor->solve(load, inner);
   ib.matrix.transpose_multiply_add(-1., inner, y);
   return y;

@@ -84,7 +84,8 @@ RowGram::RowGram(const RowLayout &layout)
     }
   // CHOLMOD whatever the package of the stiffness: these matrices are small.
   if (!fixed.rows.empty())
-    fixed_factor = std::make_unique<SparseFactor>(fixed.matrix, Factorization::CHOLMOD);
+    fixed_factor =
+      std::make_unique<SparseFactor>(fixed.matrix, FactorOf::row_gram, Factorization::CHOLMOD);
 }
 
 void RowGram::update(const std::vector<double> &entries, unsigned int stride)

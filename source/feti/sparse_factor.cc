@@ -1,33 +1,46 @@
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
+#include <snug/base/petsc_options.h>
 #include <snug/feti/sparse_factor.h>
 
 #include <dlfcn.h>
 
 #include <cmath>
 #include <new>
+#include <optional>
 
 namespace snug::feti {
 namespace {
-/// Whether the user has set an option of PETSc, asked before anyone else does.
-bool is_set(const char *name)
+const std::string package_option = "pc_factor_mat_solver_type", kind_option = "pc_type",
+                  order_option = "pc_factor_mat_ordering_type";
+
+std::string prefix_of(const FactorOf of)
 {
-  PetscBool set = PETSC_FALSE;
-  petsc::check(PetscOptionsHasName(nullptr, nullptr, name, &set));
-  return set == PETSC_TRUE;
+  return to_text(of) + "_";
 }
 
-/// Options for the next factor of CHOLMOD that the user has not set. Without an order given its
-/// default takes AMD when it looks good enough; trying METIS as well costs symbolic time once and
-/// saves 20 to 27 % of the fill.
-void set_options(const bool is_ordered)
+/// What PETSc calls the package, or that of its options.
+std::string package_name(const std::string &prefix, const Factorization package)
 {
-  static const bool chosen = is_set("-mat_cholmod_nmethods"), told = is_set("-mat_cholmod_print");
-  if (!chosen)
-    petsc::check(PetscOptionsSetValue(nullptr, "-mat_cholmod_nmethods", is_ordered ? "1" : "3"));
-  // It would print a warning of its own before the one line of factorize().
-  if (!told)
-    petsc::check(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"));
+  return petsc::option(prefix, package_option,
+                       package == Factorization::MUMPS ? MATSOLVERMUMPS : MATSOLVERCHOLMOD);
+}
+
+bool wants_lu(const std::string &prefix)
+{
+  const auto kind = petsc::option(prefix, kind_option, "cholesky");
+  if (kind != "cholesky" && kind != "lu")
+    throw InputError("PETSc option -" + prefix + kind_option + " is '" + kind +
+                     "'; it must be one of cholesky, lu");
+  return kind == "lu";
+}
+
+[[noreturn]] void
+throw_no_factorization(const std::string &prefix, const std::string &package, const bool lu)
+{
+  throw InputError("PETSc has no " + std::string(lu ? "LU" : "Cholesky") + " factorization by '" +
+                   package + "': Solver/Factorization or the PETSc options -" + prefix +
+                   package_option + " and -" + prefix + kind_option + " must name others");
 }
 
 /// CHOLMOD asks OpenMP for four threads whatever OMP_NUM_THREADS says;
@@ -50,14 +63,36 @@ void keep_to_one_thread()
 }
 } // namespace
 
+void check_factor_options(const Factorization package)
+{
+  auto one                 = CsrMatrix::from_rows({{0}}, 1);
+  one.values               = {1.};
+  const std::size_t n_uses = names(FactorOf()).size();
+  for (std::size_t use = 0; use < n_uses; ++use)
+    {
+      const auto   of           = static_cast<FactorOf>(use);
+      const bool   is_stiffness = of == FactorOf::kplus || of == FactorOf::dirichlet;
+      SparseFactor factor(one, of, is_stiffness ? package : Factorization::CHOLMOD);
+      factor.factorize("the matrix 1"); // SuperLU's factors cannot be destroyed before
+    }
+}
+
 SparseFactor::SparseFactor(const CsrMatrix    &the_matrix,
+                           const FactorOf      of,
                            const Factorization package,
                            FillOrderings      *orderings)
-  : matrix(the_matrix)
+  : matrix(the_matrix), is_lu(wants_lu(prefix_of(of)))
 {
-  set_options(orderings != nullptr);
   keep_to_one_thread();
-  const bool mumps = package == Factorization::MUMPS;
+  wrap_matrix();
+  analyse(prefix_of(of), package_name(prefix_of(of), package), orderings);
+  petsc::check(
+    VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, right_hand_side.put()));
+  petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, solution.put()));
+}
+
+void SparseFactor::wrap_matrix()
+{
   // PETSc wraps the arrays without a copy and does not write to them, but for the scaling in
   // factorize(), which is taken back.
   auto &csr = const_cast<CsrMatrix &>(matrix);
@@ -67,23 +102,64 @@ SparseFactor::SparseFactor(const CsrMatrix    &the_matrix,
   petsc::check(MatSetOption(wrapped, MAT_SYMMETRIC, PETSC_TRUE));
   // MUMPS takes its mode for positive definite matrices from this flag.
   petsc::check(MatSetOption(wrapped, MAT_SPD, PETSC_TRUE));
-  petsc::check(MatGetFactor(wrapped, mumps ? MATSOLVERMUMPS : MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY,
-                            factor.put()));
-  if (mumps)
-    petsc::check(MatMumpsSetIcntl(factor, 7, 4)); // PORD: METIS is absent
+}
+
+void SparseFactor::analyse(const std::string &prefix,
+                           const std::string &package,
+                           FillOrderings     *orderings)
+{
+  std::optional<petsc::DefaultOption> methods, silence;
+  if (package == MATSOLVERCHOLMOD)
+    {
+      // Without an order given its default takes AMD when it looks good enough; trying METIS as
+      // well costs symbolic time once and saves 20 to 27 % of the fill.
+      methods.emplace(prefix, "mat_cholmod_nmethods", orderings ? "1" : "3");
+      // It would print a warning of its own before the one line of factorize().
+      silence.emplace(prefix, "mat_cholmod_print", "0");
+    }
+  petsc::check(MatSetOptionsPrefixFactor(wrapped, prefix.c_str()));
+  const auto error = MatGetFactor(wrapped, package.c_str(),
+                                  is_lu ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY, factor.put());
+  if (error == PETSC_ERR_MISSING_FACTOR)
+    throw_no_factorization(prefix, package, is_lu);
+  petsc::check(error);
   MatFactorInfo info;
   petsc::check(MatFactorInfoInitialize(&info));
+  const auto order = elimination_order(prefix, orderings);
+  petsc::check(is_lu ? MatLUFactorSymbolic(factor, wrapped, order, order, &info)
+                     : MatCholeskyFactorSymbolic(factor, wrapped, order, &info));
+}
+
+/// Of rows and columns; none where the package finds its own.
+petsc::IndexSet SparseFactor::elimination_order(const std::string &prefix,
+                                                FillOrderings     *orderings) const
+{
   petsc::IndexSet order;
-  if (orderings && !mumps)
-    {
-      const auto &rows = orderings->of(matrix);
-      petsc::check(ISCreateGeneral(PETSC_COMM_SELF, narrow<PetscInt>(rows.size()), rows.data(),
-                                   PETSC_USE_POINTER, order.put()));
-    }
-  petsc::check(MatCholeskyFactorSymbolic(factor, wrapped, order, &info));
+  PetscBool       takes_order;
+  petsc::check(MatFactorGetCanUseOrdering(factor, &takes_order));
+  if (takes_order == PETSC_FALSE)
+    return order;
+  MatSolverType   package;
+  MatOrderingType preferred;
+  petsc::check(MatFactorGetSolverType(factor, &package));
   petsc::check(
-    VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, right_hand_side.put()));
-  petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, solution.put()));
+    MatFactorGetPreferredOrdering(factor, is_lu ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY, &preferred));
+  const bool finds_own = preferred == nullptr || std::string(preferred) == MATORDERINGEXTERNAL;
+  // PETSc's own LU takes no order that separates rows of one pattern, which PETSc sees to.
+  const auto wanted = petsc::option(prefix, order_option, is_lu && !finds_own ? preferred : "");
+  if (!wanted.empty())
+    {
+      petsc::IndexSet columns;
+      petsc::check(MatGetOrdering(wrapped, wanted.c_str(), order.put(), columns.put()));
+      return order;
+    }
+  if (finds_own && !(orderings && std::string(package) == MATSOLVERCHOLMOD))
+    return order;
+  FillOrderings own;
+  const auto   &rows = (orderings ? *orderings : own).of(matrix);
+  petsc::check(ISCreateGeneral(PETSC_COMM_SELF, narrow<PetscInt>(rows.size()), rows.data(),
+                               PETSC_COPY_VALUES, order.put()));
+  return order;
 }
 
 void SparseFactor::factorize(const std::string &what, const double singular_size)
@@ -101,7 +177,8 @@ void SparseFactor::factorize(const std::string &what, const double singular_size
     unit = std::ldexp(1., std::ilogb(matrix.diagonal(0)));
   petsc::check(MatScale(wrapped, 1. / unit));
   // Not by petsc::check() at once: first the values become what they were before.
-  const PetscErrorCode error = MatCholeskyFactorNumeric(factor, wrapped, &info);
+  const PetscErrorCode error = is_lu ? MatLUFactorNumeric(factor, wrapped, &info)
+                                     : MatCholeskyFactorNumeric(factor, wrapped, &info);
   petsc::check(MatScale(wrapped, unit));
   if (error == PETSC_ERR_MAT_CH_ZRPVT)
     throw_not_definite(what);

@@ -185,7 +185,9 @@ Json summary_part(const Work &work)
 {
   return {{"f_mults", work.f_mults},
           {"preconditioner_applications", work.preconditioner_applications},
+          {"coarse_factorizations", work.coarse_factorizations},
           {"coarse_solves", work.coarse_solves},
+          {"subdomain_solves", work.subdomain_solves},
           {"symbolic_factorizations", work.symbolic_factorizations},
           {"numeric_factorizations", work.numeric_factorizations},
           {"assembled_subdomains", work.assembled_subdomains},

@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/petsc_options.h>
 #include <snug/supports/support.h>
 
 #include <benchmark/bonded.h>
@@ -110,14 +111,16 @@ void Bonded::assemble(const state::StateSolver<dim>   &solver,
         f(maps[s][row]) += systems[s].f[row];
 }
 
-/// As SparseFactor does, whose options for the ordering hold here too, but
-/// without its check of every factorization.
+/// As SparseFactor does with a matrix without an order given, but without its check of every
+/// factorization.
 void Bonded::analyse()
 {
   check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, K.n_rows, K.n_rows, K.row_start.data(),
                                   K.columns.data(), K.values.data(), matrix.put()));
   check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
   check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+  check(MatSetOptionsPrefixFactor(matrix, "bonded_"));
+  const petsc::DefaultOption methods("bonded_", "mat_cholmod_nmethods", "3");
   check(MatGetFactor(matrix, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor.put()));
   MatFactorInfo info;
   check(MatFactorInfoInitialize(&info));

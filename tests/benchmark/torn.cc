@@ -67,11 +67,12 @@ void Torn::solve()
 
 Stage Torn::factorization_of_inverses() const
 {
+  feti::FillOrderings                                    orderings;
   std::vector<std::unique_ptr<feti::GeneralizedInverse>> inverses;
   for (const auto &system : feti.subdomains())
     inverses.push_back(std::make_unique<feti::GeneralizedInverse>(system,
                                                                   solver.model().feti.factorization,
-                                                                  context));
+                                                                  orderings, context));
   const auto factorize = [&]() {
     for (auto &inverse : inverses)
       inverse->factorize("K");
@@ -82,10 +83,12 @@ Stage Torn::factorization_of_inverses() const
 
 Stage Torn::factorization_of_interiors() const
 {
+  feti::FillOrderings                            orderings;
   std::vector<std::unique_ptr<feti::LocalSchur>> schur;
   for (const auto &system : feti.subdomains())
     schur.push_back(std::make_unique<feti::LocalSchur>(system, false,
-                                                       solver.model().feti.factorization, context));
+                                                       solver.model().feti.factorization, orderings,
+                                                       context));
   const auto factorize = [&]() {
     for (auto &part : schur)
       part->factorize("K_ii");

@@ -11,6 +11,7 @@ struct Options
   std::string              file;
   std::vector<std::string> sets;   ///< "Subsection/Entry=value"
   std::string              output; ///< directory; empty: as in the file
+  std::string              petsc;  ///< options of PETSc, "-NAME VALUE -NAME ..."
   bool                     restart          = false;
   bool                     validate         = false;
   bool                     advise           = false;
@@ -23,7 +24,7 @@ struct Options
 
 /// Values may follow their option or an equals sign (--output=DIR).
 /// @throws InputError naming an option that is unknown, lacks its value or
-///   has one it does not take, and if there is not exactly one file.
+///   has one it does not take or that is none of PETSc's, and if there is not exactly one file.
 Options parse(int argc, const char *const *argv);
 
 /// What --help prints.

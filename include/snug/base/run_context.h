@@ -10,13 +10,15 @@
 #include <string>
 
 namespace snug {
-/// What a run has done so far; the same on every rank except
-/// factorizations and assembled subdomains, which count this rank's.
+/// What a run has done so far; the same on every rank except what counts matrices of
+/// subdomains, which is this rank's: their factorizations, solves and assembly.
 struct Work
 {
   unsigned long f_mults                     = 0;
   unsigned long preconditioner_applications = 0;
+  unsigned long coarse_factorizations       = 0; ///< of G G', one for each set of rows
   unsigned long coarse_solves               = 0;
+  unsigned long subdomain_solves            = 0; ///< columns times factors of subdomains
   unsigned long symbolic_factorizations     = 0;
   unsigned long numeric_factorizations      = 0;
   unsigned long assembled_subdomains        = 0;

@@ -90,7 +90,7 @@ private:
   CsrMatrix                 gram;
   std::vector<std::size_t>  bounded_places; ///< in gram of contact rows
   std::vector<double>       equality_gram;
-  FactorPool                factor_pool; ///< of gram's pattern
+  FactorPool                factor_pool{FactorOf::coarse}; ///< of gram's pattern
   qp::MultiVector           modes;
   std::vector<unsigned int> representative;
 

@@ -8,22 +8,25 @@
 
 namespace snug::feti {
 /**
- * Matrices of one pattern with their symbolic factorizations by CHOLMOD.
- * Faces come and go with the active set and several may live at a time;
- * what one leaves behind serves the next.
+ * Matrices of one pattern with their symbolic factorizations, by CHOLMOD
+ * if PETSc's options name no other package: these matrices are small,
+ * whatever the package of the stiffness. Faces come and go with the active set and several may live
+ * at a time; what one leaves behind serves the next.
  */
 class FactorPool
 {
 public:
   struct Item
   {
-    explicit Item(const CsrMatrix &pattern)
-      : matrix(pattern), factor(matrix, Factorization::CHOLMOD)
+    Item(const CsrMatrix &pattern, const FactorOf of)
+      : matrix(pattern), factor(matrix, of, Factorization::CHOLMOD)
     {}
 
     CsrMatrix    matrix; ///< fill in values, then factor.factorize()
     SparseFactor factor;
   };
+
+  explicit FactorPool(const FactorOf the_use) : of(the_use) {}
 
   /// An item with the values of @p matrix, whose pattern is that of all
   /// others. It returns when the pointer and its copies are gone, which
@@ -33,6 +36,7 @@ public:
 private:
   using Items = std::vector<std::unique_ptr<Item>>;
 
+  FactorOf               of;
   std::shared_ptr<Items> spare = std::make_shared<Items>();
 };
 } // namespace snug::feti

@@ -47,7 +47,7 @@ private:
   };
 
   Group                                  fixed, contact;
-  FactorPool                             contact_factors;
+  FactorPool                             contact_factors{FactorOf::row_gram};
   std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)
   std::unique_ptr<SparseFactor>          fixed_factor;
   /// entries by unknown: (subdomain, dof) -> gathered entries

@@ -7,6 +7,31 @@
 #include <snug/feti/fill_orderings.h>
 
 namespace snug::feti {
+/// The matrices that are factorized. PETSc's options for one begin with its name and "_":
+/// -NAME_pc_factor_mat_solver_type PACKAGE, -NAME_pc_type cholesky or lu,
+/// -NAME_pc_factor_mat_ordering_type ORDER and those of the package, as -NAME_mat_mumps_icntl_7.
+enum class FactorOf
+{
+  kplus,
+  dirichlet,
+  coarse,
+  soft_modes,
+  row_gram
+};
+inline Names names(FactorOf)
+{
+  return {{"kplus", "K with fixed nodes, whose inverse is K^+"},
+          {"dirichlet", "the inner unknowns of a subdomain, in the Dirichlet preconditioner"},
+          {"coarse", "G G' of the rows that are free"},
+          {"soft_modes", "the coarse problem of the soft modes"},
+          {"row_gram", "B D^-1 B'"}};
+}
+
+/// @throws InputError if PETSc's options name a package or a factorization that PETSc lacks for
+/// one of the matrices, those of the stiffness being by @p package if the options name none.
+/// The same on all ranks.
+void check_factor_options(Factorization package);
+
 /**
  * Cholesky factorization of a sparse symmetric positive definite matrix
  * on one process, by a package of PETSc. The symbolic part is done once
@@ -20,9 +45,15 @@ public:
   /**
    * @param[in] matrix referenced, not copied: it must outlive this object
    *   and keep its arrays. Only its pattern is used here.
+   * @param[in] of whose options of PETSc hold.
+   * @param[in] package unless the options name another.
    * @param[in] orderings where CHOLMOD takes its order from; null: it tries some of its own.
+   * @throws InputError see check_factor_options()
    */
-  SparseFactor(const CsrMatrix &matrix, Factorization package, FillOrderings *orderings = nullptr);
+  SparseFactor(const CsrMatrix &matrix,
+               FactorOf         of,
+               Factorization    package,
+               FillOrderings   *orderings = nullptr);
 
   /**
    * Factorize the present values of the matrix.
@@ -38,9 +69,13 @@ public:
   void solve(const qp::MultiVector &b, qp::MultiVector &x) const;
 
 private:
-  void check(const std::string &what, double singular_size) const;
+  void wrap_matrix();
+  void analyse(const std::string &prefix, const std::string &package, FillOrderings *orderings);
+  petsc::IndexSet elimination_order(const std::string &prefix, FillOrderings *orderings) const;
+  void            check(const std::string &what, double singular_size) const;
 
   const CsrMatrix &matrix;
+  bool             is_lu;
   petsc::Matrix    wrapped;
   petsc::Matrix    factor;
   petsc::Vector    right_hand_side, solution;

@@ -39,6 +39,7 @@ TEST(CommandLine, TakesOptionsInAnyOrder)
   EXPECT_EQ(options.sets, (std::vector<std::string>{"Task=state", "Body a/Box cells=1,1"}));
   EXPECT_EQ(options.output, "there");
   EXPECT_TRUE(options.restart);
+  EXPECT_EQ(parse({"--petsc", " -a 1", "a.prm", "--petsc=-b"}).petsc, "-a 1 -b");
   EXPECT_FALSE(options.validate || options.print_parameters || options.help || options.version);
 }
 
@@ -65,6 +66,7 @@ TEST(CommandLine, NamesWhatIsWrong)
   expect(error_of({"a.prm", "--output"}), "'--output' needs a value");
   expect(error_of({"a.prm", "--output="}), "'--output' needs a value");
   expect(error_of({"a.prm", "--set"}), "'--set' needs a value");
+  expect(error_of({"a.prm", "--petsc", "mumps"}), "'mumps'");
   expect(error_of({"a.prm", "--restart=1"}), "'--restart' takes no value");
   expect(error_of({"a.prm", "b.prm"}), "'b.prm'");
   expect(error_of({"--estimate", "--ranks=0", "a.prm"}), "'--ranks' needs a whole number");

@@ -1,10 +1,12 @@
 #include <snug/base/errors.h>
 #include <snug/base/petsc_handle.h>
+#include <snug/base/petsc_options.h>
 #include <snug/feti/sparse_factor.h>
 
 #include <gtest/gtest.h>
 #include <unit/feti/torn_truss.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -83,7 +85,7 @@ TEST_P(Factors, SingularMatricesAreErrors)
   std::fill(zero.values.begin(), zero.values.end(), 0.);
   for (const auto *matrix : {&floating, &loose, &zero})
     {
-      feti::SparseFactor factor(*matrix, GetParam());
+      feti::SparseFactor factor(*matrix, feti::FactorOf::kplus, GetParam());
       expect_clear(complaint(factor));
     }
 }
@@ -92,7 +94,7 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
 {
   auto               K    = truss_on_springs();
   const auto         good = K.values;
-  feti::SparseFactor factor(K, GetParam());
+  feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
   // an off-diagonal entry and its mirror image
   const unsigned int other =
     K.columns[K.row_start[3]] == 3 ? K.columns[K.row_start[3] + 1] : K.columns[K.row_start[3]];
@@ -123,7 +125,7 @@ TEST_P(Factors, UnitsAreNoErrors)
     {
       for (std::size_t p = 0; p < good.size(); ++p)
         K.values[p] = unit * good[p];
-      feti::SparseFactor factor(K, GetParam());
+      feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
       ASSERT_EQ(complaint(factor), "") << unit;
       expect_inverse(K, factor);
     }
@@ -132,9 +134,74 @@ TEST_P(Factors, UnitsAreNoErrors)
 TEST_P(Factors, AnEmptyMatrixHasAnEmptyInverse)
 {
   const auto         empty = feti::CsrMatrix::from_rows({}, 0);
-  feti::SparseFactor factor(empty, GetParam());
+  feti::SparseFactor factor(empty, feti::FactorOf::kplus, GetParam());
   EXPECT_EQ(complaint(factor), "");
   expect_inverse(empty, factor);
+}
+
+/// Those of PETSc hold while this lives.
+class PetscOption
+{
+public:
+  PetscOption(const std::string &the_name, const std::string &value) : name(the_name)
+  {
+    petsc::check(PetscOptionsSetValue(nullptr, name.c_str(), value.c_str()));
+  }
+  ~PetscOption() { PetscOptionsClearValue(nullptr, name.c_str()); }
+  PetscOption(const PetscOption &)            = delete;
+  PetscOption &operator=(const PetscOption &) = delete;
+
+private:
+  std::string name;
+};
+
+bool is_unused(const std::string &option)
+{
+  const auto unused = petsc::unused_options(MPI_COMM_SELF);
+  return std::find(unused.begin(), unused.end(), option) != unused.end();
+}
+
+TEST_P(Factors, PetscOptionsOfAPrefixChooseThePackage)
+{
+  const auto K = truss_on_springs();
+  for (const std::string kind : {"cholesky", "lu"})
+    for (const std::string package : {"petsc", "mumps", "cholmod", "superlu"})
+      {
+        const PetscOption kind_option("-dirichlet_pc_type", kind),
+          package_option("-dirichlet_pc_factor_mat_solver_type", package);
+        SCOPED_TRACE(package + " " + kind);
+        if (package == (kind == "lu" ? "cholmod" : "superlu")) // which PETSc lacks
+          {
+            EXPECT_THROW(feti::SparseFactor(K, feti::FactorOf::dirichlet, GetParam()), InputError);
+            EXPECT_THROW(feti::check_factor_options(GetParam()), InputError);
+            continue;
+          }
+        EXPECT_NO_THROW(feti::check_factor_options(GetParam()));
+        feti::SparseFactor factor(K, feti::FactorOf::dirichlet, GetParam());
+        ASSERT_EQ(complaint(factor), "");
+        expect_inverse(K, factor);
+        // those of another matrix do not hold
+        feti::SparseFactor other(K, feti::FactorOf::kplus, GetParam());
+        ASSERT_EQ(complaint(other), "");
+        expect_inverse(K, other);
+      }
+  const PetscOption wrong("-kplus_pc_type", "jacobi");
+  EXPECT_THROW(feti::check_factor_options(GetParam()), InputError);
+}
+
+TEST_P(Factors, PetscOptionsNobodyAskedForAreKnown)
+{
+  const PetscOption asked("-kplus_pc_factor_mat_ordering_type", "rcm"),
+    methods("-kplus_mat_cholmod_nmethods", "2"), fill("-kplus_mat_mumps_icntl_7", "0"),
+    misspelt("-kplus_pc_factor_solver", "mumps"), flag("-k_plus", "");
+  const auto         K = truss_on_springs();
+  feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
+  ASSERT_EQ(complaint(factor), "");
+  expect_inverse(K, factor);
+  EXPECT_FALSE(is_unused("-kplus_pc_factor_mat_ordering_type rcm"));
+  EXPECT_EQ(is_unused("-kplus_mat_cholmod_nmethods 2"), GetParam() != feti::Factorization::CHOLMOD);
+  EXPECT_EQ(is_unused("-kplus_mat_mumps_icntl_7 0"), GetParam() != feti::Factorization::MUMPS);
+  EXPECT_TRUE(is_unused("-kplus_pc_factor_solver mumps"));
 }
 
 TEST_P(Factors, OneBadSubdomainIsAnErrorOnAllRanks)
