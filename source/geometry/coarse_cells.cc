@@ -2,20 +2,13 @@
 
 #include <deal.II/base/geometry_info.h>
 
-#include <deal.II/grid/tria.h>
-
-#include <map>
-
 namespace snug::geometry {
-/// On level 0 every rank has all cells, so this needs no communication.
 template <int dim>
-CoarseCells<dim>::CoarseCells(const dealii::Triangulation<dim, dim> &triangulation)
-  : index_of_id(triangulation.n_cells(0))
+CoarseCells<dim>::CoarseCells(const std::vector<unsigned int> &first_cell)
 {
-  std::map<unsigned int, unsigned int> n_of_body;
-  // ids go through all bodies; cells count from 0 in each, as geometries do
-  for (const auto &cell : triangulation.cell_iterators_on_level(0))
-    index_of_id[cell->id().get_coarse_cell_id()] = n_of_body[cell->material_id()]++;
+  for (unsigned int body = 0; body + 1 < first_cell.size(); ++body)
+    for (unsigned int cell = first_cell[body]; cell < first_cell[body + 1]; ++cell)
+      index_of_id.push_back(cell - first_cell[body]);
 }
 
 template <int dim>

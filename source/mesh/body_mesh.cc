@@ -62,13 +62,19 @@ void BodyMesh<dim>::triangulate(const std::vector<geometry::BodyMeshParameters> 
 {
   for (const auto &body : bodies)
     geometries.push_back(geometry::make_geometry<dim>(body));
-  dealii::parallel::distributed::Triangulation<dim> refined(comm);
-  create_coarse_mesh(geometries, refined);
-  source.coarse = geometry::CoarseCells<dim>(refined);
-  refine(bodies, geometries, source.coarse, refined);
-  source.parts = distribute(geometries, tearing, cells_per_subdomain(dim, fe_degree, meaning),
-                            refined, source.triangulation);
-  n_cells      = source.triangulation.n_global_active_cells();
+  const CoarseMesh<dim> coarse(geometries);
+  source.coarse      = coarse.places;
+  const auto by_size = cells_per_subdomain(dim, fe_degree, meaning);
+  if (are_refined(bodies))
+    {
+      dealii::parallel::distributed::Triangulation<dim> refined(comm);
+      create_triangulation(coarse, refined);
+      refine(bodies, coarse, refined);
+      source.parts = distribute(coarse, tearing, by_size, refined, source.triangulation);
+    }
+  else
+    source.parts = distribute(coarse, tearing, by_size, source.triangulation);
+  n_cells = source.triangulation.n_global_active_cells();
 }
 
 /// Every rank owns a range of global nodes, the ranges ascending with the rank. Collective.
@@ -165,7 +171,7 @@ void BodyMesh<dim>::collect_cells(const Source &source)
         cell_ids.push_back(cell->id());
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
-            // boundary ids are indices of the body's names, see create_coarse_mesh()
+            // boundary ids are indices of the body's names, see CoarseMesh
             mesh_faces.push_back(
               {body,
                cell->face(f)->boundary_id(),

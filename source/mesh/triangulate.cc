@@ -5,32 +5,27 @@
 #include <snug/geometry/formula.h>
 #include <snug/mesh/triangulate.h>
 
-#include <deal.II/grid/tria_description.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 
 namespace snug::mesh {
-/// Every rank has the whole coarse mesh, as p4est needs it. Bodies share no vertices, even where
-/// they touch.
 template <int dim>
-void create_coarse_mesh(const Geometries<dim>                             &geometries,
-                        dealii::parallel::distributed::Triangulation<dim> &triangulation)
+CoarseMesh<dim>::CoarseMesh(const Geometries<dim> &the_geometries) : geometries(the_geometries)
 {
-  std::vector<dealii::Point<dim>>               vertices;
-  std::vector<dealii::CellData<dim>>            coarse_cells;
-  std::map<std::vector<unsigned int>, unsigned> boundary;
   for (unsigned int body = 0; body < geometries.size(); ++body)
     {
       const auto         mesh   = geometries[body]->coarse_mesh();
       const unsigned int offset = vertices.size();
-      for (const auto &vertex : mesh.vertices)
-        vertices.push_back(vertex);
+      first_cell.push_back(cells.size());
+      vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
       for (const auto &cell : mesh.cells)
         {
-          dealii::CellData<dim> data(cell.size());
+          cells.emplace_back(cell.size());
           for (unsigned int v = 0; v < cell.size(); ++v)
-            data.vertices[v] = cell[v] + offset;
+            cells.back().vertices[v] = cell[v] + offset;
           // Refined cells inherit it. Regions are not kept here but come from coarse cells.
-          data.material_id = body;
-          coarse_cells.push_back(data);
+          cells.back().material_id = body;
         }
       for (const auto &face : mesh.boundary_faces)
         {
@@ -40,7 +35,23 @@ void create_coarse_mesh(const Geometries<dim>                             &geome
           boundary[geometry::sorted(key)] = face.second;
         }
     }
-  triangulation.create_triangulation(vertices, coarse_cells, dealii::SubCellData());
+  first_cell.push_back(cells.size());
+  places = geometry::CoarseCells<dim>(first_cell);
+}
+
+bool are_refined(const std::vector<geometry::BodyMeshParameters> &bodies)
+{
+  return std::any_of(bodies.begin(), bodies.end(), [](const auto &body) {
+    return body.refinements > 0 || (body.local_refinements > 0 && !body.refine_where.empty()) ||
+           (body.refined && !body.refined->empty());
+  });
+}
+
+template <int dim>
+void create_triangulation(const CoarseMesh<dim>                             &coarse,
+                          dealii::parallel::distributed::Triangulation<dim> &triangulation)
+{
+  triangulation.create_triangulation(coarse.vertices, coarse.cells, dealii::SubCellData());
   for (const auto &cell : triangulation.cell_iterators_on_level(0))
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary())
@@ -49,8 +60,25 @@ void create_coarse_mesh(const Geometries<dim>                             &geome
           for (const unsigned int v : cell->face(f)->vertex_indices())
             key.push_back(cell->face(f)->vertex_index(v));
           // at() throws if a geometry has left a side without a boundary
-          cell->face(f)->set_boundary_id(boundary.at(geometry::sorted(key)));
+          cell->face(f)->set_boundary_id(coarse.boundary.at(geometry::sorted(key)));
         }
+}
+
+/// On level 0 every rank has all cells, so this needs no communication.
+template <int dim>
+PlacedIds<dim>::PlacedIds(const dealii::parallel::distributed::Triangulation<dim> &forest)
+  : place(forest.n_cells(0))
+{
+  for (const auto &cell : forest.cell_iterators_on_level(0))
+    place[cell->id().get_coarse_cell_id()] = cell->index();
+}
+
+template <int dim>
+dealii::CellId PlacedIds<dim>::of(const dealii::CellId &in_forest) const
+{
+  const auto path = in_forest.get_child_indices();
+  return {place[in_forest.get_coarse_cell_id()], static_cast<unsigned int>(path.size()),
+          path.data()};
 }
 
 namespace {
@@ -61,22 +89,30 @@ bool refine_step(
   dealii::parallel::distributed::Triangulation<dim>                             &triangulation,
   const std::function<bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
 {
-  const auto before = triangulation.n_global_active_cells();
+  const MPI_Comm       communicator = deal_ii_compat::communicator(triangulation);
+  const PlacedIds<dim> ids(triangulation);
+  bool                 any = false;
   // a formula may fail on the rank of one cell only
-  everywhere(deal_ii_compat::communicator(triangulation), [&]() {
+  everywhere(communicator, [&]() {
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && wanted(cell->material_id(), cell->id(), cell->level()))
-        cell->set_refine_flag();
+      if (cell->is_locally_owned() &&
+          wanted(cell->material_id(), ids.of(cell->id()), cell->level()))
+        {
+          cell->set_refine_flag();
+          any = true;
+        }
   });
-  triangulation.execute_coarsening_and_refinement();
-  return triangulation.n_global_active_cells() > before;
+  any = dealii::Utilities::MPI::logical_or(any, communicator);
+  // Balancing the trees takes as long where there is nothing to do.
+  if (any)
+    triangulation.execute_coarsening_and_refinement();
+  return any;
 }
 } // namespace
 
 template <int dim>
 void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
-            const Geometries<dim>                             &geometries,
-            const geometry::CoarseCells<dim>                  &coarse,
+            const CoarseMesh<dim>                             &coarse,
             dealii::parallel::distributed::Triangulation<dim> &triangulation)
 {
   unsigned int                                         global_steps = 0, local_steps = 0;
@@ -103,8 +139,8 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
                                         unsigned int level) {
       // p4est keeps neighbours within one level and so may refine more than what is wanted
       return formulas[body] && level < bodies[body].refinements + bodies[body].local_refinements &&
-             formulas[body]->value(
-               geometries[body]->position(coarse.point(cell, geometry::unit_centre<dim>()))) > 0.;
+             formulas[body]->value(coarse.geometries[body]->position(
+               coarse.places.point(cell, geometry::unit_centre<dim>()))) > 0.;
     });
   // Level by level; cells that p4est refines to keep neighbours within one may be named, too.
   while (refine_step<dim>(triangulation,
@@ -114,16 +150,18 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
     ;
 }
 
-template void create_coarse_mesh(const Geometries<2> &,
-                                 dealii::parallel::distributed::Triangulation<2> &);
+template struct CoarseMesh<2>;
+template class PlacedIds<2>;
+template void create_triangulation(const CoarseMesh<2> &,
+                                   dealii::parallel::distributed::Triangulation<2> &);
 template void refine(const std::vector<geometry::BodyMeshParameters> &,
-                     const Geometries<2> &,
-                     const geometry::CoarseCells<2> &,
+                     const CoarseMesh<2> &,
                      dealii::parallel::distributed::Triangulation<2> &);
-template void create_coarse_mesh(const Geometries<3> &,
-                                 dealii::parallel::distributed::Triangulation<3> &);
+template struct CoarseMesh<3>;
+template class PlacedIds<3>;
+template void create_triangulation(const CoarseMesh<3> &,
+                                   dealii::parallel::distributed::Triangulation<3> &);
 template void refine(const std::vector<geometry::BodyMeshParameters> &,
-                     const Geometries<3> &,
-                     const geometry::CoarseCells<3> &,
+                     const CoarseMesh<3> &,
                      dealii::parallel::distributed::Triangulation<3> &);
 } // namespace snug::mesh

@@ -1,4 +1,4 @@
-#include <snug/mesh/partition.h>
+#include <snug/mesh/cell_shape.h>
 #include <snug/state/assembler.h>
 #include <snug/state/rigid_modes.h>
 

@@ -5,16 +5,10 @@
 
 #include <deal.II/grid/cell_id.h>
 
-namespace dealii {
-template <int dim, int spacedim>
-class Triangulation;
-}
-
 namespace snug::geometry {
 /**
  * Where refined cells lie in the coarse cells of their bodies. Coarse
- * cells have deal.II's ids, which are the same in all triangulations made
- * of the same coarse mesh.
+ * cells have deal.II's ids, their places in the coarse mesh of all bodies.
  */
 template <int dim>
 class CoarseCells
@@ -22,9 +16,8 @@ class CoarseCells
 public:
   CoarseCells() = default;
 
-  /// @param triangulation has all coarse cells, body after body; their
-  ///   material ids are the bodies.
-  explicit CoarseCells(const dealii::Triangulation<dim, dim> &triangulation);
+  /// Of coarse cells body after body; @p first_cell: of each body, and the end.
+  explicit CoarseCells(const std::vector<unsigned int> &first_cell);
 
   /// Index of the coarse cell of @p cell among those of its body.
   unsigned int coarse_cell(const dealii::CellId &cell) const

@@ -1,31 +1,12 @@
 #ifndef snug_mesh_distribute_h
 #define snug_mesh_distribute_h
 
-#include <snug/mesh/idealization.h>
-#include <snug/mesh/partition.h>
+#include <snug/mesh/parts.h>
 #include <snug/mesh/triangulate.h>
 
 #include <deal.II/distributed/fully_distributed_tria.h>
 
 namespace snug::mesh {
-/// Of a part by size.
-struct CellsPerSubdomain
-{
-  double compact; ///< where subdomains are cubes of nearly cubic cells, which have no soft modes
-  double other;
-};
-
-/**
- * Cells of a subdomain that keep factorizations, iterations, soft modes and
- * coarse problem in balance: 5 Q1 cells per edge in 3D and 12 in 2D where
- * subdomains are compact, else 6.3 and 14. Fewer cells of higher degree, by their nodes.
- * Axisymmetric subdomains can all but turn and move along the radius, the
- * motion along the axis being their only rigid one: with 64 cells per edge
- * few soft modes are left.
- */
-CellsPerSubdomain
-cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &idealization);
-
 /**
  * Decide the parts into which the bodies are torn and give whole parts to
  * the ranks, so that subdomains do not depend on the number of ranks.
@@ -35,6 +16,7 @@ cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &i
  * spread over all ranks in runs of consecutive parts; ranks differ by at
  * most about two parts in their numbers of cells.
  *
+ * @param refined cells of @p coarse and their children.
  * @param result the same cells, empty before.
  * @return the parts of this rank's cells of @p result, numbered body by
  *   body.
@@ -43,19 +25,19 @@ cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &i
  */
 template <int dim>
 std::vector<unsigned int>
-distribute(const Geometries<dim>                                   &geometries,
+distribute(const CoarseMesh<dim>                                   &coarse,
            const TearingParameters                                 &parameters,
            const CellsPerSubdomain                                 &by_size,
            const dealii::parallel::distributed::Triangulation<dim> &refined,
            dealii::parallel::fullydistributed::Triangulation<dim>  &result);
 
-/**
- * Ranks of the parts, body by body: @p cells[b][p] is the number of cells
- * of part p of body b. Each body's parts go to the ranks in runs; the
- * shares even out what the bodies before have left unbalanced.
- */
-std::vector<std::vector<unsigned int>>
-ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned int n_ranks);
+/// The same for the coarse cells themselves, without a forest of p4est.
+template <int dim>
+std::vector<unsigned int>
+distribute(const CoarseMesh<dim>                                  &coarse,
+           const TearingParameters                                &parameters,
+           const CellsPerSubdomain                                &by_size,
+           dealii::parallel::fullydistributed::Triangulation<dim> &result);
 } // namespace snug::mesh
 
 #endif

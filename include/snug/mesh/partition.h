@@ -52,9 +52,6 @@ struct CellSet
   bool                   layered;   ///< all cells lie in layers along the logical axes
 };
 
-/// Longest over shortest axis of cells of which cubes of cells are nearly cubes.
-constexpr double compact_aspect = 1.8;
-
 /// Parts of one body, the same on any number of ranks.
 struct Partition
 {

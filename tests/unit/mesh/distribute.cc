@@ -1,5 +1,6 @@
 #include <snug/mesh/body_mesh.h>
 #include <snug/mesh/distribute.h>
+#include <snug/mesh/parts.h>
 #include <snug/mesh/tearing.h>
 
 #include <deal.II/base/mpi.h>

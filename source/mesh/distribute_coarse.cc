@@ -1,0 +1,230 @@
+#include <snug/base/deal_ii_compat.h>
+#include <snug/geometry/cell_numbering.h>
+#include <snug/mesh/cell_shape.h>
+#include <snug/mesh/distribute.h>
+#include <snug/mesh/parts.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace snug::mesh {
+namespace {
+/// A face of a coarse cell, told by its vertices.
+template <int dim>
+struct CellFace
+{
+  std::array<unsigned int, 1 << (dim - 1)> vertices; ///< ascending
+  unsigned int                             cell, number;
+};
+
+/// The faces of all cells, those that two cells share one behind the other.
+template <int dim>
+std::vector<CellFace<dim>> sorted_faces(const CoarseMesh<dim> &coarse)
+{
+  std::vector<CellFace<dim>> faces;
+  faces.reserve(2 * dim * coarse.cells.size());
+  for (unsigned int cell = 0; cell < coarse.cells.size(); ++cell)
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      {
+        faces.push_back({{}, cell, f});
+        auto &vertices = faces.back().vertices;
+        for (unsigned int v = 0; v < vertices.size(); ++v)
+          vertices[v] =
+            coarse.cells[cell].vertices[dealii::GeometryInfo<dim>::face_to_cell_vertices(f, v)];
+        std::sort(vertices.begin(), vertices.end());
+      }
+  std::sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell;
+  });
+  return faces;
+}
+
+/// What the faces say of the cells.
+template <int dim>
+struct Neighbourhood
+{
+  CellPairs                 pairs; ///< of cells that share a face
+  std::vector<unsigned int> axes;  ///< of the first of them, across the face
+  /// of the cells' boundary faces: number of the face and index of the body's names
+  std::vector<std::vector<std::pair<unsigned int, dealii::types::boundary_id>>> boundaries;
+
+  explicit Neighbourhood(const CoarseMesh<dim> &coarse) : boundaries(coarse.cells.size())
+  {
+    const auto faces = sorted_faces(coarse);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (f + 1 < faces.size() && faces[f].vertices == faces[f + 1].vertices)
+        {
+          pairs.push_back({{faces[f].cell, faces[f + 1].cell}});
+          axes.push_back(faces[f].number / 2);
+          ++f;
+        }
+      else
+        // at() throws if a geometry has left a side without a boundary
+        boundaries[faces[f].cell].emplace_back(faces[f].number,
+                                               coarse.boundary.at({faces[f].vertices.begin(),
+                                                                   faces[f].vertices.end()}));
+    for (auto &of_cell : boundaries)
+      std::sort(of_cell.begin(), of_cell.end());
+  }
+};
+
+/// The first of @p n cells that a rank holds before the parts are decided.
+unsigned int first_of_rank(const unsigned long n, const unsigned int rank, const MPI_Comm comm)
+{
+  return static_cast<unsigned int>(n * rank / dealii::Utilities::MPI::n_mpi_processes(comm));
+}
+
+/// A run of the cells of a body.
+template <int dim>
+CellSet<dim> cell_set(const CoarseMesh<dim>    &coarse,
+                      const unsigned int        body,
+                      const Neighbourhood<dim> &neighbourhood,
+                      const MPI_Comm            communicator)
+{
+  const auto        &geometry = *coarse.geometries[body];
+  const unsigned int rank     = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int begin    = coarse.first_cell[body];
+  CellSet<dim>       set;
+  set.communicator                  = communicator;
+  set.n_global                      = coarse.first_cell[body + 1] - begin;
+  set.size                          = geometry.extent();
+  set.layered                       = geometry.has_grid();
+  const unsigned int          first = begin + first_of_rank(set.n_global, rank, communicator);
+  const unsigned int          end   = begin + first_of_rank(set.n_global, rank + 1, communicator);
+  std::vector<CellShape<dim>> shapes;
+  for (unsigned int cell = first; cell < end; ++cell)
+    {
+      shapes.emplace_back([&](const dealii::Point<dim> &unit) {
+        return geometry.position({cell - begin, unit});
+      });
+      set.centres.push_back(geometry.logical({cell - begin, geometry::unit_centre<dim>()}));
+      set.numbers.push_back(cell);
+      set.keys.push_back({{cell, 0}});
+    }
+  for (std::size_t p = 0; p < neighbourhood.pairs.size(); ++p)
+    if (const auto &pair = neighbourhood.pairs[p]; first <= pair[0] && pair[0] < end)
+      {
+        set.neighbours.push_back(pair);
+        set.areas.push_back(shapes[pair[0] - first].section(neighbourhood.axes[p]));
+      }
+  const auto n_slender = std::count_if(shapes.begin(), shapes.end(),
+                                       [](const auto &shape) { return shape.is_slender(); });
+  set.n_slender        = dealii::Utilities::MPI::sum<unsigned long>(n_slender, communicator);
+  return set;
+}
+
+/// Of all cells on every rank. Collective.
+struct Places
+{
+  std::vector<unsigned int> part, rank;
+};
+
+template <int dim>
+Places decide_places(const CoarseMesh<dim>    &coarse,
+                     const Neighbourhood<dim> &neighbourhood,
+                     const TearingParameters  &parameters,
+                     const CellsPerSubdomain  &by_size,
+                     const MPI_Comm            communicator)
+{
+  std::vector<CellSet<dim>> sets;
+  for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
+    sets.push_back(cell_set(coarse, body, neighbourhood, communicator));
+  const Parts parts = decide_parts(sets, parameters, by_size);
+  const auto  ranks =
+    ranks_of_parts(parts.cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
+  Places places;
+  for (unsigned int body = 0; body < sets.size(); ++body)
+    for (const auto &of_rank :
+         dealii::Utilities::MPI::all_gather(communicator, parts.of_body[body].part))
+      for (const unsigned int part : of_rank)
+        {
+          places.part.push_back(part);
+          places.rank.push_back(ranks[body][part]);
+        }
+  return places;
+}
+
+/// The cells that share a vertex with one of this rank, which deal.II needs as ghosts.
+template <int dim>
+std::vector<unsigned int>
+relevant_cells(const CoarseMesh<dim> &coarse, const Places &places, const unsigned int rank)
+{
+  std::vector<bool> at_owned(coarse.vertices.size(), false);
+  for (unsigned int cell = 0; cell < coarse.cells.size(); ++cell)
+    if (places.rank[cell] == rank)
+      for (const unsigned int vertex : coarse.cells[cell].vertices)
+        at_owned[vertex] = true;
+  std::vector<unsigned int> result;
+  for (unsigned int cell = 0; cell < coarse.cells.size(); ++cell)
+    if (std::any_of(coarse.cells[cell].vertices.begin(), coarse.cells[cell].vertices.end(),
+                    [&](const unsigned int vertex) { return at_owned[vertex]; }))
+      result.push_back(cell);
+  return result;
+}
+
+/// A cell without children, on straight lines between its vertices.
+template <int dim>
+dealii::TriangulationDescription::CellData<dim> cell_info(const unsigned int cell,
+                                                          const unsigned int rank)
+{
+  dealii::TriangulationDescription::CellData<dim> info;
+  info.id                 = dealii::CellId(cell, {}).template to_binary<dim>();
+  info.subdomain_id       = rank;
+  info.level_subdomain_id = dealii::numbers::artificial_subdomain_id;
+  info.manifold_id        = dealii::numbers::flat_manifold_id;
+  info.manifold_line_ids.fill(dealii::numbers::flat_manifold_id);
+  info.manifold_quad_ids.fill(dealii::numbers::flat_manifold_id);
+  return info;
+}
+} // namespace
+
+template <int dim>
+std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
+                                     const TearingParameters &parameters,
+                                     const CellsPerSubdomain &by_size,
+                                     dealii::parallel::fullydistributed::Triangulation<dim> &result)
+{
+  const MPI_Comm           communicator = deal_ii_compat::communicator(result);
+  const Neighbourhood<dim> neighbourhood(coarse);
+  const Places places = decide_places(coarse, neighbourhood, parameters, by_size, communicator);
+  dealii::TriangulationDescription::Description<dim, dim> description;
+  description.comm      = communicator;
+  description.settings  = dealii::TriangulationDescription::Settings::default_setting;
+  description.smoothing = result.get_mesh_smoothing();
+  description.cell_infos.resize(1);
+  const unsigned int        none = static_cast<unsigned int>(-1);
+  std::vector<unsigned int> number(coarse.vertices.size(), none);
+  for (const unsigned int cell :
+       relevant_cells(coarse, places, dealii::Utilities::MPI::this_mpi_process(communicator)))
+    {
+      description.coarse_cells.push_back(coarse.cells[cell]);
+      description.coarse_cell_index_to_coarse_cell_id.push_back(cell);
+      for (unsigned int &vertex : description.coarse_cells.back().vertices)
+        {
+          if (number[vertex] == none)
+            {
+              number[vertex] = description.coarse_cell_vertices.size();
+              description.coarse_cell_vertices.push_back(coarse.vertices[vertex]);
+            }
+          vertex = number[vertex];
+        }
+      description.cell_infos[0].push_back(cell_info<dim>(cell, places.rank[cell]));
+      description.cell_infos[0].back().boundary_ids = neighbourhood.boundaries[cell];
+    }
+  result.create_triangulation(description);
+  std::vector<unsigned int> parts;
+  for (const auto &cell : result.active_cell_iterators())
+    if (cell->is_locally_owned())
+      parts.push_back(places.part[cell->id().get_coarse_cell_id()]);
+  return parts;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                      \
+  template std::vector<unsigned int> distribute(                                   \
+    const CoarseMesh<dim> &, const TearingParameters &, const CellsPerSubdomain &, \
+    dealii::parallel::fullydistributed::Triangulation<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::mesh

@@ -1,0 +1,122 @@
+#include <snug/mesh/parts.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace snug::mesh {
+namespace {
+/// Numbers of cells of the parts, of all ranks. Collective.
+std::vector<unsigned long> cells_of_parts(const Partition &partition, MPI_Comm communicator)
+{
+  std::vector<unsigned long> cells(partition.n_parts, 0);
+  for (const unsigned int part : partition.part)
+    ++cells[part];
+  dealii::Utilities::MPI::sum(cells, communicator, cells);
+  return cells;
+}
+
+/// Parts that have cells.
+unsigned int n_filled(const Parts &parts)
+{
+  unsigned int n = 0;
+  for (const auto &body : parts.cells)
+    n += body.size() - std::count(body.begin(), body.end(), 0ul);
+  return n;
+}
+
+/// Whether parts are cubes of nearly cubic cells, but for some.
+template <int dim>
+bool makes_cubes(const CellSet<dim> &set, const std::string &method)
+{
+  const double few = 0.1;
+  return set.layered && method != "METIS" && set.n_slender <= few * set.n_global;
+}
+} // namespace
+
+CellsPerSubdomain cells_per_subdomain(const unsigned int  dim,
+                                      const unsigned int  degree,
+                                      const Idealization &idealization)
+{
+  const auto cells = [&](const double edge) { return std::pow(edge / degree, dim); };
+  if (idealization.is_axisymmetric())
+    return {cells(64.), cells(64.)};
+  return dim == 3 ? CellsPerSubdomain{cells(5.), cells(6.3)}
+                  : CellsPerSubdomain{cells(12.), cells(14.)};
+}
+
+/// Parts are halved until every rank can have one; slabs may be empty, so the numbers are counted
+/// rather than computed. Collective.
+template <int dim>
+Parts decide_parts(const std::vector<CellSet<dim>> &sets,
+                   const TearingParameters         &parameters,
+                   const CellsPerSubdomain         &by_size)
+{
+  const MPI_Comm communicator = sets.front().communicator;
+  unsigned long  n_cells      = 0;
+  for (const auto &set : sets)
+    n_cells += set.n_global;
+  const auto         &partition = choose(partition_table<dim>(), parameters.method).make;
+  std::vector<double> cells_each;
+  for (const auto &set : sets)
+    if (parameters.subdomains == 0)
+      cells_each.push_back(makes_cubes(set, parameters.method) ? by_size.compact : by_size.other);
+    else
+      cells_each.push_back(std::max(1., double(n_cells) / parameters.subdomains));
+  const unsigned long least =
+    parameters.at_least_ranks
+      ? std::min<unsigned long>(n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator))
+      : 1;
+  Parts parts;
+  do
+    {
+      parts = Parts();
+      for (unsigned int body = 0; body < sets.size(); ++body)
+        {
+          parts.of_body.push_back(partition(sets[body], cells_each[body]));
+          parts.cells.push_back(cells_of_parts(parts.of_body.back(), communicator));
+          cells_each[body] /= 2.;
+        }
+  } while (n_filled(parts) < least && cells_each.front() > 0.1);
+  return parts;
+}
+
+std::vector<std::vector<unsigned int>>
+ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned int n_ranks)
+{
+  std::vector<std::vector<unsigned int>> ranks;
+  std::vector<double>                    load(n_ranks, 0.);
+  double                                 all = 0.;
+  for (const auto &body : cells)
+    {
+      const double own = std::accumulate(body.begin(), body.end(), 0.);
+      all += own;
+      std::vector<double> share;
+      for (const double has : load)
+        // what the rank lacks for an equal share of all bodies so far
+        share.push_back(std::max(0., all / n_ranks - has));
+      const double shares = std::accumulate(share.begin(), share.end(), 0.);
+      unsigned int rank   = 0;
+      // The body's cells on a line: a part takes [before, before + part], and goes to the rank
+      // whose section, up to end, has the middle of that.
+      double end = share[0] * own / shares, before = 0.;
+      ranks.emplace_back();
+      for (const unsigned long part : body)
+        {
+          while (before + 0.5 * part > end && rank + 1 < n_ranks)
+            end += share[++rank] * own / shares;
+          before += part;
+          load[rank] += part;
+          ranks.back().push_back(rank);
+        }
+    }
+  return ranks;
+}
+
+template Parts
+decide_parts(const std::vector<CellSet<2>> &, const TearingParameters &, const CellsPerSubdomain &);
+template Parts
+decide_parts(const std::vector<CellSet<3>> &, const TearingParameters &, const CellsPerSubdomain &);
+} // namespace snug::mesh
