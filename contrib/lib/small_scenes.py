@@ -259,6 +259,8 @@ CHECKS = [
           same(*STATE, more=F_MULTS), 1e-5, []),
     Check("solver-entries", ["Solver/Method=SMALSE-M"],
           same(*STATE, more=F_MULTS), 1e-5, []),
+    Check("hanging-3d", ["Solver/Soft modes=none"],
+          same(*STATE, more=F_MULTS), 1e-5, ["Solver/Soft modes=all"]),
     Check("gradient-entries", [], scaling_law({"semi-analytic": 1e-5})),
     Check("gradient-entries", [], shape_gradient, 1e-5),
     Check("gradient-entries", ["Gradient/Derivatives=forward differences"],

@@ -1,34 +1,18 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/couplings.h>
 #include <snug/feti/deflation.h>
+#include <snug/feti/patch.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace snug::feti {
 namespace {
-/// Relative to the diagonal of G_L G_L': takes nothing from what G_L sees, and makes definite what
-/// it does not, as hinges between parts of a patch.
-const double patch_shift = 1e-10;
-
-/// Part of a vector below which what equilibrium leaves of it is rounding.
-const double rounding = 1e-6;
-
 /// Relative to the diagonal of E, for vectors that others span.
 const double shift = 1e-12;
-
-/// Parts of |G c| over |G_L| |c| that the shift leaves in one pass are below this part of them.
-const unsigned int balancing_passes = 3;
-
-double norm(const std::vector<double> &c)
-{
-  return std::sqrt(std::inner_product(c.begin(), c.end(), c.begin(), 0.));
-}
 
 /// Add B' of the columns of @p C, rows of which are local, to @p y on the
 /// numbering of B.
@@ -64,120 +48,7 @@ qp::MultiVector rows_of(const qp::MultiVector &y, const std::vector<unsigned int
       result(i, k) = y(numbers[i], k);
   return result;
 }
-
-/// The rows of one patch that no other subdomain shares, ascending.
-class Patch
-{
-public:
-  /// A row of one of its subdomains.
-  struct Touch
-  {
-    unsigned int  row;    ///< global
-    unsigned int  copies; ///< subdomains of the row
-    unsigned int  member; ///< of the patch
-    const double *G;      ///< n_modes numbers
-  };
-
-  Patch(std::vector<Touch> touches, const unsigned int n_members, const unsigned int the_n_modes)
-    : n_modes(the_n_modes), n(n_members * the_n_modes), gram(n)
-  {
-    std::sort(touches.begin(), touches.end(), [](const Touch &a, const Touch &b) {
-      return std::make_pair(a.row, a.member) < std::make_pair(b.row, b.member);
-    });
-    for (auto first = touches.begin(); first != touches.end();)
-      {
-        const auto last = std::find_if(first, touches.end(),
-                                       [&](const Touch &touch) { return touch.row != first->row; });
-        if (last - first == narrow<std::ptrdiff_t>(first->copies))
-          {
-            start.push_back(narrow<unsigned int>(inner.size()));
-            inner.insert(inner.end(), first, last);
-          }
-        first = last;
-      }
-    start.push_back(narrow<unsigned int>(inner.size()));
-    factorize();
-  }
-
-  unsigned int n_rows() const { return narrow<unsigned int>(start.size()) - 1; }
-
-  /// Subdomains of row i; the first is the lowest.
-  const Touch *begin(unsigned int i) const { return &inner[start[i]]; }
-  const Touch *end(unsigned int i) const { return &inner[0] + start[i + 1]; }
-
-  /// c <- c - G_L' (G_L G_L')^+ G_L c
-  void balance(std::vector<double> &c) const
-  {
-    for (unsigned int pass = 0; pass < balancing_passes; ++pass)
-      {
-        dealii::Vector<double> alpha(n);
-        for (unsigned int i = 0; i < n_rows(); ++i)
-          for (const Touch *t = begin(i); t != end(i); ++t)
-            for (unsigned int m = 0; m < n_modes; ++m)
-              alpha[t->member * n_modes + m] += t->G[m] * c[i];
-        gram.solve(alpha);
-        for (unsigned int i = 0; i < n_rows(); ++i)
-          for (const Touch *t = begin(i); t != end(i); ++t)
-            for (unsigned int m = 0; m < n_modes; ++m)
-              c[i] -= t->G[m] * alpha[t->member * n_modes + m];
-      }
-  }
-
-private:
-  void factorize()
-  {
-    for (unsigned int i = 0; i < n_rows(); ++i)
-      for (const Touch *a = begin(i); a != end(i); ++a)
-        // LAPACK reads the lower triangle
-        for (const Touch *b = begin(i); b <= a; ++b)
-          for (unsigned int k = 0; k < n_modes; ++k)
-            for (unsigned int l = 0; l < n_modes; ++l)
-              gram(a->member * n_modes + k, b->member * n_modes + l) += a->G[k] * b->G[l];
-    double largest = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      largest = std::max(largest, gram(i, i));
-    for (unsigned int i = 0; i < n; ++i)
-      gram(i, i) += patch_shift * largest;
-    gram.set_property(dealii::LAPACKSupport::symmetric);
-    gram.compute_cholesky_factorization();
-  }
-
-  unsigned int                     n_modes, n;
-  std::vector<Touch>               inner;
-  std::vector<unsigned int>        start;
-  dealii::LAPACKFullMatrix<double> gram;
-};
 } // namespace
-
-RowForces
-row_forces(const SoftModes &modes, const JumpColumns &columns, const unsigned int subdomain)
-{
-  RowForces              result;
-  std::set<unsigned int> patch = {subdomain};
-  result.subdomain             = subdomain;
-  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
-    {
-      for (const auto &copy : columns.copies[i])
-        patch.insert(copy.subdomain);
-      for (const auto &force : columns.forces[i])
-        result.rows.push_back(force.row);
-    }
-  result.patch.assign(patch.begin(), patch.end());
-  std::sort(result.rows.begin(), result.rows.end());
-  result.rows.erase(std::unique(result.rows.begin(), result.rows.end()), result.rows.end());
-  const auto k  = narrow<unsigned int>(modes.mu.size());
-  result.values = qp::MultiVector(narrow<unsigned int>(result.rows.size()), k);
-  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
-    for (const auto &force : columns.forces[i])
-      {
-        const auto row =
-          narrow<unsigned int>(std::lower_bound(result.rows.begin(), result.rows.end(), force.row) -
-                               result.rows.begin());
-        for (unsigned int j = 0; j < k; ++j)
-          result.values(row, j) += force.value * modes.forces(columns.dofs[i], j);
-      }
-  return result;
-}
 
 Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
                      const RowLayout                    &the_layout,
@@ -307,10 +178,7 @@ Deflation::Numbers Deflation::balanced_vectors() const
               if (j < of_subdomain.rows.size() && of_subdomain.rows[j] == patch.begin(i)->row)
                 c[i] = of_subdomain.values(j, v);
             }
-          const double whole = norm(c);
           patch.balance(c);
-          if (norm(c) < rounding * whole)
-            c.assign(c.size(), 0.);
           std::vector<std::vector<double>> of_member(members.size());
           for (unsigned int i = 0; i < patch.n_rows(); ++i)
             for (const auto *t = patch.begin(i); t != patch.end(i); ++t)

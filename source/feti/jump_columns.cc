@@ -18,18 +18,23 @@ struct Groups
   std::vector<Unknown>                   unknowns; ///< ascending
   std::vector<std::vector<unsigned int>> entries;  ///< gathered ones of each unknown
   std::vector<std::vector<unsigned int>> members;  ///< unknowns of each group, ascending
+  std::vector<unsigned int>              row_of_entry;
+  std::size_t                            stride; ///< of the numbers of an entry
 };
 
-Groups groups_of(const RowLayout &layout, const qp::RowSet &equality)
+Groups groups_of(const RowLayout &layout, const std::size_t stride)
 {
   const auto                                  &start = layout.entry_start();
   std::map<Unknown, std::vector<unsigned int>> entries;
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (equality[row])
+    if (!layout.bounded()[row])
       for (unsigned int e = start[row]; e < start[row + 1]; ++e)
         entries[layout.entry_unknowns()[e]].push_back(e);
-  Groups                    groups;
-  std::vector<unsigned int> first(layout.n_owned(), 0), root;
+  Groups groups;
+  groups.stride = stride;
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    groups.row_of_entry.insert(groups.row_of_entry.end(), start[row + 1] - start[row], row);
+  std::vector<unsigned int> root;
   for (const auto &[unknown, of_unknown] : entries)
     {
       groups.unknowns.push_back(unknown);
@@ -47,8 +52,7 @@ Groups groups_of(const RowLayout &layout, const qp::RowSet &equality)
   for (unsigned int i = 0; i < root.size(); ++i)
     for (const unsigned int e : groups.entries[i])
       {
-        const auto row =
-          narrow<unsigned int>(std::upper_bound(start.begin(), start.end(), e) - start.begin() - 1);
+        const unsigned int row = groups.row_of_entry[e];
         if (unknown_of_row[row] == none)
           unknown_of_row[row] = i;
         // The root is the first of its group.
@@ -65,6 +69,83 @@ Groups groups_of(const RowLayout &layout, const qp::RowSet &equality)
       groups.members[found->second].push_back(i);
     }
   return groups;
+}
+
+/// W^-1 B D^-1 e_i: of groups, which do not meet in W, one column serves an unknown of each.
+qp::MultiVector row_forces_of(const RowLayout           &layout,
+                              const RowGram             &gram,
+                              const Groups              &groups,
+                              const std::vector<double> &entries)
+{
+  std::size_t width = 0;
+  for (const auto &members : groups.members)
+    width = std::max(width, members.size());
+  qp::MultiVector X(layout.n_owned(), narrow<unsigned int>(width));
+  for (const auto &members : groups.members)
+    for (unsigned int k = 0; k < members.size(); ++k)
+      for (const unsigned int e : groups.entries[members[k]])
+        X(groups.row_of_entry[e], k) = entries[e * groups.stride] * entries[e * groups.stride + 1];
+  RowGram::Factor(gram, qp::complement(layout.bounded())).solve(X);
+  return X;
+}
+
+/// Columns of this rank's groups for the ranks of their subdomains: subdomain, unknown, numbers of
+/// forces and copies, (row, value) and (subdomain, unknown, value) of these.
+std::map<unsigned int, std::vector<double>> messages(const RowLayout           &layout,
+                                                     const Groups              &groups,
+                                                     const std::vector<double> &entries,
+                                                     const qp::MultiVector     &X,
+                                                     const SubdomainRanks      &rank_of)
+{
+  const std::size_t                           stride = groups.stride;
+  std::map<unsigned int, std::vector<double>> out;
+  for (const auto &members : groups.members)
+    for (unsigned int k = 0; k < members.size(); ++k)
+      {
+        const Unknown            &unknown = groups.unknowns[members[k]];
+        std::vector<double>       copies;
+        std::vector<unsigned int> rows;
+        for (const unsigned int other : members)
+          {
+            double sum = 0.;
+            for (const unsigned int e : groups.entries[other])
+              {
+                rows.push_back(groups.row_of_entry[e]);
+                sum += entries[e * stride] * X(groups.row_of_entry[e], k) * entries[e * stride + 1];
+              }
+            // B_D' B e_i = D^-1 B' W^-1 B e_i, where X has W^-1 B D^-1 e_i
+            const double D = 1. / entries[groups.entries[members[k]][0] * stride + 1];
+            copies.insert(copies.end(), {double(groups.unknowns[other].first),
+                                         double(groups.unknowns[other].second), D * sum});
+          }
+        std::sort(rows.begin(), rows.end());
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        auto &buffer = out[rank_of(unknown.first)];
+        buffer.insert(buffer.end(), {double(unknown.first), double(unknown.second),
+                                     double(rows.size()), double(members.size())});
+        for (const unsigned int row : rows)
+          buffer.insert(buffer.end(), {double(layout.global_row(row)), X(row, k)});
+        buffer.insert(buffer.end(), copies.begin(), copies.end());
+      }
+  return out;
+}
+
+/// Unknowns ascending: messages come rank by rank.
+JumpColumns sorted(JumpColumns columns)
+{
+  std::vector<unsigned int> order(columns.dofs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+    return columns.dofs[a] < columns.dofs[b];
+  });
+  JumpColumns result;
+  for (const unsigned int i : order)
+    {
+      result.dofs.push_back(columns.dofs[i]);
+      result.forces.push_back(std::move(columns.forces[i]));
+      result.copies.push_back(std::move(columns.copies[i]));
+    }
+  return result;
 }
 } // namespace
 
@@ -88,64 +169,19 @@ std::vector<JumpColumns> jump_columns(const RowLayout           &layout,
                                       const unsigned int         first,
                                       const unsigned int         n_subdomains)
 {
-  const auto equality = qp::complement(layout.bounded());
-  const auto groups   = groups_of(layout, equality);
-  const auto &start   = layout.entry_start();
-  std::vector<unsigned int> row_of_entry;
-  for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    row_of_entry.insert(row_of_entry.end(), start[row + 1] - start[row], row);
-  std::size_t width = 0;
-  for (const auto &members : groups.members)
-    width = std::max(width, members.size());
-  // Groups do not meet in W: one column serves an unknown of each.
-  qp::MultiVector X(layout.n_owned(), narrow<unsigned int>(width));
-  for (const auto &members : groups.members)
-    for (unsigned int k = 0; k < members.size(); ++k)
-      for (const unsigned int e : groups.entries[members[k]])
-        X(row_of_entry[e], k) =
-          entries[std::size_t(e) * stride] * entries[std::size_t(e) * stride + 1];
-  RowGram::Factor(gram, equality).solve(X);
-
-  const MPI_Comm                              comm = layout.communicator();
-  const SubdomainRanks                        rank_of(first, comm);
-  std::map<unsigned int, std::vector<double>> out;
-  for (const auto &members : groups.members)
-    for (unsigned int k = 0; k < members.size(); ++k)
-      {
-        const Unknown            &unknown = groups.unknowns[members[k]];
-        std::vector<double>       copies;
-        std::vector<unsigned int> rows;
-        for (const unsigned int other : members)
-          {
-            double sum = 0.;
-            for (const unsigned int e : groups.entries[other])
-              {
-                rows.push_back(row_of_entry[e]);
-                sum += entries[std::size_t(e) * stride] * X(row_of_entry[e], k) *
-                       entries[std::size_t(e) * stride + 1];
-              }
-            // B_D' B e_i = D^-1 B' W^-1 B e_i, where X has W^-1 B D^-1 e_i
-            const double D = 1. / entries[std::size_t(groups.entries[members[k]][0]) * stride + 1];
-            copies.insert(copies.end(), {double(groups.unknowns[other].first),
-                                         double(groups.unknowns[other].second), D * sum});
-          }
-        std::sort(rows.begin(), rows.end());
-        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-        auto &buffer = out[rank_of(unknown.first)];
-        buffer.insert(buffer.end(), {double(unknown.first), double(unknown.second),
-                                     double(rows.size()), double(members.size())});
-        for (const unsigned int row : rows)
-          buffer.insert(buffer.end(), {double(layout.global_row(row)), X(row, k)});
-        buffer.insert(buffer.end(), copies.begin(), copies.end());
-      }
-
+  const MPI_Comm           comm   = layout.communicator();
+  const auto               groups = groups_of(layout, stride);
+  const auto               X      = row_forces_of(layout, gram, groups, entries);
+  const SubdomainRanks     rank_of(first, comm);
   std::vector<JumpColumns> result(n_subdomains);
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, out))
+  for (const auto &message :
+       dealii::Utilities::MPI::some_to_some(comm, messages(layout, groups, entries, X, rank_of)))
     for (auto p = message.second.begin(); p != message.second.end();)
       {
-        auto          &columns = result[static_cast<unsigned int>(*p++) - first];
-        const auto     dof     = static_cast<unsigned int>(*p++);
-        const auto     n_rows = static_cast<unsigned int>(*p++), n_copies = static_cast<unsigned int>(*p++);
+        auto      &columns  = result[static_cast<unsigned int>(*p++) - first];
+        const auto dof      = static_cast<unsigned int>(*p++);
+        const auto n_rows   = static_cast<unsigned int>(*p++),
+                   n_copies = static_cast<unsigned int>(*p++);
         columns.dofs.push_back(dof);
         columns.forces.emplace_back();
         for (unsigned int i = 0; i < n_rows; ++i, p += 2)
@@ -156,22 +192,7 @@ std::vector<JumpColumns> jump_columns(const RowLayout           &layout,
             {static_cast<unsigned int>(p[0]), static_cast<unsigned int>(p[1]), p[2]});
       }
   for (auto &columns : result)
-    {
-      // Messages come rank by rank.
-      std::vector<unsigned int> order(columns.dofs.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-        return columns.dofs[a] < columns.dofs[b];
-      });
-      JumpColumns sorted;
-      for (const unsigned int i : order)
-        {
-          sorted.dofs.push_back(columns.dofs[i]);
-          sorted.forces.push_back(std::move(columns.forces[i]));
-          sorted.copies.push_back(std::move(columns.copies[i]));
-        }
-      columns = std::move(sorted);
-    }
+    columns = sorted(std::move(columns));
   return result;
 }
 } // namespace snug::feti

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <random>
+#include <set>
 
 namespace snug::feti {
 namespace {
@@ -151,6 +151,62 @@ qp::MultiVector independent(const qp::MultiVector &gram)
 {
   return qp::orthonormal_combinations(gram, std::vector<double>(gram.n_columns(), 0.), dependence);
 }
+
+/// Subdomains s and t.
+using Pair = std::pair<unsigned int, unsigned int>;
+
+/// By neighbour: its unknown j, the unknown i of this subdomain and P_ji of every column that
+/// reaches it.
+std::map<unsigned int, std::vector<double>> of_neighbours(const JumpColumns &columns,
+                                                          const unsigned int subdomain)
+{
+  std::map<unsigned int, std::vector<double>> result;
+  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
+    for (const auto &copy : columns.copies[i])
+      if (copy.subdomain != subdomain && copy.value != 0.)
+        {
+          auto &list = result[copy.subdomain];
+          list.insert(list.end(), {double(copy.dof), double(columns.dofs[i]), copy.value});
+        }
+  return result;
+}
+
+/// Of a message of parts (s, t, size, numbers).
+template <typename Use>
+void for_each_part(const std::vector<double> &message, const Use &use)
+{
+  for (auto p = message.begin(); p != message.end();)
+    {
+      const Pair st   = {static_cast<unsigned int>(p[0]), static_cast<unsigned int>(p[1])};
+      const auto size = static_cast<std::ptrdiff_t>(p[2]);
+      p += 3;
+      use(st, std::vector<double>(p, p + size));
+      p += size;
+    }
+}
+
+/// (i, i', P_ji K_jj' P_j'i') of all pairs of (j, i, P_ji) in @p list that K couples.
+std::vector<double> products_with(const CsrMatrix &K, const std::vector<double> &list)
+{
+  std::vector<std::array<double, 3>> reached;
+  for (std::size_t i = 0; i < list.size(); i += 3)
+    reached.push_back({list[i], list[i + 1], list[i + 2]});
+  std::sort(reached.begin(), reached.end());
+  std::vector<std::size_t> start(K.n_rows + 1, 0); // of each j
+  for (const auto &entry : reached)
+    ++start[static_cast<std::size_t>(entry[0]) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<double> result;
+  for (const auto &a : reached)
+    {
+      const auto j = static_cast<std::size_t>(a[0]);
+      for (PetscInt place = K.row_start[j]; place < K.row_start[j + 1]; ++place)
+        for (auto b = start[K.columns[place]]; b < start[K.columns[place] + 1]; ++b)
+          result.insert(result.end(),
+                        {a[1], reached[b][1], a[2] * reached[b][2] * K.values[place]});
+    }
+  return result;
+}
 } // namespace
 
 /// Each subdomain t knows K_t and, from its own columns, who is at its unknowns, but what s causes
@@ -163,68 +219,24 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
   const SubdomainRanks                        rank_of(first, comm);
   std::map<unsigned int, std::vector<double>> questions, answers;
   for (unsigned int s = 0; s < columns.size(); ++s)
-    {
-      // unknowns of t, with the s, i and P of every column that reaches them
-      std::map<unsigned int, std::vector<double>> of_neighbour;
-      for (unsigned int i = 0; i < columns[s].dofs.size(); ++i)
-        for (const auto &copy : columns[s].copies[i])
-          if (copy.subdomain != first + s && copy.value != 0.)
-            {
-              auto &list = of_neighbour[copy.subdomain];
-              list.insert(list.end(), {double(copy.dof), double(columns[s].dofs[i]), copy.value});
-            }
-      for (const auto &[t, list] : of_neighbour)
-        {
-          auto &out = questions[rank_of(t)];
-          out.insert(out.end(), {double(first + s), double(t), double(list.size())});
-          out.insert(out.end(), list.begin(), list.end());
-        }
-    }
+    for (const auto &[t, list] : of_neighbours(columns[s], first + s))
+      {
+        auto &out = questions[rank_of(t)];
+        out.insert(out.end(), {double(first + s), double(t), double(list.size())});
+        out.insert(out.end(), list.begin(), list.end());
+      }
   for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, questions))
-    for (auto p = message.second.begin(); p != message.second.end();)
-      {
-        const double      s    = *p++;
-        const auto        t    = static_cast<unsigned int>(*p++);
-        const std::size_t size = static_cast<std::size_t>(*p++);
-        if (!systems[t - first].outflow.empty())
-          {
-            p += narrow<std::ptrdiff_t>(size);
-            continue;
-          }
-        // (unknown j of t, unknown i of s, P_ji), by j
-        std::vector<std::array<double, 3>> reached;
-        for (std::size_t i = 0; i < size; i += 3, p += 3)
-          reached.push_back({p[0], p[1], p[2]});
-        std::sort(reached.begin(), reached.end());
-        const CsrMatrix         &K = systems[t - first].K;
-        std::vector<std::size_t> start(K.n_rows + 1, 0);
-        for (const auto &entry : reached)
-          ++start[static_cast<std::size_t>(entry[0]) + 1];
-        std::partial_sum(start.begin(), start.end(), start.begin());
-        auto &out = answers[message.first];
-        out.insert(out.end(), {s, double(t), 0.});
-        const auto place_of_size = out.size() - 1;
-        for (const auto &a : reached)
-          {
-            const auto j = static_cast<std::size_t>(a[0]);
-            for (PetscInt place = K.row_start[j]; place < K.row_start[j + 1]; ++place)
-              for (auto b = start[K.columns[place]]; b < start[K.columns[place] + 1]; ++b)
-                out.insert(out.end(),
-                           {a[1], reached[b][1], a[2] * reached[b][2] * K.values[place]});
-          }
-        out[place_of_size] = double(out.size() - place_of_size - 1);
-      }
+    for_each_part(message.second, [&](const Pair &st, const std::vector<double> &list) {
+      const auto answer = products_with(systems[st.second - first].K, list);
+      auto      &out    = answers[message.first];
+      out.insert(out.end(), {double(st.first), double(st.second), double(answer.size())});
+      out.insert(out.end(), answer.begin(), answer.end());
+    });
   // The sum over neighbours in their global order, whatever ranks they are on.
-  std::map<std::pair<unsigned int, unsigned int>, std::vector<double>> parts; // of s and t
+  std::map<Pair, std::vector<double>> parts;
   for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, answers))
-    for (auto p = message.second.begin(); p != message.second.end();)
-      {
-        const auto        s    = static_cast<unsigned int>(*p++);
-        const auto        t    = static_cast<unsigned int>(*p++);
-        const std::size_t size = static_cast<std::size_t>(*p++);
-        parts[{s, t}].assign(p, p + narrow<std::ptrdiff_t>(size));
-        p += narrow<std::ptrdiff_t>(size);
-      }
+    for_each_part(message.second,
+                  [&](const Pair &st, const std::vector<double> &list) { parts[st] = list; });
   std::vector<Entries> result(systems.size());
   for (const auto &[st, part] : parts)
     for (std::size_t i = 0; i < part.size(); i += 3)
@@ -293,18 +305,33 @@ SoftModes soft_modes(const SubdomainSystem    &system,
   return result;
 }
 
-void add_outflow(const SubdomainSystem &system, SoftModes &modes)
+RowForces
+row_forces(const SoftModes &modes, const JumpColumns &columns, const unsigned int subdomain)
 {
-  if (system.outflow.empty())
-    return;
-  double largest = 0.;
-  for (const double flow : system.outflow)
-    largest = std::max(largest, std::abs(flow));
-  qp::MultiVector forces(system.n_dofs());
-  for (unsigned int i = 0; i < system.n_dofs(); ++i)
-    // of the size of a stiffness, as those of the modes
-    forces(i) = system.K.mean_diagonal() / largest * system.outflow[i];
-  modes.forces.append(forces);
-  modes.mu.push_back(std::numeric_limits<double>::infinity());
+  RowForces              result;
+  std::set<unsigned int> patch = {subdomain};
+  result.subdomain             = subdomain;
+  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
+    {
+      for (const auto &copy : columns.copies[i])
+        patch.insert(copy.subdomain);
+      for (const auto &force : columns.forces[i])
+        result.rows.push_back(force.row);
+    }
+  result.patch.assign(patch.begin(), patch.end());
+  std::sort(result.rows.begin(), result.rows.end());
+  result.rows.erase(std::unique(result.rows.begin(), result.rows.end()), result.rows.end());
+  const auto k  = narrow<unsigned int>(modes.mu.size());
+  result.values = qp::MultiVector(narrow<unsigned int>(result.rows.size()), k);
+  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
+    for (const auto &force : columns.forces[i])
+      {
+        const auto row =
+          narrow<unsigned int>(std::lower_bound(result.rows.begin(), result.rows.end(), force.row) -
+                               result.rows.begin());
+        for (unsigned int j = 0; j < k; ++j)
+          result.values(row, j) += force.value * modes.forces(columns.dofs[i], j);
+      }
+  return result;
 }
 } // namespace snug::feti

@@ -73,16 +73,10 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
   if (parameters.preconditioner == Preconditioner::none ||
       parameters.soft_modes == SoftModesOf::none)
     return;
-  bool slender = false, incompressible = false;
+  bool slender = parameters.soft_modes == SoftModesOf::all;
   for (const SubdomainSystem &system : systems)
-    {
-      slender        = slender || !system.compact;
-      incompressible = incompressible || !system.outflow.empty();
-    }
-  seeks_modes = parameters.soft_modes == SoftModesOf::all ||
-                dealii::Utilities::MPI::logical_or(slender, run.communicator());
-  knows_soft_modes =
-    !seeks_modes && !dealii::Utilities::MPI::logical_or(incompressible, run.communicator());
+    slender = slender || !system.compact;
+  knows_soft_modes = !dealii::Utilities::MPI::logical_or(slender, run.communicator());
 }
 
 /// Factorizations may fail on one rank only: everywhere() turns that into an error of all, or the
@@ -204,40 +198,29 @@ void TotalFeti::find_soft_modes()
   const unsigned int first = coarse.subdomains().first;
   const auto         columns =
     jump_columns(layout, gram, entries, entry_width(), first, narrow<unsigned int>(systems.size()));
-  std::vector<std::vector<JumpStiffness>> neighbours;
-  if (seeks_modes)
-    neighbours = stiffness_of_neighbours(systems, columns, first, run.communicator());
+  const auto neighbours = stiffness_of_neighbours(systems, columns, first, run.communicator());
   std::vector<RowForces> forces;
   double                 largest = 0.;
-  // vectors, subdomains that have some, and those that are nearly incompressible
-  std::vector<unsigned int> counts(3, 0);
+  // vectors, and subdomains that have some
+  std::vector<unsigned int> counts(2, 0);
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      SoftModes modes{qp::MultiVector(systems[s].n_dofs(), 0), {}};
-      if (seeks_modes)
-        modes =
-          soft_modes(systems[s], *inverses[s], *schur[s], columns[s], neighbours[s], first + s);
-      if (!modes.mu.empty())
-        largest = std::max(largest, modes.mu.front());
-      add_outflow(systems[s], modes);
+      const auto modes =
+        soft_modes(systems[s], *inverses[s], *schur[s], columns[s], neighbours[s], first + s);
       if (modes.mu.empty())
         continue;
       forces.push_back(row_forces(modes, columns[s], first + s));
+      largest = std::max(largest, modes.mu.front());
       counts[0] += narrow<unsigned int>(modes.mu.size());
       ++counts[1];
-      counts[2] += !systems[s].outflow.empty();
     }
   dealii::Utilities::MPI::sum(counts, run.communicator(), counts);
   largest = dealii::Utilities::MPI::max(largest, run.communicator());
   run.work.soft_modes += counts[0];
   if (counts[0] == 0)
     return;
-  run.out() << "soft modes: " << counts[0] << " of " << counts[1] << " subdomains";
-  if (counts[2] > 0)
-    run.out() << ", the volume of " << counts[2] << " nearly incompressible ones among them";
-  if (largest > 0.)
-    run.out() << ", the softest " << largest << " times stiffer by its jumps";
-  run.out() << std::endl;
+  run.out() << "soft modes: " << counts[0] << " of " << counts[1] << " subdomains, the softest "
+            << largest << " times stiffer by its jumps" << std::endl;
   deflation          = std::make_unique<Deflation>(systems, layout, coarse.subdomains(), forces);
   deflation_outdated = true;
 }

@@ -1,5 +1,8 @@
+#include <snug/base/run_context.h>
 #include <snug/geometry/body_geometry.h>
 #include <snug/mesh/cell_shape.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 
@@ -39,6 +42,34 @@ bool CellShape<dim>::is_slender() const
   return *longest > compact_aspect * *shortest;
 }
 
-template class CellShape<2>;
-template class CellShape<3>;
+template <int dim>
+std::vector<std::vector<CellShape<dim>>>
+shapes_of_bodies(const std::size_t                                               n_bodies,
+                 const MPI_Comm                                                  communicator,
+                 const std::function<std::vector<CellShape<dim>>(unsigned int)> &of_body)
+{
+  std::vector<std::vector<CellShape<dim>>> result;
+  everywhere(communicator, [&]() {
+    for (unsigned int body = 0; body < n_bodies; ++body)
+      result.push_back(of_body(body));
+  });
+  return result;
+}
+
+template <int dim>
+unsigned long count_slender(const std::vector<CellShape<dim>> &shapes, const MPI_Comm communicator)
+{
+  const unsigned long n = std::count_if(shapes.begin(), shapes.end(),
+                                        [](const auto &shape) { return shape.is_slender(); });
+  return dealii::Utilities::MPI::sum(n, communicator);
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                 \
+  template class CellShape<dim>;                                                              \
+  template std::vector<std::vector<CellShape<dim>>> shapes_of_bodies(                         \
+    std::size_t, MPI_Comm, const std::function<std::vector<CellShape<dim>>(unsigned int)> &); \
+  template unsigned long count_slender(const std::vector<CellShape<dim>> &, MPI_Comm);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::mesh

@@ -51,18 +51,34 @@ bool has_one_level(unsigned int body, const Refined<dim> &refined)
   return levels[0] == -levels[1];
 }
 
+/// Of the owned cells of a body in the order of active cells.
+template <int dim>
+std::vector<CellShape<dim>> shapes_of(const CoarseMesh<dim> &coarse,
+                                      unsigned int           body,
+                                      const PlacedIds<dim>  &ids,
+                                      const Refined<dim>    &refined)
+{
+  std::vector<CellShape<dim>> shapes;
+  for (const auto &cell : refined.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->material_id() == body)
+      shapes.emplace_back([&](const dealii::Point<dim> &unit) {
+        return coarse.geometries[body]->position(coarse.places.point(ids.of(cell->id()), unit));
+      });
+  return shapes;
+}
+
 /// The owned cells of a body in the order of active cells. Collective.
 template <int dim>
-CellSet<dim> cell_set(const CoarseMesh<dim> &coarse,
-                      unsigned int           body,
-                      const PlacedIds<dim>  &ids,
-                      const Refined<dim>    &refined)
+CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
+                      unsigned int                       body,
+                      const std::vector<CellShape<dim>> &shapes,
+                      const PlacedIds<dim>              &ids,
+                      const Refined<dim>                &refined)
 {
   const auto  &geometry = *coarse.geometries[body];
   CellSet<dim> set;
-  set.communicator        = deal_ii_compat::communicator(refined);
-  set.size                = geometry.extent();
-  unsigned long n_slender = 0;
+  set.communicator = deal_ii_compat::communicator(refined);
+  set.size         = geometry.extent();
   for (const auto &cell : refined.active_cell_iterators())
     if (cell->is_locally_owned() && cell->material_id() == body)
       {
@@ -72,10 +88,6 @@ CellSet<dim> cell_set(const CoarseMesh<dim> &coarse,
           geometry.logical(coarse.places.point(id, geometry::unit_centre<dim>())));
         set.numbers.push_back(number);
         set.keys.push_back(key<dim>(id));
-        const CellShape<dim> shape([&](const dealii::Point<dim> &unit) {
-          return geometry.position(coarse.places.point(id, unit));
-        });
-        n_slender += shape.is_slender();
         for (const unsigned int f : cell->face_indices())
           if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
             {
@@ -85,12 +97,12 @@ CellSet<dim> cell_set(const CoarseMesh<dim> &coarse,
               if (number < other || cell->neighbor_is_coarser(f))
                 {
                   set.neighbours.push_back({{number, other}});
-                  set.areas.push_back(shape.section(f / 2));
+                  set.areas.push_back(shapes[set.numbers.size() - 1].section(f / 2));
                 }
             }
       }
   set.n_global  = dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(), set.communicator);
-  set.n_slender = dealii::Utilities::MPI::sum(n_slender, set.communicator);
+  set.n_slender = count_slender(shapes, set.communicator);
   set.layered   = geometry.has_grid() && has_one_level(body, refined);
   return set;
 }
@@ -150,8 +162,13 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
 {
   const PlacedIds<dim>      ids(refined);
   std::vector<CellSet<dim>> sets;
+  const auto                shapes =
+    shapes_of_bodies<dim>(coarse.geometries.size(), deal_ii_compat::communicator(refined),
+                          [&](const unsigned int body) {
+                            return shapes_of(coarse, body, ids, refined);
+                          });
   for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
-    sets.push_back(cell_set(coarse, body, ids, refined));
+    sets.push_back(cell_set(coarse, body, shapes[body], ids, refined));
   const Parts parts = decide_parts(sets, parameters, by_size);
   const auto  ranks =
     ranks_of_parts(parts.cells,

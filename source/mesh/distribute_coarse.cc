@@ -75,42 +75,64 @@ unsigned int first_of_rank(const unsigned long n, const unsigned int rank, const
   return static_cast<unsigned int>(n * rank / dealii::Utilities::MPI::n_mpi_processes(comm));
 }
 
-/// A run of the cells of a body.
+/// The cells of a body that a rank holds before the parts are decided.
+struct Run
+{
+  unsigned int begin, end;
+};
+
 template <int dim>
-CellSet<dim> cell_set(const CoarseMesh<dim>    &coarse,
-                      const unsigned int        body,
-                      const Neighbourhood<dim> &neighbourhood,
-                      const MPI_Comm            communicator)
+Run run_of(const CoarseMesh<dim> &coarse, const unsigned int body, const MPI_Comm communicator)
+{
+  const unsigned int  rank  = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int  begin = coarse.first_cell[body];
+  const unsigned long n     = coarse.first_cell[body + 1] - begin;
+  return {begin + first_of_rank(n, rank, communicator),
+          begin + first_of_rank(n, rank + 1, communicator)};
+}
+
+template <int dim>
+std::vector<CellShape<dim>>
+shapes_of(const CoarseMesh<dim> &coarse, const unsigned int body, const MPI_Comm communicator)
+{
+  const Run                   run = run_of(coarse, body, communicator);
+  std::vector<CellShape<dim>> shapes;
+  for (unsigned int cell = run.begin; cell < run.end; ++cell)
+    shapes.emplace_back([&](const dealii::Point<dim> &unit) {
+      return coarse.geometries[body]->position({cell - coarse.first_cell[body], unit});
+    });
+  return shapes;
+}
+
+/// A run of the cells of a body. Collective.
+template <int dim>
+CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
+                      const unsigned int                 body,
+                      const Neighbourhood<dim>          &neighbourhood,
+                      const std::vector<CellShape<dim>> &shapes,
+                      const MPI_Comm                     communicator)
 {
   const auto        &geometry = *coarse.geometries[body];
-  const unsigned int rank     = dealii::Utilities::MPI::this_mpi_process(communicator);
   const unsigned int begin    = coarse.first_cell[body];
+  const Run          run      = run_of(coarse, body, communicator);
   CellSet<dim>       set;
-  set.communicator                  = communicator;
-  set.n_global                      = coarse.first_cell[body + 1] - begin;
-  set.size                          = geometry.extent();
-  set.layered                       = geometry.has_grid();
-  const unsigned int          first = begin + first_of_rank(set.n_global, rank, communicator);
-  const unsigned int          end   = begin + first_of_rank(set.n_global, rank + 1, communicator);
-  std::vector<CellShape<dim>> shapes;
-  for (unsigned int cell = first; cell < end; ++cell)
+  set.communicator = communicator;
+  set.n_global     = coarse.first_cell[body + 1] - begin;
+  set.n_slender    = count_slender(shapes, communicator);
+  set.size         = geometry.extent();
+  set.layered      = geometry.has_grid();
+  for (unsigned int cell = run.begin; cell < run.end; ++cell)
     {
-      shapes.emplace_back([&](const dealii::Point<dim> &unit) {
-        return geometry.position({cell - begin, unit});
-      });
       set.centres.push_back(geometry.logical({cell - begin, geometry::unit_centre<dim>()}));
       set.numbers.push_back(cell);
       set.keys.push_back({{cell, 0}});
     }
   for (std::size_t p = 0; p < neighbourhood.pairs.size(); ++p)
-    if (const auto &pair = neighbourhood.pairs[p]; first <= pair[0] && pair[0] < end)
+    if (const auto &pair = neighbourhood.pairs[p]; run.begin <= pair[0] && pair[0] < run.end)
       {
         set.neighbours.push_back(pair);
-        set.areas.push_back(shapes[pair[0] - first].section(neighbourhood.axes[p]));
+        set.areas.push_back(shapes[pair[0] - run.begin].section(neighbourhood.axes[p]));
       }
-  const auto n_slender = std::count_if(shapes.begin(), shapes.end(),
-                                       [](const auto &shape) { return shape.is_slender(); });
-  set.n_slender        = dealii::Utilities::MPI::sum<unsigned long>(n_slender, communicator);
   return set;
 }
 
@@ -128,8 +150,12 @@ Places decide_places(const CoarseMesh<dim>    &coarse,
                      const MPI_Comm            communicator)
 {
   std::vector<CellSet<dim>> sets;
+  const auto                shapes =
+    shapes_of_bodies<dim>(coarse.geometries.size(), communicator, [&](const unsigned int body) {
+      return shapes_of(coarse, body, communicator);
+    });
   for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
-    sets.push_back(cell_set(coarse, body, neighbourhood, communicator));
+    sets.push_back(cell_set(coarse, body, neighbourhood, shapes[body], communicator));
   const Parts parts = decide_parts(sets, parameters, by_size);
   const auto  ranks =
     ranks_of_parts(parts.cells, dealii::Utilities::MPI::n_mpi_processes(communicator));

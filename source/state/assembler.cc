@@ -14,9 +14,6 @@ const double most_nodes_of_cube = 1.025;
 
 /// In the plane, over those of a square; parts of METIS have 1.02.
 const double most_nodes_of_square = 1.01;
-
-/// Of Poisson's ratio. At 0.45 F-mults are a quarter more than at 0.3, which does not pay vectors.
-const double most_compressible = 0.46;
 } // namespace
 
 template <int dim>
@@ -218,26 +215,6 @@ bool Assembler<dim>::is_compact(const Field &positions) const
       largest  = std::max(largest, the_element.volume(X));
     }
   return largest <= std::pow(mesh::compact_aspect, dim) * smallest;
-}
-
-template <int dim>
-std::vector<double> Assembler<dim>::outflow(const Field &positions) const
-{
-  std::vector<double> result;
-  if (mesh.idealization().kind == mesh::Idealization::Kind::plane_stress ||
-      model.bodies[subdomain.body].formulation == elasticity::Formulation::standard)
-    return result;
-  for (unsigned int i = 0; i < cells().size(); ++i)
-    if (material(i).poissons_ratio > most_compressible)
-      {
-        Nodes      gradient;
-        const auto X = cell_field(i, positions);
-        gradient.resize(X.size());
-        the_element.add_volume_gradient(X, 1., gradient);
-        result.resize(n_dofs(), 0.);
-        add_cell_vector(i, 1., gradient, result.data());
-      }
-  return result;
 }
 
 template <int dim>

@@ -101,10 +101,7 @@ void StateProblem<dim>::glue(const Field &positions)
   feti.reset();
   gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, reference);
   for (unsigned int s = 0; s < systems.size(); ++s)
-    {
-      gluing->fill_B(s, reference, systems[s].B);
-      systems[s].outflow = assemblers[s]->outflow(positions);
-    }
+    gluing->fill_B(s, reference, systems[s].B);
   feti = std::make_unique<feti::TotalFeti>(systems, gluing->layout(),
                                            subdomain_table(mesh, tearing, model.body_names),
                                            model.feti, context);

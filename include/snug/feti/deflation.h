@@ -9,17 +9,6 @@
 #include <set>
 
 namespace snug::feti {
-/// Row forces B_D y of the soft modes of one subdomain, before they are in equilibrium.
-struct RowForces
-{
-  unsigned int              subdomain; ///< global id
-  std::vector<unsigned int> patch;     ///< it and its neighbours, ascending
-  std::vector<unsigned int> rows;      ///< global, ascending
-  qp::MultiVector           values;    ///< rows x modes
-};
-
-RowForces row_forces(const SoftModes &modes, const JumpColumns &columns, unsigned int subdomain);
-
 /**
  * Directions C of the dual problem that PCPG need not find, as E = C'FC is
  * factorized and all others are made F-orthogonal to them. Each is B_D y of a

@@ -18,9 +18,8 @@ struct JumpStiffness
  * causes, @f$\sum_{t \ne s} P_t^T K_t P_t@f$ with @f$P_t@f$ the columns of s in
  * @f$P_D@f$ at the unknowns of t: entries (i, j) of unknowns of s. The stiffness
  * of t's unknowns at s with all others held stands for its Schur complement,
- * and is an upper bound of it: one too large to be of use where t is nearly
- * incompressible, which is left out, see add_outflow(). @p columns and
- * @p systems are those of this rank. Collective.
+ * and is an upper bound of it. @p columns and @p systems are those of this
+ * rank. Collective.
  */
 std::vector<std::vector<JumpStiffness>>
 stiffness_of_neighbours(const std::vector<SubdomainSystem> &systems,
@@ -56,16 +55,16 @@ SoftModes soft_modes(const SubdomainSystem            &system,
                      const std::vector<JumpStiffness> &neighbours,
                      unsigned int                      subdomain);
 
-/**
- * Append the forces y = dV/du where the subdomain is nearly incompressible:
- * @f$(B_D y)^T B u = y^T P_D u@f$ is what its volume changes by the jumps of u,
- * which costs as much as the material is stiff against it. With mu infinite.
- *
- * Source: Vereecke, Bavestrello, Dureisseix, An extension of the FETI domain
- * decomposition method for incompressible and nearly incompressible problems,
- * Comput. Methods Appl. Mech. Engrg. 192 (2003).
- */
-void add_outflow(const SubdomainSystem &system, SoftModes &modes);
+/// Row forces B_D y of the soft modes of one subdomain, before they are in equilibrium.
+struct RowForces
+{
+  unsigned int              subdomain; ///< global id
+  std::vector<unsigned int> patch;     ///< it and its neighbours, ascending
+  std::vector<unsigned int> rows;      ///< global, ascending
+  qp::MultiVector           values;    ///< rows x modes
+};
+
+RowForces row_forces(const SoftModes &modes, const JumpColumns &columns, unsigned int subdomain);
 } // namespace snug::feti
 
 #endif

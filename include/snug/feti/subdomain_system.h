@@ -35,7 +35,6 @@ struct SubdomainSystem
   qp::MultiVector           R;
   qp::MultiVector           Z;
   std::vector<unsigned int> fixing_dofs; ///< of far-apart nodes
-  std::vector<double>       outflow;     ///< derivative of an almost constant volume; or none
 
   unsigned int n_dofs() const { return K.n_rows; }
 };

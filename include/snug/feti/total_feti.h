@@ -153,7 +153,6 @@ private:
   std::vector<std::vector<BEntry>> weighted_B;
   std::vector<bool>                outdated; ///< preconditioners of subdomains
   bool                             knows_soft_modes = true;
-  bool                             seeks_modes      = false; ///< by eigenproblems
   std::unique_ptr<Deflation>       deflation; ///< null: not wanted, or no mode is soft
   bool                             deflation_outdated = false;
   qp::MultiVector                  gap, dual_load, rigid_load;

@@ -3,8 +3,11 @@
 
 #include <deal.II/base/point.h>
 
+#include <mpi.h>
+
 #include <array>
 #include <functional>
+#include <vector>
 
 namespace snug::mesh {
 /// Longest over shortest axis of cells of which cubes of cells are nearly cubes.
@@ -27,6 +30,17 @@ public:
 private:
   std::array<dealii::Tensor<1, dim>, dim> axes;
 };
+/// Shapes of this rank's cells, body by body, where @p of_body may throw on one rank alone.
+/// Collective.
+template <int dim>
+std::vector<std::vector<CellShape<dim>>>
+shapes_of_bodies(std::size_t                                                     n_bodies,
+                 MPI_Comm                                                        communicator,
+                 const std::function<std::vector<CellShape<dim>>(unsigned int)> &of_body);
+
+/// Of all ranks. Collective.
+template <int dim>
+unsigned long count_slender(const std::vector<CellShape<dim>> &shapes, MPI_Comm communicator);
 } // namespace snug::mesh
 
 #endif

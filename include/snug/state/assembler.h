@@ -59,10 +59,6 @@ public:
   /// plane): no motion is then much softer than its neighbours are.
   bool is_compact(const Field &positions) const;
 
-  /// d V / d u at the unknowns, of the volume V of the cells that are nearly incompressible; empty:
-  /// there are none, or they can move out of the plane.
-  std::vector<double> outflow(const Field &positions) const;
-
   /// Subdomain cells and loaded boundary faces as (mesh index).
   const std::vector<unsigned int> &cells() const { return subdomain.cells; }
   const std::vector<unsigned int> &loaded_faces() const { return faces; }

@@ -209,30 +209,6 @@ TEST_P(SoftModes, AreTheEigenvectorsOfTheJumps)
   EXPECT_GE(n_modes, 6u); // flat cells have some
 }
 
-TEST_P(SoftModes, OutflowIsOneMoreAndItsNeighboursHaveNoBound)
-{
-  auto systems = problem->subdomains();
-  for (auto &system : systems)
-    for (unsigned int i = 0; i < system.n_dofs(); ++i)
-      system.outflow.push_back((i % 3) - 1.5);
-  const auto found = feti::stiffness_of_neighbours(systems, columns, first, MPI_COMM_WORLD);
-  for (unsigned int s = 0; s < columns.size(); ++s)
-    {
-      EXPECT_TRUE(found[s].empty());
-      const unsigned int n = systems[s].n_dofs();
-      feti::SoftModes    modes{qp::MultiVector(n, 2), {9., 8.}};
-      feti::add_outflow(systems[s], modes);
-      ASSERT_EQ(modes.forces.n_columns(), 3u);
-      EXPECT_TRUE(std::isinf(modes.mu[2]));
-      for (unsigned int i = 0; i < n; ++i)
-        EXPECT_NEAR(modes.forces(i, 2) * 1.5, systems[s].outflow[i] * systems[s].K.mean_diagonal(),
-                    1e-12);
-      systems[s].outflow.clear();
-      feti::add_outflow(systems[s], modes);
-      EXPECT_EQ(modes.mu.size(), 3u);
-    }
-}
-
 INSTANTIATE_TEST_SUITE_P(,
                          SoftModes,
                          ::testing::Values(std::make_pair(false, false),
