@@ -257,7 +257,8 @@ void ActiveSetRun::keep_set()
       krylov.reset();
       balance_load();
       refresh_residual();
-      krylov = std::make_unique<Pcpg>(problem, *free_set);
+      const bool deflates = false; // it has its own rounding
+      krylov              = std::make_unique<Pcpg>(problem, *free_set, DirectionBasis(), deflates);
     }
   last_kkt = kkt.relative;
 }

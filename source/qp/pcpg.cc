@@ -75,9 +75,13 @@ private:
 };
 } // namespace
 
-Pcpg::Pcpg(const DualProblem &the_problem, const FreeSet &the_face, DirectionBasis known)
+Pcpg::Pcpg(const DualProblem &the_problem,
+           const FreeSet     &the_face,
+           DirectionBasis     known,
+           const bool         the_deflates)
   : problem(the_problem)
   , free_set(the_face)
+  , deflates(the_deflates)
   , comm(the_problem.context().communicator())
   , basis(std::move(known))
 {
@@ -90,7 +94,8 @@ Pcpg::Pcpg(const DualProblem &the_problem, const FreeSet &the_face, DirectionBas
 
 void Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
 {
-  free_set.minimize_over_deflated(lambda, residual);
+  if (deflates)
+    free_set.minimize_over_deflated(lambda, residual);
   if (basis.P.n_columns() == 0)
     return;
   // As P'FP = unit I the minimum over the span has the coefficients P'r / unit.
@@ -101,7 +106,7 @@ void Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
 
 std::vector<double> Pcpg::orthogonalise(MultiVector &x) const
 {
-  auto removed = free_set.deflate(x);
+  auto removed = deflates ? free_set.deflate(x) : std::vector<double>(x.n_columns(), 0.);
   if (basis.P.n_columns() == 0)
     return removed;
   const MultiVector parts = inner_products(basis.FP, x, comm);

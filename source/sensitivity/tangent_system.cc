@@ -52,9 +52,10 @@ bool TangentSystem::balanced(const feti::PrimalVectors &b, const qp::MultiVector
 
 bool TangentSystem::minimize(qp::MultiVector           &mu,
                              qp::MultiVector           &residual,
-                             const std::vector<double> &tolerances) const
+                             const std::vector<double> &tolerances,
+                             const bool                 deflates) const
 {
-  qp::Pcpg krylov(feti, *free_set, known);
+  qp::Pcpg krylov(feti, *free_set, known, deflates);
   if (solves == Solves::block)
     return krylov.solve(mu, residual, tolerances, parameters.max_iterations).converged;
   qp::MultiVector all_mu(mu.n_rows(), 0), all_residuals(mu.n_rows(), 0);
@@ -102,7 +103,9 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   if (!balanced(b, result.dual))
     throw SolveError("no derivative: the response sees, or the design unbalances, a motion that a "
                      "body is free to make");
-  if (!minimize(result.dual, residual, tolerances))
+  // Where the rounding of soft modes stops it, it goes on without them.
+  if (!minimize(result.dual, residual, tolerances, true) &&
+      !minimize(result.dual, residual, tolerances, false))
     throw SolveError("the sensitivities were not solved to the relative "
                      "tolerance; allow a larger 'Solver/Relative "
                      "tolerance' or more 'Solver/Maximum F-mults'");

@@ -39,10 +39,12 @@ class Pcpg
 {
 public:
   /// Problem and face must outlive this object; @p known directions must
-  /// lie in the face.
+  /// lie in the face. Whether it uses the directions C that are known for
+  /// every face, whose rounding bounds the accuracy.
   Pcpg(const DualProblem &problem,
        const FreeSet     &free_set,
-       DirectionBasis     known = DirectionBasis());
+       DirectionBasis     known    = DirectionBasis(),
+       bool               deflates = true);
 
   /**
    * @param[in,out] lambda feasible start, then solution (n_owned x k).
@@ -81,6 +83,7 @@ private:
 
   const DualProblem &problem;
   const FreeSet     &free_set;
+  bool               deflates;
   MPI_Comm           comm;
   DirectionBasis     basis;
   double             largest_rayleigh_quotient = 0.;

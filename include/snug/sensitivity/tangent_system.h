@@ -48,7 +48,8 @@ private:
                                  const qp::MultiVector &mu) const;
   bool            minimize(qp::MultiVector           &mu,
                            qp::MultiVector           &residual,
-                           const std::vector<double> &tolerances) const;
+                           const std::vector<double> &tolerances,
+                           bool                       deflates) const;
   bool            balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const;
 
   const feti::TotalFeti             &feti;
