@@ -27,7 +27,8 @@ def main():
         f"-DCMAKE_PREFIX_PATH={installed}", "-DCMAKE_BUILD_TYPE=Release",
         "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF")
     run("cmake", "--build", outside)
-    energy = float(run(outside / "solve_scene", scene))
+    # the log comes before
+    energy = float(run(outside / "solve_scene", scene).splitlines()[-1])
     run(installed / "bin" / "snug", scene, "--output", work / "output")
     summary = json.loads((work / "output" / "summary.json").read_text())
     known = summary["state"]["energy"]
