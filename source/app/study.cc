@@ -8,11 +8,13 @@
 #include <snug/base/errors.h>
 #include <snug/base/petsc_options.h>
 #include <snug/feti/sparse_factor.h>
+#include <snug/io/summary.h>
 #include <snug/io/text_file.h>
 #include <snug/scene/read_scene.h>
 
 #include <petscblaslapack.h>
 
+#include <cmath>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -235,6 +237,21 @@ std::string run_given(RunContext &context, const scene::Scene &scene, const Opti
   return complaint;
 }
 
+/// Of the largest rank, stage by stage. Collective.
+void print_memory(RunContext &context)
+{
+  const auto memory = io::collect_memory(context);
+  context.out() << "memory " << std::round(memory.largest) << " MB";
+  const char *separator = "; without what ranks share, at the ";
+  for (const auto &[stage, used] : memory.stages)
+    {
+      context.out() << separator << (stage == "start" ? "" : "end of ") << stage << " "
+                    << std::round(used);
+      separator = ", ";
+    }
+  context.out() << std::endl;
+}
+
 template <int dim>
 void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
 {
@@ -247,6 +264,7 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
     complaint = run_adapted_search<dim>(context, scene, options.restart);
   else
     complaint = run_adapted<dim>(context, scene);
+  print_memory(context);
   context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"
                 << std::endl;
   if (!complaint.empty())

@@ -4,7 +4,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <new>
 #include <streambuf>
@@ -16,6 +18,23 @@ std::ostream &null_stream()
   static std::ostream stream(nullptr);
   return stream;
 }
+
+double of_stage(const std::map<std::string, double> &stages, const std::string &stage)
+{
+  const auto found = stages.find(stage);
+  return found == stages.end() ? 0. : found->second;
+}
+
+/// Resident pages that are this process's alone [MB]; 0 where no /proc tells.
+double private_memory()
+{
+  std::ifstream file("/proc/self/statm");
+  double        size = 0., resident = 0., shared = 0.;
+  if (!(file >> size >> resident >> shared))
+    return 0.;
+  return (resident - shared) * double(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
 /// MPI launchers put a pseudo terminal between the program and a file.
 bool under_launcher()
 {
@@ -32,6 +51,7 @@ RunContext::RunContext(MPI_Comm communicator, std::ostream &out)
   , size(1)
   , stream(&out)
   , live_line(false)
+  , start_memory(private_memory())
   , start(std::chrono::steady_clock::now())
 {
   int r, s;
@@ -68,12 +88,18 @@ RunContext::Timer::~Timer()
 {
   const std::chrono::duration<double> life = std::chrono::steady_clock::now() - start;
   context.stage_seconds[stage] += life.count();
+  double &memory = context.stage_memory[stage];
+  memory         = std::max(memory, private_memory());
 }
 
 double RunContext::seconds(const std::string &stage) const
 {
-  const auto found = stage_seconds.find(stage);
-  return found == stage_seconds.end() ? 0. : found->second;
+  return of_stage(stage_seconds, stage);
+}
+
+double RunContext::memory(const std::string &stage) const
+{
+  return of_stage(stage_memory, stage);
 }
 
 double RunContext::seconds() const

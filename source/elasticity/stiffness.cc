@@ -91,9 +91,10 @@ void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
   const double                                *reference,
   const mesh::Idealization                    &idealization)
 {
+  // From the first node: congruent cells whose differences have the same bits have the same K.
   for (int c = 0; c < dim; ++c)
     for (int a = 0; a < n_padded; ++a)
-      positions[c][a] = a < n ? X[a][c] : 0.;
+      positions[c][a] = a < n ? X[a][c] - X[0][c] : 0.;
 
   for (int q = 0; q < n_gauss; ++q, reference += dim * n_padded)
     {

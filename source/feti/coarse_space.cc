@@ -94,7 +94,7 @@ void CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
       {
         // the m rows of a block row have the same pattern
         const unsigned int first  = block_subdomain[a] * m;
-        const unsigned int length = gram.row_start[first + 1] - gram.row_start[first];
+        const unsigned int length = gram.row_start()[first + 1] - gram.row_start()[first];
         double            *to     = &values[gram.position(first, block_subdomain[b] * m)];
         for (unsigned int i = 0; i < m; ++i, to += length)
           for (unsigned int j = 0; j < m; ++j)
@@ -149,7 +149,7 @@ CoarseSpace::HardlySeen CoarseSpace::hardly_seen_motions(const CsrMatrix &A) con
   // A is assembled from the rows of M only. A motion without strain and without relative motion at
   // the gluing moves each body rigidly, so its kernel lies in the span of the body modes and the
   // dense problem has at most 6 unknowns per body, however many subdomains there are.
-  qp::MultiVector AZ(A.n_rows, modes.n_columns());
+  qp::MultiVector AZ(A.n_rows(), modes.n_columns());
   A.multiply_add(1., modes, AZ);
   const auto         H      = transpose_times(modes, AZ);
   const double       mean   = A.mean_diagonal();

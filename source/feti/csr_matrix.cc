@@ -2,52 +2,110 @@
 #include <snug/feti/csr_matrix.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace snug::feti {
+namespace {
+/// A step of both: different odd multipliers, and high bits brought down, as products only carry
+/// upwards.
+void mix(Fingerprint &hashes, const std::uint64_t word)
+{
+  hashes[0] = (hashes[0] ^ word) * 0x9e3779b97f4a7c15u;
+  hashes[0] ^= hashes[0] >> 32;
+  hashes[1] = (hashes[1] + word) * 0xc2b2ae3d27d4eb4fu;
+  hashes[1] ^= hashes[1] >> 29;
+}
+
+void mix(Fingerprint &hashes, const std::vector<PetscInt> &numbers)
+{
+  mix(hashes, numbers.size());
+  for (const PetscInt number : numbers)
+    mix(hashes, static_cast<std::uint64_t>(number));
+}
+} // namespace
+
+Fingerprint fingerprint(const CsrPattern &pattern)
+{
+  Fingerprint hashes = {{1, 2}};
+  mix(hashes, pattern.n_columns);
+  mix(hashes, pattern.row_start);
+  mix(hashes, pattern.columns);
+  return hashes;
+}
+
+Fingerprint fingerprint(const std::vector<double> &values)
+{
+  Fingerprint hashes = {{1, 2}};
+  for (const double value : values)
+    {
+      std::uint64_t bits;
+      std::memcpy(&bits, &value, sizeof bits);
+      mix(hashes, bits);
+    }
+  return hashes;
+}
+
+std::shared_ptr<const CsrPattern>
+SharedPatterns::of(const std::shared_ptr<const CsrPattern> &pattern)
+{
+  return known.emplace(fingerprint(*pattern), pattern).first->second;
+}
+
+CsrMatrix::CsrMatrix(std::shared_ptr<const CsrPattern> pattern)
+  : values(pattern->columns.size(), 0.), places(std::move(pattern))
+{}
+
+CsrMatrix::CsrMatrix(std::shared_ptr<const CsrPattern> pattern, std::vector<double> the_values)
+  : values(std::move(the_values)), places(std::move(pattern))
+{}
+
 CsrMatrix CsrMatrix::from_rows(const std::vector<std::vector<PetscInt>> &columns_of_rows,
                                unsigned int                              n_columns)
 {
-  CsrMatrix matrix;
-  matrix.n_rows    = narrow<unsigned int>(columns_of_rows.size());
-  matrix.n_columns = n_columns;
-  matrix.row_start.assign(1, 0);
+  CsrPattern  pattern;
+  std::size_t n_entries = 0;
+  for (const auto &row : columns_of_rows)
+    n_entries += row.size();
+  pattern.n_rows    = narrow<unsigned int>(columns_of_rows.size());
+  pattern.n_columns = n_columns;
+  pattern.columns.reserve(n_entries);
+  pattern.row_start.reserve(columns_of_rows.size() + 1);
   for (const auto &row : columns_of_rows)
     {
-      matrix.columns.insert(matrix.columns.end(), row.begin(), row.end());
-      matrix.row_start.push_back(narrow<PetscInt>(matrix.columns.size()));
+      pattern.columns.insert(pattern.columns.end(), row.begin(), row.end());
+      pattern.row_start.push_back(narrow<PetscInt>(pattern.columns.size()));
     }
-  matrix.values.assign(matrix.columns.size(), 0.);
-  return matrix;
+  return CsrMatrix(std::make_shared<const CsrPattern>(std::move(pattern)));
 }
 
 /// Binary search, as columns ascend. A place off the pattern gives that of another entry.
 std::size_t CsrMatrix::position(PetscInt i, PetscInt j) const
 {
-  const auto begin = columns.begin() + row_start[i];
-  const auto end   = columns.begin() + row_start[i + 1];
-  return std::lower_bound(begin, end, j) - columns.begin();
+  const auto first = columns().begin();
+  return std::lower_bound(first + row_start()[i], first + row_start()[i + 1], j) - first;
 }
 
 double CsrMatrix::mean_diagonal() const
 {
   double mean = 0.;
-  for (unsigned int i = 0; i < n_rows; ++i)
-    mean += diagonal(i) / n_rows;
+  for (unsigned int i = 0; i < n_rows(); ++i)
+    mean += diagonal(i) / n_rows();
   return mean;
 }
 
 void CsrMatrix::multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const
 {
+  const PetscInt *start = row_start().data(), *column = columns().data();
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     {
       const double *xk = x.column(k);
       double       *yk = y.column(k);
-      for (unsigned int i = 0; i < n_rows; ++i)
+      for (unsigned int i = 0; i < n_rows(); ++i)
         {
           double sum = 0.;
-          for (PetscInt p = row_start[i]; p < row_start[i + 1]; ++p)
+          for (PetscInt p = start[i]; p < start[i + 1]; ++p)
             // Column by column: the matrix is read k times, but x and y stay contiguous.
-            sum += values[p] * xk[columns[p]];
+            sum += values[p] * xk[column[p]];
           yk[i] += factor * sum;
         }
     }
@@ -57,16 +115,17 @@ void CsrMatrix::transpose_multiply_add(double                 factor,
                                        const qp::MultiVector &x,
                                        qp::MultiVector       &y) const
 {
+  const PetscInt *start = row_start().data(), *column = columns().data();
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     {
       const double *xk = x.column(k);
       double       *yk = y.column(k);
-      for (unsigned int i = 0; i < n_rows; ++i)
+      for (unsigned int i = 0; i < n_rows(); ++i)
         {
           // Row i of A is column i of A', so that A' is never made.
           const double xi = factor * xk[i];
-          for (PetscInt p = row_start[i]; p < row_start[i + 1]; ++p)
-            yk[columns[p]] += values[p] * xi;
+          for (PetscInt p = start[i]; p < start[i + 1]; ++p)
+            yk[column[p]] += values[p] * xi;
         }
     }
 }

@@ -38,16 +38,6 @@ void add_to_rows(const std::vector<unsigned int> &numbers,
     for (unsigned int i = 0; i < numbers.size(); ++i)
       a(numbers[i], k) += x(i, k);
 }
-
-/// Rows of y with the given numbers.
-qp::MultiVector rows_of(const qp::MultiVector &y, const std::vector<unsigned int> &numbers)
-{
-  qp::MultiVector result(narrow<unsigned int>(numbers.size()), y.n_columns());
-  for (unsigned int k = 0; k < y.n_columns(); ++k)
-    for (unsigned int i = 0; i < numbers.size(); ++i)
-      result(i, k) = y(numbers[i], k);
-  return result;
-}
 } // namespace
 
 Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
@@ -282,7 +272,7 @@ void Deflation::update(const std::vector<std::unique_ptr<GeneralizedInverse>> &i
   sum_over_ranks(E.values, layout.communicator());
   scale_E();
   // The shift makes solutions as large as 1 / shift, and is there to.
-  factor->factorize("the coarse problem of the soft modes",
+  factor->factorize(E, "the coarse problem of the soft modes",
                     std::numeric_limits<double>::infinity());
 }
 
@@ -295,8 +285,8 @@ void Deflation::scale_E()
     if (const double diagonal = E.diagonal(i); diagonal > 0.)
       scale[i] = 1. / std::sqrt(diagonal);
   for (unsigned int i = 0; i < n_global; ++i)
-    for (PetscInt p = E.row_start[i]; p < E.row_start[i + 1]; ++p)
-      E.values[p] *= scale[i] * scale[E.columns[p]];
+    for (PetscInt p = E.row_start()[i]; p < E.row_start()[i + 1]; ++p)
+      E.values[p] *= scale[i] * scale[E.columns()[p]];
   for (unsigned int i = 0; i < n_global; ++i)
     E.values[E.position(i, i)] = 1. + shift;
 }

@@ -1,6 +1,5 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/fill_orderings.h>
-#include <snug/qp/row_set.h>
 
 #include <metis.h>
 
@@ -9,18 +8,7 @@
 
 namespace snug::feti {
 namespace {
-/// Two hashes of the numbers of rows and columns, from two beginnings.
-std::array<std::uint64_t, 2> fingerprint(const CsrMatrix &pattern)
-{
-  std::array<std::uint64_t, 2> hashes = {{1, 2}};
-  for (auto &hash : hashes)
-    for (const auto *numbers : {&pattern.row_start, &pattern.columns})
-      for (const PetscInt number : *numbers)
-        hash = qp::scramble(hash + static_cast<std::uint64_t>(number));
-  return hashes;
-}
-
-std::vector<PetscInt> nested_dissection(const CsrMatrix &pattern)
+std::vector<PetscInt> nested_dissection(const CsrPattern &pattern)
 {
   std::vector<PetscInt> result(pattern.n_rows);
   std::iota(result.begin(), result.end(), 0);
@@ -44,7 +32,7 @@ std::vector<PetscInt> nested_dissection(const CsrMatrix &pattern)
 }
 } // namespace
 
-const std::vector<PetscInt> &FillOrderings::of(const CsrMatrix &pattern)
+const std::vector<PetscInt> &FillOrderings::of(const CsrPattern &pattern)
 {
   const auto [place, is_new] = known.try_emplace(fingerprint(pattern));
   if (is_new)

@@ -3,30 +3,66 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace snug::feti {
 namespace {
-/// Pattern of K with all fixing unknowns coupled to each other.
-CsrMatrix coupled_pattern(const SubdomainSystem &system)
+/// Of entries of orthonormal modes: what congruent subdomains differ by is far below.
+const double step_of_modes = 0x1p-26;
+
+/// K with zeros where fixing unknowns that it does not couple are coupled.
+CsrMatrix with_coupled(const CsrMatrix &K, const std::vector<unsigned int> &fixing_dofs)
 {
-  std::vector<std::vector<PetscInt>> rows(system.n_dofs());
-  const CsrMatrix                   &K = system.K;
-  for (unsigned int i = 0; i < system.n_dofs(); ++i)
-    rows[i].assign(K.columns.begin() + K.row_start[i], K.columns.begin() + K.row_start[i + 1]);
-  for (const unsigned int i : system.fixing_dofs)
+  CsrPattern          pattern;
+  std::vector<double> values;
+  const std::size_t   most =
+    K.columns().size() + std::size_t(fixing_dofs.size()) * fixing_dofs.size();
+  pattern.n_rows = pattern.n_columns = K.n_rows();
+  pattern.row_start.reserve(K.n_rows() + 1);
+  pattern.columns.reserve(most);
+  values.reserve(most);
+  auto fixing = fixing_dofs.begin();
+  for (unsigned int i = 0; i < K.n_rows(); ++i)
     {
-      rows[i].insert(rows[i].end(), system.fixing_dofs.begin(), system.fixing_dofs.end());
-      std::sort(rows[i].begin(), rows[i].end());
-      rows[i].erase(std::unique(rows[i].begin(), rows[i].end()), rows[i].end());
+      const bool is_fixing = fixing != fixing_dofs.end() && *fixing == i;
+      auto       j         = is_fixing ? fixing_dofs.begin() : fixing_dofs.end();
+      for (PetscInt p = K.row_start()[i]; p < K.row_start()[i + 1]; ++p)
+        {
+          for (; j != fixing_dofs.end() && PetscInt(*j) <= K.columns()[p]; ++j)
+            if (PetscInt(*j) < K.columns()[p])
+              {
+                pattern.columns.push_back(narrow<PetscInt>(*j));
+                values.push_back(0.);
+              }
+          pattern.columns.push_back(K.columns()[p]);
+          values.push_back(K.values[p]);
+        }
+      for (; j != fixing_dofs.end(); ++j)
+        {
+          pattern.columns.push_back(narrow<PetscInt>(*j));
+          values.push_back(0.);
+        }
+      fixing += is_fixing;
+      pattern.row_start.push_back(narrow<PetscInt>(pattern.columns.size()));
     }
-  return CsrMatrix::from_rows(rows, system.n_dofs());
+  return {std::make_shared<const CsrPattern>(std::move(pattern)), std::move(values)};
+}
+
+/// R, orthonormal, at the unknowns that fix it, rounded.
+qp::MultiVector rounded_rows(const qp::MultiVector &R, const std::vector<unsigned int> &dofs)
+{
+  qp::MultiVector rows = rows_of(R, dofs);
+  for (unsigned int j = 0; j < rows.n_columns(); ++j)
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+      // + 0 makes -0 the 0 of others
+      rows(i, j) = std::round(rows(i, j) / step_of_modes) * step_of_modes + 0.;
+  return rows;
 }
 } // namespace
 
-void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::MultiVector &N)
+void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::MultiVector &rows)
 {
-  const auto n = narrow<unsigned int>(f.size()), r = N.n_columns();
+  const auto n = rows.n_rows(), r = rows.n_columns();
   if (r == 0)
     return;
   // The mean of diag A is of the size of A: a much smaller rho loses digits of A^+, a much larger
@@ -36,7 +72,7 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
   dealii::LAPACKFullMatrix<double> N_f(n, r), N_f_transposed(r, n), gram(r, r), Q(n, n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < r; ++j)
-      N_f(i, j) = N_f_transposed(j, i) = N(f[i], j);
+      N_f(i, j) = N_f_transposed(j, i) = rows(i, j);
   // N_f'N_f is regular only if no motion leaves the fixing nodes in place: in space, three or more
   // of them not on one line. Nodes close to each other make it, and A, ill conditioned.
   N_f.Tmmult(gram, N_f);
@@ -49,29 +85,12 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
       A.values[A.position(f[i], f[j])] += rho * Q(i, j);
 }
 
-GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &the_system,
-                                       const Factorization    package,
-                                       FillOrderings         &orderings,
-                                       RunContext            &the_context)
-  : system(the_system), context(the_context), K_rho(coupled_pattern(the_system))
-{
-  const CsrMatrix &K = system.K;
-  // Where each value of K goes in K_rho is the same for all designs: looked up once.
-  for (unsigned int i = 0; i < system.n_dofs(); ++i)
-    for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
-      place_of_K.push_back(K_rho.position(i, K.columns[p]));
-  factor = std::make_unique<SparseFactor>(K_rho, FactorOf::kplus, package, &orderings);
-  ++context.work.symbolic_factorizations;
-}
-
 void GeneralizedInverse::factorize(const std::string &what)
 {
-  std::fill(K_rho.values.begin(), K_rho.values.end(), 0.);
-  for (std::size_t p = 0; p < place_of_K.size(); ++p)
-    K_rho.values[place_of_K[p]] = system.K.values[p];
-  fix_kernel(K_rho, system.fixing_dofs, system.R);
-  factor->factorize(what);
-  ++context.work.numeric_factorizations;
+  release();
+  auto K_rho = with_coupled(system.K, system.fixing_dofs);
+  fix_kernel(K_rho, system.fixing_dofs, rounded_rows(system.R, system.fixing_dofs));
+  factor = factors.factorize(K_rho, what);
 }
 
 void GeneralizedInverse::apply(const qp::MultiVector &b, qp::MultiVector &x) const

@@ -13,18 +13,19 @@ const double rank_cut = 1e-12;
 /// diagonal: half the memory to read, which is what takes time here.
 void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::MultiVector &y)
 {
+  const PetscInt *start = A.row_start().data(), *column = A.columns().data();
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     {
       const double *xk = x.column(k);
       double       *yk = y.column(k);
-      for (unsigned int i = 0; i < A.n_rows; ++i)
+      for (unsigned int i = 0; i < A.n_rows(); ++i)
         {
-          const PetscInt last = A.row_start[i + 1] - 1;
+          const PetscInt last = start[i + 1] - 1;
           double         sum  = A.values[last] * xk[i];
-          for (PetscInt p = A.row_start[i]; p < last; ++p)
+          for (PetscInt p = start[i]; p < last; ++p)
             {
-              sum += A.values[p] * xk[A.columns[p]];
-              yk[A.columns[p]] += A.values[p] * xk[i];
+              sum += A.values[p] * xk[column[p]];
+              yk[column[p]] += A.values[p] * xk[i];
             }
           yk[i] += sum;
         }
@@ -33,15 +34,15 @@ void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::Mul
 } // namespace
 
 LocalSchur::LocalSchur(const SubdomainSystem &the_system,
-                       bool                   the_lumped,
-                       Factorization          the_package,
-                       FillOrderings         &the_orderings,
+                       const bool             the_lumped,
+                       const FactorPool      &the_factors,
+                       SharedPatterns        &the_patterns,
                        RunContext            &the_context)
   : system(the_system)
+  , factors(the_factors)
+  , patterns(the_patterns)
   , context(the_context)
   , lumped(the_lumped)
-  , package(the_package)
-  , orderings(the_orderings)
 {}
 
 void LocalSchur::choose_boundary(bool with_fixing_dofs)
@@ -84,74 +85,62 @@ bool LocalSchur::boundary_holds() const
   return qp::null_space(gram, rank_cut * longest).n_columns() == 0;
 }
 
-LocalSchur::Part LocalSchur::extract(bool rows_on_boundary, bool columns_on_boundary) const
+CsrMatrix LocalSchur::extract(const bool rows_on_boundary, const bool columns_on_boundary) const
 {
-  const CsrMatrix                   &K = system.K;
-  std::vector<std::vector<PetscInt>> rows;
-  Part                               part;
+  const CsrMatrix    &K = system.K;
+  CsrPattern          pattern;
+  std::vector<double> values;
+  pattern.n_rows    = rows_on_boundary ? n_b : n_i;
+  pattern.n_columns = columns_on_boundary ? n_b : n_i;
   for (unsigned int i = 0; i < system.n_dofs(); ++i)
     {
       if ((position_b[i] < n_b) != rows_on_boundary)
         continue;
-      rows.emplace_back();
-      for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
+      for (PetscInt p = K.row_start()[i]; p < K.row_start()[i + 1]; ++p)
         {
-          const PetscInt j = K.columns[p];
+          const PetscInt j = K.columns()[p];
           if ((position_b[j] < n_b) != columns_on_boundary)
             continue;
           if (rows_on_boundary && j > PetscInt(i))
             continue; // see add_symmetric_product
-          rows.back().push_back(columns_on_boundary ? position_b[j] : position_i[j]);
-          part.source.push_back(p);
+          pattern.columns.push_back(
+            narrow<PetscInt>(columns_on_boundary ? position_b[j] : position_i[j]));
+          values.push_back(K.values[p]);
         }
+      pattern.row_start.push_back(narrow<PetscInt>(pattern.columns.size()));
     }
-  part.matrix = CsrMatrix::from_rows(rows, columns_on_boundary ? n_b : n_i);
-  return part;
+  // what is kept takes no more room than it needs
+  pattern.columns.shrink_to_fit();
+  values.shrink_to_fit();
+  return {std::make_shared<const CsrPattern>(std::move(pattern)), std::move(values)};
 }
 
 void LocalSchur::factorize(const std::string &what)
 {
-  const bool first = position_b.empty();
-  if (first)
+  if (position_b.empty())
     choose_boundary(false);
-  const bool escapes = !has_fixing_dofs && !boundary_holds();
-  if (escapes)
+  if (!has_fixing_dofs && !boundary_holds())
     choose_boundary(true);
-  if (first || escapes)
-    {
-      bb = extract(true, true);
-      if (!lumped)
-        {
-          ib = extract(false, true);
-          ii = extract(false, false);
-        }
-      if (!lumped && n_i > 0)
-        {
-          factor =
-            std::make_unique<SparseFactor>(ii.matrix, FactorOf::dirichlet, package, &orderings);
-          ++context.work.symbolic_factorizations;
-        }
-    }
-  for (Part *part : {&bb, &ib, &ii})
-    for (std::size_t p = 0; p < part->source.size(); ++p)
-      part->matrix.values[p] = system.K.values[part->source[p]];
-  if (!factor)
+  bb = patterns.of(extract(true, true));
+  if (lumped)
     return;
-  factor->factorize(what);
-  ++context.work.numeric_factorizations;
+  ib = patterns.of(extract(false, true));
+  release();
+  if (n_i > 0)
+    factor = factors.factorize(extract(false, false), what);
 }
 
 qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const
 {
   qp::MultiVector y(n_b, x.n_columns());
-  add_symmetric_product(bb.matrix, x, y);
+  add_symmetric_product(bb, x, y);
   if (!factor)
     return y;
   qp::MultiVector load(n_i, x.n_columns()), inner(n_i, x.n_columns());
-  ib.matrix.multiply_add(1., x, load);
+  ib.multiply_add(1., x, load);
   context.work.subdomain_solves += x.n_columns();
   factor->solve(load, inner);
-  ib.matrix.transpose_multiply_add(-1., inner, y);
+  ib.transpose_multiply_add(-1., inner, y);
   return y;
 }
 

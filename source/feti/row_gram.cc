@@ -82,10 +82,6 @@ RowGram::RowGram(const RowLayout &layout)
         }
       group->matrix = CsrMatrix::from_rows(pattern, narrow<unsigned int>(group->rows.size()));
     }
-  // CHOLMOD whatever the package of the stiffness: these matrices are small.
-  if (!fixed.rows.empty())
-    fixed_factor =
-      std::make_unique<SparseFactor>(fixed.matrix, FactorOf::row_gram, Factorization::CHOLMOD);
 }
 
 void RowGram::update(const std::vector<double> &entries, unsigned int stride)
@@ -104,8 +100,9 @@ void RowGram::update(const std::vector<double> &entries, unsigned int stride)
                                                       entries[std::size_t(b) * stride] *
                                                       entries[std::size_t(a) * stride + 1];
         }
-  if (fixed_factor)
-    fixed_factor->factorize("B D^-1 B' of the gluing rows");
+  fixed_factor.reset();
+  if (!fixed.rows.empty())
+    fixed_factor = factors.factorize(fixed.matrix, "B D^-1 B' of the gluing rows");
 }
 
 /// x <- A^-1 x on the rows of the group; the others are not touched.
@@ -127,19 +124,18 @@ RowGram::Factor::Factor(const RowGram &the_gram, const qp::RowSet &the_free)
   const auto &rows = gram.contact.rows;
   if (rows.empty())
     return;
-  W                 = gram.contact_factors.take(gram.contact.matrix);
-  CsrMatrix &matrix = W->matrix;
-  for (unsigned int i = 0; i < matrix.n_rows; ++i)
-    for (PetscInt p = matrix.row_start[i]; p < matrix.row_start[i + 1]; ++p)
+  CsrMatrix matrix = gram.contact.matrix;
+  for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+    for (PetscInt p = matrix.row_start()[i]; p < matrix.row_start()[i + 1]; ++p)
       {
-        const unsigned int j = matrix.columns[p];
+        const unsigned int j = matrix.columns()[p];
         if (!free[rows[i]] || !free[rows[j]])
           // Rows off M become those of the identity: the pattern, and with it the symbolic
           // factorization, serves all sets.
           matrix.values[p] = i == j ? 1. : 0.;
       }
-  W->factor.factorize("B D^-1 B' of the contact rows (are two contact rows "
-                      "the same?)");
+  W = gram.factors.factorize(matrix, "B D^-1 B' of the contact rows (are two contact rows the "
+                                     "same?)");
 }
 
 void RowGram::Factor::solve(qp::MultiVector &x) const
@@ -153,6 +149,6 @@ void RowGram::Factor::solve(qp::MultiVector &x) const
   if (gram.fixed_factor)
     gram.fixed.solve(*gram.fixed_factor, x);
   if (W)
-    gram.contact.solve(W->factor, x);
+    gram.contact.solve(*W, x);
 }
 } // namespace snug::feti

@@ -192,7 +192,7 @@ std::vector<double> products_with(const CsrMatrix &K, const std::vector<double> 
   for (std::size_t i = 0; i < list.size(); i += 3)
     reached.push_back({list[i], list[i + 1], list[i + 2]});
   std::sort(reached.begin(), reached.end());
-  std::vector<std::size_t> start(K.n_rows + 1, 0); // of each j
+  std::vector<std::size_t> start(K.n_rows() + 1, 0); // of each j
   for (const auto &entry : reached)
     ++start[static_cast<std::size_t>(entry[0]) + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
@@ -200,8 +200,8 @@ std::vector<double> products_with(const CsrMatrix &K, const std::vector<double> 
   for (const auto &a : reached)
     {
       const auto j = static_cast<std::size_t>(a[0]);
-      for (PetscInt place = K.row_start[j]; place < K.row_start[j + 1]; ++place)
-        for (auto b = start[K.columns[place]]; b < start[K.columns[place] + 1]; ++b)
+      for (PetscInt place = K.row_start()[j]; place < K.row_start()[j + 1]; ++place)
+        for (auto b = start[K.columns()[place]]; b < start[K.columns()[place] + 1]; ++b)
           result.insert(result.end(),
                         {a[1], reached[b][1], a[2] * reached[b][2] * K.values[place]});
     }

@@ -61,6 +61,24 @@ void keep_to_one_thread()
   throw SolveError(what + " is not positive definite: look for degenerate cells, unconnected "
                           "parts and extreme material constants");
 }
+
+/// As PETSc has it. A copy, as the arrays of @p A may be gone before the factor: packages that
+/// refine their solutions keep the matrix.
+petsc::Matrix petsc_copy(const CsrMatrix &A)
+{
+  const auto    n = narrow<PetscInt>(A.n_rows());
+  petsc::Matrix wrapped, copy;
+  // PETSc wraps arrays that it may write to, but only reads these.
+  petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n,
+                                         const_cast<PetscInt *>(A.row_start().data()),
+                                         const_cast<PetscInt *>(A.columns().data()),
+                                         const_cast<double *>(A.values.data()), wrapped.put()));
+  petsc::check(MatDuplicate(wrapped, MAT_COPY_VALUES, copy.put()));
+  petsc::check(MatSetOption(copy, MAT_SYMMETRIC, PETSC_TRUE));
+  // MUMPS takes its mode for positive definite matrices from this flag.
+  petsc::check(MatSetOption(copy, MAT_SPD, PETSC_TRUE));
+  return copy;
+}
 } // namespace
 
 void check_factor_options(const Factorization package)
@@ -73,38 +91,24 @@ void check_factor_options(const Factorization package)
       const auto   of           = static_cast<FactorOf>(use);
       const bool   is_stiffness = of == FactorOf::kplus || of == FactorOf::dirichlet;
       SparseFactor factor(one, of, is_stiffness ? package : Factorization::CHOLMOD);
-      factor.factorize("the matrix 1"); // SuperLU's factors cannot be destroyed before
+      factor.factorize(one, "the matrix 1"); // SuperLU's factors cannot be destroyed before
     }
 }
 
-SparseFactor::SparseFactor(const CsrMatrix    &the_matrix,
+SparseFactor::SparseFactor(const CsrMatrix    &pattern,
                            const FactorOf      of,
                            const Factorization package,
                            FillOrderings      *orderings)
-  : matrix(the_matrix), is_lu(wants_lu(prefix_of(of)))
+  : n(narrow<PetscInt>(pattern.n_rows())), is_lu(wants_lu(prefix_of(of)))
 {
   keep_to_one_thread();
-  wrap_matrix();
-  analyse(prefix_of(of), package_name(prefix_of(of), package), orderings);
-  petsc::check(
-    VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, right_hand_side.put()));
-  petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, matrix.n_rows, nullptr, solution.put()));
+  analyse(pattern, prefix_of(of), package_name(prefix_of(of), package), orderings);
+  petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, right_hand_side.put()));
+  petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, solution.put()));
 }
 
-void SparseFactor::wrap_matrix()
-{
-  // PETSc wraps the arrays without a copy and does not write to them, but for the scaling in
-  // factorize(), which is taken back.
-  auto &csr = const_cast<CsrMatrix &>(matrix);
-  petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, matrix.n_rows, matrix.n_rows,
-                                         csr.row_start.data(), csr.columns.data(),
-                                         csr.values.data(), wrapped.put()));
-  petsc::check(MatSetOption(wrapped, MAT_SYMMETRIC, PETSC_TRUE));
-  // MUMPS takes its mode for positive definite matrices from this flag.
-  petsc::check(MatSetOption(wrapped, MAT_SPD, PETSC_TRUE));
-}
-
-void SparseFactor::analyse(const std::string &prefix,
+void SparseFactor::analyse(const CsrMatrix   &pattern,
+                           const std::string &prefix,
                            const std::string &package,
                            FillOrderings     *orderings)
 {
@@ -117,21 +121,24 @@ void SparseFactor::analyse(const std::string &prefix,
       // It would print a warning of its own before the one line of factorize().
       silence.emplace(prefix, "mat_cholmod_print", "0");
     }
-  petsc::check(MatSetOptionsPrefixFactor(wrapped, prefix.c_str()));
-  const auto error = MatGetFactor(wrapped, package.c_str(),
+  const auto matrix = petsc_copy(pattern);
+  petsc::check(MatSetOptionsPrefixFactor(matrix, prefix.c_str()));
+  const auto error = MatGetFactor(matrix, package.c_str(),
                                   is_lu ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY, factor.put());
   if (error == PETSC_ERR_MISSING_FACTOR)
     throw_no_factorization(prefix, package, is_lu);
   petsc::check(error);
   MatFactorInfo info;
   petsc::check(MatFactorInfoInitialize(&info));
-  const auto order = elimination_order(prefix, orderings);
-  petsc::check(is_lu ? MatLUFactorSymbolic(factor, wrapped, order, order, &info)
-                     : MatCholeskyFactorSymbolic(factor, wrapped, order, &info));
+  const auto order = elimination_order(matrix, *pattern.pattern(), prefix, orderings);
+  petsc::check(is_lu ? MatLUFactorSymbolic(factor, matrix, order, order, &info)
+                     : MatCholeskyFactorSymbolic(factor, matrix, order, &info));
 }
 
 /// Of rows and columns; none where the package finds its own.
-petsc::IndexSet SparseFactor::elimination_order(const std::string &prefix,
+petsc::IndexSet SparseFactor::elimination_order(Mat                matrix,
+                                                const CsrPattern  &pattern,
+                                                const std::string &prefix,
                                                 FillOrderings     *orderings) const
 {
   petsc::IndexSet order;
@@ -150,36 +157,34 @@ petsc::IndexSet SparseFactor::elimination_order(const std::string &prefix,
   if (!wanted.empty())
     {
       petsc::IndexSet columns;
-      petsc::check(MatGetOrdering(wrapped, wanted.c_str(), order.put(), columns.put()));
+      petsc::check(MatGetOrdering(matrix, wanted.c_str(), order.put(), columns.put()));
       return order;
     }
   if (finds_own && !(orderings && std::string(package) == MATSOLVERCHOLMOD))
     return order;
   FillOrderings own;
-  const auto   &rows = (orderings ? *orderings : own).of(matrix);
+  const auto   &rows = (orderings ? *orderings : own).of(pattern);
   petsc::check(ISCreateGeneral(PETSC_COMM_SELF, narrow<PetscInt>(rows.size()), rows.data(),
                                PETSC_COPY_VALUES, order.put()));
   return order;
 }
 
-void SparseFactor::factorize(const std::string &what, const double singular_size)
+void SparseFactor::factorize(const CsrMatrix   &A,
+                             const std::string &what,
+                             const double       singular_size)
 {
-  if (matrix.n_rows == 0) // CHOLMOD takes no empty matrix
+  if (n == 0) // CHOLMOD takes no empty matrix
     return;
-  // The values were changed behind PETSc's back: an assembly tells it that they are others.
-  petsc::check(MatAssemblyBegin(wrapped, MAT_FINAL_ASSEMBLY));
-  petsc::check(MatAssemblyEnd(wrapped, MAT_FINAL_ASSEMBLY));
+  const auto    matrix = petsc_copy(A);
   MatFactorInfo info;
   petsc::check(MatFactorInfoInitialize(&info));
-  if (std::isnormal(matrix.diagonal(0)))
+  if (std::isnormal(A.diagonal(0)))
     // The exponent of one entry is enough: any power of two of about the right size will do, and to
-    // divide and multiply by it is exact.
-    unit = std::ldexp(1., std::ilogb(matrix.diagonal(0)));
-  petsc::check(MatScale(wrapped, 1. / unit));
-  // Not by petsc::check() at once: first the values become what they were before.
-  const PetscErrorCode error = is_lu ? MatLUFactorNumeric(factor, wrapped, &info)
-                                     : MatCholeskyFactorNumeric(factor, wrapped, &info);
-  petsc::check(MatScale(wrapped, unit));
+    // divide by it is exact.
+    unit = std::ldexp(1., std::ilogb(A.diagonal(0)));
+  petsc::check(MatScale(matrix, 1. / unit));
+  const PetscErrorCode error = is_lu ? MatLUFactorNumeric(factor, matrix, &info)
+                                     : MatCholeskyFactorNumeric(factor, matrix, &info);
   if (error == PETSC_ERR_MAT_CH_ZRPVT)
     throw_not_definite(what);
   petsc::check(error);
@@ -188,24 +193,26 @@ void SparseFactor::factorize(const std::string &what, const double singular_size
   petsc::check(MatFactorGetError(factor, &kept));
   if (kept == MAT_FACTOR_OUTMEMORY)
     throw std::bad_alloc();
-  check(what, singular_size);
+  check(A, what, singular_size);
 }
 
-void SparseFactor::check(const std::string &what, const double singular_size) const
+void SparseFactor::check(const CsrMatrix   &A,
+                         const std::string &what,
+                         const double       singular_size) const
 {
-  qp::MultiVector b(matrix.n_rows), x(matrix.n_rows);
+  qp::MultiVector b(A.n_rows()), x(A.n_rows());
   double          largest = 0.;
-  for (unsigned int i = 0; i < matrix.n_rows; ++i)
+  for (unsigned int i = 0; i < A.n_rows(); ++i)
     {
       // Right-hand sides of the size of the diagonal make x of order one, whatever the units.
-      b(i)    = matrix.diagonal(i) * (1. + i % 3);
+      b(i)    = A.diagonal(i) * (1. + i % 3);
       largest = std::max(largest, std::abs(b(i)));
     }
   solve(b, x);
   qp::MultiVector residual = b;
-  matrix.multiply_add(-1., x, residual);
+  A.multiply_add(-1., x, residual);
   double error = 0., size = 0., energy = 0.; // energy: b' A^-1 b
-  for (unsigned int i = 0; i < matrix.n_rows; ++i)
+  for (unsigned int i = 0; i < A.n_rows(); ++i)
     {
       error = std::max(error, std::abs(residual(i)));
       size  = std::max(size, std::abs(x(i)));
@@ -228,7 +235,7 @@ void SparseFactor::check(const std::string &what, const double singular_size) co
 
 void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
 {
-  const PetscInt n = matrix.n_rows, k = b.n_columns();
+  const PetscInt k = b.n_columns();
   if (n == 0 || k == 0)
     return;
   if (k == 1)

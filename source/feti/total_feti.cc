@@ -59,16 +59,17 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
   , run(context)
   , coarse(the_layout, table)
   , gram(the_layout)
+  , inverse_factors(FactorOf::kplus, parameters.factorization, &orderings, &run.work)
+  , inner_factors(FactorOf::dirichlet, parameters.factorization, &orderings, &run.work)
   , outdated(the_systems.size(), true)
 {
   for (const SubdomainSystem &system : systems)
     {
-      inverses.push_back(
-        std::make_unique<GeneralizedInverse>(system, parameters.factorization, orderings, run));
+      inverses.push_back(std::make_unique<GeneralizedInverse>(system, inverse_factors, run));
       if (parameters.preconditioner != Preconditioner::none)
         schur.push_back(
           std::make_unique<LocalSchur>(system, parameters.preconditioner == Preconditioner::lumped,
-                                       parameters.factorization, orderings, run));
+                                       inner_factors, patterns, run));
     }
   if (parameters.preconditioner == Preconditioner::none ||
       parameters.soft_modes == SoftModesOf::none)
@@ -85,6 +86,10 @@ void TotalFeti::update(const std::vector<bool> &changed)
 {
   everywhere(run.communicator(), [&]() {
     const RunContext::Timer timer(run, "factorization");
+    // First all of them: what others still hold could not serve.
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      if (changed[s])
+        inverses[s]->release();
     for (unsigned int s = 0; s < systems.size(); ++s)
       if (changed[s])
         {
@@ -101,6 +106,9 @@ void TotalFeti::update_preconditioner()
 {
   everywhere(run.communicator(), [&]() {
     const RunContext::Timer timer(run, "factorization");
+    for (unsigned int s = 0; s < schur.size(); ++s)
+      if (outdated[s])
+        schur[s]->release();
     for (unsigned int s = 0; s < schur.size(); ++s)
       if (outdated[s])
         schur[s]->factorize(name_of_subdomain(coarse.subdomains(), coarse.subdomains().first + s));

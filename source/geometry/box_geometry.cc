@@ -4,8 +4,49 @@
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/grid_geometry.h>
 
+#include <cmath>
+#include <limits>
+
 namespace snug::geometry {
 namespace {
+/**
+ * Inner nodes of equal cells, apart by a length that keeps few enough digits for sums to be exact:
+ * all cells, and subdomains, then have the same K to the last bit, and subdomains share a
+ * factorization. Nodes move by rounding.
+ */
+class EqualSteps
+{
+public:
+  /// Of an axis that is graded: no nodes.
+  EqualSteps() = default;
+
+  EqualSteps(const double corner, const double size, const unsigned int the_n) : n(the_n)
+  {
+    // of the last digit that all nodes have
+    const double unit =
+      std::ldexp(1., std::ilogb(std::abs(corner) + size) + 1 - std::numeric_limits<double>::digits);
+    first  = std::round(corner / unit) * unit;
+    length = std::round(size / n / (parts * unit)) * parts * unit;
+  }
+
+  bool is_node(const double fraction) const
+  {
+    const double place = fraction * n;
+    return place > 0.5 / parts && place < n - 0.5 / parts &&
+           std::abs(place - nearest(place)) < 1e-12;
+  }
+
+  double node(const double fraction) const { return first + nearest(fraction * n) * length; }
+
+private:
+  /// Of a cell: degree 2, or two refinements, or both once.
+  static constexpr double parts = 4.;
+
+  static double nearest(const double place) { return std::round(place * parts) / parts; }
+
+  double n = 0., first = 0., length = 0.;
+};
+
 /// In the order of boundaries 2d + s.
 template <int dim>
 std::vector<std::string> box_faces()
@@ -61,7 +102,8 @@ public:
   {
     dealii::Point<dim> position;
     for (unsigned int d = 0; d < dim; ++d)
-      position[d] = corner[d] + size[d] * fraction[d];
+      position[d] = steps[d].is_node(fraction[d]) ? steps[d].node(fraction[d])
+                                                  : corner[d] + size[d] * fraction[d];
     return position;
   }
 
@@ -115,6 +157,7 @@ private:
   using GridGeometry<dim>::cells;
   std::array<double, dim>      corner, size;
   std::array<AxisSpacing, dim> spacing;
+  std::array<EqualSteps, dim>  steps;
   std::vector<CurvedFace<dim>> curved_faces;
 
   /// Faces beside it that are curved move it off its shape, opposite ones do not.
@@ -143,6 +186,8 @@ private:
                           "an axis with several cells and no grading");
         spacing[d] = fine[d] != 0. ? AxisSpacing::with_fine_part(cells[d], fine[d] / size[d])
                                    : AxisSpacing::graded(cells[d], grading[d]);
+        if (fine[d] == 0. && grading[d] == 1.)
+          steps[d] = EqualSteps(corner[d], size[d], cells[d]);
       }
   }
 

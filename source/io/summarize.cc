@@ -1,7 +1,9 @@
+#include <snug/base/narrow.h>
 #include <snug/io/summary.h>
 
 #include <sys/resource.h>
 
+#include <array>
 #include <vector>
 
 namespace snug::io {
@@ -74,12 +76,16 @@ Summary::State summarize(const state::ContactState<dim> &state)
   return result;
 }
 
+namespace {
+const std::array<const char *, 8> stages = {"setup", "assembly", "factorization", "soft modes",
+                                            "solve", "gradient", "accuracy",      "output"};
+} // namespace
+
 Summary::Times collect_times(const RunContext &context)
 {
   // in the order of the members of Times
   std::vector<double> seconds;
-  for (const char *stage : {"setup", "assembly", "factorization", "soft modes", "solve", "gradient",
-                            "accuracy", "output"})
+  for (const char *stage : stages)
     seconds.push_back(context.seconds(stage));
   seconds.push_back(context.seconds());
   // stage by stage the slowest rank, for which the others wait
@@ -98,6 +104,15 @@ Summary::Memory collect_memory(const RunContext &context)
   Summary::Memory result;
   MPI_Allreduce(&here, &result.largest, 1, MPI_DOUBLE, MPI_MAX, context.communicator());
   MPI_Allreduce(&here, &result.total, 1, MPI_DOUBLE, MPI_SUM, context.communicator());
+  std::vector<double> of_stages(1, context.memory_at_start());
+  for (const char *stage : stages)
+    of_stages.push_back(context.memory(stage));
+  MPI_Allreduce(MPI_IN_PLACE, of_stages.data(), narrow<int>(of_stages.size()), MPI_DOUBLE, MPI_MAX,
+                context.communicator());
+  result.stages.emplace_back("start", of_stages[0]);
+  for (unsigned int i = 0; i < stages.size(); ++i)
+    if (of_stages[i + 1] > 0.)
+      result.stages.emplace_back(stages[i], of_stages[i + 1]);
   return result;
 }
 

@@ -229,6 +229,14 @@ Json summary_part(const Summary::Times &times)
           {"output", times.output},
           {"total", times.total}};
 }
+
+Json summary_part(const Summary::Memory &memory)
+{
+  Json stages = Json::object();
+  for (const auto &[stage, used] : memory.stages)
+    stages[stage] = used;
+  return {{"largest", memory.largest}, {"total", memory.total}, {"stages", stages}};
+}
 } // namespace
 
 std::string Summary::json() const
@@ -240,7 +248,7 @@ std::string Summary::json() const
                {"optimization", summary_part(optimization)},
                {"work", summary_part(work)},
                {"times", summary_part(times)},
-               {"memory", {{"largest", memory.largest}, {"total", memory.total}}},
+               {"memory", summary_part(memory)},
                {"task", task},
                {"warnings", warnings}};
   // Only with a second state or load case or with targets; the keys above are always there.

@@ -101,4 +101,13 @@ MultiVector times(const MultiVector &x, const MultiVector &C)
   product.add_product(1., x, C);
   return product;
 }
+
+MultiVector rows_of(const MultiVector &x, const std::vector<unsigned int> &numbers)
+{
+  MultiVector result(narrow<unsigned int>(numbers.size()), x.n_columns());
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      result(i, k) = x(numbers[i], k);
+  return result;
+}
 } // namespace snug::qp

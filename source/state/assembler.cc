@@ -104,7 +104,7 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
       for (unsigned int a = 0; a < m; ++a)
         for (unsigned int c = 0; c < dim; ++c)
           {
-            double             *row   = K.values.data() + K.row_start[dim * cell.slots()[a] + c];
+            double             *row   = K.values.data() + K.row_start()[dim * cell.slots()[a] + c];
             const double       *from  = cell_matrix.data() + std::size_t(a * dim + c) * m * dim;
             const unsigned int *place = places[i].data() + a * m;
             for (unsigned int b = 0; b < m; ++b)
@@ -181,8 +181,11 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
   std::vector<unsigned int> dofs;
   for (unsigned int k = 0; k < std::min(n_fixing, n); ++k)
     {
+      // The first of those that are as far but for rounding: of congruent subdomains the same.
+      const double       least = (1. - 1e-9) * *std::max_element(distance.begin(), distance.end());
       const unsigned int farthest =
-        std::max_element(distance.begin(), distance.end()) - distance.begin();
+        std::find_if(distance.begin(), distance.end(), [&](const double d) { return d >= least; }) -
+        distance.begin();
       for (unsigned int c = first; c < dim; ++c)
         dofs.push_back(dim * farthest + c);
       for (unsigned int a = 0; a < n; ++a)

@@ -27,8 +27,8 @@ double larger(double a, double b)
 double absolute_product(const feti::CsrMatrix &K, const qp::MultiVector &u, unsigned int i)
 {
   double sum = 0.;
-  for (PetscInt p = K.row_start[i]; p < K.row_start[i + 1]; ++p)
-    sum += std::abs(K.values[p] * u(K.columns[p]));
+  for (PetscInt p = K.row_start()[i]; p < K.row_start()[i + 1]; ++p)
+    sum += std::abs(K.values[p] * u(K.columns()[p]));
   return sum;
 }
 

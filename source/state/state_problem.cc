@@ -79,6 +79,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
                                                     surface.gather(positions),
                                                     held->directions(surface, positions));
+  feti::SharedPatterns patterns;
   systems.resize(tearing.subdomains.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
@@ -86,7 +87,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
       assemblers.push_back(std::make_unique<Assembler<dim>>(mesh, subdomain, model,
                                                             elements[subdomain.body], face_load));
       systems[s].body        = subdomain.body;
-      systems[s].K           = assemblers[s]->sparsity();
+      systems[s].K           = patterns.of(assemblers[s]->sparsity());
       systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
       systems[s].compact     = assemblers[s]->is_compact(positions);
     }

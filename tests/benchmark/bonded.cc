@@ -58,14 +58,15 @@ std::vector<unsigned int> Bonded::number_unknowns(const state::StateSolver<dim> 
           if (direction[c] == 1.)
             unknown[dim * target[node] + c] = eliminated;
     }
+  unsigned int n = 0;
   for (unsigned int node = 0; node < target.size(); ++node)
     for (unsigned int c = 0; c < dim; ++c)
       if (target[node] == node && unknown[dim * node + c] != eliminated)
-        unknown[dim * node + c] = K.n_rows++;
+        unknown[dim * node + c] = n++;
   for (unsigned int node = 0; node < target.size(); ++node)
     for (unsigned int c = 0; c < dim; ++c)
       unknown[dim * node + c] = unknown[dim * target[node] + c];
-  K.n_columns = K.n_rows;
+  K = feti::CsrMatrix::from_rows(std::vector<std::vector<PetscInt>>(n), n);
   return unknown;
 }
 
@@ -86,25 +87,25 @@ void Bonded::assemble(const state::StateSolver<dim>   &solver,
   const auto for_all_entries = [&](const auto &visit) {
     for (unsigned int s = 0; s < systems.size(); ++s)
       for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
-        for (PetscInt p = systems[s].K.row_start[row]; p < systems[s].K.row_start[row + 1]; ++p)
+        for (PetscInt p = systems[s].K.row_start()[row]; p < systems[s].K.row_start()[row + 1]; ++p)
           {
             const unsigned int i = maps[s][row];
-            const unsigned int j = maps[s][systems[s].K.columns[p]];
+            const unsigned int j = maps[s][systems[s].K.columns()[p]];
             if (i != eliminated && j != eliminated)
               visit(i, j, systems[s].K.values[p]);
           }
   };
-  std::vector<std::vector<PetscInt>> pattern(K.n_rows);
+  std::vector<std::vector<PetscInt>> pattern(K.n_rows());
   for_all_entries([&](unsigned int i, unsigned int j, double) { pattern[i].push_back(j); });
   for (auto &row : pattern)
     {
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
     }
-  K = feti::CsrMatrix::from_rows(pattern, K.n_columns);
+  K = feti::CsrMatrix::from_rows(pattern, K.n_columns());
   for_all_entries(
     [&](unsigned int i, unsigned int j, double value) { K.values[K.position(i, j)] += value; });
-  f = u = qp::MultiVector(K.n_rows);
+  f = u = qp::MultiVector(K.n_rows());
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
       if (maps[s][row] != eliminated)
@@ -115,8 +116,10 @@ void Bonded::assemble(const state::StateSolver<dim>   &solver,
 /// factorization.
 void Bonded::analyse()
 {
-  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, K.n_rows, K.n_rows, K.row_start.data(),
-                                  K.columns.data(), K.values.data(), matrix.put()));
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, K.n_rows(), K.n_rows(),
+                                  const_cast<PetscInt *>(K.row_start().data()),
+                                  const_cast<PetscInt *>(K.columns().data()), K.values.data(),
+                                  matrix.put()));
   check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
   check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
   check(MatSetOptionsPrefixFactor(matrix, "bonded_"));
@@ -125,8 +128,8 @@ void Bonded::analyse()
   MatFactorInfo info;
   check(MatFactorInfoInitialize(&info));
   check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
-  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows, f.column(0), right_hand_side.put()));
-  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows, u.column(0), solution.put()));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows(), f.column(0), right_hand_side.put()));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows(), u.column(0), solution.put()));
 }
 
 void Bonded::factorize()

@@ -17,7 +17,7 @@ public:
   /// @throws InputError if slave and master nodes do not match.
   Bonded(const state::StateSolver<3> &solver, const feti::TotalFeti &dual);
 
-  unsigned int n_unknowns() const { return K.n_rows; }
+  unsigned int n_unknowns() const { return K.n_rows(); }
 
   /// Numeric factorization by CHOLMOD through PETSc (the symbolic one is
   /// done once, by the constructor).

@@ -67,13 +67,15 @@ void Torn::solve()
 
 Stage Torn::factorization_of_inverses() const
 {
-  feti::FillOrderings                                    orderings;
+  feti::FillOrderings    orderings;
+  const feti::FactorPool factors(feti::FactorOf::kplus, solver.model().feti.factorization,
+                                 &orderings);
   std::vector<std::unique_ptr<feti::GeneralizedInverse>> inverses;
   for (const auto &system : feti.subdomains())
-    inverses.push_back(std::make_unique<feti::GeneralizedInverse>(system,
-                                                                  solver.model().feti.factorization,
-                                                                  orderings, context));
+    inverses.push_back(std::make_unique<feti::GeneralizedInverse>(system, factors, context));
   const auto factorize = [&]() {
+    for (auto &inverse : inverses)
+      inverse->release();
     for (auto &inverse : inverses)
       inverse->factorize("K");
   };
@@ -83,13 +85,16 @@ Stage Torn::factorization_of_inverses() const
 
 Stage Torn::factorization_of_interiors() const
 {
-  feti::FillOrderings                            orderings;
+  feti::FillOrderings    orderings;
+  feti::SharedPatterns   patterns;
+  const feti::FactorPool factors(feti::FactorOf::dirichlet, solver.model().feti.factorization,
+                                 &orderings);
   std::vector<std::unique_ptr<feti::LocalSchur>> schur;
   for (const auto &system : feti.subdomains())
-    schur.push_back(std::make_unique<feti::LocalSchur>(system, false,
-                                                       solver.model().feti.factorization, orderings,
-                                                       context));
+    schur.push_back(std::make_unique<feti::LocalSchur>(system, false, factors, patterns, context));
   const auto factorize = [&]() {
+    for (auto &part : schur)
+      part->release();
     for (auto &part : schur)
       part->factorize("K_ii");
   };

@@ -117,8 +117,8 @@ void WholeBodies<dim>::collect_body(const feti::SubdomainSystem               &s
   const unsigned int n = system.n_dofs(), first = problem.first.back();
   problem.K.emplace_back(n, n);
   for (unsigned int i = 0; i < n; ++i)
-    for (auto k = system.K.row_start[i]; k < system.K.row_start[i + 1]; ++k)
-      problem.K.back()(i, system.K.columns[k]) = system.K.values[k];
+    for (auto k = system.K.row_start()[i]; k < system.K.row_start()[i + 1]; ++k)
+      problem.K.back()(i, system.K.columns()[k]) = system.K.values[k];
   problem.rigid.push_back(rigid_motions<dim>(positions));
   problem.first.push_back(first + n);
   problem.f.grow_or_shrink(first + n);

@@ -52,7 +52,7 @@ public:
    */
   void progress(const std::string &text);
 
-  /// Adds the wall time of its life to @p stage of the context.
+  /// Adds the wall time of its life to @p stage of the context, and sees to the memory at its end.
   class Timer
   {
   public:
@@ -73,6 +73,13 @@ public:
   /// Wall seconds since the context was made.
   double seconds() const;
 
+  /// The most of memory in use [MB] at an end of the stage on this rank, without what it shares
+  /// with others, such as code and MPI's messages; 0 if it never ran, or where no /proc tells.
+  double memory(const std::string &stage) const;
+
+  /// That when the context was made: of the libraries.
+  double memory_at_start() const { return start_memory; }
+
   /// Work with this rank's counters summed over ranks. Collective.
   Work total_work() const;
 
@@ -85,7 +92,8 @@ private:
   std::ostream                         *stream;
   bool                                  live_line;
   bool                                  live_line_shown = false;
-  std::map<std::string, double>         stage_seconds;
+  std::map<std::string, double>         stage_seconds, stage_memory;
+  double                                start_memory;
   std::chrono::steady_clock::time_point start;
 };
 

@@ -54,7 +54,7 @@ public:
   /// Pattern of G G' with the representatives of all bodies coupled.
   const CsrMatrix &pattern() const { return gram; }
 
-  /// Where faces find their matrix and factorization.
+  /// Where faces find their factorization.
   const FactorPool &factors() const { return factor_pool; }
 
   /// Orthonormal body modes in coarse coordinates, n_kernel x n_bodies
@@ -90,7 +90,7 @@ private:
   CsrMatrix                 gram;
   std::vector<std::size_t>  bounded_places; ///< in gram of contact rows
   std::vector<double>       equality_gram;
-  FactorPool                factor_pool{FactorOf::coarse}; ///< of gram's pattern
+  FactorPool                factor_pool{FactorOf::coarse};
   qp::MultiVector           modes;
   std::vector<unsigned int> representative;
 
@@ -123,9 +123,9 @@ public:
   qp::MultiVector kernel_part(const qp::MultiVector &c) const;
 
 private:
-  std::shared_ptr<FactorPool::Item> A;
-  qp::MultiVector                   N; ///< orthonormal kernel, n_kernel x (its dimension)
-  qp::MultiVector                   W;
+  std::shared_ptr<const SparseFactor> A;
+  qp::MultiVector                     N; ///< orthonormal kernel, n_kernel x (its dimension)
+  qp::MultiVector                     W;
 };
 } // namespace snug::feti
 

@@ -1,6 +1,7 @@
 #ifndef snug_feti_factor_pool_h
 #define snug_feti_factor_pool_h
 
+#include <snug/base/run_context.h>
 #include <snug/feti/sparse_factor.h>
 
 #include <memory>
@@ -8,36 +9,41 @@
 
 namespace snug::feti {
 /**
- * Matrices of one pattern with their symbolic factorizations, by CHOLMOD
- * if PETSc's options name no other package: these matrices are small,
- * whatever the package of the stiffness. Faces come and go with the active set and several may live
- * at a time; what one leaves behind serves the next.
+ * Factorizations of one use, of which many live at a time, as those of the subdomains of a design
+ * and of faces that come and go with the active set. Equal matrices share one; what nobody uses any
+ * more serves the next matrix of its pattern with its symbolic factorization.
  */
 class FactorPool
 {
 public:
-  struct Item
-  {
-    Item(const CsrMatrix &pattern, const FactorOf of)
-      : matrix(pattern), factor(matrix, of, Factorization::CHOLMOD)
-    {}
+  /// By CHOLMOD with orders of its own unless said otherwise: most matrices are small, whatever
+  /// the package of the stiffness. Counts factorizations in @p work; it and @p orderings must
+  /// outlive this object.
+  explicit FactorPool(FactorOf       of,
+                      Factorization  package   = Factorization::CHOLMOD,
+                      FillOrderings *orderings = nullptr,
+                      Work          *work      = nullptr);
 
-    CsrMatrix    matrix; ///< fill in values, then factor.factorize()
-    SparseFactor factor;
-  };
-
-  explicit FactorPool(const FactorOf the_use) : of(the_use) {}
-
-  /// An item with the values of @p matrix, whose pattern is that of all
-  /// others. It returns when the pointer and its copies are gone, which
-  /// may be after the end of the pool.
-  std::shared_ptr<Item> take(const CsrMatrix &matrix) const;
+  /// The factorization of @p A, which returns when the pointer and its copies are gone; that may be
+  /// after the end of the pool.
+  /// @throws SolveError see SparseFactor::factorize()
+  std::shared_ptr<const SparseFactor> factorize(const CsrMatrix &A, const std::string &what) const;
 
 private:
-  using Items = std::vector<std::unique_ptr<Item>>;
+  /// Of a pattern and its values.
+  using Key = std::pair<Fingerprint, Fingerprint>;
+
+  struct Items
+  {
+    std::map<Fingerprint, std::vector<std::unique_ptr<SparseFactor>>> spare; ///< of each pattern
+    std::map<Key, std::weak_ptr<const SparseFactor>>                  used;
+  };
 
   FactorOf               of;
-  std::shared_ptr<Items> spare = std::make_shared<Items>();
+  Factorization          package;
+  FillOrderings         *orderings;
+  Work                  *work;
+  std::shared_ptr<Items> items = std::make_shared<Items>();
 };
 } // namespace snug::feti
 

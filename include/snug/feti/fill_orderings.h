@@ -3,8 +3,6 @@
 
 #include <snug/feti/csr_matrix.h>
 
-#include <array>
-#include <cstdint>
 #include <map>
 
 namespace snug::feti {
@@ -16,11 +14,10 @@ public:
   /// The rows of @p pattern, which is symmetric and has its diagonal, in the order of elimination:
   /// nested dissection by METIS, which does not depend on what was asked for before. Valid as long
   /// as this object.
-  const std::vector<PetscInt> &of(const CsrMatrix &pattern);
+  const std::vector<PetscInt> &of(const CsrPattern &pattern);
 
 private:
-  /// Patterns are taken for one another with a probability of 2^-128.
-  std::map<std::array<std::uint64_t, 2>, std::vector<PetscInt>> known;
+  std::map<Fingerprint, std::vector<PetscInt>> known;
 };
 } // namespace snug::feti
 

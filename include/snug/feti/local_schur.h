@@ -2,7 +2,7 @@
 #define snug_feti_local_schur_h
 
 #include <snug/base/run_context.h>
-#include <snug/feti/sparse_factor.h>
+#include <snug/feti/factor_pool.h>
 #include <snug/feti/subdomain_system.h>
 
 #include <memory>
@@ -13,20 +13,23 @@ namespace snug::feti {
  * unknowns b with an entry in B, and on the fixing unknowns where holding
  * those leaves it a rigid motion:
  * S = K_bb - K_bi K_ii^{-1} K_ib ("Dirichlet") or K_bb ("lumped").
- * b and the symbolic part are made with the first numbers.
+ * b is found with the first numbers.
  */
 class LocalSchur
 {
 public:
-  /// @p system and @p orderings must outlive this object.
+  /// @p system, @p factors and @p patterns must outlive this object.
   LocalSchur(const SubdomainSystem &system,
              bool                   lumped,
-             Factorization          package,
-             FillOrderings         &orderings,
+             const FactorPool      &factors,
+             SharedPatterns        &patterns,
              RunContext            &context);
 
   /// For the present K and R.
   void factorize(const std::string &what);
+
+  /// Leave the factor, which is of former numbers, to the pool: to be factorized again.
+  void release() { factor.reset(); }
 
   /// Unknown of the subdomain -> position in b, or n_boundary().
   const std::vector<unsigned int> &boundary_position() const { return position_b; }
@@ -37,27 +40,21 @@ public:
   qp::MultiVector apply(const qp::MultiVector &x) const;
 
 private:
-  struct Part
-  {
-    CsrMatrix                matrix;
-    std::vector<std::size_t> source; ///< positions in K.values
-  };
+  void      choose_boundary(bool with_fixing_dofs);
+  bool      boundary_holds() const;
+  CsrMatrix extract(bool rows_on_boundary, bool columns_on_boundary) const;
 
-  void choose_boundary(bool with_fixing_dofs);
-  bool boundary_holds() const;
-  Part extract(bool rows_on_boundary, bool columns_on_boundary) const;
-
-  const SubdomainSystem        &system;
-  RunContext                   &context;
-  const bool                    lumped;
-  const Factorization           package;
-  FillOrderings                &orderings;
-  bool                          has_fixing_dofs = false;
-  unsigned int                  n_b = 0, n_i = 0;
-  std::vector<unsigned int>     position_b, position_i;
-  Part                          bb; ///< its lower triangle
-  Part                          ib, ii;
-  std::unique_ptr<SparseFactor> factor;
+  const SubdomainSystem              &system;
+  const FactorPool                   &factors;
+  SharedPatterns                     &patterns;
+  RunContext                         &context;
+  const bool                          lumped;
+  bool                                has_fixing_dofs = false;
+  unsigned int                        n_b = 0, n_i = 0;
+  std::vector<unsigned int>           position_b, position_i;
+  CsrMatrix                           bb; ///< its lower triangle
+  CsrMatrix                           ib;
+  std::shared_ptr<const SparseFactor> factor;
 };
 
 /// Rows of x, of all unknowns, at the boundary.

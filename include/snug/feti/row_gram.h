@@ -32,9 +32,9 @@ public:
     void solve(qp::MultiVector &x) const;
 
   private:
-    const RowGram                    &gram;
-    qp::RowSet                        free;
-    std::shared_ptr<FactorPool::Item> W; ///< of the contact group
+    const RowGram                      &gram;
+    qp::RowSet                          free;
+    std::shared_ptr<const SparseFactor> W; ///< of the contact group
   };
 
 private:
@@ -47,9 +47,9 @@ private:
   };
 
   Group                                  fixed, contact;
-  FactorPool                             contact_factors{FactorOf::row_gram};
+  FactorPool                             factors{FactorOf::row_gram};
   std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)
-  std::unique_ptr<SparseFactor>          fixed_factor;
+  std::shared_ptr<const SparseFactor>    fixed_factor;
   /// entries by unknown: (subdomain, dof) -> gathered entries
   std::vector<std::vector<unsigned int>> entries_of_unknown;
   std::vector<unsigned int>              row_of_entry;

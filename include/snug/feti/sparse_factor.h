@@ -33,53 +33,56 @@ inline Names names(FactorOf)
 void check_factor_options(Factorization package);
 
 /**
- * Cholesky factorization of a sparse symmetric positive definite matrix
- * on one process, by a package of PETSc. The symbolic part is done once
- * for the pattern. Scaling the matrix by a power of two changes no digit:
+ * Cholesky factorization of sparse symmetric positive definite matrices
+ * of one pattern on one process, by a package of PETSc. The symbolic part
+ * is done once. Scaling the matrix by a power of two changes no digit:
  * the package factorizes it divided by one, so that no square root of its
- * units is taken.
+ * units is taken. No matrix is kept.
  */
 class SparseFactor
 {
 public:
   /**
-   * @param[in] matrix referenced, not copied: it must outlive this object
-   *   and keep its arrays. Only its pattern is used here.
+   * @param[in] pattern of the matrices; values are not used.
    * @param[in] of whose options of PETSc hold.
    * @param[in] package unless the options name another.
    * @param[in] orderings where CHOLMOD takes its order from; null: it tries some of its own.
    * @throws InputError see check_factor_options()
    */
-  SparseFactor(const CsrMatrix &matrix,
+  SparseFactor(const CsrMatrix &pattern,
                FactorOf         of,
                Factorization    package,
                FillOrderings   *orderings = nullptr);
 
   /**
-   * Factorize the present values of the matrix.
+   * Factorize a matrix of the pattern.
    * @throws SolveError if the matrix is not positive definite, holds NaN,
    *   or the solution of one check system is wrong (packages can fail
    *   silently); @p what names the matrix. It counts as singular where
    *   entries of a solution that should be of order one are above
    *   @p singular_size: 1e11 leaves five digits.
    */
-  void factorize(const std::string &what, double singular_size = 1e11);
+  void factorize(const CsrMatrix &A, const std::string &what, double singular_size = 1e11);
 
   /// x = A^{-1} b for every column.
   void solve(const qp::MultiVector &b, qp::MultiVector &x) const;
 
 private:
-  void wrap_matrix();
-  void analyse(const std::string &prefix, const std::string &package, FillOrderings *orderings);
-  petsc::IndexSet elimination_order(const std::string &prefix, FillOrderings *orderings) const;
-  void            check(const std::string &what, double singular_size) const;
+  void            analyse(const CsrMatrix   &pattern,
+                          const std::string &prefix,
+                          const std::string &package,
+                          FillOrderings     *orderings);
+  petsc::IndexSet elimination_order(Mat                wrapped,
+                                    const CsrPattern  &pattern,
+                                    const std::string &prefix,
+                                    FillOrderings     *orderings) const;
+  void            check(const CsrMatrix &A, const std::string &what, double singular_size) const;
 
-  const CsrMatrix &matrix;
-  bool             is_lu;
-  petsc::Matrix    wrapped;
-  petsc::Matrix    factor;
-  petsc::Vector    right_hand_side, solution;
-  double           unit = 1.; ///< power of two; the factor is of A / unit
+  PetscInt      n;
+  bool          is_lu;
+  petsc::Matrix factor;
+  petsc::Vector right_hand_side, solution;
+  double        unit = 1.; ///< power of two; the factor is of A / unit
 };
 } // namespace snug::feti
 

@@ -36,7 +36,7 @@ struct SubdomainSystem
   qp::MultiVector           Z;
   std::vector<unsigned int> fixing_dofs; ///< of far-apart nodes
 
-  unsigned int n_dofs() const { return K.n_rows; }
+  unsigned int n_dofs() const { return K.n_rows(); }
 };
 
 /// One multi-vector per subdomain of this rank: primal vectors.

@@ -16,8 +16,8 @@ namespace snug::feti {
  * Total FETI: the dual problem of bodies torn into floating subdomains,
  * @f[ F = B K^+ B^T,\quad G = R^T B^T,\quad d = B K^+ f - g,\quad
  *     e = R^T f. @f]
- * Patterns and symbolic factorizations are made once; update() brings a
- * design's numbers and factorizes only the subdomains that changed.
+ * update() brings a design's numbers and factorizes only the subdomains that changed, with the
+ * symbolic factorizations of their patterns; subdomains with equal numbers share one.
  *
  * Source: Dostál, Horák, Kučera, Commun. Numer. Meth. Engng 22 (2006).
  */
@@ -147,6 +147,8 @@ private:
   CoarseSpace                                      coarse;
   RowGram                                          gram;
   FillOrderings                                    orderings;
+  SharedPatterns                                   patterns;
+  FactorPool                                       inverse_factors, inner_factors;
   std::vector<std::unique_ptr<GeneralizedInverse>> inverses;
   std::vector<std::unique_ptr<LocalSchur>>         schur;
   /// B D^{-1} of each subdomain on the boundary positions of its schur

@@ -170,6 +170,9 @@ struct Summary
   struct Memory
   {
     double largest = 0., total = 0.;
+    /// At the end of each stage that ran, and at the start, without what ranks share; the largest
+    /// rank's.
+    std::vector<std::pair<std::string, double>> stages;
   };
 
   Program                     program;

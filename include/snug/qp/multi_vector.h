@@ -68,6 +68,9 @@ std::vector<double> norms(const MultiVector &X, MPI_Comm comm);
 
 /// x C with C (x.n_columns x n).
 MultiVector times(const MultiVector &x, const MultiVector &C);
+
+/// The rows of x with the given numbers.
+MultiVector rows_of(const MultiVector &x, const std::vector<unsigned int> &numbers);
 } // namespace snug::qp
 
 #endif

@@ -29,7 +29,7 @@ qp::MultiVector random_columns(unsigned int n, unsigned int k)
 
 qp::MultiVector times(const feti::CsrMatrix &A, const qp::MultiVector &x)
 {
-  qp::MultiVector y(A.n_rows, x.n_columns());
+  qp::MultiVector y(A.n_rows(), x.n_columns());
   A.multiply_add(1., x, y);
   return y;
 }
@@ -49,6 +49,7 @@ protected:
   std::ostringstream  log;
   RunContext          context{MPI_COMM_WORLD, log};
   feti::FillOrderings orderings;
+  feti::FactorPool    factors{feti::FactorOf::kplus, GetParam(), &orderings, &context.work};
 };
 
 TEST_P(Packages, InvertsOnTheRange)
@@ -57,7 +58,7 @@ TEST_P(Packages, InvertsOnTheRange)
     {
       // the kernel is what the geometry says
       EXPECT_LT(largest(times(system.K, system.R)), 1e-12);
-      feti::GeneralizedInverse inverse(system, GetParam(), orderings, context);
+      feti::GeneralizedInverse inverse(system, factors, context);
       inverse.factorize("test");
       const auto      x  = random_columns(system.n_dofs(), 3);
       const auto      Kx = times(system.K, x);
@@ -74,7 +75,7 @@ TEST_P(Packages, InvertsOnTheRange)
 TEST_P(Packages, FollowsNewNumbers)
 {
   auto                     system = examples()[0];
-  feti::GeneralizedInverse inverse(system, GetParam(), orderings, context);
+  feti::GeneralizedInverse inverse(system, factors, context);
   inverse.factorize("test");
   for (double &value : system.K.values)
     value *= 7.;
@@ -86,6 +87,31 @@ TEST_P(Packages, FollowsNewNumbers)
   auto error = times(system.K, y);
   error.add(-1., Kx);
   EXPECT_LT(largest(error), 1e-12 * largest(Kx));
+}
+
+/// Those of a grid have the same K, and R that differ by rounding.
+TEST_P(Packages, CongruentSubdomainsShareTheirInverse)
+{
+  const auto system = examples()[1];
+  auto       other  = system;
+  for (unsigned int mode = 0; mode < other.R.n_columns(); ++mode)
+    for (unsigned int i = 0; i < other.n_dofs(); ++i)
+      other.R(i, mode) *= 1. + 1e-15 * (i % 3);
+  feti::GeneralizedInverse first(system, factors, context), second(other, factors, context);
+  first.factorize("test");
+  second.factorize("test");
+  EXPECT_EQ(context.work.numeric_factorizations, 1u);
+  const auto      Kx = times(system.K, random_columns(system.n_dofs(), 1));
+  qp::MultiVector y(system.n_dofs()), z(system.n_dofs());
+  // also where one of them is gone
+  first.apply(Kx, y);
+  other.K.values[0] *= 1. + 1e-15;
+  first.release();
+  second.apply(Kx, z);
+  EXPECT_EQ(largest(y), largest(z));
+  second.factorize("test");
+  EXPECT_EQ(context.work.numeric_factorizations, 2u);
+  EXPECT_EQ(context.work.symbolic_factorizations, 1u);
 }
 
 INSTANTIATE_TEST_SUITE_P(GeneralizedInverse,
@@ -100,12 +126,13 @@ TEST(LocalSchur, IsTheSchurComplement)
   for (unsigned int dof = 0; dof < system.n_dofs(); ++dof)
     if (dof % 10 < 2 || dof == 15)
       system.B.push_back({0, dof, 1.});
-  std::ostringstream  log;
-  RunContext          context(MPI_COMM_WORLD, log);
-  feti::FillOrderings orderings;
+  std::ostringstream     log;
+  RunContext             context(MPI_COMM_WORLD, log);
+  feti::SharedPatterns   patterns;
+  const feti::FactorPool factors(feti::FactorOf::dirichlet);
   for (const bool lumped : {false, true})
     {
-      feti::LocalSchur schur(system, lumped, feti::Factorization::CHOLMOD, orderings, context);
+      feti::LocalSchur schur(system, lumped, factors, patterns, context);
       schur.factorize("test");
       const auto &position = schur.boundary_position();
       const auto  x        = random_columns(schur.n_boundary(), 2);
@@ -115,8 +142,8 @@ TEST(LocalSchur, IsTheSchurComplement)
       qp::MultiVector inner(system.n_dofs(), 2);
       Matrix          K(system.n_dofs(), system.n_dofs());
       for (unsigned int i = 0; i < K.m(); ++i)
-        for (PetscInt p = system.K.row_start[i]; p < system.K.row_start[i + 1]; ++p)
-          K(i, system.K.columns[p]) = system.K.values[p];
+        for (PetscInt p = system.K.row_start()[i]; p < system.K.row_start()[i + 1]; ++p)
+          K(i, system.K.columns()[p]) = system.K.values[p];
       Matrix extended = K;
       for (unsigned int i = 0; i < K.m(); ++i)
         if (position[i] < schur.n_boundary())
@@ -137,19 +164,21 @@ TEST(LocalSchur, IsTheSchurComplement)
             }
     }
 }
+
 /// Many rows along one axis leave a body free to move along the others.
 TEST(LocalSchur, HoldsWhereRowsLeaveRigidMotions)
 {
-  std::ostringstream  log;
-  RunContext          context(MPI_COMM_WORLD, log);
-  feti::FillOrderings orderings;
+  std::ostringstream     log;
+  RunContext             context(MPI_COMM_WORLD, log);
+  feti::SharedPatterns   patterns;
+  const feti::FactorPool factors(feti::FactorOf::dirichlet);
   for (auto &system : examples())
     {
       const unsigned int dim = system.R.n_columns() == 3 ? 2 : 3;
       for (unsigned int dof = dim - 1; dof < system.n_dofs(); dof += dim)
         if (dof < system.n_dofs() / 2)
           system.B.push_back({0, dof, 1.});
-      feti::LocalSchur schur(system, false, feti::Factorization::CHOLMOD, orderings, context);
+      feti::LocalSchur schur(system, false, factors, patterns, context);
       EXPECT_NO_THROW(schur.factorize("the body"));
       EXPECT_GT(schur.n_boundary(), system.B.size());
     }

@@ -179,16 +179,17 @@ Matrix dense_schur(const feti::SubdomainSystem &system, const Matrix &K)
 
 TEST_P(SoftModes, AreTheEigenvectorsOfTheJumps)
 {
-  RunContext          context(MPI_COMM_SELF, std::cout);
-  feti::FillOrderings orderings;
-  const auto          neighbours =
+  RunContext             context(MPI_COMM_SELF, std::cout);
+  feti::SharedPatterns   patterns;
+  const feti::FactorPool factors(feti::FactorOf::kplus), inner(feti::FactorOf::dirichlet);
+  const auto             neighbours =
     feti::stiffness_of_neighbours(problem->subdomains(), columns, first, MPI_COMM_WORLD);
   unsigned int n_modes = 0;
   for (unsigned int s = 0; s < columns.size(); ++s)
     {
       const auto              &system = problem->subdomains()[s];
-      feti::GeneralizedInverse inverse(system, feti::Factorization::CHOLMOD, orderings, context);
-      feti::LocalSchur schur(system, false, feti::Factorization::CHOLMOD, orderings, context);
+      feti::GeneralizedInverse inverse(system, factors, context);
+      feti::LocalSchur         schur(system, false, inner, patterns, context);
       inverse.factorize("K");
       schur.factorize("K_ii");
       const auto modes =

@@ -28,17 +28,17 @@ protected:
 feti::CsrMatrix truss_on_springs()
 {
   auto K = truss_system(Block(0, {0, 0}, {4, 3}), {2., 1.}).K;
-  for (unsigned int i = 0; i < K.n_rows; ++i)
+  for (unsigned int i = 0; i < K.n_rows(); ++i)
     K.values[K.position(i, i)] += 1.;
   return K;
 }
 
 /// What factorizing "the punch" complains of.
-std::string complaint(feti::SparseFactor &factor)
+std::string complaint(feti::SparseFactor &factor, const feti::CsrMatrix &A)
 {
   try
     {
-      factor.factorize("the punch");
+      factor.factorize(A, "the punch");
     }
   catch (const SolveError &error)
     {
@@ -59,13 +59,13 @@ void expect_inverse(const feti::CsrMatrix &A, const feti::SparseFactor &factor)
 {
   for (const unsigned int n_columns : {1, 2})
     {
-      qp::MultiVector x(A.n_rows, n_columns), b(A.n_rows, n_columns), y(A.n_rows, n_columns);
-      for (unsigned int i = 0; i < A.n_rows; ++i)
+      qp::MultiVector x(A.n_rows(), n_columns), b(A.n_rows(), n_columns), y(A.n_rows(), n_columns);
+      for (unsigned int i = 0; i < A.n_rows(); ++i)
         for (unsigned int k = 0; k < n_columns; ++k)
           x(i, k) = std::sin(1. + i + 2. * k);
       A.multiply_add(1., x, b);
       factor.solve(b, y);
-      for (unsigned int i = 0; i < A.n_rows; ++i)
+      for (unsigned int i = 0; i < A.n_rows(); ++i)
         for (unsigned int k = 0; k < n_columns; ++k)
           EXPECT_NEAR(y(i, k), x(i, k), 1e-10);
     }
@@ -76,17 +76,17 @@ TEST_P(Factors, SingularMatricesAreErrors)
   // a floating body, a node without cells, and nothing at all
   auto floating = truss_system(Block(1, {1, 0, 2}, {3, 3, 5}), {2., 1., 3.}).K;
   auto loose    = truss_on_springs();
-  for (PetscInt p = loose.row_start[3]; p < loose.row_start[4]; ++p)
+  for (PetscInt p = loose.row_start()[3]; p < loose.row_start()[4]; ++p)
     {
-      loose.values[p]                                   = 0.;
-      loose.values[loose.position(loose.columns[p], 3)] = 0.;
+      loose.values[p]                                     = 0.;
+      loose.values[loose.position(loose.columns()[p], 3)] = 0.;
     }
   auto zero = truss_on_springs();
   std::fill(zero.values.begin(), zero.values.end(), 0.);
   for (const auto *matrix : {&floating, &loose, &zero})
     {
       feti::SparseFactor factor(*matrix, feti::FactorOf::kplus, GetParam());
-      expect_clear(complaint(factor));
+      expect_clear(complaint(factor, *matrix));
     }
 }
 
@@ -96,8 +96,8 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
   const auto         good = K.values;
   feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
   // an off-diagonal entry and its mirror image
-  const unsigned int other =
-    K.columns[K.row_start[3]] == 3 ? K.columns[K.row_start[3] + 1] : K.columns[K.row_start[3]];
+  const unsigned int other = K.columns()[K.row_start()[3]] == 3 ? K.columns()[K.row_start()[3] + 1]
+                                                                : K.columns()[K.row_start()[3]];
   for (const double bad : {-1e4, -1e-4, 0., nan, -nan, double(INFINITY), -double(INFINITY)})
     for (const unsigned int column : {3u, other})
       {
@@ -106,15 +106,15 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
         K.values[K.position(3, column)] = bad;
         K.values[K.position(column, 3)] = bad;
         SCOPED_TRACE(bad);
-        expect_clear(complaint(factor));
+        expect_clear(complaint(factor, K));
         K.values = good;
-        ASSERT_EQ(complaint(factor), "");
+        ASSERT_EQ(complaint(factor, K), "");
         expect_inverse(K, factor);
       }
   // all diagonal entries negative
   for (double &value : K.values)
     value *= -1.;
-  expect_clear(complaint(factor));
+  expect_clear(complaint(factor, K));
 }
 
 TEST_P(Factors, UnitsAreNoErrors)
@@ -126,7 +126,7 @@ TEST_P(Factors, UnitsAreNoErrors)
       for (std::size_t p = 0; p < good.size(); ++p)
         K.values[p] = unit * good[p];
       feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
-      ASSERT_EQ(complaint(factor), "") << unit;
+      ASSERT_EQ(complaint(factor, K), "") << unit;
       expect_inverse(K, factor);
     }
 }
@@ -135,7 +135,7 @@ TEST_P(Factors, AnEmptyMatrixHasAnEmptyInverse)
 {
   const auto         empty = feti::CsrMatrix::from_rows({}, 0);
   feti::SparseFactor factor(empty, feti::FactorOf::kplus, GetParam());
-  EXPECT_EQ(complaint(factor), "");
+  EXPECT_EQ(complaint(factor, empty), "");
   expect_inverse(empty, factor);
 }
 
@@ -178,11 +178,11 @@ TEST_P(Factors, PetscOptionsOfAPrefixChooseThePackage)
           }
         EXPECT_NO_THROW(feti::check_factor_options(GetParam()));
         feti::SparseFactor factor(K, feti::FactorOf::dirichlet, GetParam());
-        ASSERT_EQ(complaint(factor), "");
+        ASSERT_EQ(complaint(factor, K), "");
         expect_inverse(K, factor);
         // those of another matrix do not hold
         feti::SparseFactor other(K, feti::FactorOf::kplus, GetParam());
-        ASSERT_EQ(complaint(other), "");
+        ASSERT_EQ(complaint(other, K), "");
         expect_inverse(K, other);
       }
   const PetscOption wrong("-kplus_pc_type", "jacobi");
@@ -196,7 +196,7 @@ TEST_P(Factors, PetscOptionsNobodyAskedForAreKnown)
     misspelt("-kplus_pc_factor_solver", "mumps"), flag("-k_plus", "");
   const auto         K = truss_on_springs();
   feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
-  ASSERT_EQ(complaint(factor), "");
+  ASSERT_EQ(complaint(factor, K), "");
   expect_inverse(K, factor);
   EXPECT_FALSE(is_unused("-kplus_pc_factor_mat_ordering_type rcm"));
   EXPECT_EQ(is_unused("-kplus_mat_cholmod_nmethods 2"), GetParam() != feti::Factorization::CHOLMOD);

@@ -46,9 +46,9 @@ void check_rigid_modes(unsigned int degree)
             EXPECT_NEAR(RR(i, j), double(i == j), 1e-13);
         }
       for (unsigned int i = 0; i < system.n_dofs(); ++i)
-        for (PetscInt p = system.K.row_start[i]; p < system.K.row_start[i + 1]; ++p)
+        for (PetscInt p = system.K.row_start()[i]; p < system.K.row_start()[i + 1]; ++p)
           EXPECT_NEAR(system.K.values[p],
-                      system.K.values[system.K.position(system.K.columns[p], i)], 1e-10);
+                      system.K.values[system.K.position(system.K.columns()[p], i)], 1e-10);
     }
 }
 
