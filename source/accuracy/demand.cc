@@ -24,13 +24,13 @@ double Demand::tolerance(const Measured &measured, const double least) const
   return size > 0. ? step_tolerance(measured.error / size, is_energy, least) : first_tolerance;
 }
 
-/// Whether the last value has another sign than others of late, and differs from the one before by
-/// far more than their errors say.
+/// Whether values of late have other signs than others, and the last one is not near the one
+/// before.
 bool Demand::is_noise() const
 {
   const std::size_t n = values.size();
   return target.relative && n > 1 && changes_sign(values) &&
-         std::abs(values[n - 1] - values[n - 2]) > 10. * (errors[n - 1] + errors[n - 2]);
+         std::abs(values[n - 1] - values[n - 2]) > 0.5 * std::abs(values[n - 1]);
 }
 
 /// A response that is zero has the error of the solver, of which no mesh makes a small part, and
@@ -40,11 +40,11 @@ std::string Demand::note(const Measured &measured, const bool is_met)
   errors.push_back(measured.error);
   values.push_back(measured.value);
   if (is_met && is_noise())
-    return text_of(name, measured) +
-           " has changed its sign from mesh to mesh, by more than its "
-           "errors: it seems to be zero; give its target as a number in its units";
+    return text_of(name, measured) + " has changed its sign from mesh to mesh, and half of itself "
+                                     "on the last: it seems to be "
+                                     "zero; give its target as a number in its units";
   if (is_met)
-    forget();
+    errors.clear();
   if (!is_unbounded(errors))
     return "";
   return "the error of " + text_of(name, measured) +

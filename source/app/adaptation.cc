@@ -360,8 +360,8 @@ std::string Adaptation<dim>::reach(const double factor)
       if (!doubtful)
         estimate(*solved);
       else
-        for (auto &demand : demands)
-          demand.forget();
+        for (unsigned int d = 0; d < demands.size(); ++d)
+          demands[d].pass(solved->measured[d].value);
       report(*solved);
       if (!doubtful)
         {

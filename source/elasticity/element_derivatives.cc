@@ -11,40 +11,47 @@ const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>(
 
 /// Exact for the quadrature as well as for the integral: Gauss points go with the cell.
 template <int dim>
-void Element<dim>::internal_force_derivative(const Nodes    &X,
-                                             const Nodes    &V,
-                                             const Material &material,
-                                             const Nodes    &u,
-                                             Nodes          &r) const
+std::vector<typename Element<dim>::Nodes>
+Element<dim>::internal_force_derivatives(const Nodes              &X,
+                                         const std::vector<Nodes> &velocities,
+                                         const Material           &material,
+                                         const Nodes              &u) const
 {
-  r.assign(n_nodes(), {});
-  const auto points = gauss_points(X);
-  const auto states = point_states(points, material, u);
-  // projection of the changing div u in the changing cell
-  std::vector<double> dilatation(points.size());
-  for (unsigned int q = 0; q < points.size(); ++q)
+  const auto                        points = gauss_points(X);
+  const auto                        states = point_states(points, material, u);
+  std::vector<Nodes>                result;
+  std::vector<dealii::Tensor<2, 3>> grad_V(points.size());
+  std::vector<double>               dilatation(points.size());
+  for (const Nodes &V : velocities)
     {
-      const auto grad_V = points[q].gradient(V);
-      // (pi div u)' = pi ((div u)' - theta div V): differentiate int psi_i (pi div u - div u) dV =
-      // 0 along V, with functions psi_i that go with the cell.
-      dilatation[q] = -trace(states[q].gradient * grad_V) - states[q].theta * trace(grad_V);
+      // projection of the changing div u in the changing cell
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          grad_V[q] = points[q].gradient(V);
+          // (pi div u)' = pi ((div u)' - theta div V): differentiate int psi_i (pi div u - div u)
+          // dV = 0 along V, with functions psi_i that go with the cell.
+          dilatation[q] =
+            -trace(states[q].gradient * grad_V[q]) - states[q].theta * trace(grad_V[q]);
+        }
+      take_dilatation(points, dilatation);
+      result.emplace_back(n_nodes());
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const auto &state = states[q];
+          // (grad u)' at fixed nodal values
+          const dealii::Tensor<2, 3> grad_u = -1. * state.gradient * grad_V[q];
+          const dealii::Tensor<2, 3> stress = state.stress;
+          const double               theta  = dilatation[q] - trace(grad_u);
+          // derivative of (dV stress g_a) = dV (change g_a)
+          // (g_a)' = -(grad V)' g_a and (dV)' = dV div V, collected in a tensor that acts on g_a
+          const dealii::Tensor<2, 3> change =
+            cauchy_stress(material,
+                          strain(idealization, material, grad_u) + theta / 3. * identity) +
+            trace(grad_V[q]) * stress - stress * transpose(grad_V[q]);
+          points[q].add_flux(change, result.back());
+        }
     }
-  take_dilatation(points, dilatation);
-  for (unsigned int q = 0; q < points.size(); ++q)
-    {
-      const auto &state  = states[q];
-      const auto  grad_V = points[q].gradient(V);
-      // (grad u)' at fixed nodal values
-      const dealii::Tensor<2, 3> grad_u = -1. * state.gradient * grad_V;
-      const dealii::Tensor<2, 3> stress = state.stress;
-      const double               theta  = dilatation[q] - trace(grad_u);
-      // derivative of (dV stress g_a) = dV (change g_a)
-      // (g_a)' = -(grad V)' g_a and (dV)' = dV div V, collected in a tensor that acts on g_a
-      const dealii::Tensor<2, 3> change =
-        cauchy_stress(material, strain(idealization, material, grad_u) + theta / 3. * identity) +
-        trace(grad_V) * stress - stress * transpose(grad_V);
-      points[q].add_flux(change, r);
-    }
+  return result;
 }
 
 /// Eshelby's energy-momentum tensor of w'Ku: its flux through the shape functions is the gradient
@@ -113,9 +120,8 @@ void Element<dim>::add_volume_gradient(const Nodes &X, const double factor, Node
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                      \
-  template void Element<dim>::internal_force_derivative(const Nodes &, const Nodes &,              \
-                                                        const Material &, const Nodes &, Nodes &)  \
-    const;                                                                                         \
+  template std::vector<Element<dim>::Nodes> Element<dim>::internal_force_derivatives(              \
+    const Nodes &, const std::vector<Nodes> &, const Material &, const Nodes &) const;             \
   template void Element<dim>::add_energy_gradient(const Nodes &, const Material &, const Nodes &,  \
                                                   const Nodes &, double, Nodes &) const;           \
   template void Element<dim>::body_force_derivative(const Nodes &, const Nodes &, const Nodes &,   \

@@ -2,6 +2,7 @@
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/couplings.h>
 #include <snug/qp/direction_basis.h>
+#include <snug/qp/packed_columns.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -10,6 +11,8 @@
 
 namespace snug::feti {
 namespace {
+using Columns = qp::PackedColumns;
+
 /// Relative to the mean of diag A: eigenvalues of Z'AZ below are rounding of those of others, of
 /// motions that the rows do not see.
 const double kernel_cut = 1e-13;
@@ -167,19 +170,28 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet
 {
   const unsigned int m = table.n_modes;
   qp::MultiVector    c(n_kernel(), x.n_columns());
-  for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (free == nullptr || (*free)[row])
-      for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
+  const auto is_free = [&](const unsigned int row) { return free == nullptr || (*free)[row]; };
+  if (x.n_columns() == 1)
+    for (unsigned int row = 0; row < layout.n_owned(); ++row)
+      for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
         {
-          const double *G = &blocks[std::size_t(b) * m];
-          for (unsigned int k = 0; k < x.n_columns(); ++k)
-            {
-              double      *c_s   = c.column(k) + block_subdomain[b] * m;
-              const double x_row = x(row, k);
-              for (unsigned int i = 0; i < m; ++i)
-                c_s[i] += G[i] * x_row;
-            }
+          const double *G   = &blocks[std::size_t(b) * m];
+          double       *c_s = c.column(0) + block_subdomain[b] * m;
+          for (unsigned int i = 0; i < m; ++i)
+            c_s[i] += G[i] * x(row);
         }
+  else
+    for (unsigned int k = 0; k < x.n_columns(); k += Columns::width)
+      {
+        const Columns from(x, k);
+        Columns       to(c, k);
+        for (unsigned int row = 0; row < layout.n_owned(); ++row)
+          for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
+            for (unsigned int i = 0; i < m; ++i)
+              Columns::add(blocks[std::size_t(b) * m + i], from[row],
+                           to[block_subdomain[b] * m + i]);
+        to.unpack(c);
+      }
   MPI_Allreduce(MPI_IN_PLACE, c.column(0), c.n_rows() * c.n_columns(), MPI_DOUBLE, MPI_SUM,
                 layout.communicator());
   return c;
@@ -191,20 +203,28 @@ qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
 {
   const unsigned int m = table.n_modes;
   qp::MultiVector    y(layout.n_owned(), alpha.n_columns());
-  for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (free == nullptr || (*free)[row])
-      for (unsigned int k = 0; k < alpha.n_columns(); ++k)
+  const auto is_free = [&](const unsigned int row) { return free == nullptr || (*free)[row]; };
+  if (alpha.n_columns() == 1)
+    for (unsigned int row = 0; row < layout.n_owned(); ++row)
+      for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
         {
-          double sum = 0.;
-          for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
-            {
-              const double *G       = &blocks[std::size_t(b) * m];
-              const double *alpha_s = alpha.column(k) + block_subdomain[b] * m;
-              for (unsigned int i = 0; i < m; ++i)
-                sum += G[i] * alpha_s[i];
-            }
-          y(row, k) = sum;
+          const double *G       = &blocks[std::size_t(b) * m];
+          const double *alpha_s = alpha.column(0) + block_subdomain[b] * m;
+          for (unsigned int i = 0; i < m; ++i)
+            y(row) += G[i] * alpha_s[i];
         }
+  else
+    for (unsigned int k = 0; k < alpha.n_columns(); k += Columns::width)
+      {
+        const Columns from(alpha, k);
+        Columns       to(y, k);
+        for (unsigned int row = 0; row < layout.n_owned(); ++row)
+          for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
+            for (unsigned int i = 0; i < m; ++i)
+              Columns::add(blocks[std::size_t(b) * m + i], from[block_subdomain[b] * m + i],
+                           to[row]);
+        to.unpack(y);
+      }
   return y;
 }
 

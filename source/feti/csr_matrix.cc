@@ -1,11 +1,14 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/csr_matrix.h>
+#include <snug/qp/packed_columns.h>
 
 #include <algorithm>
 #include <cstring>
 
 namespace snug::feti {
 namespace {
+using Columns = qp::PackedColumns;
+
 /// A step of both: different odd multipliers, and high bits brought down, as products only carry
 /// upwards.
 void mix(Fingerprint &hashes, const std::uint64_t word)
@@ -96,37 +99,104 @@ double CsrMatrix::mean_diagonal() const
 void CsrMatrix::multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const
 {
   const PetscInt *start = row_start().data(), *column = columns().data();
-  for (unsigned int k = 0; k < x.n_columns(); ++k)
+  if (x.n_columns() == 1)
     {
-      const double *xk = x.column(k);
-      double       *yk = y.column(k);
+      const double *from = x.column(0), *value = values.data();
+      double       *to = y.column(0);
       for (unsigned int i = 0; i < n_rows(); ++i)
         {
           double sum = 0.;
           for (PetscInt p = start[i]; p < start[i + 1]; ++p)
-            // Column by column: the matrix is read k times, but x and y stay contiguous.
-            sum += values[p] * xk[column[p]];
-          yk[i] += factor * sum;
+            sum += value[p] * from[column[p]];
+          to[i] += factor * sum;
         }
     }
+  else
+    for (unsigned int k = 0; k < x.n_columns(); k += Columns::width)
+      {
+        const Columns from(x, k);
+        Columns       to(y, k);
+        for (unsigned int i = 0; i < n_rows(); ++i)
+          {
+            Columns::Row sum{};
+            for (PetscInt p = start[i]; p < start[i + 1]; ++p)
+              Columns::add(values[p], from[column[p]], sum);
+            Columns::add(factor, sum, to[i]);
+          }
+        to.unpack(y);
+      }
 }
 
+/// Row i of A is column i of A', so that A' is never made.
 void CsrMatrix::transpose_multiply_add(double                 factor,
                                        const qp::MultiVector &x,
                                        qp::MultiVector       &y) const
 {
   const PetscInt *start = row_start().data(), *column = columns().data();
-  for (unsigned int k = 0; k < x.n_columns(); ++k)
+  if (x.n_columns() == 1)
     {
-      const double *xk = x.column(k);
-      double       *yk = y.column(k);
+      const double *from = x.column(0), *value = values.data();
+      double       *to = y.column(0);
       for (unsigned int i = 0; i < n_rows(); ++i)
         {
-          // Row i of A is column i of A', so that A' is never made.
-          const double xi = factor * xk[i];
+          const double x_i = factor * from[i];
           for (PetscInt p = start[i]; p < start[i + 1]; ++p)
-            yk[column[p]] += values[p] * xi;
+            to[column[p]] += value[p] * x_i;
         }
     }
+  else
+    for (unsigned int k = 0; k < x.n_columns(); k += Columns::width)
+      {
+        const Columns from(x, k);
+        Columns       to(y, k);
+        for (unsigned int i = 0; i < n_rows(); ++i)
+          {
+            Columns::Row x_i{};
+            Columns::add(factor, from[i], x_i);
+            for (PetscInt p = start[i]; p < start[i + 1]; ++p)
+              Columns::add(values[p], x_i, to[column[p]]);
+          }
+        to.unpack(y);
+      }
+}
+
+void CsrMatrix::add_symmetric_product(const qp::MultiVector &x, qp::MultiVector &y) const
+{
+  const PetscInt *start = row_start().data(), *column = columns().data();
+  if (x.n_columns() == 1)
+    {
+      const double *from = x.column(0), *value = values.data();
+      double       *to = y.column(0);
+      for (unsigned int i = 0; i < n_rows(); ++i)
+        {
+          const PetscInt last = start[i + 1] - 1;
+          double         sum  = value[last] * from[i];
+          for (PetscInt p = start[i]; p < last; ++p)
+            {
+              sum += value[p] * from[column[p]];
+              to[column[p]] += value[p] * from[i];
+            }
+          to[i] += sum;
+        }
+    }
+  else
+    for (unsigned int k = 0; k < x.n_columns(); k += Columns::width)
+      {
+        const Columns from(x, k);
+        Columns       to(y, k);
+        for (unsigned int i = 0; i < n_rows(); ++i)
+          {
+            const PetscInt last = start[i + 1] - 1;
+            Columns::Row   sum{};
+            Columns::add(values[last], from[i], sum);
+            for (PetscInt p = start[i]; p < last; ++p)
+              {
+                Columns::add(values[p], from[column[p]], sum);
+                Columns::add(values[p], from[i], to[column[p]]);
+              }
+            Columns::add(1., sum, to[i]);
+          }
+        to.unpack(y);
+      }
 }
 } // namespace snug::feti

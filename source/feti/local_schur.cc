@@ -8,29 +8,6 @@ namespace {
 /// Squares of singular values of R on the boundary, relative to the longest
 /// column of its Gram matrix, below which a rigid motion leaves the boundary at rest.
 const double rank_cut = 1e-12;
-
-/// y += A x, every column, for symmetric A of which the rows end at the
-/// diagonal: half the memory to read, which is what takes time here.
-void add_symmetric_product(const CsrMatrix &A, const qp::MultiVector &x, qp::MultiVector &y)
-{
-  const PetscInt *start = A.row_start().data(), *column = A.columns().data();
-  for (unsigned int k = 0; k < x.n_columns(); ++k)
-    {
-      const double *xk = x.column(k);
-      double       *yk = y.column(k);
-      for (unsigned int i = 0; i < A.n_rows(); ++i)
-        {
-          const PetscInt last = start[i + 1] - 1;
-          double         sum  = A.values[last] * xk[i];
-          for (PetscInt p = start[i]; p < last; ++p)
-            {
-              sum += A.values[p] * xk[column[p]];
-              yk[column[p]] += A.values[p] * xk[i];
-            }
-          yk[i] += sum;
-        }
-    }
-}
 } // namespace
 
 LocalSchur::LocalSchur(const SubdomainSystem &the_system,
@@ -102,7 +79,7 @@ CsrMatrix LocalSchur::extract(const bool rows_on_boundary, const bool columns_on
           if ((position_b[j] < n_b) != columns_on_boundary)
             continue;
           if (rows_on_boundary && j > PetscInt(i))
-            continue; // see add_symmetric_product
+            continue; // see CsrMatrix::add_symmetric_product()
           pattern.columns.push_back(
             narrow<PetscInt>(columns_on_boundary ? position_b[j] : position_i[j]));
           values.push_back(K.values[p]);
@@ -133,7 +110,7 @@ void LocalSchur::factorize(const std::string &what)
 qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const
 {
   qp::MultiVector y(n_b, x.n_columns());
-  add_symmetric_product(bb, x, y);
+  bb.add_symmetric_product(x, y);
   if (!factor)
     return y;
   qp::MultiVector load(n_i, x.n_columns()), inner(n_i, x.n_columns());

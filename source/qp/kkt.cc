@@ -137,8 +137,9 @@ EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
   both.append(x);
   auto sizes = norms(both, problem.context().communicator());
   // A projected residual that is rounding is no measure, as where bodies only move or deform
-  // evenly: the tolerance of it would be far below the rounding of the residual itself.
-  if (sizes[0] <= projection_rounding * sizes[1])
+  // evenly: the tolerance of it would be far below the rounding of the residual itself. Of gaps it
+  // has that of the positions they are differences of.
+  if (sizes[0] <= residual_rounding * sizes[1])
     sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
   else if (sizes[0] < suspect_part * sizes[1])
     sizes[0] = std::max(sizes[0], above_rounding * application_rounding(problem, part));

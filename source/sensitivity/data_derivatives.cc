@@ -51,44 +51,77 @@ struct SubdomainDerivative
   const elasticity::SemiAnalytic<dim> *differences; ///< null: exact
   unsigned int                         s;
 
-  void add_cells(const Field &velocity, double *ft) const;
+  /// To column j of @p ft for velocity j.
+  void add_cells(const std::vector<Field> &velocities, qp::MultiVector &ft) const;
   void add_faces(const Field     &velocity,
                  const Tractions &tractions,
                  const Tractions &changes,
                  double          *ft) const;
+
+private:
+  std::vector<Nodes<dim>> internal_force_derivatives(unsigned int                   i,
+                                                     const Nodes<dim>              &X,
+                                                     const std::vector<Nodes<dim>> &V) const;
 };
 
 template <int dim>
-void SubdomainDerivative<dim>::add_cells(const Field &velocity, double *ft) const
+void SubdomainDerivative<dim>::add_cells(const std::vector<Field> &velocities,
+                                         qp::MultiVector          &ft) const
 {
   const auto &assembler = *solver.assemblers()[s];
   const auto &element   = assembler.element();
   const bool  loaded    = assembler.has_body_force(state.load_case);
   for (unsigned int i = 0; i < assembler.cells().size(); ++i)
     {
-      const auto V = assembler.cell_field(i, velocity);
-      if (largest<dim>(V) == 0.)
+      std::vector<unsigned int> moving; // velocities that move the cell
+      std::vector<Nodes<dim>>   V;
+      for (unsigned int j = 0; j < velocities.size(); ++j)
+        {
+          auto of_cell = assembler.cell_field(i, velocities[j]);
+          if (largest<dim>(of_cell) == 0.)
+            continue;
+          moving.push_back(j);
+          V.push_back(std::move(of_cell));
+        }
+      if (moving.empty())
         continue;
-      const auto &material = assembler.material(i);
-      const auto  X        = assembler.cell_field(i, state.positions);
-      const auto  u        = assembler.cell_values(i, state.u[s].column(0));
-      Nodes<dim>  r;
-      if (differences == nullptr)
-        element.internal_force_derivative(X, V, material, u, r);
-      else
-        differences->internal_force_derivative(element, X, V, material, u, r);
-      assembler.add_cell_vector(i, -1., r, ft);
+      const auto X = assembler.cell_field(i, state.positions);
+      const auto r = internal_force_derivatives(i, X, V);
+      for (unsigned int j = 0; j < moving.size(); ++j)
+        assembler.add_cell_vector(i, -1., r[j], ft.column(moving[j]));
       if (!loaded)
         continue;
       const auto b = assembler.body_force(i, state.load_case);
-      if (differences == nullptr)
-        element.body_force_derivative(X, V, b, r);
-      else
-        r = differences->load_derivative([&](const Nodes<dim> &x,
-                                             Nodes<dim>       &f) { element.body_force(x, b, f); },
-                                         X, V);
-      assembler.add_cell_vector(i, 1., r, ft);
+      for (unsigned int j = 0; j < moving.size(); ++j)
+        {
+          Nodes<dim> change;
+          if (differences == nullptr)
+            element.body_force_derivative(X, V[j], b, change);
+          else
+            change = differences->load_derivative(
+              [&](const Nodes<dim> &x, Nodes<dim> &f) { element.body_force(x, b, f); }, X, V[j]);
+          assembler.add_cell_vector(i, 1., change, ft.column(moving[j]));
+        }
     }
+}
+
+/// Of cell i at X, for each of the velocities.
+template <int dim>
+std::vector<Nodes<dim>>
+SubdomainDerivative<dim>::internal_force_derivatives(const unsigned int             i,
+                                                     const Nodes<dim>              &X,
+                                                     const std::vector<Nodes<dim>> &V) const
+{
+  const auto &assembler = *solver.assemblers()[s];
+  const auto &element   = assembler.element();
+  const auto &material  = assembler.material(i);
+  const auto  u         = assembler.cell_values(i, state.u[s].column(0));
+  if (differences == nullptr)
+    return element.internal_force_derivatives(X, V, material, u);
+  std::vector<Nodes<dim>> r(V.size());
+  for (unsigned int j = 0; j < V.size(); ++j)
+    differences->internal_force_derivative(element, X, V[j], material, u, r[j]);
+  return r;
 }
 
 /// Resultants change the loads of a whole face where any of it moves:
@@ -228,6 +261,9 @@ KktVectors data_derivatives(const state::StateSolver<dim>                       
   if (parameters.derivatives != Derivatives::exact)
     differences =
       std::make_unique<elasticity::SemiAnalytic<dim>>(semi_analytic(solver, parameters));
+  for (unsigned int s = 0; s < state.u.size(); ++s)
+    SubdomainDerivative<dim>{solver, state, differences.get(), s}.add_cells(velocities,
+                                                                            result.primal[s]);
   std::vector<feti::BEntry> B_derivative;
   for (unsigned int j = 0; j < k; ++j)
     {
@@ -240,7 +276,6 @@ KktVectors data_derivatives(const state::StateSolver<dim>                       
         {
           const SubdomainDerivative<dim> subdomain{solver, state, differences.get(), s};
           double                        *ft = result.primal[s].column(j);
-          subdomain.add_cells(velocities[j], ft);
           subdomain.add_faces(velocities[j], tractions, changes, ft);
           solver.gluing().fill_B_derivative(s, rows, derivative, B_derivative);
           add_row_derivatives(B_derivative, lambda, state.u[s], ft, Bu.column(j));

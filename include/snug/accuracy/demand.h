@@ -19,25 +19,25 @@ std::string text_of(const std::string &name, const Measured &measured);
 /// A target of a response in one load case.
 struct Demand
 {
-  std::string  name; ///< of the response, with the load case if there are several
-  unsigned int load_case;
-  unsigned int place; ///< of the target in the entry
-  Target       target;
-  bool         is_energy;
-  double       factor = 1.; ///< that errors may be larger by
-  /// on the last meshes that were refined for it
-  std::vector<double> errors = {}, values = {};
+  std::string         name; ///< of the response, with the load case if there are several
+  unsigned int        load_case;
+  unsigned int        place; ///< of the target in the entry
+  Target              target;
+  bool                is_energy;
+  double              factor = 1.; ///< that errors may be larger by
+  std::vector<double> errors = {}; ///< on the last meshes that were refined for it
+  std::vector<double> values = {}; ///< on all meshes
 
   double allowed(const Measured &measured) const { return factor * target.allowed(measured.value); }
 
   /// That of the next mesh, see step_tolerance().
   double tolerance(const Measured &measured, double least) const;
 
-  /// Another contact is another problem.
-  void forget()
+  /// Note the value on a mesh that is refined for the contact: another contact is another problem.
+  void pass(const double value)
   {
     errors.clear();
-    values.clear();
+    values.push_back(value);
   }
 
   /// Note what came of a mesh, on which it @p is_met or not.

@@ -63,12 +63,11 @@ public:
   /// r = K(X) u.
   void internal_force(const Nodes &X, const Material &material, const Nodes &u, Nodes &r) const;
 
-  /// r = K'(X; V) u, exact.
-  void internal_force_derivative(const Nodes    &X,
-                                 const Nodes    &V,
-                                 const Material &material,
-                                 const Nodes    &u,
-                                 Nodes          &r) const;
+  /// K'(X; V) u of every velocity V, exact.
+  std::vector<Nodes> internal_force_derivatives(const Nodes              &X,
+                                                const std::vector<Nodes> &velocities,
+                                                const Material           &material,
+                                                const Nodes              &u) const;
 
   /// gradient_a += factor * d/dX_a (w' K(X) u): at each Gauss point
   /// dV E g_a with E = (sigma_u:grad w - theta_u p_w) I

@@ -62,6 +62,10 @@ public:
   /// y += factor * A' x.
   void transpose_multiply_add(double factor, const qp::MultiVector &x, qp::MultiVector &y) const;
 
+  /// y += A x of a symmetric A whose rows, none empty, are here up to the diagonal: half the memory
+  /// to read, which is what takes time.
+  void add_symmetric_product(const qp::MultiVector &x, qp::MultiVector &y) const;
+
   std::vector<double> values;
 
 private:

@@ -28,9 +28,7 @@ public:
   /// K'(X; velocity) u.
   Nodes<dim> force_derivative(const TestElement<dim> &of, const Nodes<dim> &velocity) const
   {
-    Nodes<dim> r;
-    of.element.internal_force_derivative(of.X, velocity, material, u, r);
-    return r;
+    return of.element.internal_force_derivatives(of.X, {velocity}, material, u).front();
   }
 };
 TYPED_TEST_SUITE(ElementDerivatives, AllCases);

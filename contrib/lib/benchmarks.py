@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""Time whole runs of snug and print a table (CSV): medians of interleaved repeats.
+
+usage: benchmarks.py SNUG NAME [--against PROGRAM] [--repeats N] [--quick] [SIZE]...
+
+NAME  whole         process time and memory from file to files; SIZE: cells per edge of the
+                    two bodies of prm/hertz-3d-9.prm, 20 and 32 if not given; then graded
+                    as well, so that no two subdomains are congruent
+      hard          scenes that need many F-mults: linear, cold, and what they cost
+      ranks         the same work on 1, 2 ... SIZE ranks (2 if not given), and as much more
+      gradient      1, 4, 9 and 16 variables, direct and adjoint, in cold states; SIZE as whole
+      optimization  the two searches of the source paper's Table 1
+
+--against PROGRAM runs another snug beside it, turn by turn; its rows follow.
+--quick takes small sizes and one repeat, to see that all works."""
+
+import argparse
+import collections
+import csv
+import json
+import os
+import pathlib
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# entries: of the parameter file; columns: of a summary and what the process took
+Case = collections.namedtuple("Case", "name scene entries ranks", defaults=[1])
+
+TORN = ["Task=state", "Accuracy/Estimate=none"]
+STAGES = ["setup", "assembly", "factorization", "soft_modes", "solve", "gradient", "output"]
+
+
+class RunError(Exception):
+    """One line that says which run failed."""
+
+
+def cubes(n, *entries):
+    """Both bodies of the paper's scene with n cells per edge."""
+    return [f"Body {body}/Box cells={n}, {n}, {n}" for body in ("punch", "foundation")] + [
+        *entries]
+
+
+def hertz(name, variables=9, entries=(), ranks=1):
+    return Case(name, f"prm/hertz-3d-{variables}.prm", list(entries), ranks)
+
+
+def whole_cases(sizes, quick):
+    graded = [f"Body {body}/Box grading=2, 3, {ratio}"
+              for body, ratio in (("punch", 4), ("foundation", 0.25))]
+    cases = []
+    for n in sizes or ([4] if quick else [20, 32]):
+        cases += [hertz(f"boxes {n}", 9, TORN + cubes(n)),
+                  hertz(f"graded {n}", 9, TORN + cubes(n, *graded))]
+    return cases
+
+
+def hard_cases(_sizes, quick):
+    linear = [*TORN, "Solver/Report linear reference=true"]
+    n = 4 if quick else 20
+    scenes = [("graded plane", "prm/hertz-2d.prm", []), ("gear", "prm/gear-pair.prm", []),
+              ("round, METIS", "prm/gmsh-pin.prm", []), ("hip", "prm/hip-joint.prm", []),
+              ("axisymmetric", "prm/point-contact-axisymmetric.prm", []),
+              ("degree 2", "prm/nafems-roller.prm", []), ("chain", "prm/leaf-spring.prm", []),
+              ("point", "prm/point-contact.prm", []),
+              ("boxes", "prm/hertz-3d-9.prm", cubes(n)),
+              ("boxes, METIS", "prm/hertz-3d-9.prm", cubes(n, "Decomposition/Method=METIS")),
+              ("nu 0.499, B-bar", "prm/hertz-3d-9.prm",
+               cubes(n, *(f"Body {body}/{entry}" for body in ("punch", "foundation")
+                          for entry in ("Poisson's ratio=0.499", "Formulation=B-bar"))))]
+    return [Case(name, scene, linear + entries) for name, scene, entries in
+            (scenes[:1] + scenes[8:] if quick else scenes)]
+
+
+def ranks_cases(sizes, quick):
+    n, counts = (6 if quick else 24), [2 ** k for k in range(1 + max(sizes or [2]).bit_length())]
+    counts = [ranks for ranks in counts if ranks <= max(sizes or [2])]
+    cases = [hertz("same work", 9, TORN + cubes(n), ranks) for ranks in counts]
+    for ranks in counts:
+        deep = [f"Body {body}/Box {entry}" for body, corner in (("punch", 1), ("foundation", 0))
+                for entry in (f"cells={n // 2 * ranks}, {n // 2}, {n // 2}",
+                              f"size={ranks}, 1, 1", f"corner=0, 0, {corner}")]
+        cases.append(hertz("more work", 9, TORN + deep, ranks))
+    return cases
+
+
+def gradient_cases(sizes, quick):
+    cases = []
+    for n in sizes or ([4] if quick else [20]):
+        for points in (1, 2, 3, 4):
+            for method in ("direct", "adjoint"):
+                cases.append(hertz(f"{method} {points * points}, boxes {n}", 16, [
+                    "Task=sensitivity", "Accuracy/Estimate=none", f"Gradient/Method={method}",
+                    "Gradient/Compare=false", f"Shape/Control points={points}, {points}",
+                    *cubes(n)]))
+    return cases
+
+
+def optimization_cases(_sizes, quick):
+    entries = (cubes(4, "Optimization/Maximum evaluations=3") if quick else [])
+    return [hertz(f"{variables} variables", variables, entries) for variables in (9, 16)]
+
+
+def state_seconds(summary):
+    return sum(summary["times"].get(stage, 0.)
+               for stage in ("assembly", "factorization", "soft_modes", "solve"))
+
+
+COLUMNS = {
+    "whole": lambda s: {},
+    "hard": lambda s: {"linear_f_mults": s["state"].get("linear_f_mults"),
+                       "f_mults": s["state"].get("f_mults"),
+                       "certificate": max(s["state"]["certificate"].values())},
+    "ranks": lambda s: {"f_mults": s["work"]["f_mults"],
+                        **{f"MB_{stage}": round(value) for stage, value in
+                           s["memory"].get("stages", {}).items()}},
+    "gradient": lambda s: {"cold_states": round(s["times"]["gradient"] / state_seconds(s), 3),
+                           "f_mults": s["gradient"]["f_mults"]},
+    "optimization": lambda s: {"evaluations": s["optimization"]["evaluations"],
+                               "f_mults": s["work"]["f_mults"],
+                               "energy_before": s["initial_state"]["energy"],
+                               "energy_after": s["state"]["energy"]}}
+
+CASES = {"whole": whole_cases, "hard": hard_cases, "ranks": ranks_cases,
+         "gradient": gradient_cases, "optimization": optimization_cases}
+
+
+def environment():
+    lines = (ROOT / "contrib/lib/run.env").read_text().splitlines()
+    return {**os.environ, **dict(line.split("=", 1) for line in lines if "=" in line)}
+
+
+def run(program, case):
+    """Its summary with the seconds and CPU seconds of the process in it."""
+    with tempfile.TemporaryDirectory() as directory:
+        command = [str(program), str(ROOT / case.scene), "--output", directory]
+        for entry in case.entries:
+            command += ["--set", entry]
+        if case.ranks > 1:
+            command = ["mpirun", "-np", str(case.ranks), *command]
+        used, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        done = subprocess.run(command, env=environment(), text=True, check=False,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        seconds, end = time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+        if done.returncode != 0:
+            said = (done.stderr.strip().splitlines() or [""])[0]
+            raise RunError(f"{case.name}, {program}: status {done.returncode}: {said}")
+        summary = json.loads((pathlib.Path(directory) / "summary.json").read_text())
+    summary["seconds"] = seconds
+    summary["cpu"] = end.ru_utime + end.ru_stime - used.ru_utime - used.ru_stime
+    return summary
+
+
+def row_of(program, case, summaries, columns):
+    """Medians of seconds; all else is the same in every repeat."""
+    last = summaries[-1]
+    row = {"program": program, "case": case.name, "ranks": case.ranks,
+           "unknowns": last["mesh"]["dofs"], "subdomains": last["mesh"]["subdomains"],
+           "seconds": round(statistics.median(s["seconds"] for s in summaries), 3),
+           "cpu": round(statistics.median(s["cpu"] for s in summaries), 3),
+           "MB": round(statistics.median(s["memory"]["largest"] for s in summaries))}
+    for stage in STAGES:
+        row[stage] = round(statistics.median(s["times"].get(stage, 0.) for s in summaries), 3)
+    row.update(columns(last))
+    return row
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__.replace("%", "%%"), add_help=False)
+    parser.add_argument("--help", action="version", version=__doc__)
+    parser.add_argument("snug", type=pathlib.Path)
+    parser.add_argument("name", choices=sorted(CASES))
+    parser.add_argument("sizes", nargs="*", type=int)
+    parser.add_argument("--against", type=pathlib.Path)
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--quick", action="store_true")
+    options = parser.parse_args()
+    programs = [program for program in (options.snug, options.against) if program]
+    writer = None
+    for case in CASES[options.name](options.sizes, options.quick):
+        summaries = collections.defaultdict(list)
+        for _ in range(1 if options.quick else options.repeats):
+            for program in programs:
+                summaries[program].append(run(program, case))
+        for program in programs:
+            row = row_of(program, case, summaries[program], COLUMNS[options.name])
+            if writer is None:
+                writer = csv.DictWriter(sys.stdout, row.keys(), extrasaction="ignore",
+                                        restval="", lineterminator="\n")
+                writer.writeheader()
+            writer.writerow(row)
+            sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except RunError as error:
+        sys.exit(f"bench: {error}")
