@@ -1,4 +1,6 @@
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
+#include <snug/base/shared_work.h>
 #include <snug/contact/mortar_rows.h>
 #include <snug/contact/opposite_faces.h>
 
@@ -78,11 +80,21 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
   for (unsigned int node = 0; node < is_held.size(); ++node)
     is_held[node] =
       pair.taken[node] || faces::free_part(normals.normals()[node], held[node]).norm() < held_part;
-  const auto                     x = mortar::node_arrays<dim>(pair.positions);
+  const auto x     = mortar::node_arrays<dim>(pair.positions);
+  const auto parts = all_integrals<double>(x);
+  const auto boxes = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
+    const auto          box = cover_box(faces[f], x);
+    std::vector<double> ends(box.lower.begin(), box.lower.end());
+    ends.insert(ends.end(), box.upper.begin(), box.upper.end());
+    return ends;
+  });
   std::vector<mortar::FaceCover> covers;
-  for (SlaveFace &face : faces)
+  for (unsigned int f = 0; f < faces.size(); ++f)
     {
-      const mortar::FaceCover cover = choose_functions(face, x, pair.positions);
+      mortar::CoverBox<dim> box;
+      std::copy_n(boxes[f].begin(), dim - 1, box.lower.begin());
+      std::copy_n(boxes[f].begin() + dim - 1, dim - 1, box.upper.begin());
+      const auto cover = choose_functions(faces[f], parts[f], box, pair.positions);
       // Opposite within the margin of the pairing, but not covered yet: no multipliers.
       if (sum(cover.covered) > 0.)
         covers.push_back(cover);
@@ -92,13 +104,13 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
 
 /// The cover of a face, by the functions it gets.
 template <int dim>
-mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                            &face,
-                                                    const mortar::FaceNodes<dim, double> &x,
+mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                           &face,
+                                                    const mortar::FaceIntegrals<double> &of_nodes,
+                                                    const mortar::CoverBox<dim>         &box,
                                                     const Field &positions) const
 {
-  const auto        of_nodes = integrals(face, x);
-  mortar::FaceCover cover    = {face.face, of_nodes.slave,
-                                whole_integrals(surface, face.face, shape, positions)};
+  mortar::FaceCover cover = {face.face, of_nodes.slave,
+                             whole_integrals(surface, face.face, shape, positions)};
   // The Gram matrix of shape functions over a sliver of a face is nearly singular: its inverse
   // would give multiplier functions with large values of both signs.
   if (sum(cover.covered) < least_biorthogonal_cover * sum(cover.whole))
@@ -106,13 +118,31 @@ mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                   
       face.functions.biorthogonal = false;
       return cover;
     }
+  face.functions = mortar::functions_on(box, shape.degree(), uncovered_edge);
+  cover.covered  = mortar::in_box(of_nodes, face.functions).slave;
+  return cover;
+}
+
+/// The part of the face that is covered lies within.
+template <int dim>
+mortar::CoverBox<dim> MortarRows<dim>::cover_box(const SlaveFace                      &face,
+                                                 const mortar::FaceNodes<dim, double> &x) const
+{
   mortar::CoverBox<dim> box;
   const auto            slave = mortar::mortar_face<dim>(surface, shape, face.face, x).nodes;
   for (const unsigned int master : face.masters)
     quadrature.add_cover(slave, mortar::mortar_face<dim>(surface, shape, master, x).nodes, box);
-  face.functions = mortar::functions_on(box, shape.degree(), uncovered_edge);
-  cover.covered  = mortar::in_box(of_nodes, face.functions).slave;
-  return cover;
+  return box;
+}
+
+/// Of the slave faces: cutting a pair of faces is what takes time.
+template <int dim>
+std::vector<double> MortarRows<dim>::costs() const
+{
+  std::vector<double> result;
+  for (const SlaveFace &face : faces)
+    result.push_back(double(face.masters.size()));
+  return result;
 }
 
 /// All nodes that a row may reach while the pairing stays, those with zero coefficients included:
@@ -199,16 +229,32 @@ MortarRows<dim>::integrals(const SlaveFace &face, const mortar::FaceNodes<dim, N
                                 masters);
 }
 
+template <int dim>
+template <typename Number>
+std::vector<mortar::FaceIntegrals<Number>>
+MortarRows<dim>::all_integrals(const mortar::FaceNodes<dim, Number> &x) const
+{
+  const auto numbers = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
+    return mortar::to_numbers(integrals(faces[f], x));
+  });
+  std::vector<mortar::FaceIntegrals<Number>> result;
+  for (unsigned int f = 0; f < faces.size(); ++f)
+    result.push_back(mortar::from_numbers<dim, Number>(
+      narrow<unsigned int>(surface.faces()[faces[f].face].nodes.size()),
+      narrow<unsigned int>(faces[f].masters.size()), numbers[f].begin()));
+  return result;
+}
+
 /// The parts of rows that are integrals over one slave face.
 template <int dim>
 template <typename Number>
 void MortarRows<dim>::add_face(const SlaveFace                      &face,
+                               const mortar::FaceIntegrals<Number>  &of_shapes,
                                const mortar::FaceNodes<dim, Number> &x,
                                std::vector<RowSum<Number>>          &sums) const
 {
-  const auto  of_shapes = integrals(face, x);
-  const auto  coupling  = mortar::couple(of_shapes, face.functions);
-  const auto &nodes     = surface.faces()[face.face].nodes;
+  const auto  coupling = mortar::couple(of_shapes, face.functions);
+  const auto &nodes    = surface.faces()[face.face].nodes;
   // int psi_j N at one node of a face: coefficient and part of the gap
   const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
     for (const auto &share : multipliers.shares[nodes[j]])
@@ -264,8 +310,9 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
       sums[i].coefficients.resize(row_nodes[i].size());
       sums[i].weights.resize(row_nodes[i].size());
     }
-  for (const SlaveFace &face : faces)
-    add_face(face, x, sums);
+  const auto parts = all_integrals<Number>(x);
+  for (unsigned int f = 0; f < faces.size(); ++f)
+    add_face(faces[f], parts[f], x, sums);
   for (const auto &sum : sums)
     // The row is divided by its area.
     if (!(faces::value_of(sum.area) > 0.))

@@ -1,3 +1,4 @@
+#include <snug/base/shared_work.h>
 #include <snug/contact/face_tree.h>
 #include <snug/contact/opposite_faces.h>
 
@@ -84,15 +85,20 @@ std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &p
   // All pairs of faces would be a square of their number.
   const FaceTree<dim> tree(pair.surface, pair.sides.master, pair.shape, pair.positions);
   const mortar::SegmentQuadrature<dim> quadrature(pair.shape.degree(), pair.surface.idealization());
+  const auto                           opposite = [&](const unsigned int i) {
+    const SearchFace<dim> slave = search_face(slaves[i]);
+    std::vector<double>   found;
+    for (const std::size_t m : near(tree, slave))
+      // Both normals point out of their bodies, so those of opposite faces are opposite.
+      if (-(slave.normal * masters[m].normal) >= least_cosine &&
+          quadrature.overlap(slave.arrays(), masters[m].arrays(), pairing_margin))
+        found.push_back(pair.sides.master[m]);
+    return found;
+  };
+  const auto found =
+    shared_work(pair.surface.communicator(), std::vector<double>(slaves.size(), 1.), opposite);
   for (unsigned int i = 0; i < slaves.size(); ++i)
-    {
-      const SearchFace<dim> slave = search_face(slaves[i]);
-      for (const std::size_t m : near(tree, slave))
-        // Both normals point out of their bodies, so those of opposite faces are opposite.
-        if (-(slave.normal * masters[m].normal) >= least_cosine &&
-            quadrature.overlap(slave.arrays(), masters[m].arrays(), pairing_margin))
-          result[i].push_back(pair.sides.master[m]);
-    }
+    result[i].assign(found[i].begin(), found[i].end());
   return result;
 }
 

@@ -96,7 +96,8 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
           if (mesh.is_hanging(node))
             hanging.push_back(hanging_record(mesh, node));
       }
-  // the same lists in the same order on all ranks: contact search is not distributed
+  // The same lists in the same order on all ranks: what is computed of a face by one of them is
+  // known to all by its number.
   faces   = gathered(mesh.communicator(), faces);
   hanging = gathered(mesh.communicator(), hanging);
 

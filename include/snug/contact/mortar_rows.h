@@ -81,15 +81,23 @@ private:
   mortar::MultiplierNodes                multipliers;
   std::vector<std::vector<unsigned int>> row_nodes; ///< ascending
 
-  void              choose_multipliers(const PairGeometry<dim> &pair);
-  mortar::FaceCover choose_functions(SlaveFace                            &face,
-                                     const mortar::FaceNodes<dim, double> &x,
-                                     const Field                          &positions) const;
-  void              collect_row_nodes();
-  void              leave_out_far_rows(const PairGeometry<dim> &pair);
+  void                  choose_multipliers(const PairGeometry<dim> &pair);
+  mortar::FaceCover     choose_functions(SlaveFace                           &face,
+                                         const mortar::FaceIntegrals<double> &of_nodes,
+                                         const mortar::CoverBox<dim>         &box,
+                                         const Field                         &positions) const;
+  mortar::CoverBox<dim> cover_box(const SlaveFace                      &face,
+                                  const mortar::FaceNodes<dim, double> &x) const;
+  std::vector<double>   costs() const;
+  void                  collect_row_nodes();
+  void                  leave_out_far_rows(const PairGeometry<dim> &pair);
   template <typename Number>
   mortar::FaceIntegrals<Number> integrals(const SlaveFace                      &face,
                                           const mortar::FaceNodes<dim, Number> &x) const;
+  /// Of all faces. Collective.
+  template <typename Number>
+  std::vector<mortar::FaceIntegrals<Number>>
+  all_integrals(const mortar::FaceNodes<dim, Number> &x) const;
   /// visit(place in row_nodes[row], weight) for a node, or the masters of a
   /// hanging one.
   template <typename Visit>
@@ -108,6 +116,7 @@ private:
 
   template <typename Number>
   void add_face(const SlaveFace                      &face,
+                const mortar::FaceIntegrals<Number>  &of_shapes,
                 const mortar::FaceNodes<dim, Number> &x,
                 std::vector<RowSum<Number>>          &sums) const;
   template <typename Number>

@@ -40,9 +40,10 @@ struct SharedNode
  * areas follow the positions. Rows may share nodes with each other and
  * with those of other groups.
  *
- * Everything is replicated on all ranks and nothing communicates. All
- * functions of positions throw TangledMesh where a normal vanishes or a
- * position is not finite.
+ * Everything is known to all ranks. What takes long, the integrals of mortar
+ * rows, is shared out (shared_work()): all functions of positions are
+ * collective. They throw TangledMesh where a normal vanishes or a position is
+ * not finite.
  */
 template <int dim>
 class RowGroup

@@ -31,6 +31,7 @@ public:
   Surface(const BodyMesh<dim>                                      &mesh,
           const std::vector<std::pair<unsigned int, unsigned int>> &boundaries);
 
+  MPI_Comm communicator() const { return mesh.communicator(); }
   /// What the mesh stands for.
   const Idealization      &idealization() const { return mesh.idealization(); }
   const std::vector<Face> &faces() const { return surface_faces; }

@@ -25,6 +25,15 @@ struct FaceIntegrals
   dealii::Table<2, Number>              offset; ///< int N_j delta_d
 };
 
+/// All of its numbers, to be sent to other ranks.
+template <typename Number>
+std::vector<double> to_numbers(const FaceIntegrals<Number> &integrals);
+
+/// Back again: of a face with @p n nodes, with faces of n_masters, from @p numbers on.
+template <int dim, typename Number>
+FaceIntegrals<Number>
+from_numbers(unsigned int n, unsigned int n_masters, std::vector<double>::const_iterator numbers);
+
 /**
  * What multiplier functions psi_j a slave face has; they sum to 1:
  *   biorthogonal, psi_j = sum_l A_jl N_l with A = diag(d) m^-1,
