@@ -13,7 +13,7 @@ run_packages=(g++ cmake ninja-build openmpi-bin libdeal.ii-dev libnlopt-dev
 
 # To test as well. GTest's CMake package refuses to load without gmock.
 # shellcheck disable=SC2034
-test_packages=(libgtest-dev libgmock-dev clang-format)
+test_packages=(libgtest-dev libgmock-dev clang-format python3-scipy)
 
 # One thread per rank, and more ranks than cores allowed (doc/cluster.md).
 set -a

@@ -2,6 +2,7 @@
 #include <snug/app/inventory.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/io/qp_export.h>
 #include <snug/io/shape_export.h>
 #include <snug/state/assumptions.h>
 
@@ -179,9 +180,24 @@ io::Summary::State Results<dim>::summarize(const state::ContactState<dim> &state
   return result;
 }
 
+/// Of the first load case.
+template <int dim>
+void Results<dim>::export_first_qp(const States &states)
+{
+  if (!problem->scene.output.export_qp)
+    return;
+  const auto &state  = states.front();
+  const auto &solver = *problem->solver;
+  // may factorize, which has a stage of its own
+  const auto             &feti = solver.feti(state);
+  const RunContext::Timer timer(problem->context, "output");
+  io::export_qp(path("qp"), feti, solver.gluing().layout(), state.u, state.dual.lambda);
+}
+
 template <int dim>
 void Results<dim>::add_first(const States &states, const std::optional<Field> &shape_gradient)
 {
+  export_first_qp(states);
   draw(0., states, shape_gradient);
   // a pairing anew ends what else there is to know of them
   for (const auto &state : states)
@@ -212,6 +228,8 @@ void Results<dim>::add_last(const double                  time,
                             const std::optional<Field>   &shape_gradient,
                             const std::vector<MeshError> &known)
 {
+  if (first_states.empty())
+    export_first_qp(states);
   last_errors        = known.empty() ? estimate(states) : known;
   const auto &errors = last_errors;
   draw(time, states, shape_gradient, errors);

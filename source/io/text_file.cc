@@ -64,6 +64,16 @@ void make_output_directory(const RunContext &context, const std::string &path)
   });
 }
 
+namespace {
+void remove_files(const std::string &directory, const std::regex &names)
+{
+  std::error_code ignored; // a file that stays does no harm
+  for (const auto &entry : std::filesystem::directory_iterator(directory, ignored))
+    if (entry.is_regular_file(ignored) && std::regex_match(entry.path().filename().string(), names))
+      std::filesystem::remove(entry.path(), ignored);
+}
+} // namespace
+
 void remove_results(const RunContext &context, const std::vector<std::string> &directories)
 {
   static const std::regex ours(
@@ -71,15 +81,15 @@ void remove_results(const RunContext &context, const std::vector<std::string> &d
     "contact-\\d{4,}\\.(vtu|csv)|history\\.csv|summary\\.json|"
     "surface\\.(stl|csv)|control-points\\.csv|journal\\.txt|"
     "warm-start\\.\\d+\\.[01]");
+  static const std::regex of_qp("(K|B|R|f|g|bounded|u|lambda)\\.(petsc|mtx)");
   everywhere(context.communicator(), [&] {
     if (context.rank() != 0)
       return;
-    std::error_code ignored; // a file that stays does no harm
     for (const auto &directory : directories)
-      for (const auto &entry : std::filesystem::directory_iterator(directory, ignored))
-        if (entry.is_regular_file(ignored) &&
-            std::regex_match(entry.path().filename().string(), ours))
-          std::filesystem::remove(entry.path(), ignored);
+      {
+        remove_files(directory, ours);
+        remove_files(directory + "/qp", of_qp);
+      }
   });
 }
 } // namespace snug::io

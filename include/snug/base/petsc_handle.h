@@ -58,6 +58,7 @@ private:
 using Matrix     = Handle<Mat, MatDestroy>;
 using Solver     = Handle<KSP, KSPDestroy>;
 using Vector     = Handle<Vec, VecDestroy>;
+using Viewer     = Handle<PetscViewer, PetscViewerDestroy>;
 using StarForest = Handle<PetscSF, PetscSFDestroy>;
 using IndexSet   = Handle<IS, ISDestroy>;
 } // namespace snug::petsc

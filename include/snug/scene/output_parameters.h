@@ -18,6 +18,7 @@ struct OutputParameters
                                           "subdomain", "design_displacement", "shape_gradient",
                                           "error"};
   unsigned int             compression = 1; ///< level of zlib
+  bool                     export_qp   = false;
 
   bool has(const std::string &field) const;
 

@@ -1,0 +1,26 @@
+#ifndef snug_io_qp_export_h
+#define snug_io_qp_export_h
+
+#include <snug/feti/total_feti.h>
+
+#include <string>
+
+namespace snug::io {
+/**
+ * Write the quadratic program of torn bodies and a solution of it for other
+ * solvers, @f[ \min \tfrac12 u^T K u - f^T u \quad\text{s.t.}\quad
+ *     (Bu)_i \le g_i \text{ where bounded},\ (Bu)_i = g_i \text{ elsewhere}, @f]
+ * with R, whose columns span the kernel of K: K, B, R, f, g, bounded, u and
+ * lambda, each as NAME.petsc (PETSc's binary format) and NAME.mtx (Matrix
+ * Market). doc/export-qp.md says what is in them. Collective.
+ * @param[in] directory is made.
+ * @param[in] layout the rows of @p feti.
+ */
+void export_qp(const std::string         &directory,
+               const feti::TotalFeti     &feti,
+               const feti::RowLayout     &layout,
+               const feti::PrimalVectors &u,
+               const qp::MultiVector     &lambda);
+} // namespace snug::io
+
+#endif
