@@ -1,0 +1,208 @@
+#include <snug/base/shared_work.h>
+#include <snug/contact/mortar_rows.h>
+#include <snug/contact/opposite_faces.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <numeric>
+#include <set>
+
+namespace snug::contact {
+namespace {
+/// Faces covered less than this have standard multiplier functions.
+const double least_biorthogonal_cover = 0.25;
+
+/// Covered but for this part of its extent a face counts as covered there, so that its nodes keep
+/// rows of their own where curved sides end together.
+const double uncovered_edge = 0.01;
+
+/// A node is held if its supports leave less than this of its normal.
+const double held_part = 0.1;
+
+/// Integrals of the shape functions over a whole face.
+/// With the same number of Gauss points as tributary areas have.
+template <int dim>
+std::vector<double> whole_integrals(const mesh::Surface<dim>                 &surface,
+                                    unsigned int                              face,
+                                    const faces::FaceShape<dim>              &shape,
+                                    const typename mesh::Surface<dim>::Field &positions)
+{
+  const auto                   &nodes = surface.faces()[face].nodes;
+  const dealii::QGauss<dim - 1> gauss(shape.degree() + 2);
+  std::vector<double>           result(nodes.size(), 0.);
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const auto             values = shape.at(gauss.point(q));
+      dealii::Tensor<1, dim> x;
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        x += values.value[k] * positions[nodes[k]];
+      const double weight =
+        gauss.weight(q) * surface.idealization().weight(x) *
+        faces::area_vector(faces::tangents<dim>(values, nodes, positions)).norm();
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        result[k] += weight * values.value[k];
+    }
+  return result;
+}
+
+double sum(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+} // namespace
+
+template <int dim>
+MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
+  : surface(pair.surface)
+  , shape(pair.shape)
+  , quadrature(shape.degree(), surface.idealization())
+  , sides(pair.sides)
+  , held(pair.held)
+{
+  const auto opposite = opposite_faces(pair);
+  for (unsigned int i = 0; i < sides.slave.size(); ++i)
+    if (!opposite[i].empty())
+      faces.push_back({sides.slave[i], opposite[i], {}});
+  choose_multipliers(pair);
+  collect_row_nodes();
+  leave_out_far_rows(pair);
+}
+
+template <int dim>
+void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
+{
+  const faces::NodalNormals<dim> normals(surface, sides.slave, shape, pair.positions);
+  std::vector<bool>              is_held(surface.n_nodes());
+  for (unsigned int node = 0; node < is_held.size(); ++node)
+    is_held[node] =
+      pair.taken[node] || faces::free_part(normals.normals()[node], held[node]).norm() < held_part;
+  const auto x     = mortar::node_arrays<dim>(pair.positions);
+  const auto parts = all_integrals<double>(x);
+  const auto boxes = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
+    const auto          box = cover_box(faces[f], x);
+    std::vector<double> ends(box.lower.begin(), box.lower.end());
+    ends.insert(ends.end(), box.upper.begin(), box.upper.end());
+    return ends;
+  });
+  std::vector<mortar::FaceCover> covers;
+  for (unsigned int f = 0; f < faces.size(); ++f)
+    {
+      mortar::CoverBox<dim> box;
+      std::copy_n(boxes[f].begin(), dim - 1, box.lower.begin());
+      std::copy_n(boxes[f].begin() + dim - 1, dim - 1, box.upper.begin());
+      const auto cover = choose_functions(faces[f], parts[f], box, pair.positions);
+      // Opposite within the margin of the pairing, but not covered yet: no multipliers.
+      if (sum(cover.covered) > 0.)
+        covers.push_back(cover);
+    }
+  multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, pair.positions);
+}
+
+/// The cover of a face, by the functions it gets.
+template <int dim>
+mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                           &face,
+                                                    const mortar::FaceIntegrals<double> &of_nodes,
+                                                    const mortar::CoverBox<dim>         &box,
+                                                    const Field &positions) const
+{
+  mortar::FaceCover cover = {face.face, of_nodes.slave,
+                             whole_integrals(surface, face.face, shape, positions)};
+  // The Gram matrix of shape functions over a sliver of a face is nearly singular: its inverse
+  // would give multiplier functions with large values of both signs.
+  if (sum(cover.covered) < least_biorthogonal_cover * sum(cover.whole))
+    {
+      face.functions.biorthogonal = false;
+      return cover;
+    }
+  face.functions = mortar::functions_on(box, shape.degree(), uncovered_edge);
+  cover.covered  = mortar::in_box(of_nodes, face.functions).slave;
+  return cover;
+}
+
+/// The part of the face that is covered lies within.
+template <int dim>
+mortar::CoverBox<dim> MortarRows<dim>::cover_box(const SlaveFace                      &face,
+                                                 const mortar::FaceNodes<dim, double> &x) const
+{
+  mortar::CoverBox<dim> box;
+  const auto            slave = mortar::mortar_face<dim>(surface, shape, face.face, x).nodes;
+  for (const unsigned int master : face.masters)
+    quadrature.add_cover(slave, mortar::mortar_face<dim>(surface, shape, master, x).nodes, box);
+  return box;
+}
+
+/// All nodes that a row may reach while the pairing stays, those with zero coefficients included:
+/// B keeps its pattern while the design moves, and its symbolic factorizations stay valid.
+template <int dim>
+void MortarRows<dim>::collect_row_nodes()
+{
+  std::vector<std::set<unsigned int>> reached(multipliers.nodes.size());
+  for (const SlaveFace &face : faces)
+    {
+      const auto               &nodes = surface.faces()[face.face].nodes;
+      std::vector<unsigned int> masters;
+      for (const unsigned int master : face.masters)
+        {
+          const auto &of_face = surface.faces()[master].nodes;
+          masters.insert(masters.end(), of_face.begin(), of_face.end());
+        }
+      for (const unsigned int node : nodes)
+        for (const auto &share : multipliers.shares[node])
+          {
+            auto &row = reached[share.first];
+            row.insert(masters.begin(), masters.end());
+            // int psi_j N_l = 0 for l != j: of the slave side only the node itself.
+            if (face.functions.are_nodal())
+              row.insert(node);
+            else
+              row.insert(nodes.begin(), nodes.end());
+          }
+    }
+  for (const auto &nodes : reached)
+    {
+      // Hanging nodes have no unknowns.
+      std::set<unsigned int> resolved;
+      for (const unsigned int node : nodes)
+        {
+          if (surface.masters(node).empty())
+            resolved.insert(node);
+          for (const auto &master : surface.masters(node))
+            resolved.insert(master.first);
+        }
+      row_nodes.emplace_back(resolved.begin(), resolved.end());
+    }
+}
+
+/// Far rows take their multiplier functions along, so shares may sum to less than 1 afterwards: a
+/// part of the side that is out of reach carries no pressure.
+template <int dim>
+void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
+{
+  const Opposition<dim>         opposition(pair);
+  const auto                    all           = rows(pair.positions);
+  const mortar::MultiplierNodes old           = multipliers;
+  const auto                    old_row_nodes = row_nodes;
+  std::vector<unsigned int>     index(all.size(), all.size());
+  multipliers.nodes.clear();
+  row_nodes.clear();
+  for (unsigned int i = 0; i < all.size(); ++i)
+    // By the gap alone: the angles of faces were tested when they were paired.
+    if (opposition.is_near(all[i].gap))
+      {
+        index[i] = row_nodes.size();
+        multipliers.nodes.push_back(old.nodes[i]);
+        row_nodes.push_back(old_row_nodes[i]);
+      }
+  for (auto &shares : multipliers.shares)
+    {
+      mortar::MultiplierNodes::Shares kept;
+      for (const auto &share : shares)
+        if (index[share.first] < all.size())
+          kept.emplace_back(index[share.first], share.second);
+      shares = kept;
+    }
+}
+
+template MortarRows<2>::MortarRows(const PairGeometry<2> &);
+template MortarRows<3>::MortarRows(const PairGeometry<3> &);
+} // namespace snug::contact
