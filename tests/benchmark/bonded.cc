@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/base/petsc_options.h>
+#include <snug/base/narrow.h>
 #include <snug/supports/support.h>
 
 #include <benchmark/bonded.h>
@@ -11,8 +11,7 @@ namespace snug::benchmark {
 namespace {
 using petsc::check;
 
-const unsigned int dim        = 3;
-const unsigned int eliminated = static_cast<unsigned int>(-1);
+const unsigned int dim = 3;
 
 /// Local node -> the node it is glued to (itself if to none).
 std::vector<unsigned int> glue(const state::StateSolver<dim> &solver)
@@ -38,16 +37,26 @@ std::vector<unsigned int> glue(const state::StateSolver<dim> &solver)
 
 Bonded::Bonded(const state::StateSolver<dim> &solver, const feti::TotalFeti &dual)
 {
-  assemble(solver, dual, number_unknowns(solver));
-  analyse();
+  number_unknowns(solver);
+  assemble(solver, dual);
+  wrap();
+  add_rigid_motions(solver);
 }
 
-/// Unknown of each degree of freedom dim * node + component.
-std::vector<unsigned int> Bonded::number_unknowns(const state::StateSolver<dim> &solver)
+void Bonded::number_unknowns(const state::StateSolver<dim> &solver)
 {
-  const auto                target = glue(solver);
-  std::vector<unsigned int> unknown(dim * target.size(), 0);
-  const auto                frames = solver.held().frames(solver.mesh().reference_positions());
+  const auto target = glue(solver);
+  unknown.resize(dim * target.size());
+  unsigned int n = 0;
+  for (unsigned int node = 0; node < target.size(); ++node)
+    for (unsigned int c = 0; c < dim; ++c)
+      if (target[node] == node)
+        unknown[dim * node + c] = n++;
+  for (unsigned int node = 0; node < target.size(); ++node)
+    for (unsigned int c = 0; c < dim; ++c)
+      unknown[dim * node + c] = unknown[dim * target[node] + c];
+  is_held.assign(n, false);
+  const auto frames = solver.held().frames(solver.mesh().reference_positions());
   for (unsigned int node = 0; node < target.size(); ++node)
     {
       const unsigned int h = solver.held().find(solver.mesh().global_node(node));
@@ -56,23 +65,11 @@ std::vector<unsigned int> Bonded::number_unknowns(const state::StateSolver<dim> 
       for (const auto &direction : frames[h].directions)
         for (unsigned int c = 0; c < dim; ++c)
           if (direction[c] == 1.)
-            unknown[dim * target[node] + c] = eliminated;
+            is_held[unknown[dim * node + c]] = true;
     }
-  unsigned int n = 0;
-  for (unsigned int node = 0; node < target.size(); ++node)
-    for (unsigned int c = 0; c < dim; ++c)
-      if (target[node] == node && unknown[dim * node + c] != eliminated)
-        unknown[dim * node + c] = n++;
-  for (unsigned int node = 0; node < target.size(); ++node)
-    for (unsigned int c = 0; c < dim; ++c)
-      unknown[dim * node + c] = unknown[dim * target[node] + c];
-  K = feti::CsrMatrix::from_rows(std::vector<std::vector<PetscInt>>(n), n);
-  return unknown;
 }
 
-void Bonded::assemble(const state::StateSolver<dim>   &solver,
-                      const feti::TotalFeti           &dual,
-                      const std::vector<unsigned int> &unknown)
+void Bonded::assemble(const state::StateSolver<dim> &solver, const feti::TotalFeti &dual)
 {
   const auto                            &systems = dual.subdomains();
   std::vector<std::vector<unsigned int>> maps;
@@ -91,57 +88,54 @@ void Bonded::assemble(const state::StateSolver<dim>   &solver,
           {
             const unsigned int i = maps[s][row];
             const unsigned int j = maps[s][systems[s].K.columns()[p]];
-            if (i != eliminated && j != eliminated)
+            if (i == j || !(is_held[i] || is_held[j]))
               visit(i, j, systems[s].K.values[p]);
           }
   };
-  std::vector<std::vector<PetscInt>> pattern(K.n_rows());
+  std::vector<std::vector<PetscInt>> pattern(is_held.size());
   for_all_entries([&](unsigned int i, unsigned int j, double) { pattern[i].push_back(j); });
   for (auto &row : pattern)
     {
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
     }
-  K = feti::CsrMatrix::from_rows(pattern, K.n_columns());
+  K = feti::CsrMatrix::from_rows(pattern, narrow<unsigned int>(pattern.size()));
   for_all_entries(
     [&](unsigned int i, unsigned int j, double value) { K.values[K.position(i, j)] += value; });
   f = u = qp::MultiVector(K.n_rows());
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
-      if (maps[s][row] != eliminated)
+      if (!is_held[maps[s][row]])
         f(maps[s][row]) += systems[s].f[row];
 }
 
-/// As SparseFactor does with a matrix without an order given, but without its check of every
-/// factorization.
-void Bonded::analyse()
+void Bonded::wrap()
 {
   check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, K.n_rows(), K.n_rows(),
                                   const_cast<PetscInt *>(K.row_start().data()),
                                   const_cast<PetscInt *>(K.columns().data()), K.values.data(),
                                   matrix.put()));
+  check(MatSetBlockSize(matrix, dim));
   check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
   check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
-  check(MatSetOptionsPrefixFactor(matrix, "bonded_"));
-  const petsc::DefaultOption methods("bonded_", "mat_cholmod_nmethods", "3");
-  check(MatGetFactor(matrix, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor.put()));
-  MatFactorInfo info;
-  check(MatFactorInfoInitialize(&info));
-  check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
-  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows(), f.column(0), right_hand_side.put()));
-  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, K.n_rows(), u.column(0), solution.put()));
+  check(
+    VecCreateSeqWithArray(PETSC_COMM_SELF, dim, K.n_rows(), f.column(0), right_hand_side.put()));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, dim, K.n_rows(), u.column(0), solution.put()));
 }
 
-void Bonded::factorize()
+void Bonded::add_rigid_motions(const state::StateSolver<dim> &solver)
 {
-  MatFactorInfo info;
-  check(MatFactorInfoInitialize(&info));
-  check(MatCholeskyFactorNumeric(factor, matrix, &info));
-}
-
-void Bonded::solve()
-{
-  check(MatSolve(factor, right_hand_side, solution));
+  petsc::Vector coordinates;
+  check(VecDuplicate(solution, coordinates.put()));
+  double *x;
+  check(VecGetArray(coordinates, &x));
+  const auto &positions = solver.mesh().reference_positions();
+  for (unsigned int i = 0; i < unknown.size(); ++i)
+    x[unknown[i]] = positions[i / dim][i % dim];
+  check(VecRestoreArray(coordinates, &x));
+  petsc::NullSpace motions;
+  check(MatNullSpaceCreateRigidBody(coordinates, motions.put()));
+  check(MatSetNearNullSpace(matrix, motions));
 }
 
 double Bonded::residual() const

@@ -1,5 +1,6 @@
 #include <snug/app/build_model.h>
 #include <snug/app/failure.h>
+#include <snug/base/narrow.h>
 #include <snug/io/summary.h>
 #include <snug/scene/read_scene.h>
 
@@ -7,7 +8,7 @@
 
 #include <petscsys.h>
 
-#include <benchmark/bonded.h>
+#include <benchmark/linear_solver.h>
 #include <benchmark/torn.h>
 
 #include <cmath>
@@ -28,21 +29,16 @@ struct Size
   unsigned int cells, subdomains;
 };
 
-/// Both sides of one size; seconds of each repeat.
+/// Of one side; each repeat.
 struct Times
 {
-  std::vector<Seconds> torn_factor, torn_solve, bonded_factor, bonded_solve;
+  std::vector<Seconds> factor, solve;
 
-  std::vector<Seconds> torn() const { return sum(torn_factor, torn_solve); }
-
-  std::vector<Seconds> bonded() const { return sum(bonded_factor, bonded_solve); }
-
-private:
-  static std::vector<Seconds> sum(const std::vector<Seconds> &a, const std::vector<Seconds> &b)
+  std::vector<Seconds> both() const
   {
     std::vector<Seconds> total;
-    for (unsigned int i = 0; i < a.size(); ++i)
-      total.push_back(a[i] + b[i]);
+    for (unsigned int i = 0; i < factor.size(); ++i)
+      total.push_back(factor[i] + solve[i]);
     return total;
   }
 };
@@ -85,27 +81,21 @@ public:
     const auto &dual = solver.feti(solver.solve(mesh.reference_positions(), qp::WarmStart()));
     torn             = std::make_unique<Torn>(solver, dual, context);
     bonded           = std::make_unique<Bonded>(solver, dual);
+    for (const LinearMethod &method : linear_methods())
+      linear.push_back(std::make_unique<LinearSolver>(*bonded, method));
   }
 
-  Times run(unsigned int repeats)
+  /// Of the state, then of the linear methods.
+  std::vector<Times> run(const unsigned int repeats)
   {
-    Times times;
+    std::vector<Times> times(1 + linear.size());
     // the first time touches the memory of the factors
     for (unsigned int i = 0; i <= repeats; ++i)
       {
-        const Seconds factor = measure([&]() { torn->factorize(); });
-        const Seconds solve  = measure([&]() { torn->solve(); });
-        const Seconds other  = measure([&]() { bonded->factorize(); });
-        const Seconds linear = measure([&]() { bonded->solve(); });
-        if (i == 0)
-          continue;
-        times.torn_factor.push_back(factor);
-        times.torn_solve.push_back(solve);
-        times.bonded_factor.push_back(other);
-        times.bonded_solve.push_back(linear);
+        time(*torn, times[0], i > 0);
+        for (unsigned int m = 0; m < linear.size(); ++m)
+          time(*linear[m], times[1 + m], i > 0);
       }
-    if (!(bonded->residual() < 1e-8))
-      throw std::runtime_error("the bonded solve is wrong");
     return times;
   }
 
@@ -117,12 +107,26 @@ public:
   state::StateSolver<3>   solver;
   std::unique_ptr<Torn>   torn;
   std::unique_ptr<Bonded> bonded;
+
+  std::vector<std::unique_ptr<LinearSolver>> linear;
+
+private:
+  template <typename Side>
+  static void time(Side &side, Times &times, const bool counts)
+  {
+    const Seconds factor = measure([&]() { side.factorize(); });
+    const Seconds solve  = measure([&]() { side.solve(); });
+    if (!counts)
+      return;
+    times.factor.push_back(factor);
+    times.solve.push_back(solve);
+  }
 };
 
 /// Ratio of the medians, then the range of the ratios of single repeats.
-std::string ratio(const Times &times, double Seconds::*clock)
+std::string ratio(const Times &state, const Times &other, double Seconds::*clock)
 {
-  const auto torn = times.torn(), bonded = times.bonded();
+  const auto torn = state.both(), bonded = other.both();
   double     least = torn[0].*clock / (bonded[0].*clock), most = least;
   for (unsigned int i = 1; i < torn.size(); ++i)
     {
@@ -139,27 +143,41 @@ void print_head(const RunContext &context, unsigned int repeats)
 {
   const auto program = io::program_info(context);
   std::cout << "The contact state (Total FETI, cold) against one linear solve of the "
-               "bonded bodies (CHOLMOD)\n"
+               "bonded bodies\n"
             << "one core of " << cpu_name() << ", BLAS " << program.blas << ", " << program.compiler
-            << '\n'
-            << "numeric factorization + solve, CPU seconds, medians of " << repeats
-            << " interleaved repeats; ratios: of the medians (range)\n\n"
-            << " cells   H/h  subdomains  unknowns  F-mults |  state: factor   solve "
-               "| bonded: factor   solve |  ratio CPU          ratio wall\n";
+            << '\n';
+  for (const auto &method : linear_methods())
+    std::cout << method.name << ": " << method.options << '\n';
+  std::cout << "numeric factorization (set-up of multigrid) + solve, CPU seconds, medians of "
+            << repeats << " interleaved repeats; ratios: of the medians (range)\n\n"
+            << " cells   H/h  subdomains  unknowns  solver    steps   factor    solve"
+               "  state over it: CPU  wall\n";
 }
 
-void print_row(const Size &size, const Case &c, const Times &times)
+/// F-mults of the state, iterations of the others.
+void print_row(const std::string &name, const unsigned int steps, const Times &times)
+{
+  std::cout << "  " << std::left << std::setw(9) << name << std::right << std::setw(6) << steps
+            << std::fixed << std::setprecision(3) << std::setw(9) << median(times.factor).cpu
+            << std::setw(9) << median(times.solve).cpu;
+}
+
+void print_rows(const Size &size, const Case &c, const std::vector<Times> &times)
 {
   const double cells_each = double(c.mesh.n_global_cells()) / c.tearing.n_global;
   std::cout << std::fixed << std::setw(4) << size.cells << "^3" << std::setw(6)
             << std::setprecision(1) << std::cbrt(cells_each) << std::setw(12) << c.tearing.n_global
-            << std::setw(10) << 3 * c.mesh.n_global_free_nodes() << std::setw(9)
-            << c.torn->f_mults() << " |" << std::setprecision(3) << std::setw(15)
-            << median(times.torn_factor).cpu << std::setw(8) << median(times.torn_solve).cpu << " |"
-            << std::setw(15) << median(times.bonded_factor).cpu << std::setw(8)
-            << median(times.bonded_solve).cpu << " |  " << std::left << std::setw(19)
-            << ratio(times, &Seconds::cpu) << ratio(times, &Seconds::wall) << std::right
-            << std::endl;
+            << std::setw(10) << 3 * c.mesh.n_global_free_nodes();
+  print_row("state", narrow<unsigned int>(c.torn->f_mults()), times[0]);
+  std::cout << '\n';
+  for (unsigned int m = 0; m < c.linear.size(); ++m)
+    {
+      std::cout << std::string(34, ' ');
+      print_row(c.linear[m]->method.name, c.linear[m]->iterations(), times[1 + m]);
+      std::cout << "  " << std::left << std::setw(19)
+                << ratio(times[0], times[1 + m], &Seconds::cpu)
+                << ratio(times[0], times[1 + m], &Seconds::wall) << std::right << std::endl;
+    }
 }
 
 void print_stages(std::ostream             &out,
@@ -183,10 +201,10 @@ int run(const std::string &file, const std::vector<Size> &sizes, unsigned int re
   print_head(RunContext(MPI_COMM_WORLD, breakdowns), repeats);
   for (const Size &size : sizes)
     {
-      Case        c(file, size);
-      const Times times = c.run(repeats);
-      print_row(size, c, times);
-      print_stages(breakdowns, size, c, c.torn->stages(median(times.torn())));
+      Case       c(file, size);
+      const auto times = c.run(repeats);
+      print_rows(size, c, times);
+      print_stages(breakdowns, size, c, c.torn->stages(median(times[0].both())));
     }
   std::cout << breakdowns.str();
   return 0;

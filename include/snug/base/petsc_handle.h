@@ -61,6 +61,7 @@ using Vector     = Handle<Vec, VecDestroy>;
 using Viewer     = Handle<PetscViewer, PetscViewerDestroy>;
 using StarForest = Handle<PetscSF, PetscSFDestroy>;
 using IndexSet   = Handle<IS, ISDestroy>;
+using NullSpace  = Handle<MatNullSpace, MatNullSpaceDestroy>;
 } // namespace snug::petsc
 
 #endif
