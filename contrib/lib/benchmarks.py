@@ -183,7 +183,7 @@ def main():
     parser.add_argument("--unknown", default=None)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--quick", action="store_true")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     programs = [program for program in (options.snug, options.against) if program]
     writer = None
     for case in CASES[options.name](options.sizes, options.quick):

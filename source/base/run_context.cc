@@ -38,7 +38,7 @@ double private_memory()
 /// MPI launchers put a pseudo terminal between the program and a file.
 bool under_launcher()
 {
-  for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_PROCID"})
+  for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_PROCID"})
     if (std::getenv(name) != nullptr)
       return true;
   return false;

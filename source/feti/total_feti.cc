@@ -124,6 +124,7 @@ void TotalFeti::update_preconditioner()
 void TotalFeti::set_loads(const qp::MultiVector &g)
 {
   gap        = g;
+  expected.assign(n_owned(), 1);
   rigid_load = rigid_part(loads());
   gross_load = gross_rigid_part(loads())[0];
   // First, as bodies that nothing holds may be what the preconditioner would fail at.

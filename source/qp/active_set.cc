@@ -15,9 +15,6 @@
 
 namespace snug::qp {
 namespace {
-/// Part of the load a set may leave unbalanced.
-const double balance_tolerance = 1e-8;
-
 /// Steps in a row that may fail to halve the KKT residual of one set, or
 /// to solve on it.
 const unsigned int allowed_stalls = 3;
@@ -72,7 +69,6 @@ private:
   }
 
   void   begin(const WarmStart &from);
-  void   balance_load();
   void   refresh_residual();
   void   solve_on_set();
   bool   finished();
@@ -120,53 +116,21 @@ void ActiveSetRun::begin(const WarmStart &from)
     if (problem.bounded()[i] && (warm || has_set))
       mask[i] = has_set ? from.active[i] != 0 : lambda(i) > 0.;
   if (warm || has_set)
-    balance_load();
+    free_set = balanced_set(problem, mask, lambda, scale);
   // equality_part() replaces the columns of its argument by d - F of them, in the application of F
   // that it makes for lambda_Im anyway.
   residual              = warm || has_set ? lambda : MultiVector(problem.n_owned(), 0);
-  EqualityPart equality = equality_part(problem, residual);
+  EqualityPart equality = equality_part(problem, problem.expected_rows(), residual);
   scale                 = equality.scale;
   if (!warm && !has_set)
     {
+      mask     = equality.rows;
       lambda   = equality.lambda;
       residual = equality.residual;
       free_set = std::move(equality.free_set);
     }
   krylov = std::make_unique<Pcpg>(problem, *free_set, from.directions.off(complement(mask), comm));
   history.enter(fingerprint(mask, comm), std::numeric_limits<double>::max(), false);
-}
-
-/// Make lambda feasible on the set; let the set grow until it is.
-void ActiveSetRun::balance_load()
-{
-  const MPI_Comm comm = context.communicator();
-  while (true)
-    {
-      free_set                = problem.free_set(mask);
-      MultiVector  next       = lambda;
-      const double unbalanced = free_set->make_feasible(next, problem.e())[0];
-      if (unbalanced <= balance_tolerance * load_scale(problem, next, scale))
-        {
-          lambda = next;
-          return;
-        }
-      // The part of e that the set cannot hold is a rigid motion of some bodies. Contacts that
-      // close in it are those that can push back; entries that are rounding of the fastest would
-      // let the set grow to all rows.
-      const auto rates   = free_set->gap_closing_rates(problem.e());
-      double     fastest = rates.empty() ? 0. : *std::max_element(rates.begin(), rates.end());
-      MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
-      bool grows = false;
-      for (unsigned int i = 0; i < rates.size(); ++i)
-        if (!mask[i] && rates[i] > 1e-10 * fastest)
-          {
-            mask[i] = 1;
-            grows   = true;
-          }
-      if (!any(grows, comm))
-        throw SolveError("no equilibrium: the contacts cannot balance "
-                         "the loads of a floating body");
-    }
 }
 
 void ActiveSetRun::refresh_residual()
@@ -255,7 +219,7 @@ void ActiveSetRun::keep_set()
         throw not_converged("active set", kkt.relative, parameters.relative_tolerance, f_mults(),
                             false);
       krylov.reset();
-      balance_load();
+      free_set = balanced_set(problem, mask, lambda, scale);
       refresh_residual();
       const bool deflates = false; // it has its own rounding
       krylov              = std::make_unique<Pcpg>(problem, *free_set, DirectionBasis(), deflates);
@@ -293,7 +257,7 @@ bool ActiveSetRun::change_set(const RowSet &next)
   krylov.reset();
   if (!solved || any(changed, comm))
     {
-      balance_load();
+      free_set = balanced_set(problem, mask, lambda, scale);
       refresh_residual();
     }
   else

@@ -14,6 +14,9 @@ const double least_part = 1e-10;
 /// subdomains, whose K^+ loses many digits.
 const double suspect_part = 1e-6;
 
+/// Part of the load a set may leave unbalanced.
+const double balance_tolerance = 1e-8;
+
 /// Of this many times the rounding of F, tolerances of 1e-6 can be met.
 const double above_rounding = 1e8;
 
@@ -111,14 +114,46 @@ double application_rounding(const DualProblem &problem, const EqualityPart &part
 }
 } // namespace
 
-EqualityPart equality_part(const DualProblem &problem, MultiVector &x)
+std::unique_ptr<FreeSet>
+balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, double scale)
+{
+  const MPI_Comm comm = problem.context().communicator();
+  while (true)
+    {
+      auto         free_set   = problem.free_set(rows);
+      MultiVector  next       = lambda;
+      const double unbalanced = free_set->make_feasible(next, problem.e())[0];
+      if (unbalanced <= balance_tolerance * load_scale(problem, next, scale))
+        {
+          lambda = next;
+          return free_set;
+        }
+      // The part of e that the set cannot hold is a rigid motion of some bodies. Contacts that
+      // close in it are those that can push back; entries that are rounding of the fastest would
+      // let the set grow to all rows.
+      const auto rates   = free_set->gap_closing_rates(problem.e());
+      double     fastest = rates.empty() ? 0. : *std::max_element(rates.begin(), rates.end());
+      MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
+      bool grows = false;
+      for (unsigned int i = 0; i < rates.size(); ++i)
+        if (!rows[i] && rates[i] > 1e-10 * fastest)
+          {
+            rows[i] = 1;
+            grows   = true;
+          }
+      if (!any(grows, comm))
+        throw SolveError("no equilibrium: the contacts cannot balance "
+                         "the loads of a floating body");
+    }
+}
+
+EqualityPart equality_part(const DualProblem &problem, const RowSet &rows, MultiVector &x)
 {
   EqualityPart part;
-  const RowSet all(problem.n_owned(), 1);
-  part.free_set = problem.free_set(all);
-  part.lambda   = MultiVector(problem.n_owned());
+  part.rows   = rows;
+  part.lambda = MultiVector(problem.n_owned());
   // From zero this gives lambda_Im = G'(GG')^+ e, in the range of Q.
-  part.free_set->make_feasible(part.lambda, problem.e());
+  part.free_set = balanced_set(problem, part.rows, part.lambda, 0.);
 
   MultiVector block = part.lambda;
   block.append(x);

@@ -99,7 +99,10 @@ void SmalseRun::begin(const WarmStart &start)
 {
   const MPI_Comm comm = context.communicator();
   MultiVector    none(problem.n_owned(), 0);
-  equality           = equality_part(problem, none);
+  // Its projector is that of all rows; residuals are measured as by other solvers.
+  const double scale = equality_part(problem, problem.expected_rows(), none).scale;
+  equality           = equality_part(problem, RowSet(problem.n_owned(), 1), none);
+  equality.scale     = scale;
   MultiVector b      = equality.residual;
   sizes.norm         = operator_norm(problem, *equality.free_set, b);
   sizes.rho          = penalty_factor * sizes.norm;

@@ -1,5 +1,7 @@
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/state/axis_checks.h>
+#include <snug/state/expected_contacts.h>
 #include <snug/state/state_problem.h>
 #include <snug/state/subdomain_table.h>
 
@@ -234,6 +236,12 @@ const Geometry<dim> &StateProblem<dim>::set(const Field &positions, const unsign
   for (unsigned int s = 0; s < systems.size(); ++s)
     systems[s].f = loads[load_case][s];
   feti->set_loads(gluing->right_hand_side(geometry.rows, load_case));
+  std::vector<unsigned int> pair_of_row;
+  for (const unsigned int i : gluing->contact_of_row())
+    pair_of_row.push_back(i < contact->n_rows() ? contact->places()[i].pair
+                                                : narrow<unsigned int>(contact->pairs().size()));
+  feti->expect(
+    expected_contacts(*feti, pair_of_row, narrow<unsigned int>(contact->pairs().size()), dim));
   loaded_case = load_case;
   return geometry;
 }

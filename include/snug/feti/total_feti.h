@@ -79,6 +79,11 @@ public:
   double                       coarse_norm() const { return coarse.norm(); }
   std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
 
+  qp::RowSet expected_rows() const override { return expected; }
+
+  /// The guess until the next set_loads(), which takes it back to all rows.
+  void expect(const qp::RowSet &rows) { expected = rows; }
+
   /// One line for each body that the equality rows and those of @p rows
   /// leave free to move, with its motions. Collective.
   std::vector<std::string> free_bodies(const qp::RowSet &rows) const;
@@ -160,6 +165,7 @@ private:
   qp::MultiVector                  gap, dual_load, rigid_load;
   double                           gross_load = 0.;
   std::vector<double>              F_diagonal;
+  qp::RowSet                       expected;
 };
 } // namespace snug::feti
 

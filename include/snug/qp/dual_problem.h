@@ -117,6 +117,10 @@ public:
   virtual double feasibility_scale(double force) const = 0;
 
   virtual std::unique_ptr<FreeSet> free_set(const RowSet &free) const = 0;
+
+  /// Equality rows and the contacts that are expected to carry, a guess:
+  /// residuals are measured and active sets begin with them.
+  virtual RowSet expected_rows() const { return RowSet(n_owned(), 1); }
 };
 } // namespace snug::qp
 

@@ -65,15 +65,27 @@ std::vector<double> force_rounding(const DualProblem &problem,
                                    double             tolerance);
 
 /**
+ * The face of @p rows, which grow where they cannot balance the loads: by contacts that close in
+ * the motion that is left.
+ *
+ * @param[in,out] lambda made feasible on the face.
+ * @param[in] scale of residuals; zero if it is not known yet.
+ * @throws SolveError if no rows can. Collective.
+ */
+std::unique_ptr<FreeSet>
+balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, double scale);
+
+/**
  * What every solve starts from: the least squares solution
- * @f$\lambda_{Im} = G^T (G G^T)^+ e@f$ of G lambda = e, and the scale
+ * @f$\lambda_{Im} = G^T (G G^T)^+ e@f$ of G lambda = e on a face, and the scale
  * @f$s = \|P (d - F \lambda_{Im})\|@f$ of the residuals, which depends
  * neither on the start nor on the choice of K^+. Where that is as small as
  * rounding, s is a size that a tolerance can be a part of.
  */
 struct EqualityPart
 {
-  std::unique_ptr<FreeSet> free_set; ///< of all rows
+  RowSet                   rows;     ///< free ones
+  std::unique_ptr<FreeSet> free_set; ///< of them
   MultiVector              lambda;   ///< lambda_Im
   MultiVector              residual; ///< d - F lambda_Im
   double                   scale = 0.;
@@ -82,12 +94,13 @@ struct EqualityPart
 /**
  * Compute the equality part and, in the same application of F, F x.
  *
+ * @param[in] rows free ones; they grow until they balance the loads.
  * @param[in,out] x a start, replaced by d - F x; no columns if there is
  *   none besides lambda_Im.
  * @throws SolveError if the data are not finite. Collective,
  *   1 + x.n_columns F-mults.
  */
-EqualityPart equality_part(const DualProblem &problem, MultiVector &x);
+EqualityPart equality_part(const DualProblem &problem, const RowSet &rows, MultiVector &x);
 
 /// The error of a solver that gives up: what was reached, what to try. Without @p out_of_f_mults
 /// more of them would not help.

@@ -1,0 +1,137 @@
+#include <snug/state/expected_contacts.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::state {
+namespace {
+/// c: a set of up to thrice the rows takes hardly more F-mults than the right one, one with too few
+/// as many as all rows.
+const double generosity = 2.;
+
+/// Part of the approach that the gap at the edge of a contact is: of spheres.
+const double edge_gap = 0.5;
+
+/// Bisections of delta, to a thousandth of the widest gap.
+const unsigned int n_bisections = 10;
+
+/// Motions slower than this part of the fastest are rounding.
+const double slow = 1e-8;
+
+/// g of the owned rows after the motion that the loads begin where only contacts hold a body, up
+/// to its first touch: of a shaft in its bore, the side that it falls on is near.
+std::vector<double> gaps_after_fall(const feti::TotalFeti &feti)
+{
+  qp::RowSet equality(feti.n_owned());
+  for (unsigned int i = 0; i < equality.size(); ++i)
+    equality[i] = !feti.bounded()[i];
+  const auto rates       = feti.free_set(equality)->gap_closing_rates(feti.e());
+  double     extremes[2] = {0., HUGE_VAL}; // fastest, time until the first touch
+  for (const double rate : rates)
+    extremes[0] = std::max(extremes[0], std::abs(rate));
+  const MPI_Comm comm = feti.context().communicator();
+  MPI_Allreduce(MPI_IN_PLACE, &extremes[0], 1, MPI_DOUBLE, MPI_MAX, comm);
+  std::vector<double> gaps(feti.n_owned());
+  for (unsigned int i = 0; i < gaps.size(); ++i)
+    {
+      gaps[i] = feti.g()(i);
+      if (feti.bounded()[i] && rates[i] > slow * extremes[0])
+        extremes[1] = std::min(extremes[1], std::max(gaps[i], 0.) / rates[i]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &extremes[1], 1, MPI_DOUBLE, MPI_MIN, comm);
+  if (std::isfinite(extremes[1]))
+    for (unsigned int i = 0; i < gaps.size(); ++i)
+      if (feti.bounded()[i])
+        gaps[i] -= extremes[1] * rates[i];
+  return gaps;
+}
+
+/// What is known of the pairs, equal on all ranks.
+struct PairLoads
+{
+  std::vector<double> force;           ///< P
+  std::vector<double> least, greatest; ///< gaps
+  double              held = 0.;       ///< largest held displacement
+};
+
+PairLoads pair_loads(const feti::TotalFeti           &feti,
+                     const std::vector<double>       &gaps,
+                     const std::vector<unsigned int> &pair_of_row,
+                     unsigned int                     n_pairs)
+{
+  const MPI_Comm  comm = feti.context().communicator();
+  qp::MultiVector lambda(feti.n_owned());
+  feti.free_set(qp::RowSet(feti.n_owned(), 1))->make_feasible(lambda, feti.e());
+  PairLoads loads;
+  loads.force.assign(n_pairs, 0.);
+  loads.least.assign(n_pairs, HUGE_VAL);
+  loads.greatest.assign(n_pairs, -HUGE_VAL);
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    {
+      const double       gap  = gaps[i];
+      const unsigned int pair = pair_of_row[i];
+      if (pair == n_pairs)
+        {
+          loads.held = std::max(loads.held, std::abs(gap));
+          continue;
+        }
+      loads.force[pair] += std::max(lambda(i), 0.);
+      loads.least[pair]    = std::min(loads.least[pair], gap);
+      loads.greatest[pair] = std::max(loads.greatest[pair], gap);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, loads.force.data(), n_pairs, MPI_DOUBLE, MPI_SUM, comm);
+  MPI_Allreduce(MPI_IN_PLACE, loads.least.data(), n_pairs, MPI_DOUBLE, MPI_MIN, comm);
+  MPI_Allreduce(MPI_IN_PLACE, loads.greatest.data(), n_pairs, MPI_DOUBLE, MPI_MAX, comm);
+  MPI_Allreduce(MPI_IN_PLACE, &loads.held, 1, MPI_DOUBLE, MPI_MAX, comm);
+  return loads;
+}
+} // namespace
+
+qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
+                             const std::vector<unsigned int> &pair_of_row,
+                             const unsigned int               n_pairs,
+                             const unsigned int               dim)
+{
+  const auto      gaps  = gaps_after_fall(feti);
+  const PairLoads loads = pair_loads(feti, gaps, pair_of_row, n_pairs);
+  // The largest gap of a row in the set lies between these.
+  std::vector<double> low(n_pairs), high(n_pairs);
+  for (unsigned int p = 0; p < n_pairs; ++p)
+    {
+      low[p]  = loads.least[p] + edge_gap * loads.held + std::max(-loads.least[p], 0.);
+      high[p] = std::max(loads.greatest[p], low[p]);
+    }
+  for (unsigned int step = 0; step < n_bisections; ++step)
+    {
+      std::vector<double> middle(n_pairs), sums(2 * n_pairs, 0.); // rows within it, their F_ii
+      for (unsigned int p = 0; p < n_pairs; ++p)
+        middle[p] = (low[p] + high[p]) / 2;
+      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+        {
+          const unsigned int pair = pair_of_row[i];
+          if (pair == n_pairs || gaps[i] > middle[pair])
+            continue;
+          sums[2 * pair] += 1.;
+          sums[2 * pair + 1] += feti.diagonal()[i];
+        }
+      MPI_Allreduce(MPI_IN_PLACE, sums.data(), int(sums.size()), MPI_DOUBLE, MPI_SUM,
+                    feti.context().communicator());
+      for (unsigned int p = 0; p < n_pairs; ++p)
+        {
+          const double n = std::max(sums[2 * p], 1.);
+          const double approach =
+            generosity * loads.force[p] * sums[2 * p + 1] / n * (dim == 3 ? 1. / std::sqrt(n) : 1.);
+          (approach < middle[p] - loads.least[p] ? high : low)[p] = middle[p];
+        }
+    }
+  qp::RowSet expected(feti.n_owned(), 1);
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    {
+      const unsigned int pair = pair_of_row[i];
+      // Pairs that nothing is known to press together keep all their rows.
+      if (pair < n_pairs && (loads.force[pair] > 0. || low[pair] > loads.least[pair]))
+        expected[i] = gaps[i] <= high[pair];
+    }
+  return expected;
+}
+} // namespace snug::state
