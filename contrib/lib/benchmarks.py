@@ -8,7 +8,8 @@ NAME  whole         process time and memory from file to files; SIZE: cells per 
                     two bodies of prm/hertz-3d-9.prm, 20 and 32 if not given; then graded
                     as well, so that no two subdomains are congruent
       hard          scenes that need many F-mults: linear, cold, and what they cost
-      ranks         the same work on 1, 2 ... SIZE ranks (2 if not given), and as much more
+      ranks         the same work on 1, 2 ... SIZE ranks (2 if not given), and as much more,
+                    also with mortar rows on faces that do not match
       gradient      1, 4, 9 and 16 variables, direct and adjoint, in cold states; SIZE as whole
       optimization  the two searches of the source paper's Table 1
 
@@ -32,6 +33,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # entries: of the parameter file; columns: of a summary and what the process took
 Case = collections.namedtuple("Case", "name scene entries ranks", defaults=[1])
+
+# what a rank sends in a stage, as count_messages.c has it
+NOTHING_SENT = dict.fromkeys(["messages", "message_bytes", "collectives", "collective_bytes"], 0)
 
 TORN = ["Task=state", "Accuracy/Estimate=none"]
 STAGES = ["setup", "assembly", "factorization", "soft_modes", "solve", "gradient", "output"]
@@ -82,11 +86,17 @@ def ranks_cases(sizes, quick):
     n, counts = (6 if quick else 24), [2 ** k for k in range(1 + max(sizes or [2]).bit_length())]
     counts = [ranks for ranks in counts if ranks <= max(sizes or [2])]
     cases = [hertz("same work", 9, TORN + cubes(n), ranks) for ranks in counts]
-    for ranks in counts:
-        deep = [f"Body {body}/Box {entry}" for body, corner in (("punch", 1), ("foundation", 0))
-                for entry in (f"cells={n // 2 * ranks}, {n // 2}, {n // 2}",
-                              f"size={ranks}, 1, 1", f"corner=0, 0, {corner}")]
-        cases.append(hertz("more work", 9, TORN + deep, ranks))
+    for name, other, entries in (("more work", n // 2, []),
+                                 ("more work, mortar", n // 2 - 2, ["Contact/Method=mortar"])):
+        for ranks in counts:
+            # as many as ranks of them, as near to a square as powers of two allow
+            across = 2 ** (ranks.bit_length() // 2)
+            along = ranks // across
+            grown = [f"Body {body}/Box {entry}"
+                     for body, corner, m in (("punch", 1, n // 2), ("foundation", 0, other))
+                     for entry in (f"cells={m * across}, {m * along}, {m}",
+                                   f"size={across}, {along}, 1", f"corner=0, 0, {corner}")]
+            cases.append(hertz(name, 9, TORN + grown + entries, ranks))
     return cases
 
 
@@ -118,6 +128,8 @@ COLUMNS = {
                        "f_mults": s["state"].get("f_mults"),
                        "certificate": max(s["state"]["certificate"].values())},
     "ranks": lambda s: {"f_mults": s["work"]["f_mults"],
+                        **{f"{count}_per_f_mult": round(value / s["work"]["f_mults"], 1)
+                           for count, value in s["sent"].get("solve", NOTHING_SENT).items()},
                         **{f"MB_{stage}": round(value) for stage, value in
                            s.get("memory", {}).get("stages", {}).items()}},
     "gradient": lambda s: {"cold_states": round(s["times"]["gradient"] / state_seconds(s), 3),
@@ -136,14 +148,17 @@ def environment():
     return {**os.environ, **dict(line.split("=", 1) for line in lines if "=" in line)}
 
 
-def run(program, case):
-    """Its summary with seconds, CPU seconds and the largest memory of the process in it."""
+def run(program, case, counter=None):
+    """Its summary with seconds, CPU seconds, the largest memory of the process and, by the
+    library @p counter, what ranks send in it."""
     with tempfile.TemporaryDirectory() as directory:
+        sent = pathlib.Path(directory) / "messages.json"
         command = [str(program), str(ROOT / case.scene), "--output", directory]
         for entry in case.entries:
             command += ["--set", entry]
         if case.ranks > 1:
-            command = ["mpirun", "-np", str(case.ranks), *command]
+            counting = ["-x", f"LD_PRELOAD={counter}", "-x", f"SNUG_MESSAGES={sent}"]
+            command = ["mpirun", "-np", str(case.ranks), *(counting if counter else []), *command]
         start = time.monotonic()
         with subprocess.Popen(command, env=environment(), text=True,
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
@@ -155,6 +170,7 @@ def run(program, case):
             raise RunError(f"{case.name}, {program}: status {process.returncode}: "
                            f"{(said.splitlines() or [''])[0]}")
         summary = json.loads((pathlib.Path(directory) / "summary.json").read_text())
+        summary["sent"] = json.loads(sent.read_text()) if sent.exists() else {}
     summary.update(seconds=seconds, cpu=used.ru_utime + used.ru_stime, MB=used.ru_maxrss / 1024)
     return summary
 
@@ -185,6 +201,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_intermixed_args()
     programs = [program for program in (options.snug, options.against) if program]
+    counter = next(iter(options.snug.absolute().parent.glob("libcount_messages.so")), None)
     writer = None
     for case in CASES[options.name](options.sizes, options.quick):
         summaries = collections.defaultdict(list)
@@ -192,7 +209,7 @@ def main():
             for program in programs:
                 known = [entry for entry in case.entries if program == options.snug
                          or not options.unknown or not entry.startswith(options.unknown)]
-                summaries[program].append(run(program, case._replace(entries=known)))
+                summaries[program].append(run(program, case._replace(entries=known), counter))
         for program in programs:
             row = row_of(program, case, summaries[program], COLUMNS[options.name])
             if writer is None:

@@ -239,6 +239,13 @@ double Adaptation<dim>::next_tolerance() const
   return tolerance;
 }
 
+/// The states are known less well than the errors, as where the first mesh is better than needed.
+template <int dim>
+bool Adaptation<dim>::is_rough() const
+{
+  return *solved->scene.state_tolerance > 10. * next_tolerance();
+}
+
 template <int dim>
 bool Adaptation<dim>::fits(const mesh::BodyMesh<dim> &mesh) const
 {
@@ -372,10 +379,10 @@ std::string Adaptation<dim>::reach(const double factor)
           summary.met = true;
           for (unsigned int d = 0; d < demands.size(); ++d)
             summary.met = summary.met && is_met(d);
-          if (summary.met)
+          if (summary.met && !is_rough())
             return "";
         }
-      if (cells == refined)
+      if (cells == refined && !is_rough())
         return missed("allow more 'Maximum levels', or ask for less");
       auto mesh = matched_mesh(cells);
       if (!fits(*mesh))

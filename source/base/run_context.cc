@@ -82,7 +82,10 @@ void RunContext::progress(const std::string &text)
 
 RunContext::Timer::Timer(RunContext &the_context, const std::string &the_stage)
   : context(the_context), stage(the_stage), start(std::chrono::steady_clock::now())
-{}
+{
+  // For profilers of MPI, as a region; does nothing without one.
+  MPI_Pcontrol(1, stage.c_str());
+}
 
 RunContext::Timer::~Timer()
 {
@@ -90,6 +93,7 @@ RunContext::Timer::~Timer()
   context.stage_seconds[stage] += life.count();
   double &memory = context.stage_memory[stage];
   memory         = std::max(memory, private_memory());
+  MPI_Pcontrol(-1, stage.c_str());
 }
 
 double RunContext::seconds(const std::string &stage) const

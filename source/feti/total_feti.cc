@@ -123,7 +123,7 @@ void TotalFeti::update_preconditioner()
 /// stay, so that load cases share them.
 void TotalFeti::set_loads(const qp::MultiVector &g)
 {
-  gap        = g;
+  gap = g;
   expected.assign(n_owned(), 1);
   rigid_load = rigid_part(loads());
   gross_load = gross_rigid_part(loads())[0];

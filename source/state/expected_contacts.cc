@@ -1,5 +1,7 @@
 #include <snug/state/expected_contacts.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,6 +46,47 @@ std::vector<double> gaps_after_fall(const feti::TotalFeti &feti)
       if (feti.bounded()[i])
         gaps[i] -= extremes[1] * rates[i];
   return gaps;
+}
+
+/// Part of the loads that a set may leave unbalanced.
+const double balance_tolerance = 1e-8;
+
+/// Changes of the set after which it is taken as it is.
+const unsigned int most_changes = 20;
+
+/**
+ * Of the contacts in @p rows those that press where subdomains are rigid and rows are springs of
+ * equal stiffness, pulling ones let go: forces G_M'(G_M G_M')^+ e on the set M. Where a slender
+ * body lifts off, balance alone tells about where.
+ */
+qp::RowSet pressing_rows(const feti::TotalFeti &feti, const qp::RowSet &rows)
+{
+  const MPI_Comm comm   = feti.context().communicator();
+  const double   size   = feti.feasibility_scale(0.);
+  qp::RowSet     result = rows;
+  for (unsigned int change = 0; change < most_changes; ++change)
+    {
+      const auto      set = feti.free_set(result);
+      qp::MultiVector lambda(feti.n_owned());
+      if (set->make_feasible(lambda, feti.e())[0] > balance_tolerance * size)
+        return rows;
+      const auto rates   = feti.apply_Gt(set->amplitudes(lambda));
+      double     largest = 0.;
+      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+        largest = std::max(largest, std::abs(lambda(i)));
+      MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm);
+      bool changed = false;
+      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+        if (feti.bounded()[i] && rows[i] && std::abs(rates(i)) > slow * largest &&
+            result[i] != (rates(i) > 0.))
+          {
+            result[i] = rates(i) > 0.;
+            changed   = true;
+          }
+      if (!dealii::Utilities::MPI::logical_or(changed, comm))
+        break;
+    }
+  return result;
 }
 
 /// What is known of the pairs, equal on all ranks.
@@ -132,6 +175,6 @@ qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
       if (pair < n_pairs && (loads.force[pair] > 0. || low[pair] > loads.least[pair]))
         expected[i] = gaps[i] <= high[pair];
     }
-  return expected;
+  return pressing_rows(feti, expected);
 }
 } // namespace snug::state

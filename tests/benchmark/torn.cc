@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/state/certificate.h>
+#include <snug/state/expected_contacts.h>
 
 #include <benchmark/torn.h>
 
@@ -38,6 +39,10 @@ void Torn::factorize()
 {
   feti.update(all);
   feti.set_loads(dual.g());
+  std::vector<unsigned int> pair_of_row; // there is one pair
+  for (const auto is_contact : feti.bounded())
+    pair_of_row.push_back(is_contact ? 0 : 1);
+  feti.expect(state::expected_contacts(feti, pair_of_row, 1, 3));
 }
 
 void Torn::solve()

@@ -10,8 +10,8 @@ import sys
 # columns that a row must have above zero, and the number of cases
 EXPECTED = {"whole": (["seconds", "cpu", "MB", "setup", "solve"], 2),
             "hard": (["linear_f_mults", "f_mults"], 4),
-            "ranks": (["f_mults", "MB_solve"], 4),
-            "gradient": (["cold_states", "f_mults"], 8),
+            "ranks": (["f_mults", "MB_solve"], 6),
+            "gradient": (["cold_states"], 8),
             "optimization": (["evaluations", "f_mults"], 2)}
 
 

@@ -88,6 +88,7 @@ private:
   bool                   is_met(unsigned int demand) const;
   double                 least() const;
   double                 next_tolerance() const;
+  bool                   is_rough() const;
   bool                   fits(const mesh::BodyMesh<dim> &mesh) const;
   void                   add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
   bool                   add_doubtful(RefinedCells &cells) const;

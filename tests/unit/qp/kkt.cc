@@ -93,7 +93,8 @@ TEST(KktResidual, DoesNotDependOnTheGeneralizedInverse)
   other.d.add(1., dense::product(GtC, other.e));
   const DenseProblem one(known.data), two(other);
   MultiVector        none(one.n_owned(), 0);
-  EXPECT_NEAR(equality_part(one, one.expected_rows(), none).scale, equality_part(two, two.expected_rows(), none).scale, 1e-11);
+  EXPECT_NEAR(equality_part(one, one.expected_rows(), none).scale,
+              equality_part(two, two.expected_rows(), none).scale, 1e-11);
 }
 
 TEST(EqualityPart, AppliesFToTheStartInTheSameBlock)
