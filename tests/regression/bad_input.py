@@ -205,7 +205,7 @@ def check_unsolved(runner, scene):
     runner.expect_error("too few F-mults",
                         [scene, "--set", "Solver/Maximum F-mults=3"],
                         ["in 3 F-mults", "allow more"], 3)
-    plane = ("0, 0, 2", "0, 0, -1")
+    plane = ("0, 0, 1.8", "0, 0, -1")
     runner.expect_error("the same obstacle twice", [runner.write("twice", {
         "Obstacles": "a, b", "Contact/Pairs":
         ", ".join([runner.entry("Pairs"), "upper.top: a", "upper.top: b"]),

@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""A cost model of one contact state on many ranks, fitted to measurements on few.
+
+usage: scaling.py RANKS COARSE
+
+RANKS and COARSE are the tables of contrib/bench ranks (to 16 ranks, more than there are cores) and
+contrib/bench coarse. Prints what was fitted and, in markdown, what it predicts: seconds of a cold
+state and megabytes per rank, and what limits it first.
+
+Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains:
+  setup    a n/p + b n              seconds, from 1 and 2 ranks: b is what every rank does for all
+  factors  c n/p
+  F-mult   d n/p + s(N) C + messages (LATENCY + bytes/BANDWIDTH) + collectives (...) log2 p
+  face     f(N)                     the coarse factorization after a change of the active set
+  memory   M0 + M1 n/p + M2 n + m(N)
+f, s and m are of the coarse problem that each rank keeps, powers of N beyond what was measured.
+"""
+
+import csv
+import math
+import sys
+
+UNKNOWNS_PER_SUBDOMAIN = 500.  # as Decomposition/Subdomains = auto makes them of cubes
+F_MULTS, FACES = 25, 14        # of a cold state of the paper's scene, which do not grow with n
+COARSE_SOLVES = 3.5            # per F-mult: projections, amplitudes, feasible forces
+LATENCY, BANDWIDTH = 2e-6, 1e10  # of a usual cluster network [s, bytes/s]; assumed, not measured
+MEMORY = 4000.                 # MB a rank has; assumed
+CORES = 2                      # of the machine that measured: seconds of more ranks say nothing
+
+
+def read(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = []
+        for row in csv.DictReader(file):
+            values = {}
+            for key, value in row.items():
+                try:
+                    values[key] = float(value)
+                except ValueError:
+                    values[key] = value
+            rows.append(values)
+        return rows
+
+
+def least_squares(rows, right):
+    """x with the least |A x - b|, by the normal equations of columns of length one."""
+    m = len(rows[0])
+    lengths = [math.sqrt(sum(row[j] ** 2 for row in rows)) or 1. for j in range(m)]
+    scaled = [[row[j] / lengths[j] for j in range(m)] for row in rows]
+    table = [[sum(row[i] * row[j] for row in scaled) for j in range(m)]
+             + [sum(row[i] * b for row, b in zip(scaled, right))] for i in range(m)]
+    for i in range(m):
+        pivot = max(range(i, m), key=lambda k: abs(table[k][i]))
+        table[i], table[pivot] = table[pivot], table[i]
+        for k in range(m):
+            if k != i:
+                factor = table[k][i] / table[i][i]
+                table[k] = [a - factor * b for a, b in zip(table[k], table[i])]
+    return [table[i][m] / table[i][i] / lengths[i] for i in range(m)]
+
+
+class Power:
+    """Through measured points; beyond them with the exponent of the last two."""
+
+    def __init__(self, points):
+        self.points = sorted(points)
+        (x, y), (u, v) = self.points[-2:]
+        self.exponent = math.log(v / y) / math.log(u / x)
+
+    def __call__(self, x):
+        if x >= self.points[-1][0]:
+            u, v = self.points[-1]
+            return v * (x / u) ** self.exponent
+        for (a, y), (b, z) in zip(self.points, self.points[1:]):
+            if x <= b:
+                return y * (x / a) ** (math.log(z / y) / math.log(b / a))
+        raise ValueError(x)
+
+
+class Model:
+    """What is fitted."""
+
+    def __init__(self, ranks, coarse):
+        same = [row for row in ranks if row["case"] == "same work"]
+        timed = [row for row in same if row["ranks"] <= CORES]
+        one = timed[0]
+        n = one["unknowns"]
+        self.setup = least_squares([[n / row["ranks"], n] for row in timed],
+                                   [row["setup"] for row in timed])
+        self.factors = (one["factorization"] + one["assembly"]) / n
+        self.f_mult = one["solve"] / one["f_mults"] / n
+        self.memory = least_squares([[1., n / row["ranks"], n] for row in ranks_of_all(ranks)
+                                     for n in [row["unknowns"]]],
+                                    [row["MB_solve"] for row in ranks_of_all(ranks)])
+        most = max(same, key=lambda row: row["ranks"])
+        share = (most["unknowns"] / most["ranks"]) ** (2. / 3.)
+        self.messages = most["messages_per_f_mult"]
+        self.bytes_per_share = most["message_bytes_per_f_mult"] / share
+        self.collectives = most["collectives_per_f_mult"]
+        self.bytes_per_subdomain = most["collective_bytes_per_f_mult"] / most["subdomains"]
+        self.solve, self.factorize, self.factor_mb = (
+            Power([(row["subdomains"], row[key]) for row in coarse])
+            for key in ("solve", "factorization", "MB"))
+
+    def stages(self, n, p):
+        """Seconds of a cold state."""
+        subdomains = n / UNKNOWNS_PER_SUBDOMAIN
+        hops = math.log2(p)
+        messages = self.messages * LATENCY + self.bytes_per_share * (n / p) ** (2. / 3.) / BANDWIDTH
+        collectives = hops * (self.collectives * LATENCY
+                              + self.bytes_per_subdomain * subdomains / BANDWIDTH)
+        return {"setup, of the rank's part": self.setup[0] * n / p,
+                "setup, of all on each rank": self.setup[1] * n,
+                "factorizations": self.factors * n / p,
+                "F": F_MULTS * self.f_mult * n / p,
+                "coarse solves": F_MULTS * COARSE_SOLVES * self.solve(subdomains),
+                "coarse factorizations": FACES * self.factorize(subdomains),
+                "messages": F_MULTS * messages,
+                "collective calls": F_MULTS * collectives}
+
+    def megabytes(self, n, p):
+        return {"of the rank's part": self.memory[0] + self.memory[1] * n / p,
+                "of all on each rank": self.memory[2] * n,
+                "coarse factor": self.factor_mb(n / UNKNOWNS_PER_SUBDOMAIN)}
+
+
+def ranks_of_all(ranks):
+    return [row for row in ranks if row["case"] in ("same work", "more work")]
+
+
+def main(ranks, coarse):
+    model = Model(read(ranks), read(coarse))
+    print(f"setup {model.setup[0]:.2e} s/unknown of the rank, {model.setup[1]:.2e} of all;",
+          f"factorizations {model.factors:.2e}; F-mult {model.f_mult:.2e}")
+    print(f"memory {model.memory[0]:.0f} MB + {1e3 * model.memory[1]:.2f} kB/unknown of the rank",
+          f"+ {1e3 * model.memory[2]:.3f} of all")
+    print(f"per F-mult {model.messages:.1f} messages, {model.collectives:.1f} collective calls of",
+          f"{model.bytes_per_subdomain:.0f} bytes per subdomain")
+    print(f"coarse exponents: factorization {model.factorize.exponent:.2f},",
+          f"solve {model.solve.exponent:.2f}, memory {model.factor_mb.exponent:.2f}\n")
+    print("| unknowns | ranks | seconds | of these compute shared out | largest of the rest |"
+          " MB per rank | largest of these |")
+    print("|---|---|---|---|---|---|---|")
+    for n in (1e7, 1e8):
+        for p in (64, 256, 1024):
+            stages = model.stages(n, p)
+            shared = ("setup, of the rank's part", "factorizations", "F")
+            total, part = sum(stages.values()), sum(stages[key] for key in shared)
+            worst = max((key for key in stages if key not in shared), key=stages.get)
+            memory = model.megabytes(n, p)
+            most = max(memory, key=memory.get)
+            beyond = " (too much)" if sum(memory.values()) > MEMORY else ""
+            print(f"| {n:.0e} | {p} | {total:.3g} | {100 * part / total:.0f} % |"
+                  f" {worst}: {stages[worst]:.3g} s | {sum(memory.values()):.0f}{beyond} |"
+                  f" {most}: {memory[most]:.0f} |")
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    sys.exit(main(*sys.argv[1:]))
