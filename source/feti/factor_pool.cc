@@ -1,5 +1,7 @@
 #include <snug/feti/factor_pool.h>
 
+#include <algorithm>
+
 namespace snug::feti {
 FactorPool::FactorPool(const FactorOf      the_use,
                        const Factorization the_package,
@@ -17,7 +19,11 @@ std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
   if (const auto found = items->used.find(key); found != items->used.end())
     if (auto equal = found->second.lock())
       return equal;
-  auto                         &spare = items->spare[key.first];
+  auto      &spare    = items->spare[key.first];
+  const auto of_equal = std::find_if(spare.begin(), spare.end(), [&key](const Spare &item) {
+    return item.values == key.second;
+  });
+  const bool is_known = of_equal != spare.end();
   std::unique_ptr<SparseFactor> factor;
   if (spare.empty())
     {
@@ -27,18 +33,25 @@ std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
     }
   else
     {
-      factor = std::move(spare.back());
-      spare.pop_back();
+      const auto chosen = is_known ? of_equal : spare.begin();
+      factor            = std::move(chosen->factor);
+      spare.erase(chosen);
     }
+  // What is not among the used ones by then has failed.
   const auto put_back = [home = items, key](const SparseFactor *used) {
-    home->used.erase(key);
-    home->spare[key.first].emplace_back(const_cast<SparseFactor *>(used));
+    const bool is_whole = home->used.erase(key) > 0;
+    home->spare[key.first].push_back(
+      {is_whole ? std::optional(key.second) : std::nullopt,
+       std::unique_ptr<SparseFactor>(const_cast<SparseFactor *>(used))});
   };
   SparseFactor                             &fresh = *factor;
   const std::shared_ptr<const SparseFactor> result(factor.release(), put_back);
-  fresh.factorize(A, what);
-  if (work != nullptr)
-    ++work->numeric_factorizations;
+  if (!is_known)
+    {
+      fresh.factorize(A, what);
+      if (work != nullptr)
+        ++work->numeric_factorizations;
+    }
   items->used[key] = result;
   return result;
 }

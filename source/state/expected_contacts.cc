@@ -27,6 +27,8 @@ std::vector<double> gaps_after_fall(const feti::TotalFeti &feti)
   qp::RowSet equality(feti.n_owned());
   for (unsigned int i = 0; i < equality.size(); ++i)
     equality[i] = !feti.bounded()[i];
+  if (feti.free_bodies(equality).empty())
+    return std::vector<double>(feti.g().column(0), feti.g().column(0) + feti.n_owned());
   const auto rates       = feti.free_set(equality)->gap_closing_rates(feti.e());
   double     extremes[2] = {0., HUGE_VAL}; // fastest, time until the first touch
   for (const double rate : rates)

@@ -4,14 +4,16 @@
 #include <snug/base/run_context.h>
 #include <snug/feti/sparse_factor.h>
 
+#include <deque>
 #include <memory>
-#include <vector>
+#include <optional>
 
 namespace snug::feti {
 /**
  * Factorizations of one use, of which many live at a time, as those of the subdomains of a design
- * and of faces that come and go with the active set. Equal matrices share one; what nobody uses any
- * more serves the next matrix of its pattern with its symbolic factorization.
+ * and of faces that come and go with the active set. Equal matrices share one, also later; what
+ * nobody uses any more serves other matrices of its pattern with its symbolic factorization, the
+ * one that has waited longest first.
  */
 class FactorPool
 {
@@ -33,10 +35,17 @@ private:
   /// Of a pattern and its values.
   using Key = std::pair<Fingerprint, Fingerprint>;
 
+  /// Nobody's, with what it is of, if its factorization did not fail.
+  struct Spare
+  {
+    std::optional<Fingerprint>    values;
+    std::unique_ptr<SparseFactor> factor;
+  };
+
   struct Items
   {
-    std::map<Fingerprint, std::vector<std::unique_ptr<SparseFactor>>> spare; ///< of each pattern
-    std::map<Key, std::weak_ptr<const SparseFactor>>                  used;
+    std::map<Fingerprint, std::deque<Spare>>         spare; ///< of each pattern
+    std::map<Key, std::weak_ptr<const SparseFactor>> used;
   };
 
   FactorOf               of;

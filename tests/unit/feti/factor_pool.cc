@@ -62,7 +62,10 @@ TEST_F(FactorPool, WhatIsNotUsedServesTheNextOfItsPattern)
   first = pool.factorize(chain(5, 5.), "A");
   EXPECT_EQ(work.symbolic_factorizations, 2u);
   EXPECT_EQ(first_entry(*held, 5), of_held);
-  // that of 3 is gone
+  // that of 3 is gone, that of 5 is not
+  first.reset();
+  first = pool.factorize(chain(5, 5.), "A");
+  EXPECT_EQ(work.numeric_factorizations, 3u);
   first.reset();
   first = pool.factorize(chain(5, 3.), "A");
   EXPECT_EQ(work.numeric_factorizations, 4u);
