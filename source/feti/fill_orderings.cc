@@ -3,15 +3,33 @@
 
 #include <metis.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
 namespace snug::feti {
 namespace {
+/// Whether rows fall into groups that are all coupled with each other, and with no others: then
+/// no order fills in.
+bool is_of_full_blocks(const CsrPattern &pattern)
+{
+  const auto columns = pattern.columns.begin();
+  for (unsigned int i = 0; i < pattern.n_rows; ++i)
+    {
+      const auto first = pattern.columns[pattern.row_start[i]];
+      if (!std::equal(columns + pattern.row_start[i], columns + pattern.row_start[i + 1],
+                      columns + pattern.row_start[first], columns + pattern.row_start[first + 1]))
+        return false;
+    }
+  return true;
+}
+
 std::vector<PetscInt> nested_dissection(const CsrPattern &pattern)
 {
   std::vector<PetscInt> result(pattern.n_rows);
   std::iota(result.begin(), result.end(), 0);
+  if (is_of_full_blocks(pattern))
+    return result;
   std::vector<idx_t> start(1, 0), neighbours;
   for (unsigned int i = 0; i < pattern.n_rows; ++i)
     {

@@ -46,8 +46,9 @@ private:
     void                      solve(const SparseFactor &factor, qp::MultiVector &x) const;
   };
 
-  Group                                  fixed, contact;
-  FactorPool                             factors{FactorOf::row_gram};
+  Group         fixed, contact;
+  FillOrderings orderings;
+  FactorPool    factors{FactorOf::row_gram, Factorization::CHOLMOD, &orderings};
   std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)
   std::shared_ptr<const SparseFactor>    fixed_factor;
   /// entries by unknown: (subdomain, dof) -> gathered entries

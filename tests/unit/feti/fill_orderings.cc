@@ -53,6 +53,19 @@ TEST(FillOrderings, AreOnesOfAllRows)
   EXPECT_TRUE(orderings.of(feti::CsrPattern()).empty());
 }
 
+// Groups of rows that are coupled with each other alone fill in nowhere, whatever the order.
+TEST(FillOrderings, LeaveFullBlocksInPlace)
+{
+  feti::FillOrderings         orderings;
+  const std::vector<PetscInt> as_they_are{0, 1, 2, 3, 4};
+  const auto blocks = feti::CsrMatrix::from_rows({{0, 2, 4}, {1}, {0, 2, 4}, {3}, {0, 2, 4}}, 5);
+  EXPECT_EQ(orderings.of(*blocks.pattern()), as_they_are);
+  // a star: its middle has to come after its ends
+  const auto star =
+    feti::CsrMatrix::from_rows({{0, 1, 2, 3, 4}, {0, 1}, {0, 2}, {0, 3}, {0, 4}}, 5);
+  EXPECT_NE(orderings.of(*star.pattern()).front(), 0);
+}
+
 TEST(FillOrderings, ArePatternsNotMatrices)
 {
   feti::FillOrderings orderings, others;
