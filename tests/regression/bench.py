@@ -4,8 +4,10 @@
 Each prints one row per case and program with all of its columns filled in."""
 
 import csv
+import pathlib
 import subprocess
 import sys
+import tempfile
 
 # columns that a row must have above zero, and the number of cases
 EXPECTED = {"whole": (["seconds", "cpu", "MB", "setup", "solve"], 2),
@@ -13,6 +15,21 @@ EXPECTED = {"whole": (["seconds", "cpu", "MB", "setup", "solve"], 2),
             "ranks": (["f_mults", "MB_solve"], 6),
             "gradient": (["cold_states"], 8),
             "optimization": (["evaluations", "f_mults"], 2)}
+
+
+def is_fitted(scaling, ranks):
+    """The cost model of many ranks finds the powers that a table of the coarse problem was made of."""
+    with tempfile.TemporaryDirectory() as directory:
+        paths = [pathlib.Path(directory) / name for name in ("ranks.csv", "coarse.csv")]
+        paths[0].write_text(ranks)
+        paths[1].write_text("subdomains,factorization,solve,MB\n" + "".join(
+            f"{n},{1e-8 * n ** 2},{1e-7 * n ** 1.25},{1e-3 * n ** 1.5}\n" for n in (100, 1000, 5000)))
+        done = subprocess.run([sys.executable, scaling, *paths], text=True, check=False,
+                              capture_output=True)
+    right = "factorization 2.00, solve 1.25, memory 1.50" in done.stdout and \
+        done.stdout.count("| 1e+0") == 6
+    print("scaling", "right" if right else "wrong: " + done.stdout + done.stderr)
+    return right
 
 
 def main(benchmarks, snug):
@@ -30,6 +47,8 @@ def main(benchmarks, snug):
             complaints.append(f"status {done.returncode}")
         wrong += bool(complaints)
         print(name, "wrong: " + ", ".join(complaints) if complaints else "right")
+        if name == "ranks":
+            wrong += not is_fitted(pathlib.Path(benchmarks).with_name("scaling.py"), done.stdout)
     done = subprocess.run([sys.executable, benchmarks, "/bin/false", "whole", "--quick"],
                           text=True, check=False, capture_output=True)
     if done.returncode != 1 or len(done.stderr.strip().splitlines()) != 1:
