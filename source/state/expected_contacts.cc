@@ -11,9 +11,6 @@ namespace {
 /// as many as all rows.
 const double generosity = 2.;
 
-/// c in the plane, where the approach grows with the logarithm of the size of the bodies as well.
-const double plane_generosity = 4.;
-
 /// Part of the approach that the gap at the edge of a contact is: of spheres.
 const double edge_gap = 0.5;
 
@@ -166,9 +163,9 @@ qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
                     feti.context().communicator());
       for (unsigned int p = 0; p < n_pairs; ++p)
         {
-          const double n        = std::max(sums[2 * p], 1.);
-          const double approach = loads.force[p] * sums[2 * p + 1] / n *
-                                  (dim == 3 ? generosity / std::sqrt(n) : plane_generosity);
+          const double n = std::max(sums[2 * p], 1.);
+          const double approach =
+            generosity * loads.force[p] * sums[2 * p + 1] / n * (dim == 3 ? 1. / std::sqrt(n) : 1.);
           (approach < middle[p] - loads.least[p] ? high : low)[p] = middle[p];
         }
     }
