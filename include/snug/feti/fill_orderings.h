@@ -12,8 +12,8 @@ class FillOrderings
 {
 public:
   /// The rows of @p pattern, which is symmetric and has its diagonal, in the order of elimination:
-  /// nested dissection by METIS, or as they are where blocks are full, which does not depend on what was asked for before. Valid as long
-  /// as this object.
+  /// nested dissection by METIS, or as they are where blocks are full, which does not depend on
+  /// what was asked for before. Valid as long as this object.
   const std::vector<PetscInt> &of(const CsrPattern &pattern);
 
 private:
