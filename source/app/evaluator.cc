@@ -2,11 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace snug::app {
+namespace {
 template <int dim>
-Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem) : problem(problem)
+std::vector<double> bound_widths(const shape::Shapes<dim> &shapes)
+{
+  std::vector<double> widths = shapes.upper_bounds();
+  for (unsigned int i = 0; i < widths.size(); ++i)
+    widths[i] -= shapes.lower_bounds()[i];
+  return widths;
+}
+} // namespace
+
+template <int dim>
+Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem)
+  : problem(problem), starts(bound_widths(*problem.shapes))
 {
   for (const auto &[name, limit] : problem.scene.optimization.constraints)
     constraints.push_back(make_constraint(name, limit));
@@ -48,11 +59,12 @@ typename Evaluator<dim>::Constraint Evaluator<dim>::make_constraint(const std::s
 template <int dim>
 optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
 {
-  states = problem.solve(at, warm_starts);
+  states = problem.solve(at, starts.at(at));
   design = at;
-  warm_starts.clear();
+  std::vector<qp::MultiVector> forces;
   for (const auto &state : states)
-    warm_starts.push_back({state.dual.lambda, state.dual.active});
+    forces.push_back(state.dual.lambda);
+  starts.add(at, std::move(forces));
 
   auto parameters = problem.scene.gradient;
   if (parameters.method == sensitivity::Method::energy) // not for every constraint
@@ -109,8 +121,10 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
   result.upper    = problem.shapes->upper_bounds();
   result.start    = start;
   result.evaluate = [this](const Design &x) { return evaluate(x); };
-  result.memory   = [this]() { return memory(); };
-  result.remember = [this](const std::string &bytes) { return remember(bytes); };
+  result.memory   = [this]() { return starts.bytes(); };
+  result.remember = [this](const std::string &bytes) {
+    return starts.read(bytes, problem.solver->gluing().layout().n_owned(), problem.n_load_cases());
+  };
   for (const Constraint &constraint : constraints)
     {
       result.constraint_scales.push_back(std::abs(constraint.target));
@@ -126,41 +140,7 @@ void Evaluator<dim>::pair(const Design &at)
 {
   problem.solver->pair(problem.positions(at));
   states.clear();
-  warm_starts.clear();
-}
-
-/// Whether there are starts, and of each load case lambda and the active set
-/// on the rows of this rank.
-template <int dim>
-std::string Evaluator<dim>::memory() const
-{
-  std::string bytes(1, char(warm_starts.empty() ? 0 : 1));
-  for (const auto &start : warm_starts)
-    {
-      bytes.append(reinterpret_cast<const char *>(start.lambda.column(0)),
-                   start.lambda.n_rows() * sizeof(double));
-      bytes.append(reinterpret_cast<const char *>(start.active.data()), start.active.size());
-    }
-  return bytes;
-}
-
-template <int dim>
-bool Evaluator<dim>::remember(const std::string &bytes)
-{
-  warm_starts.clear();
-  const unsigned int n       = problem.solver->gluing().layout().n_owned();
-  const unsigned int n_cases = bytes.empty() || bytes[0] == 0 ? 0 : problem.n_load_cases();
-  const std::size_t  size    = n * (sizeof(double) + 1);
-  if (bytes.size() != 1 + n_cases * size)
-    return false;
-  for (unsigned int c = 0; c < n_cases; ++c)
-    {
-      const char *of_case = bytes.data() + 1 + c * size;
-      warm_starts.push_back({qp::MultiVector(n), qp::RowSet(n)});
-      std::memcpy(warm_starts.back().lambda.column(0), of_case, n * sizeof(double));
-      std::memcpy(warm_starts.back().active.data(), of_case + n * sizeof(double), n);
-    }
-  return true;
+  starts.clear();
 }
 
 template class Evaluator<2>;

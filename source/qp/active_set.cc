@@ -60,6 +60,13 @@ private:
     return kkt_residual(problem, free_set->amplitudes(residual), lambda, residual, scale);
   }
 
+  double kkt_of(const EqualityPart &equality) const
+  {
+    return kkt_residual(problem, equality.free_set->amplitudes(equality.residual), equality.lambda,
+                        equality.residual, scale)
+      .relative;
+  }
+
   /// The tolerance, or what rounding allows.
   bool is_met() const
   {
@@ -107,22 +114,28 @@ void ActiveSetRun::begin(const WarmStart &from)
   const MPI_Comm comm    = context.communicator();
   const bool     warm    = any(from.lambda.n_rows() > 0, comm);
   const bool     has_set = any(!from.active.empty(), comm);
+  const bool     is_warm = warm || has_set;
   mask                   = RowSet(problem.n_owned(), 1);
   lambda                 = warm ? from.lambda : MultiVector(problem.n_owned());
   AssertDimension(lambda.n_rows(), problem.n_owned());
   Assert(!has_set || from.active.size() == problem.n_owned(),
          dealii::ExcDimensionMismatch(from.active.size(), problem.n_owned()));
   for (unsigned int i = 0; i < problem.n_owned(); ++i)
-    if (problem.bounded()[i] && (warm || has_set))
-      mask[i] = has_set ? from.active[i] != 0 : lambda(i) > 0.;
-  if (warm || has_set)
+    if (problem.bounded()[i] && is_warm)
+      {
+        mask[i] = has_set ? from.active[i] != 0 : lambda(i) > 0.;
+        if (!mask[i])
+          lambda(i) = 0.;
+      }
+  if (is_warm)
     free_set = balanced_set(problem, mask, lambda, scale);
   // equality_part() replaces the columns of its argument by d - F of them, in the application of F
   // that it makes for lambda_Im anyway.
-  residual              = warm || has_set ? lambda : MultiVector(problem.n_owned(), 0);
+  residual              = is_warm ? lambda : MultiVector(problem.n_owned(), 0);
   EqualityPart equality = equality_part(problem, problem.expected_rows(), residual);
   scale                 = equality.scale;
-  if (!warm && !has_set)
+  // A state far from this one tells less of it than the expected contacts do.
+  if (!is_warm || kkt_of(equality) < kkt_here().relative)
     {
       mask     = equality.rows;
       lambda   = equality.lambda;

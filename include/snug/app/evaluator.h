@@ -2,6 +2,7 @@
 #define snug_app_evaluator_h
 
 #include <snug/app/shape_problem.h>
+#include <snug/app/start_history.h>
 #include <snug/optimization/design_problem.h>
 #include <snug/optimization/limit.h>
 
@@ -65,14 +66,12 @@ private:
     double sign() const { return side == optimization::Limit::Side::at_least ? -1. : 1.; }
   };
 
-  Constraint  make_constraint(const std::string &name, const std::string &limit);
-  std::string memory() const;
-  bool        remember(const std::string &bytes);
+  Constraint make_constraint(const std::string &name, const std::string &limit);
 
   ShapeProblem<dim>                      &problem;
   std::vector<Constraint>                 constraints;
-  std::vector<sensitivity::Measured<dim>> measured;    ///< of the constraints
-  std::vector<qp::WarmStart>              warm_starts; ///< per load case; empty: cold
+  std::vector<sensitivity::Measured<dim>> measured; ///< of the constraints
+  StartHistory                            starts;
   States                                  of_first;
 };
 } // namespace snug::app

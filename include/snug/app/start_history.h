@@ -1,0 +1,58 @@
+#ifndef snug_app_start_history_h
+#define snug_app_start_history_h
+
+#include <snug/qp/solver.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace snug::app {
+/**
+ * Where the solver begins at a new design: contact and gluing forces
+ * extrapolated from those of earlier designs,
+ * @f[ \lambda(x) \approx \sum_j c_j \lambda(x_j), \quad \sum_j c_j = 1, @f]
+ * with the c of least
+ * @f$ |x - \sum_j c_j x_j|^2 + \sum_j c_j^2 |x_j - x|^4 @f$,
+ * lengths as parts of the bounds' widths: the first term is what a linear
+ * model misses, the second bounds its curvature, so that far designs count
+ * little. One design is a warm start from it, two a secant.
+ */
+class StartHistory
+{
+public:
+  /// @p widths of the variables' bounds.
+  explicit StartHistory(std::vector<double> widths);
+
+  /// Per load case, of this rank's rows; none without earlier designs, then
+  /// the start is cold.
+  std::vector<qp::WarmStart> at(const std::vector<double> &design) const;
+
+  /// Of each load case the @p forces solved for, n_owned x 1. Forgets the
+  /// oldest design if there are many.
+  void add(const std::vector<double> &design, std::vector<qp::MultiVector> forces);
+
+  void clear() { entries.clear(); }
+
+  /// For a restart, bit for bit.
+  std::string bytes() const;
+
+  /// What bytes() gave, of @p n_owned rows and @p n_cases; false, and
+  /// empty then, if the sizes do not fit.
+  bool read(const std::string &bytes, unsigned int n_owned, unsigned int n_cases);
+
+private:
+  struct Entry
+  {
+    std::vector<double>          design;
+    std::vector<qp::MultiVector> forces; ///< per load case
+  };
+
+  std::vector<double> coefficients(const std::vector<double> &design) const;
+
+  std::vector<double> widths;
+  std::deque<Entry>   entries; ///< the newest last
+};
+} // namespace snug::app
+
+#endif

@@ -1,0 +1,139 @@
+#include <snug/app/start_history.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/householder.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace snug::app {
+namespace {
+/// Designs remembered. More do not make the extrapolation better where variables are as many.
+constexpr std::size_t most = 8;
+
+void append(std::string &bytes, const double *values, const std::size_t n)
+{
+  bytes.append(reinterpret_cast<const char *>(values), n * sizeof(double));
+}
+} // namespace
+
+StartHistory::StartHistory(std::vector<double> the_widths) : widths(std::move(the_widths)) {}
+
+void StartHistory::add(const std::vector<double> &design, std::vector<qp::MultiVector> forces)
+{
+  const auto known = std::find_if(entries.begin(), entries.end(),
+                                  [&](const Entry &entry) { return entry.design == design; });
+  if (known != entries.end())
+    entries.erase(known);
+  else if (entries.size() == most)
+    entries.pop_front();
+  entries.push_back({design, std::move(forces)});
+}
+
+std::vector<double> StartHistory::coefficients(const std::vector<double> &design) const
+{
+  const auto          n = widths.size(), m = entries.size();
+  std::vector<double> c(m, 0.);
+  // columns x_j - x
+  dealii::FullMatrix<double> offsets(n, m);
+  std::vector<double>        distance(m, 0.);
+  for (std::size_t j = 0; j < m; ++j)
+    {
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          offsets(i, j) = (entries[j].design[i] - design[i]) / widths[i];
+          distance[j] += offsets(i, j) * offsets(i, j);
+        }
+      distance[j] = std::sqrt(distance[j]);
+    }
+  const auto nearest =
+    std::size_t(std::min_element(distance.begin(), distance.end()) - distance.begin());
+  c[nearest] = 1.;
+  if (m == 1 || distance[nearest] == 0.)
+    return c;
+  // With c of the nearest eliminated and columns of unit length, as distances differ by powers.
+  dealii::FullMatrix<double> A(n + m, m - 1);
+  dealii::Vector<double>     b(n + m), y(m - 1);
+  std::vector<std::size_t>   number;
+  std::vector<double>        length;
+  for (std::size_t j = 0; j < m; ++j)
+    {
+      if (j == nearest)
+        continue;
+      double square = 0.;
+      for (std::size_t i = 0; i < n; ++i)
+        square += std::pow(offsets(i, j) - offsets(i, nearest), 2);
+      const auto column = number.size();
+      length.push_back(std::sqrt(square));
+      number.push_back(j);
+      for (std::size_t i = 0; i < n; ++i)
+        A(i, column) = (offsets(i, j) - offsets(i, nearest)) / length[column];
+      A(n + j, column)       = distance[j] * distance[j] / length[column];
+      A(n + nearest, column) = -distance[nearest] * distance[nearest] / length[column];
+    }
+  for (std::size_t i = 0; i < n; ++i)
+    b(i) = -offsets(i, nearest);
+  b(n + nearest) = -distance[nearest] * distance[nearest];
+  dealii::Householder<double>(A).least_squares(y, b);
+  for (std::size_t k = 0; k < number.size(); ++k)
+    {
+      c[number[k]] = y(k) / length[k];
+      c[nearest] -= c[number[k]];
+    }
+  return c;
+}
+
+std::vector<qp::WarmStart> StartHistory::at(const std::vector<double> &design) const
+{
+  std::vector<qp::WarmStart> starts;
+  if (entries.empty())
+    return starts;
+  const auto c = coefficients(design);
+  for (std::size_t i = 0; i < entries.front().forces.size(); ++i)
+    {
+      qp::WarmStart start{qp::MultiVector(entries.front().forces[i].n_rows()), {}};
+      for (std::size_t j = 0; j < entries.size(); ++j)
+        if (c[j] != 0.)
+          start.lambda.add(c[j], entries[j].forces[i]);
+      starts.push_back(start);
+    }
+  return starts;
+}
+
+std::string StartHistory::bytes() const
+{
+  std::string bytes;
+  for (const Entry &entry : entries)
+    {
+      append(bytes, entry.design.data(), entry.design.size());
+      for (const auto &forces : entry.forces)
+        append(bytes, forces.column(0), forces.n_rows());
+    }
+  return bytes;
+}
+
+bool StartHistory::read(const std::string &bytes,
+                        const unsigned int n_owned,
+                        const unsigned int n_cases)
+{
+  entries.clear();
+  const std::size_t of_entry = (widths.size() + std::size_t(n_cases) * n_owned) * sizeof(double);
+  if (of_entry == 0 || bytes.size() % of_entry != 0 || bytes.size() / of_entry > most)
+    return bytes.empty();
+  for (const char *from = bytes.data(); from != bytes.data() + bytes.size();)
+    {
+      Entry entry{std::vector<double>(widths.size()), {}};
+      std::memcpy(entry.design.data(), from, widths.size() * sizeof(double));
+      from += widths.size() * sizeof(double);
+      for (unsigned int i = 0; i < n_cases; ++i)
+        {
+          entry.forces.emplace_back(n_owned);
+          std::memcpy(entry.forces.back().column(0), from, n_owned * sizeof(double));
+          from += n_owned * sizeof(double);
+        }
+      entries.push_back(entry);
+    }
+  return true;
+}
+} // namespace snug::app
