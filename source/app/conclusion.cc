@@ -123,8 +123,11 @@ void conclude(Search<dim>                            &search,
   auto &evaluator = search.evaluator;
   search.finish_first();
   // the last one evaluated may be another, or all were replayed
-  if (evaluator.states.empty() || evaluator.design != result.x)
-    search.evaluate(result.x);
+  if (evaluator.gradients.of_response.empty() || evaluator.design != result.x)
+    {
+      auto evaluation = result.evaluation;
+      search.differentiate(result.x, evaluation);
+    }
   auto       &states       = evaluator.states;
   const auto &of_objective = evaluator.gradients.of_response.front();
   if (problem.scene.report_linear_reference)

@@ -65,25 +65,12 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
   for (const auto &state : states)
     forces.push_back(state.dual.lambda);
   starts.add(at, std::move(forces));
-
-  auto parameters = problem.scene.gradient;
-  if (parameters.method == sensitivity::Method::energy) // not for every constraint
-    parameters.method.reset();
-  const auto objective = problem.combined_objective(states);
-  gradients = sensitivity::combined_gradients(problem.load_cases(states, design, parameters),
-                                              *problem.objective, objective.factors, measured);
+  gradients = {};
 
   optimization::Evaluation evaluation;
-  evaluation.objective   = objective.value;
-  evaluation.gradient    = gradients.of_response.front().values;
-  evaluation.constraints = values(states).constraints;
-  for (unsigned int i = 0; i < constraints.size(); ++i)
-    {
-      evaluation.jacobian.push_back(gradients.of_response[1 + i].values);
-      for (double &entry : evaluation.jacobian.back())
-        entry *= constraints[i].sign();
-    }
-  evaluation.f_mults = gradients.f_mults;
+  const auto               found = values(states);
+  evaluation.objective           = found.objective;
+  evaluation.constraints         = found.constraints;
   for (const auto &state : states)
     {
       evaluation.active_contacts += state.active_contacts;
@@ -92,6 +79,32 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
   evaluation.least_scaled_jacobian = states.front().least_scaled_jacobian;
   evaluation.seconds               = problem.context.seconds();
   return evaluation;
+}
+
+template <int dim>
+void Evaluator<dim>::differentiate(const Design &at, optimization::Evaluation &evaluation)
+{
+  if (states.empty() || design != at)
+    {
+      states = problem.solve(at, starts.at(at));
+      design = at;
+    }
+  auto parameters = problem.scene.gradient;
+  if (parameters.method == sensitivity::Method::energy) // not for every constraint
+    parameters.method.reset();
+  gradients = sensitivity::combined_gradients(problem.load_cases(states, design, parameters),
+                                              *problem.objective,
+                                              problem.combined_objective(states).factors, measured);
+  evaluation.gradient = gradients.of_response.front().values;
+  evaluation.jacobian.clear();
+  for (unsigned int i = 0; i < constraints.size(); ++i)
+    {
+      evaluation.jacobian.push_back(gradients.of_response[1 + i].values);
+      for (double &entry : evaluation.jacobian.back())
+        entry *= constraints[i].sign();
+    }
+  evaluation.f_mults += gradients.f_mults;
+  evaluation.seconds = problem.context.seconds();
 }
 
 template <int dim>
@@ -117,10 +130,13 @@ template <int dim>
 optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
 {
   optimization::DesignProblem result;
-  result.lower    = problem.shapes->lower_bounds();
-  result.upper    = problem.shapes->upper_bounds();
-  result.start    = start;
-  result.evaluate = [this](const Design &x) { return evaluate(x); };
+  result.lower         = problem.shapes->lower_bounds();
+  result.upper         = problem.shapes->upper_bounds();
+  result.start         = start;
+  result.evaluate      = [this](const Design &x) { return evaluate(x); };
+  result.differentiate = [this](const Design &x, optimization::Evaluation &evaluation) {
+    differentiate(x, evaluation);
+  };
   result.memory   = [this]() { return starts.bytes(); };
   result.remember = [this](const std::string &bytes) {
     return starts.read(bytes, problem.solver->gluing().layout().n_owned(), problem.n_load_cases());
@@ -140,6 +156,7 @@ void Evaluator<dim>::pair(const Design &at)
 {
   problem.solver->pair(problem.positions(at));
   states.clear();
+  gradients = {};
   starts.clear();
 }
 

@@ -53,12 +53,18 @@ template <int dim>
 optimization::Evaluation Search<dim>::evaluate(const std::vector<double> &design)
 {
   problem.context.progress("solving the contact problem ...");
-  auto evaluation = evaluator.evaluate(design);
+  return evaluator.evaluate(design);
+}
+
+template <int dim>
+void Search<dim>::differentiate(const std::vector<double> &design,
+                                optimization::Evaluation  &evaluation)
+{
+  evaluator.differentiate(design, evaluation);
   for (const auto &gradient : evaluator.gradients.of_response)
     if (!gradient.differentiable)
       results.warn_of_weak_contacts(evaluator.states,
                                     "; going on with those of the strongly active ones");
-  return evaluation;
 }
 
 /// An iteration of the search that begins after @p before of them.
@@ -121,6 +127,10 @@ OptimizationResult Search<dim>::run_paired(const std::vector<double> &start,
   design_problem.evaluate = [&](const std::vector<double> &x) {
     check_interrupts(problem.context.communicator());
     return evaluate(x);
+  };
+  // Interrupted, a search goes on to the end of its evaluation, and needs the gradient of its best.
+  design_problem.differentiate = [&](const std::vector<double> &x, optimization::Evaluation &at) {
+    differentiate(x, at);
   };
   optimization::Hooks hooks;
   hooks.on_iteration = [&](const Iteration &i) { report(i, before.iterations); };

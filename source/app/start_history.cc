@@ -4,7 +4,6 @@
 #include <deal.II/lac/householder.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace snug::app {
@@ -12,13 +11,20 @@ namespace {
 /// Designs remembered. More do not make the extrapolation better where variables are as many.
 constexpr std::size_t most = 8;
 
+/// Error of the forces, as the part of the bounds' widths that changes them as much.
+constexpr double error_of_forces = 1e-6;
+
 void append(std::string &bytes, const double *values, const std::size_t n)
 {
   bytes.append(reinterpret_cast<const char *>(values), n * sizeof(double));
 }
 } // namespace
 
-StartHistory::StartHistory(std::vector<double> the_widths) : widths(std::move(the_widths)) {}
+StartHistory::StartHistory(std::vector<double> the_widths) : widths(std::move(the_widths))
+{
+  // a variable held by its bounds
+  std::replace(widths.begin(), widths.end(), 0., 1.);
+}
 
 void StartHistory::add(const std::vector<double> &design, std::vector<qp::MultiVector> forces)
 {
@@ -37,7 +43,7 @@ std::vector<double> StartHistory::coefficients(const std::vector<double> &design
   std::vector<double> c(m, 0.);
   // columns x_j - x
   dealii::FullMatrix<double> offsets(n, m);
-  std::vector<double>        distance(m, 0.);
+  std::vector<double>        weight(m, error_of_forces), distance(m, 0.);
   for (std::size_t j = 0; j < m; ++j)
     {
       for (std::size_t i = 0; i < n; ++i)
@@ -45,41 +51,36 @@ std::vector<double> StartHistory::coefficients(const std::vector<double> &design
           offsets(i, j) = (entries[j].design[i] - design[i]) / widths[i];
           distance[j] += offsets(i, j) * offsets(i, j);
         }
-      distance[j] = std::sqrt(distance[j]);
+      weight[j] += distance[j];
     }
   const auto nearest =
     std::size_t(std::min_element(distance.begin(), distance.end()) - distance.begin());
   c[nearest] = 1.;
   if (m == 1 || distance[nearest] == 0.)
     return c;
-  // With c of the nearest eliminated and columns of unit length, as distances differ by powers.
+  // with the c of the nearest eliminated
   dealii::FullMatrix<double> A(n + m, m - 1);
   dealii::Vector<double>     b(n + m), y(m - 1);
-  std::vector<std::size_t>   number;
-  std::vector<double>        length;
-  for (std::size_t j = 0; j < m; ++j)
+  for (std::size_t i = 0; i < n; ++i)
+    b(i) = -offsets(i, nearest);
+  b(n + nearest) = -weight[nearest];
+  for (std::size_t j = 0, column = 0; j < m; ++j)
     {
       if (j == nearest)
         continue;
-      double square = 0.;
       for (std::size_t i = 0; i < n; ++i)
-        square += std::pow(offsets(i, j) - offsets(i, nearest), 2);
-      const auto column = number.size();
-      length.push_back(std::sqrt(square));
-      number.push_back(j);
-      for (std::size_t i = 0; i < n; ++i)
-        A(i, column) = (offsets(i, j) - offsets(i, nearest)) / length[column];
-      A(n + j, column)       = distance[j] * distance[j] / length[column];
-      A(n + nearest, column) = -distance[nearest] * distance[nearest] / length[column];
+        A(i, column) = offsets(i, j) - offsets(i, nearest);
+      A(n + j, column)       = weight[j];
+      A(n + nearest, column) = -weight[nearest];
+      ++column;
     }
-  for (std::size_t i = 0; i < n; ++i)
-    b(i) = -offsets(i, nearest);
-  b(n + nearest) = -distance[nearest] * distance[nearest];
   dealii::Householder<double>(A).least_squares(y, b);
-  for (std::size_t k = 0; k < number.size(); ++k)
+  for (std::size_t j = 0, column = 0; j < m; ++j)
     {
-      c[number[k]] = y(k) / length[k];
-      c[nearest] -= c[number[k]];
+      if (j == nearest)
+        continue;
+      c[j] = y(column++);
+      c[nearest] -= c[j];
     }
   return c;
 }

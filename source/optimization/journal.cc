@@ -60,10 +60,10 @@ Journal::Journal(const JournalSettings &the_settings) : settings(the_settings)
     begin();
 }
 
-std::string Journal::warm_start_path(const unsigned int index) const
+std::string Journal::warm_start_path(const unsigned int value) const
 {
   return settings.directory + "/warm-start." + std::to_string(rank) + "." +
-         std::to_string(index % 2);
+         std::to_string(value % 2);
 }
 
 void Journal::say(const std::string &line) const
@@ -86,7 +86,7 @@ void Journal::read()
   if (header_end == 0)
     say("restart: nothing recorded in " + path() + ", starting afresh");
   else
-    say("restart: replaying " + std::to_string(recorded.size()) + " evaluations of " + path());
+    say("restart: replaying " + std::to_string(recorded.size()) + " records of " + path());
 }
 
 /// Start an empty journal.
@@ -128,10 +128,10 @@ void Journal::forget_warm_start()
     std::filesystem::remove(warm_start_path(index), ignored);
 }
 
-/// The memory of the problem under way, as it was behind its last record.
-void Journal::load_warm_start(const DesignProblem &problem)
+/// The memory of the problem under way, as it was behind its first @p n values.
+void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n)
 {
-  if (next == first || !problem.remember)
+  if (n <= first || !problem.remember)
     return;
   const int before = recorded[next - 1].n_ranks;
   if (before != n_ranks)
@@ -142,7 +142,7 @@ void Journal::load_warm_start(const DesignProblem &problem)
     }
   // all ranks or none: a solver that starts warm on some finds another path
   std::string bytes;
-  int         good = read_file(warm_start_path(next - 1), bytes) && problem.remember(bytes);
+  int         good = read_file(warm_start_path(n - 1), bytes) && problem.remember(bytes);
   MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, settings.communicator);
   if (good)
     return;
@@ -153,46 +153,94 @@ void Journal::load_warm_start(const DesignProblem &problem)
 
 DesignProblem Journal::journaled(const DesignProblem &problem)
 {
-  first           = next;
+  first           = values;
   auto result     = problem;
   result.evaluate = [this, problem](const std::vector<double> &x) { return evaluate(problem, x); };
+  if (problem.differentiate)
+    result.differentiate = [this, problem](const std::vector<double> &x, Evaluation &evaluation) {
+      differentiate(problem, x, evaluation);
+    };
   return result;
+}
+
+/// Whether the next record is that of @p x.
+bool Journal::is_replayed(const std::vector<double> &x)
+{
+  if (is_live || next == recorded.size())
+    return false;
+  if (bitwise_equal(recorded[next].x, x))
+    {
+      ++replayed;
+      return true;
+    }
+  say("restart: evaluation " + std::to_string(next) +
+      " asks for another design than the one recorded: the record is "
+      "cut there, the solver starts cold");
+  forget_warm_start();
+  return false;
+}
+
+/// Go on behind the record, with the last value evaluated again if its state is needed.
+void Journal::go_live(const DesignProblem &problem, const bool last_again)
+{
+  if (is_live)
+    return;
+  cut();
+  if (next == recorded.size())
+    load_warm_start(problem, last_again ? values - 1 : values);
+  is_live = true;
+  if (last_again)
+    problem.evaluate(last);
 }
 
 Evaluation Journal::evaluate(const DesignProblem &problem, const std::vector<double> &x)
 {
-  const bool is_recorded = !is_live && next < recorded.size();
-  if (is_recorded && bitwise_equal(recorded[next].x, x))
+  const bool is_known = is_replayed(x);
+  if (!is_known)
     {
-      ++replayed;
-      return replay(recorded[next++]);
+      go_live(problem, false);
+      const auto value = recorded_live(
+        problem, x, [&] { return problem.evaluate(x); }, true);
+      last = x;
+      return value;
     }
-  if (is_recorded)
+  last = x;
+  ++values;
+  return replay(recorded[next++]);
+}
+
+void Journal::differentiate(const DesignProblem       &problem,
+                            const std::vector<double> &x,
+                            Evaluation                &evaluation)
+{
+  if (is_replayed(x))
     {
-      say("restart: evaluation " + std::to_string(next) +
-          " asks for another design than the one recorded: the record is "
-          "cut there, the solver starts cold");
-      forget_warm_start();
+      evaluation = replay(recorded[next++]);
+      return;
     }
-  if (!is_live)
-    {
-      cut();
-      if (!is_recorded)
-        load_warm_start(problem);
-      is_live = true;
-    }
+  go_live(problem, x == last);
+  evaluation = recorded_live(
+    problem, x,
+    [&] {
+      auto differentiated = evaluation;
+      problem.differentiate(x, differentiated);
+      return differentiated;
+    },
+    false);
+}
+
+/// What @p work returns, recorded, failures too.
+Evaluation Journal::recorded_live(const DesignProblem               &problem,
+                                  const std::vector<double>         &x,
+                                  const std::function<Evaluation()> &work,
+                                  const bool                         changes_memory)
+{
   JournalRecord record;
   record.x       = x;
   record.n_ranks = n_ranks;
-  return evaluate_live(problem, record);
-}
-
-/// Evaluate and record, failures too.
-Evaluation Journal::evaluate_live(const DesignProblem &problem, JournalRecord &record)
-{
   try
     {
-      record.evaluation = problem.evaluate(record.x);
+      record.evaluation = work();
     }
   catch (const SolveError &error)
     {
@@ -200,21 +248,23 @@ Evaluation Journal::evaluate_live(const DesignProblem &problem, JournalRecord &r
       record.outcome =
         is_tangled ? JournalRecord::Outcome::tangled : JournalRecord::Outcome::unsolved;
       record.message = error.what();
-      store(problem, record);
+      store(problem, record, changes_memory);
       throw;
     }
-  store(problem, record);
+  store(problem, record, changes_memory);
   return record.evaluation;
 }
 
 /// Append; warm-start data first. Both steps end on all ranks together, so
 /// no rank overwrites data of a record that may still be the last one.
-void Journal::store(const DesignProblem &problem, const JournalRecord &record)
+void Journal::store(const DesignProblem &problem,
+                    const JournalRecord &record,
+                    const bool           stores_memory)
 {
-  if (problem.memory)
+  if (problem.memory && stores_memory)
     everywhere(settings.communicator, [&] {
       // renamed when whole: a kill while writing leaves the older one
-      const std::string final_path = warm_start_path(next);
+      const std::string final_path = warm_start_path(values);
       const std::string temporary  = final_path + ".new";
       const bool        written =
         bool(std::ofstream(temporary, std::ios::binary) << problem.memory() << std::flush);
@@ -231,5 +281,6 @@ void Journal::store(const DesignProblem &problem, const JournalRecord &record)
       throw InputError("cannot write " + path());
   });
   ++next;
+  values += stores_memory;
 }
 } // namespace snug::optimization

@@ -64,14 +64,14 @@ double NloptAnswers::objective(const double *values, double *gradient)
   const std::vector<double> y(values, values + n_variables);
   asking(y, gradient != nullptr);
   const unsigned int before = problem.n_evaluations();
-  const auto         point  = values_at(y);
+  const auto         point  = values_at(y, gradient != nullptr);
   idle_questions            = problem.n_evaluations() > before ? 0 : idle_questions + 1;
   if (idle_questions > max_idle_questions)
     stop(End::round_off);
   asked(y, point, gradient != nullptr);
   if (gradient != nullptr)
     {
-      const auto g = problem.gradient(point->evaluation);
+      const auto g = problem.gradient(*point);
       std::copy(g.begin(), g.end(), gradient);
     }
   return point->evaluation.objective / problem.objective_scale();
@@ -85,26 +85,29 @@ void NloptAnswers::constraints(const Relation relation,
                                const double  *y,
                                double        *jacobian)
 {
-  const auto  point     = values_at(std::vector<double>(y, y + n_variables));
+  const auto  point     = values_at(std::vector<double>(y, y + n_variables), jacobian != nullptr);
   const auto  c         = problem.constraints(point->evaluation);
-  const auto  rows      = problem.jacobian(point->evaluation);
   const auto &relations = problem.relations();
   for (unsigned int j = 0; j < c.size(); ++j)
     if (relations[j] == relation)
-      {
-        *values++ = c[j];
-        if (jacobian != nullptr)
-          jacobian = std::copy(rows[j].begin(), rows[j].end(), jacobian);
-      }
+      *values++ = c[j];
+  if (jacobian == nullptr)
+    return;
+  const auto rows = problem.jacobian(*point);
+  for (unsigned int j = 0; j < c.size(); ++j)
+    if (relations[j] == relation)
+      jacobian = std::copy(rows[j].begin(), rows[j].end(), jacobian);
 }
 
-Progress::Point NloptAnswers::values_at(const std::vector<double> &y)
+Progress::Point NloptAnswers::values_at(const std::vector<double> &y, const bool with_gradient)
 {
   if (!problem.is_known(y) && problem.n_evaluations() >= parameters.maximum_evaluations)
     stop(End::evaluations);
   try
     {
       auto point = problem.at(y);
+      if (with_gradient)
+        problem.differentiated(*point);
       progress.consider(point);
       return point;
     }

@@ -160,7 +160,7 @@ OptimizationResult Search::result()
 void Search::step_off_blind_start()
 {
   const auto &start   = *problem.start();
-  const auto  g       = problem.gradient(start.evaluation);
+  const auto  g       = problem.gradient(start);
   double      largest = 0.;
   for (const double entry : g)
     largest = std::max(largest, std::abs(entry));

@@ -1,3 +1,4 @@
+#include <snug/base/errors.h>
 #include <snug/optimization/progress.h>
 
 #include <algorithm>
@@ -33,6 +34,20 @@ bool Progress::is_better(const ScaledProblem::Point &a, const ScaledProblem::Poi
   if (is_feasible(a) && is_feasible(b))
     return a.evaluation.objective < b.evaluation.objective;
   return a.violation < b.violation;
+}
+
+/// Of a trial design that no search went on from they may not have been asked for yet.
+bool Progress::has_gradients(const ScaledProblem::Point &point) const
+{
+  try
+    {
+      problem.differentiated(point);
+      return true;
+    }
+  catch (const SolveError &)
+    {
+      return false;
+    }
 }
 
 void Progress::consider(const Point &point)
@@ -89,9 +104,9 @@ void Progress::report() const
   Iteration iteration;
   iteration.number               = iterations;
   iteration.x                    = last->x;
-  iteration.evaluation           = last->evaluation;
-  iteration.constraint_violation = last->violation;
   iteration.projected_gradient   = problem.projected_gradient(*last);
+  iteration.evaluation           = last->evaluation; // with its gradients by now
+  iteration.constraint_violation = last->violation;
   iteration.evaluations          = problem.n_evaluations();
   hooks.on_iteration(iteration);
 }
@@ -120,18 +135,19 @@ std::string Progress::stop_reason(const End end, const std::string &failure) con
 OptimizationResult Progress::finish(const End end, const std::string &failure)
 {
   const bool by_tolerance = end == End::gradient || end == End::objective || end == End::design;
-  if (!by_tolerance && !best_is_accepted)
+  const bool is_last      = by_tolerance || !has_gradients(*best);
+  if (!is_last && !best_is_accepted)
     accept(best, true);
-  const auto        &point = by_tolerance ? last : best;
+  const auto        &point = is_last ? last : best;
   OptimizationResult result;
   result.x                    = point->x;
-  result.evaluation           = point->evaluation;
+  result.projected_gradient   = problem.projected_gradient(*point);
+  result.evaluation           = point->evaluation; // with its gradients by now
   result.iterations           = iterations;
   result.evaluations          = problem.n_evaluations();
   result.objective_initial    = problem.start()->evaluation.objective;
   result.objective_final      = point->evaluation.objective;
   result.constraint_violation = point->violation;
-  result.projected_gradient   = problem.projected_gradient(*point);
   result.end                  = end;
   result.stop_reason          = stop_reason(end, failure);
   const bool by_round_off =

@@ -64,21 +64,24 @@ void check_bounds(const DesignProblem &problem)
     }
 }
 
-void check_values(const Evaluation &evaluation, const std::size_t n_variables)
+void check_finite(const bool is_finite)
+{
+  if (!is_finite)
+    throw SolveError("the objective, a constraint or one of their "
+                     "derivatives is not a finite number");
+}
+
+void check_derivatives(const Evaluation &evaluation, const std::size_t n_variables)
 {
   (void)n_variables;
   AssertDimension(evaluation.gradient.size(), n_variables);
   AssertDimension(evaluation.jacobian.size(), evaluation.constraints.size());
-  bool good = std::isfinite(evaluation.objective) && all_finite(evaluation.gradient) &&
-              all_finite(evaluation.constraints);
+  check_finite(all_finite(evaluation.gradient));
   for (const auto &row : evaluation.jacobian)
     {
       AssertDimension(row.size(), n_variables);
-      good = good && all_finite(row);
+      check_finite(all_finite(row));
     }
-  if (!good)
-    throw SolveError("the objective, a constraint or one of their "
-                     "derivatives is not a finite number");
 }
 } // namespace
 
@@ -95,10 +98,10 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
       y_upper.push_back((upper - x_start[i]) / width[i]);
     }
   const auto start = evaluated(std::vector<double>(x_start.size(), 0.));
-  scale_constraints(start->evaluation);
+  scale_constraints(*start);
   start_point = remembered(start);
 
-  const double slope = norm(gradient(start_point->evaluation));
+  const double slope = norm(gradient(*start_point));
   scale              = std::abs(start_point->evaluation.objective);
   if (slope > 0.)
     scale = std::clamp(scale, slope / 100., slope * 100.);
@@ -109,7 +112,7 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
 
 /// A limit that is round-off itself, as of a displacement that symmetry forbids, would make large
 /// numbers of the errors of states: as for the objective, the slope over 100 is the least scale.
-void ScaledProblem::scale_constraints(const Evaluation &start)
+void ScaledProblem::scale_constraints(const Point &start)
 {
   const auto slopes = jacobian(start); // with scales 1
   scales            = problem.constraint_scales;
@@ -165,8 +168,21 @@ std::shared_ptr<ScaledProblem::Point> ScaledProblem::evaluated(const std::vector
   point->x   = design(y);
   ++evaluations;
   point->evaluation = problem.evaluate(point->x);
-  check_values(point->evaluation, y.size());
+  check_finite(std::isfinite(point->evaluation.objective) &&
+               all_finite(point->evaluation.constraints));
+  if (!problem.differentiate)
+    check_derivatives(point->evaluation, y.size());
   return point;
+}
+
+const Evaluation &ScaledProblem::differentiated(const Point &point) const
+{
+  if (point.evaluation.gradient.empty() && problem.differentiate)
+    {
+      problem.differentiate(point.x, point.evaluation);
+      check_derivatives(point.evaluation, point.x.size());
+    }
+  return point.evaluation;
 }
 
 std::shared_ptr<const ScaledProblem::Point>
@@ -185,17 +201,18 @@ ScaledProblem::remembered(const std::shared_ptr<Point> &point)
   return point;
 }
 
-std::vector<double> ScaledProblem::gradient(const Evaluation &evaluation) const
+std::vector<double> ScaledProblem::gradient(const Point &point) const
 {
+  const auto         &evaluation = differentiated(point);
   std::vector<double> result(width.size());
   for (unsigned int i = 0; i < width.size(); ++i)
     result[i] = width[i] * evaluation.gradient[i] / scale;
   return result;
 }
 
-std::vector<std::vector<double>> ScaledProblem::jacobian(const Evaluation &evaluation) const
+std::vector<std::vector<double>> ScaledProblem::jacobian(const Point &point) const
 {
-  auto result = evaluation.jacobian;
+  auto result = differentiated(point).jacobian;
   for (unsigned int j = 0; j < result.size(); ++j)
     for (unsigned int i = 0; i < width.size(); ++i)
       result[j][i] *= width[i] / (scales.empty() ? 1. : scales[j]);
@@ -221,7 +238,7 @@ bool ScaledProblem::is_active(const Point &point, const unsigned int j) const
 
 bool ScaledProblem::is_blind(const Point &point) const
 {
-  const auto A = jacobian(point.evaluation);
+  const auto A = jacobian(point);
   for (unsigned int j = 0; j < A.size(); ++j)
     if (is_active(point, j) && norm(A[j]) <= no_slope)
       return true;
@@ -240,11 +257,11 @@ double ScaledProblem::projected_gradient(const Point &point) const
                        : below        ? BoundState::at_lower
                                       : BoundState::at_upper;
     }
-  const auto   g    = gradient(point.evaluation);
+  const auto   g    = gradient(point);
   const double size = std::max(norm(g), start_gradient_norm);
   if (size == 0.)
     return 0.;
-  const auto                      A = jacobian(point.evaluation);
+  const auto                      A = jacobian(point);
   std::vector<ConstraintGradient> constraint_gradients;
   for (unsigned int j = 0; j < A.size(); ++j)
     // a direction made of round-off would take its part of the gradient

@@ -134,8 +134,8 @@ void ActiveSetRun::begin(const WarmStart &from)
   residual              = is_warm ? lambda : MultiVector(problem.n_owned(), 0);
   EqualityPart equality = equality_part(problem, problem.expected_rows(), residual);
   scale                 = equality.scale;
-  // A state far from this one tells less of it than the expected contacts do.
-  if (!is_warm || kkt_of(equality) < kkt_here().relative)
+  // Forces of states far from this one tell less of it than the expected contacts do.
+  if (!is_warm || (!has_set && kkt_of(equality) < kkt_here().relative))
     {
       mask     = equality.rows;
       lambda   = equality.lambda;

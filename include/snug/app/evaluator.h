@@ -24,8 +24,12 @@ public:
   /// to it. Collective.
   explicit Evaluator(ShapeProblem<dim> &problem);
 
-  /// Collective. @throws TangledMesh, SolveError.
+  /// The values, without gradients. Collective. @throws TangledMesh, SolveError.
   optimization::Evaluation evaluate(const Design &design);
+
+  /// Adds the gradients to @p evaluation of @p design, which is solved again if it is not the last
+  /// one evaluated. Collective. @throws TangledMesh, SolveError.
+  void differentiate(const Design &design, optimization::Evaluation &evaluation);
 
   /// The problem of an optimizer that begins at @p start; refers to this.
   optimization::DesignProblem design_problem(const Design &start);
@@ -49,9 +53,10 @@ public:
 
   /// @name Of the last design evaluated; empty before
   /// @{
-  Design                      design;
-  States                      states;
-  sensitivity::Gradients<dim> gradients; ///< of the objective, then of the constraints
+  Design design;
+  States states;
+  /// of the objective, then of the constraints; of none before differentiate()
+  sensitivity::Gradients<dim> gradients;
   /// @}
 
 private:

@@ -44,8 +44,11 @@ public:
                                        const optimization::OptimizationResult &before    = {},
                                        double                                  tolerance = 0.);
 
-  /// The evaluator's own evaluation, with warnings. Collective.
+  /// The evaluator's own evaluation. Collective.
   optimization::Evaluation evaluate(const std::vector<double> &design);
+
+  /// The evaluator's own gradients, with warnings. Collective.
+  void differentiate(const std::vector<double> &design, optimization::Evaluation &evaluation);
 
   /// Draw and summarize the first design with its own pairing, if that is
   /// not done: after a replay it has not been solved in this run. Collective.

@@ -13,10 +13,11 @@ namespace snug::app {
  * extrapolated from those of earlier designs,
  * @f[ \lambda(x) \approx \sum_j c_j \lambda(x_j), \quad \sum_j c_j = 1, @f]
  * with the c of least
- * @f$ |x - \sum_j c_j x_j|^2 + \sum_j c_j^2 |x_j - x|^4 @f$,
+ * @f$ |x - \sum_j c_j x_j|^2 + \sum_j c_j^2 (|x_j - x|^2 + \tau)^2 @f$,
  * lengths as parts of the bounds' widths: the first term is what a linear
  * model misses, the second bounds its curvature, so that far designs count
- * little. One design is a warm start from it, two a secant.
+ * little, and what solutions are known to, @f$\tau = 10^{-6}@f$. One design is a warm start from
+ * it, two a secant.
  */
 class StartHistory
 {

@@ -6,13 +6,13 @@
 #include <vector>
 
 namespace snug::optimization {
-/// Values and gradients at a design.
+/// Values at a design and, once asked for, gradients.
 struct Evaluation
 {
   double                           objective = 0.;
-  std::vector<double>              gradient;    ///< n
+  std::vector<double>              gradient;    ///< n; empty: not known
   std::vector<double>              constraints; ///< m values c(x)
-  std::vector<std::vector<double>> jacobian;    ///< m rows of n
+  std::vector<std::vector<double>> jacobian;    ///< m rows of n; empty with the gradient
   /// @name For the history; no optimizer looks at them
   /// @{
   unsigned int  active_contacts       = 0;
@@ -35,8 +35,11 @@ struct DesignProblem
   std::vector<double> lower, upper, start;
   /// throws TangledMesh for designs without a value
   std::function<Evaluation(const std::vector<double> &)> evaluate;
-  /// What this rank takes along from one evaluation to the next (the warm
-  /// start of a solver), as at least one byte. Both or none; not collective.
+  /// Add the gradients to what evaluate() gave at the design, which costs little if nothing else
+  /// was evaluated since. None: evaluate() gives them.
+  std::function<void(const std::vector<double> &, Evaluation &)> differentiate;
+  /// What this rank takes along from one evaluate() to the next (the warm
+  /// start of a solver); differentiate() leaves it. Both or none; not collective.
   std::function<std::string()> memory;
   /// Take it along again. @return false, with all forgotten, if the bytes
   /// are not whole or not of this problem, as no bytes are.

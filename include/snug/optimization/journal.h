@@ -29,18 +29,17 @@ struct JournalSettings
 };
 
 /**
- * Records every evaluation of a design problem, and on a restart returns
- * the recorded ones in order instead of evaluating again. The optimizer
- * is deterministic, so it takes the same path, bit for bit, and goes on
- * from where the record ends. Problems that follow one another, as when
- * contact is paired anew, share a journal.
+ * Records every evaluation of a design problem, once more where it gains gradients, and on a
+ * restart returns the recorded ones in order instead of evaluating again. The optimizer is
+ * deterministic, so it takes the same path, bit for bit, and goes on from where the record ends.
+ * Problems that follow one another, as when contact is paired anew, share a journal.
  *
- * Record `index` is complete when its last line is. Before it is begun,
- * every rank has moved the problem's memory() of that evaluation to
- * warm-start.<rank>.<index % 2>; that of the record before stays until the
- * record is complete. So at any moment the last complete record has its
- * data, and a kill at any moment loses at most the evaluation under way.
- * They are remembered just before the first live evaluation.
+ * A record is complete when its last line is. Before that of evaluate() number v is begun, every
+ * rank has moved the problem's memory() of then to warm-start.<rank>.<v % 2>; that of number v - 1
+ * stays until number v + 1. So at any moment the last complete record has its data, and a kill at
+ * any moment loses at most the evaluation under way. They are remembered just before the first
+ * live evaluation. To differentiate the last design evaluated, that is evaluated again from the
+ * data of number v - 1, as it was before.
  *
  * They are not (the log says so) if the number of ranks has changed, a
  * file is missing or cut short, or a replayed design differs from the one
@@ -76,16 +75,23 @@ public:
   unsigned int n_records() const { return is_live ? next : narrow<unsigned int>(recorded.size()); }
 
 private:
-  Evaluation  evaluate(const DesignProblem &problem, const std::vector<double> &x);
-  Evaluation  evaluate_live(const DesignProblem &problem, JournalRecord &record);
+  Evaluation evaluate(const DesignProblem &problem, const std::vector<double> &x);
+  void
+  differentiate(const DesignProblem &problem, const std::vector<double> &x, Evaluation &evaluation);
+  bool        is_replayed(const std::vector<double> &x);
+  void        go_live(const DesignProblem &problem, bool last_again);
+  Evaluation  recorded_live(const DesignProblem               &problem,
+                            const std::vector<double>         &x,
+                            const std::function<Evaluation()> &work,
+                            bool                               changes_memory);
   void        read();
   void        begin();
   void        cut();
   void        forget_warm_start();
-  void        load_warm_start(const DesignProblem &problem);
-  void        store(const DesignProblem &problem, const JournalRecord &record);
+  void        load_warm_start(const DesignProblem &problem, unsigned int values);
+  void        store(const DesignProblem &problem, const JournalRecord &record, bool stores_memory);
   std::string path() const { return settings.directory + "/journal.txt"; }
-  std::string warm_start_path(unsigned int index) const;
+  std::string warm_start_path(unsigned int value) const;
   void        say(const std::string &line) const;
 
   JournalSettings            settings;
@@ -94,9 +100,11 @@ private:
   std::vector<JournalRecord> recorded;       ///< not yet replayed: [next, end)
   std::size_t                header_end = 0; ///< bytes
   unsigned int               next       = 0; ///< index of next evaluation
-  unsigned int               first      = 0; ///< index of the first of the problem under way
-  unsigned int               replayed   = 0;
-  bool                       is_live    = false;
+  unsigned int               values     = 0; ///< records of evaluate() among them
+  unsigned int               first      = 0; ///< values before the problem under way
+  std::vector<double>        last;           ///< design of the last value
+  unsigned int               replayed = 0;
+  bool                       is_live  = false;
   std::ofstream              file; ///< rank 0 only
 };
 } // namespace snug::optimization

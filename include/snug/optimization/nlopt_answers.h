@@ -53,7 +53,7 @@ protected:
 private:
   double          objective(const double *y, double *gradient);
   void            constraints(Relation relation, double *values, const double *y, double *jacobian);
-  Progress::Point values_at(const std::vector<double> &y);
+  Progress::Point values_at(const std::vector<double> &y, bool with_gradient);
   template <typename Function>
   void guarded(const Function &work);
 

@@ -74,6 +74,7 @@ public:
   bool is_better(const ScaledProblem::Point &a, const ScaledProblem::Point &b) const;
 
 private:
+  bool        has_gradients(const ScaledProblem::Point &point) const;
   std::string stop_reason(End end, const std::string &failure) const;
 
   const ScaledProblem          &problem;

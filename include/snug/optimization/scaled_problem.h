@@ -31,8 +31,9 @@ public:
   struct Point
   {
     std::vector<double> y, x;
-    Evaluation          evaluation;
-    double              violation = 0.; ///< max |c_j| / s_j, of c_j+ for inequalities
+    /// Gains its gradients when they are asked for: line searches need none at most designs.
+    mutable Evaluation evaluation;
+    double             violation = 0.; ///< max |c_j| / s_j, of c_j+ for inequalities
   };
 
   /**
@@ -47,6 +48,10 @@ public:
   /// @throws SolveError if one is not finite; what evaluate() throws.
   std::shared_ptr<const Point> at(const std::vector<double> &y);
 
+  /// The values with their gradients. @throws SolveError if one is not finite; what
+  /// differentiate() throws. So do all that need gradients.
+  const Evaluation &differentiated(const Point &point) const;
+
   /// Whether at() would answer without an evaluation.
   bool is_known(const std::vector<double> &y) const { return find(y) != nullptr; }
 
@@ -54,10 +59,10 @@ public:
   std::vector<double> scaled(const std::vector<double> &x) const;
 
   /// w_i df/dx_i / F.
-  std::vector<double> gradient(const Evaluation &evaluation) const;
+  std::vector<double> gradient(const Point &point) const;
 
   /// w_i dc_j/dx_i / s_j.
-  std::vector<std::vector<double>> jacobian(const Evaluation &evaluation) const;
+  std::vector<std::vector<double>> jacobian(const Point &point) const;
 
   /// c_j / s_j.
   std::vector<double> constraints(const Evaluation &evaluation) const;
@@ -83,7 +88,7 @@ private:
   std::vector<double>          design(const std::vector<double> &y) const;
   std::shared_ptr<Point>       evaluated(const std::vector<double> &y);
   std::shared_ptr<const Point> remembered(const std::shared_ptr<Point> &point);
-  void                         scale_constraints(const Evaluation &start);
+  void                         scale_constraints(const Point &start);
   bool                         is_active(const Point &point, unsigned int j) const;
 
   const DesignProblem                     &problem;

@@ -34,12 +34,11 @@ struct ActiveSetOptions
  * to 0. Exact solutions give the same for every c > 0, as @f$\lambda_i w_i = 0@f$; of rough ones
  * @f$w_i@f$ on the active rows is the error of the inner solve, which has
  * no say this way.
- * The start is lambda_Im on DualProblem::expected_rows(), or the forces given if their KKT residual
- * is smaller. A set too small to balance the loads gains the contacts that close in the
- * motion it leaves free. There is no proof of convergence for elasticity:
- * sets met again lead to more exact inner solves, then to changes of one
- * row (the one with the largest number), then to SMALSE-M, as does a KKT
- * residual that no longer falls.
+ * The start is lambda_Im on DualProblem::expected_rows(), or what WarmStart gives. A set too small
+ * to balance the loads gains the contacts that close in the motion it leaves free. There is no
+ * proof of convergence for elasticity: sets met again lead to more exact inner solves, then to
+ * changes of one row (the one with the largest number), then to SMALSE-M, as does a KKT residual
+ * that no longer falls.
  *
  * Source: Hintermüller, Ito, Kunisch, The primal-dual active set strategy
  * as a semismooth Newton method, SIAM J. Optim. 13 (2003); Hüeber,

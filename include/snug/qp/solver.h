@@ -25,7 +25,9 @@ struct SolverParameters
 struct WarmStart
 {
   MultiVector lambda; ///< n_owned x 1
-  RowSet      active; ///< free contact rows and all equality rows
+  /// Free contact rows and all equality rows. Empty: those that press, unless the KKT residual of
+  /// lambda is larger than that of a cold start, which is taken then.
+  RowSet active;
   /// Of an earlier solve with the same F; may be empty.
   DirectionBasis directions = {};
 };

@@ -112,6 +112,36 @@ TEST(Journal, KilledWhileWritingTheRecordTheRestartIsTheSameToo)
       }
 }
 
+/// Killed before a gradient the state it is of has to be made again, from the memory before it.
+TEST(Journal, GradientsOnDemandAreRestartedBitForBitToo)
+{
+  Folder      folder;
+  WarmProblem whole(folder.path, false, true);
+  whole.run();
+  const std::string text = folder.text();
+  // the scene tests what it should: designs that need no gradient, and many that do
+  EXPECT_GE(whole.n_differentiated, 5u);
+  EXPECT_LT(whole.n_differentiated, whole.n_live);
+
+  using Where = WarmProblem::Where;
+  for (const Where where : {Where::evaluating, Where::differentiating, Where::saving})
+    for (unsigned int kill = 0;
+         kill < (where == Where::differentiating ? whole.n_differentiated : whole.n_live); ++kill)
+      for (const double kept : {0.3, 1.})
+        {
+          WarmProblem first(folder.path, false, true);
+          run_until_killed(first, where, kill);
+          const std::string complete = folder.text();
+          const auto        begin    = complete.rfind("record ");
+          if (begin != std::string::npos)
+            folder.write(complete.substr(0, begin + std::size_t(kept * (complete.size() - begin))));
+          WarmProblem second(folder.path, true, true);
+          second.run();
+          EXPECT_EQ(folder.text(), text);
+          expect_same_path(whole, second);
+        }
+}
+
 TEST(Journal, KilledAgainAndAgainItStillArrives)
 {
   Folder      folder;

@@ -79,7 +79,8 @@ public:
 };
 
 /// A design problem whose values depend, at 1e-9, on the designs before:
-/// like a solver that starts warm. It can be killed.
+/// like a solver that starts warm. It can be killed. Asked to, it gives gradients on demand only,
+/// of the state it has.
 class WarmProblem
 {
 public:
@@ -87,10 +88,11 @@ public:
   {
     nowhere,
     evaluating,
+    differentiating,
     saving
   };
 
-  explicit WarmProblem(const std::string &directory, bool restart = false)
+  explicit WarmProblem(const std::string &directory, bool restart = false, bool on_demand = false)
     : problem(with_hole(rosenbrock_on_circle(), 0.6, 10.)), inner(problem.evaluate)
   {
     settings.directory    = directory;
@@ -99,7 +101,22 @@ public:
     settings.communicator = MPI_COMM_WORLD;
     settings.log          = [this](const std::string &line) { log += line + '\n'; };
     problem.evaluate      = [this](const std::vector<double> &x) { return live(x); };
-    problem.memory        = [this]() {
+    if (on_demand)
+      {
+        problem.evaluate = [this](const std::vector<double> &x) {
+          auto value = live(x);
+          value.gradient.clear();
+          value.jacobian.clear();
+          state_design = x;
+          state_memory = memory;
+          return value;
+        };
+        problem.differentiate = [this](const std::vector<double>      &x,
+                                       snug::optimization::Evaluation &evaluation) {
+          differentiate(x, evaluation);
+        };
+      }
+    problem.memory = [this]() {
       die(Where::saving, live_before + n_live - 1);
       std::ostringstream bytes;
       bytes << std::hexfloat << memory + this_rank() << '.';
@@ -127,6 +144,21 @@ public:
     return value;
   }
 
+  void differentiate(const std::vector<double> &x, snug::optimization::Evaluation &evaluation)
+  {
+    die(Where::differentiating, n_differentiated);
+    ++n_differentiated;
+    if (state_design != x) // solved again, from what is remembered
+      {
+        state_design = x;
+        state_memory = memory;
+      }
+    const auto value    = inner(x);
+    evaluation.gradient = value.gradient;
+    evaluation.gradient[0] += 1e-9 * std::sin(state_memory);
+    evaluation.jacobian = value.jacobian;
+  }
+
   snug::optimization::OptimizationResult run()
   {
     snug::optimization::Journal journal(settings);
@@ -147,9 +179,10 @@ public:
   std::string                                log;
   std::vector<snug::optimization::Iteration> path;
   unsigned int                               n_live = 0, n_loads = 0, n_replayed = 0;
-  bool                                       began_cold = false;
-  Where                                      where      = Where::nowhere;
-  unsigned int                               when       = 0;
+  unsigned int                               n_differentiated = 0;
+  bool                                       began_cold       = false;
+  Where                                      where            = Where::nowhere;
+  unsigned int                               when             = 0;
 
 private:
   void die(Where place, unsigned int index) const
@@ -159,8 +192,10 @@ private:
   }
 
   decltype(snug::optimization::DesignProblem::evaluate) inner;
-  double                                                memory      = 0.;
-  unsigned int                                          live_before = 0;
+  double                                                memory = 0.;
+  std::vector<double>                                   state_design;
+  double                                                state_memory = 0.;
+  unsigned int                                          live_before  = 0;
 };
 
 inline bool same_bits(const std::vector<double> &a, const std::vector<double> &b)
