@@ -21,8 +21,16 @@ const double kernel_cut = 1e-13;
 const double weak_cut = 1e-5;
 } // namespace
 
-CoarseSpace::CoarseSpace(const RowLayout &the_layout, const SubdomainTable &the_table)
-  : layout(the_layout), table(the_table)
+CoarseSpace::CoarseSpace(const RowLayout      &the_layout,
+                         const SubdomainTable &the_table,
+                         const unsigned int    n_ranks)
+  : layout(the_layout)
+  , table(the_table)
+  , factor_pool(FactorOf::coarse,
+                Factorization::CHOLMOD,
+                nullptr,
+                nullptr,
+                coarse_team(layout.communicator(), n_kernel(), FactorOf::coarse, n_ranks))
 {
   // Entries are sorted by subdomain within a row: those of one subdomain make one block of G, the
   // n_modes numbers G(s, row) = R_s' B_s(row, :)'.

@@ -43,6 +43,7 @@ void add_to_rows(const std::vector<unsigned int> &numbers,
 Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
                      const RowLayout                    &the_layout,
                      const SubdomainTable               &the_table,
+                     const unsigned int                  coarse_ranks,
                      std::vector<RowForces>              the_raw)
   : systems(the_systems)
   , layout(the_layout)
@@ -60,6 +61,7 @@ Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
   MPI_Scan(&mine, &first_id, 1, MPI_UNSIGNED, MPI_SUM, comm);
   first_id -= mine;
   n_global = dealii::Utilities::MPI::sum(mine, comm);
+  team     = coarse_team(comm, n_global, FactorOf::soft_modes, coarse_ranks);
 
   // Of each row the number of subdomains, and the lowest of them.
   qp::MultiVector owned(layout.n_owned(), 2);
@@ -235,8 +237,9 @@ void Deflation::build_pattern()
     rows[coupling.first].push_back(coupling.second);
   E = CsrMatrix::from_rows(rows, n_global);
   // CHOLMOD whatever the package of the stiffness: like the coarse problem it is solved on every
-  // rank.
-  factor = std::make_unique<SparseFactor>(E, FactorOf::soft_modes, Factorization::CHOLMOD);
+  // rank, or by a team of them.
+  factor =
+    std::make_unique<SparseFactor>(E, FactorOf::soft_modes, Factorization::CHOLMOD, nullptr, team);
 }
 
 void Deflation::update(const std::vector<std::unique_ptr<GeneralizedInverse>> &inverses,

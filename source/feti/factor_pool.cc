@@ -3,11 +3,16 @@
 #include <algorithm>
 
 namespace snug::feti {
-FactorPool::FactorPool(const FactorOf      the_use,
-                       const Factorization the_package,
-                       FillOrderings      *the_orderings,
-                       Work               *the_work)
-  : of(the_use), package(the_package), orderings(the_orderings), work(the_work)
+FactorPool::FactorPool(const FactorOf              the_use,
+                       const Factorization         the_package,
+                       FillOrderings              *the_orderings,
+                       Work                       *the_work,
+                       std::shared_ptr<const Team> the_team)
+  : of(the_use)
+  , package(the_package)
+  , orderings(the_orderings)
+  , work(the_work)
+  , team(std::move(the_team))
 {}
 
 /// The deleter of the pointer puts the factor back. It holds the items by a shared pointer of its
@@ -27,7 +32,7 @@ std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
   std::unique_ptr<SparseFactor> factor;
   if (spare.empty())
     {
-      factor = std::make_unique<SparseFactor>(A, of, package, orderings);
+      factor = std::make_unique<SparseFactor>(A, of, package, orderings, team);
       if (work != nullptr)
         ++work->symbolic_factorizations;
     }

@@ -13,5 +13,8 @@ void FetiParameters::declare(Entries &entries)
   entries.add("Soft modes", soft_modes,
               "Subdomains of which motions that would take many iterations are found beforehand, "
               "once for a mesh: auto: all but compact ones of compact cells.");
+  entries.add("Coarse ranks", coarse_ranks,
+              "Ranks that factorize a coarse problem in common, by MUMPS: 0: by its size; 1: every "
+              "rank for itself, as all do by default where it has at most 20,000 unknowns.");
 }
 } // namespace snug::feti

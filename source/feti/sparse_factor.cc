@@ -1,10 +1,14 @@
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
 #include <snug/base/petsc_options.h>
+#include <snug/base/run_context.h>
 #include <snug/feti/sparse_factor.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <optional>
@@ -62,9 +66,7 @@ void keep_to_one_thread()
                           "parts and extreme material constants");
 }
 
-/// As PETSc has it. A copy, as the arrays of @p A may be gone before the factor: packages that
-/// refine their solutions keep the matrix.
-petsc::Matrix petsc_copy(const CsrMatrix &A)
+petsc::Matrix copy_of_all(const CsrMatrix &A)
 {
   const auto    n = narrow<PetscInt>(A.n_rows());
   petsc::Matrix wrapped, copy;
@@ -74,9 +76,23 @@ petsc::Matrix petsc_copy(const CsrMatrix &A)
                                          const_cast<PetscInt *>(A.columns().data()),
                                          const_cast<double *>(A.values.data()), wrapped.put()));
   petsc::check(MatDuplicate(wrapped, MAT_COPY_VALUES, copy.put()));
-  petsc::check(MatSetOption(copy, MAT_SYMMETRIC, PETSC_TRUE));
-  // MUMPS takes its mode for positive definite matrices from this flag.
-  petsc::check(MatSetOption(copy, MAT_SPD, PETSC_TRUE));
+  return copy;
+}
+
+/// The rows of this rank, one of the team.
+petsc::Matrix copy_of_own(const CsrMatrix &A, const Team &team)
+{
+  const auto n                = narrow<PetscInt>(A.n_rows());
+  const auto [first, last]    = team.range(A.n_rows());
+  const auto            begin = A.row_start()[first];
+  std::vector<PetscInt> start;
+  for (unsigned int i = first; i <= last; ++i)
+    start.push_back(A.row_start()[i] - begin);
+  const auto    m = narrow<PetscInt>(last - first);
+  petsc::Matrix copy;
+  petsc::check(MatCreateMPIAIJWithArrays(team.communicator(), m, m, n, n, start.data(),
+                                         A.columns().data() + begin, A.values.data() + begin,
+                                         copy.put()));
   return copy;
 }
 } // namespace
@@ -95,22 +111,39 @@ void check_factor_options(const Factorization package)
     }
 }
 
-SparseFactor::SparseFactor(const CsrMatrix    &pattern,
-                           const FactorOf      of,
-                           const Factorization package,
-                           FillOrderings      *orderings)
-  : n(narrow<PetscInt>(pattern.n_rows())), is_lu(wants_lu(prefix_of(of)))
+SparseFactor::SparseFactor(const CsrMatrix            &pattern,
+                           const FactorOf              of,
+                           const Factorization         the_package,
+                           FillOrderings              *the_orderings,
+                           std::shared_ptr<const Team> the_team)
+  : n(narrow<PetscInt>(pattern.n_rows()))
+  , prefix(prefix_of(of))
+  , package(package_name(prefix, the_team ? Factorization::MUMPS : the_package))
+  , is_lu(wants_lu(prefix))
+  , orderings(the_orderings)
+  , team(std::move(the_team))
 {
   keep_to_one_thread();
-  analyse(pattern, prefix_of(of), package_name(prefix_of(of), package), orderings);
+  if (!team || team->has_this_rank())
+    analyse(pattern);
+  if (team)
+    return;
   petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, right_hand_side.put()));
   petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, solution.put()));
 }
 
-void SparseFactor::analyse(const CsrMatrix   &pattern,
-                           const std::string &prefix,
-                           const std::string &package,
-                           FillOrderings     *orderings)
+/// As PETSc has it. A copy, as the arrays of @p A may be gone before the factor: packages that
+/// refine their solutions keep the matrix.
+petsc::Matrix SparseFactor::petsc_copy(const CsrMatrix &A) const
+{
+  auto copy = team ? copy_of_own(A, *team) : copy_of_all(A);
+  petsc::check(MatSetOption(copy, MAT_SYMMETRIC, PETSC_TRUE));
+  // MUMPS takes its mode for positive definite matrices from this flag.
+  petsc::check(MatSetOption(copy, MAT_SPD, PETSC_TRUE));
+  return copy;
+}
+
+void SparseFactor::analyse(const CsrMatrix &pattern)
 {
   std::optional<petsc::DefaultOption> methods, silence;
   if (package == MATSOLVERCHOLMOD)
@@ -130,25 +163,20 @@ void SparseFactor::analyse(const CsrMatrix   &pattern,
   petsc::check(error);
   MatFactorInfo info;
   petsc::check(MatFactorInfoInitialize(&info));
-  const auto order = elimination_order(matrix, *pattern.pattern(), prefix, orderings);
+  const auto order = elimination_order(matrix, *pattern.pattern());
   petsc::check(is_lu ? MatLUFactorSymbolic(factor, matrix, order, order, &info)
                      : MatCholeskyFactorSymbolic(factor, matrix, order, &info));
 }
 
 /// Of rows and columns; none where the package finds its own.
-petsc::IndexSet SparseFactor::elimination_order(Mat                matrix,
-                                                const CsrPattern  &pattern,
-                                                const std::string &prefix,
-                                                FillOrderings     *orderings) const
+petsc::IndexSet SparseFactor::elimination_order(Mat matrix, const CsrPattern &pattern) const
 {
   petsc::IndexSet order;
   PetscBool       takes_order;
   petsc::check(MatFactorGetCanUseOrdering(factor, &takes_order));
-  if (takes_order == PETSC_FALSE)
+  if (takes_order == PETSC_FALSE || team) // PETSc orders matrices of one rank only
     return order;
-  MatSolverType   package;
   MatOrderingType preferred;
-  petsc::check(MatFactorGetSolverType(factor, &package));
   petsc::check(
     MatFactorGetPreferredOrdering(factor, is_lu ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY, &preferred));
   const bool finds_own = preferred == nullptr || std::string(preferred) == MATORDERINGEXTERNAL;
@@ -160,7 +188,7 @@ petsc::IndexSet SparseFactor::elimination_order(Mat                matrix,
       petsc::check(MatGetOrdering(matrix, wanted.c_str(), order.put(), columns.put()));
       return order;
     }
-  if (finds_own && !(orderings && std::string(package) == MATSOLVERCHOLMOD))
+  if (finds_own && !(orderings && package == MATSOLVERCHOLMOD))
     return order;
   FillOrderings own;
   const auto   &rows = (orderings ? *orderings : own).of(pattern);
@@ -175,13 +203,29 @@ void SparseFactor::factorize(const CsrMatrix   &A,
 {
   if (n == 0) // CHOLMOD takes no empty matrix
     return;
-  const auto    matrix = petsc_copy(A);
-  MatFactorInfo info;
-  petsc::check(MatFactorInfoInitialize(&info));
   if (std::isnormal(A.diagonal(0)))
     // The exponent of one entry is enough: any power of two of about the right size will do, and to
     // divide by it is exact.
     unit = std::ldexp(1., std::ilogb(A.diagonal(0)));
+  if (!team)
+    factorize_values(A, what);
+  else
+    everywhere(team->all(), [&]() {
+      if (team->has_this_rank())
+        factorize_values(A, what);
+    });
+  check(A, what, singular_size);
+  has_failed = false;
+}
+
+void SparseFactor::factorize_values(const CsrMatrix &A, const std::string &what)
+{
+  if (has_failed) // MUMPS does nothing more after an error
+    analyse(A);
+  has_failed           = true;
+  const auto    matrix = petsc_copy(A);
+  MatFactorInfo info;
+  petsc::check(MatFactorInfoInitialize(&info));
   petsc::check(MatScale(matrix, 1. / unit));
   const PetscErrorCode error = is_lu ? MatLUFactorNumeric(factor, matrix, &info)
                                      : MatCholeskyFactorNumeric(factor, matrix, &info);
@@ -193,7 +237,6 @@ void SparseFactor::factorize(const CsrMatrix   &A,
   petsc::check(MatFactorGetError(factor, &kept));
   if (kept == MAT_FACTOR_OUTMEMORY)
     throw std::bad_alloc();
-  check(A, what, singular_size);
 }
 
 void SparseFactor::check(const CsrMatrix   &A,
@@ -238,7 +281,9 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
   const PetscInt k = b.n_columns();
   if (n == 0 || k == 0)
     return;
-  if (k == 1)
+  if (team)
+    solve_in_team(b, x);
+  else if (k == 1)
     {
       // One column is solved in place of the vectors' arrays, without making dense matrices.
       petsc::check(VecPlaceArray(right_hand_side, b.column(0)));
@@ -248,13 +293,57 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
       // The factor is that of A / unit.
       petsc::check(VecScale(solution, 1. / unit));
       petsc::check(VecResetArray(solution));
-      return;
     }
-  petsc::Matrix B, X;
-  petsc::check(
-    MatCreateSeqDense(PETSC_COMM_SELF, n, k, const_cast<double *>(b.column(0)), B.put()));
-  petsc::check(MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), X.put()));
-  petsc::check(MatMatSolve(factor, B, X));
-  petsc::check(MatScale(X, 1. / unit));
+  else
+    {
+      petsc::Matrix B, X;
+      petsc::check(
+        MatCreateSeqDense(PETSC_COMM_SELF, n, k, const_cast<double *>(b.column(0)), B.put()));
+      petsc::check(MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), X.put()));
+      petsc::check(MatMatSolve(factor, B, X));
+      petsc::check(MatScale(X, 1. / unit));
+    }
+}
+
+/// All columns are on all ranks; each member gives and takes its rows.
+void SparseFactor::solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) const
+{
+  const auto          rows = team->range(b.n_rows());
+  const auto          m    = narrow<PetscInt>(rows.second - rows.first);
+  std::vector<double> column(b.n_rows());
+  petsc::Vector       from, to;
+  if (team->has_this_rank())
+    {
+      petsc::check(VecCreateMPIWithArray(team->communicator(), 1, m, n, nullptr, from.put()));
+      petsc::check(VecCreateMPIWithArray(team->communicator(), 1, m, n, nullptr, to.put()));
+    }
+  for (unsigned int k = 0; k < b.n_columns(); ++k)
+    {
+      if (team->has_this_rank())
+        {
+          petsc::check(VecPlaceArray(from, b.column(k) + rows.first));
+          petsc::check(VecPlaceArray(to, column.data() + rows.first));
+          petsc::check(MatSolve(factor, from, to));
+          petsc::check(VecScale(to, 1. / unit));
+          petsc::check(VecResetArray(from));
+          petsc::check(VecResetArray(to));
+        }
+      team->share(column);
+      std::copy(column.begin(), column.end(), x.column(k));
+    }
+}
+
+std::shared_ptr<const Team>
+coarse_team(MPI_Comm all, const unsigned int n_rows, const FactorOf of, const unsigned int wanted)
+{
+  // MUMPS takes one and a half to two times as long as CHOLMOD does on one rank.
+  const unsigned int alone_limit = 20000, rows_of_member = 6000, least = 4;
+  const unsigned int n_ranks   = dealii::Utilities::MPI::n_mpi_processes(all);
+  const bool         by_itself = n_rows <= alone_limit || n_ranks < least;
+  const unsigned int by_size   = by_itself ? 1 : std::max(least, n_rows / rows_of_member);
+  const unsigned int n_members = std::min(wanted == 0 ? by_size : wanted, n_ranks);
+  if (n_members == 1 || package_name(prefix_of(of), Factorization::MUMPS) != MATSOLVERMUMPS)
+    return nullptr;
+  return std::make_shared<const Team>(all, n_members);
 }
 } // namespace snug::feti

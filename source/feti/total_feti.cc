@@ -57,7 +57,7 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
   , layout(the_layout)
   , parameters(the_parameters)
   , run(context)
-  , coarse(the_layout, table)
+  , coarse(the_layout, table, the_parameters.coarse_ranks)
   , gram(the_layout)
   , inverse_factors(FactorOf::kplus, parameters.factorization, &orderings, &run.work)
   , inner_factors(FactorOf::dirichlet, parameters.factorization, &orderings, &run.work)
@@ -230,7 +230,8 @@ void TotalFeti::find_soft_modes()
     return;
   run.out() << "soft modes: " << counts[0] << " of " << counts[1] << " subdomains, the softest "
             << largest << " times stiffer by its jumps" << std::endl;
-  deflation          = std::make_unique<Deflation>(systems, layout, coarse.subdomains(), forces);
+  deflation          = std::make_unique<Deflation>(systems, layout, coarse.subdomains(),
+                                          parameters.coarse_ranks, forces);
   deflation_outdated = true;
 }
 

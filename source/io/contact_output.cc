@@ -128,7 +128,7 @@ std::string faces_text(const Sources<dim>             &sources,
         }
       grid.add_cell(corners, {});
     }
-  return grid.vtu(compression);
+  return vtu({grid.piece(compression)});
 }
 
 /// One line per row, nodes of several pairs with several; places are those of the slaves.

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/elasticity/stress.h>
 #include <snug/io/fields.h>
@@ -152,6 +153,17 @@ std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &
              to.push_back(elasticity::von_mises(stress(node, region)));
            }}};
 }
+
+/// The texts of @p n ranks on the first of them, nothing on the others. Collective.
+std::vector<std::string> of_ranks(MPI_Comm all, const unsigned int n, const std::string &text)
+{
+  const int rank = narrow<int>(dealii::Utilities::MPI::this_mpi_process(all));
+  MPI_Comm  some;
+  MPI_Comm_split(all, rank / narrow<int>(n), rank, &some);
+  auto texts = dealii::Utilities::MPI::gather(some, text);
+  MPI_Comm_free(&some);
+  return texts;
+}
 } // namespace
 
 template <int dim>
@@ -189,19 +201,22 @@ void FieldOutput<dim>::write(const Sources                             &of,
   const auto grid =
     grid_of(mesh, state.positions, written(at_points, parameters), written(of_cells, parameters));
 
-  const MPI_Comm           comm = mesh.communicator();
-  const auto               rank = dealii::Utilities::MPI::this_mpi_process(comm);
-  const std::string        stem = "solution-" + padded(series.size(), 4);
-  std::vector<std::string> pieces;
-  for (unsigned int r = 0; r < dealii::Utilities::MPI::n_mpi_processes(comm); ++r)
+  const MPI_Comm           comm     = mesh.communicator();
+  const auto               rank     = dealii::Utilities::MPI::this_mpi_process(comm);
+  const std::string        stem     = "solution-" + padded(series.size(), 4);
+  const unsigned int       per_file = parameters.ranks_per_file;
+  std::vector<std::string> files;
+  for (unsigned int r = 0; r < dealii::Utilities::MPI::n_mpi_processes(comm); r += per_file)
     // the .pvtu names the files of all ranks
-    pieces.push_back(stem + "." + padded(r, 4) + ".vtu");
+    files.push_back(stem + "." + padded(r / per_file, 4) + ".vtu");
   series.emplace_back(time, stem + ".pvtu");
+  const auto pieces = of_ranks(comm, per_file, grid.piece(parameters.compression));
   everywhere(comm, [&] {
-    write_text_file(directory + "/" + pieces[rank], grid.vtu(parameters.compression));
+    if (!pieces.empty())
+      write_text_file(directory + "/" + files[rank / per_file], vtu(pieces));
     if (rank != 0)
       return;
-    write_text_file(directory + "/" + stem + ".pvtu", grid.pvtu(pieces));
+    write_text_file(directory + "/" + stem + ".pvtu", grid.pvtu(files));
     write_text_file(directory + "/solution.pvd", pvd(series));
   });
 }

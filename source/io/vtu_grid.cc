@@ -56,7 +56,7 @@ std::string encoded(const std::vector<T> &values, const unsigned int compression
          dealii::Utilities::encode_base64(blocks);
 }
 
-/// Words that a piece and the list of pieces have in common.
+/// Words that a piece and the list of files have in common.
 std::string
 declared(const std::string &type, const std::string &name, const unsigned int components)
 {
@@ -154,7 +154,7 @@ void VtuGrid<d, dim>::add_cell(const std::vector<unsigned int> &points,
 }
 
 template <int d, int dim>
-std::string VtuGrid<d, dim>::vtu(const unsigned int compression) const
+std::string VtuGrid<d, dim>::piece(const unsigned int compression) const
 {
   const std::size_t         n_corners = corner_offsets<d>().size();
   const std::size_t         n_cells   = corners.size() / n_corners;
@@ -172,8 +172,8 @@ std::string VtuGrid<d, dim>::vtu(const unsigned int compression) const
       write(declared("Float32", array.name, array.written), array.values);
     out << "</" << section << ">\n";
   };
-  out << opened("UnstructuredGrid") << "<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-      << places.values.size() / 3 << "\" NumberOfCells=\"" << n_cells << "\">\n";
+  out << "<Piece NumberOfPoints=\"" << places.values.size() / 3 << "\" NumberOfCells=\"" << n_cells
+      << "\">\n";
   write_all("Points", {places});
   out << "<Cells>\n";
   write(declared("Int32", "connectivity", 1), corners);
@@ -182,13 +182,13 @@ std::string VtuGrid<d, dim>::vtu(const unsigned int compression) const
   out << "</Cells>\n";
   write_all("PointData", at_points);
   write_all("CellData", of_cells);
-  out << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  out << "</Piece>\n";
   return out.str();
 }
 
 /// It names the quantities but has no points, so any rank can write it.
 template <int d, int dim>
-std::string VtuGrid<d, dim>::pvtu(const std::vector<std::string> &pieces) const
+std::string VtuGrid<d, dim>::pvtu(const std::vector<std::string> &files) const
 {
   std::ostringstream out;
   const auto         list = [&](const std::string &section, const std::vector<Array> &arrays) {
@@ -201,10 +201,18 @@ std::string VtuGrid<d, dim>::pvtu(const std::vector<std::string> &pieces) const
   list("Points", {places});
   list("PointData", at_points);
   list("CellData", of_cells);
-  for (const auto &piece : pieces)
-    out << "<Piece Source=\"" << piece << "\"/>\n";
+  for (const auto &file : files)
+    out << "<Piece Source=\"" << file << "\"/>\n";
   out << "</PUnstructuredGrid>\n</VTKFile>\n";
   return out.str();
+}
+
+std::string vtu(const std::vector<std::string> &pieces)
+{
+  std::string text = opened("UnstructuredGrid") + "<UnstructuredGrid>\n";
+  for (const auto &piece : pieces)
+    text += piece;
+  return text + "</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 /// ParaView's list of time steps; file names are relative to it.

@@ -13,12 +13,12 @@
 
 namespace snug::mesh {
 namespace {
-/// All ranks' entries, rank after rank; nothing on other ranks.
+/// All ranks' entries on rank @p root, rank after rank; nothing on other ranks.
 template <typename T>
-std::vector<T> on_rank_0(MPI_Comm communicator, const std::vector<T> &values)
+std::vector<T> on_rank(const unsigned int root, MPI_Comm communicator, const std::vector<T> &values)
 {
   std::vector<T> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::gather(communicator, values))
+  for (const auto &of_rank : dealii::Utilities::MPI::gather(communicator, values, root))
     all.insert(all.end(), of_rank.begin(), of_rank.end());
   return all;
 }
@@ -116,42 +116,87 @@ parts_of_graph(const CellGraph &graph, const FaceAreas &areas, double cells_each
   merge_slivers(graph, part, split_into_pieces(graph, part), cells_each);
   return part;
 }
-} // namespace
 
+/// A body's cells of all ranks on one of them.
 template <int dim>
-Partition graph_partition(const CellSet<dim> &set, double cells_each)
+class GatheredCells
 {
-  const auto               &comm       = set.communicator;
-  const unsigned int        rank       = dealii::Utilities::MPI::this_mpi_process(comm);
-  const auto                keys       = on_rank_0(comm, set.keys);
-  const auto                numbers    = on_rank_0(comm, set.numbers);
-  const auto                neighbours = on_rank_0(comm, set.neighbours);
-  const auto                areas      = on_rank_0(comm, set.areas);
-  std::vector<unsigned int> parts(keys.size());
-  if (rank == 0)
-    {
-      // The gathered order depends on the number of ranks, that by keys does not.
-      const auto                order = sorted_order(keys);
-      std::vector<unsigned int> cells;
-      for (const unsigned int i : order)
-        cells.push_back(numbers[i]);
-      const auto sorted_parts = parts_of_graph(cell_graph(cells, neighbours),
-                                               face_areas(cells, neighbours, areas), cells_each);
-      for (unsigned int i = 0; i < order.size(); ++i)
-        parts[order[i]] = sorted_parts[i];
-    }
+public:
+  /// Collective.
+  GatheredCells(const CellSet<dim> &set, const unsigned int root)
+    : keys(on_rank(root, set.communicator, set.keys))
+    , numbers(on_rank(root, set.communicator, set.numbers))
+    , neighbours(on_rank(root, set.communicator, set.neighbours))
+    , areas(on_rank(root, set.communicator, set.areas))
+  {}
+
+  /// Of each cell, rank after rank.
+  std::vector<unsigned int> parts(const double cells_each) const
+  {
+    // The gathered order depends on the number of ranks, that by keys does not.
+    const auto                order = sorted_order(keys);
+    std::vector<unsigned int> cells;
+    for (const unsigned int i : order)
+      cells.push_back(numbers[i]);
+    const auto                sorted = parts_of_graph(cell_graph(cells, neighbours),
+                                                      face_areas(cells, neighbours, areas), cells_each);
+    std::vector<unsigned int> result(order.size());
+    for (unsigned int i = 0; i < order.size(); ++i)
+      result[order[i]] = sorted[i];
+    return result;
+  }
+
+private:
+  std::vector<typename CellSet<dim>::Key> keys;
+  std::vector<unsigned int>               numbers;
+  CellPairs                               neighbours;
+  std::vector<double>                     areas;
+};
+
+/// The share of this rank in @p parts of @p root. Collective.
+template <int dim>
+Partition
+share(const CellSet<dim> &set, const std::vector<unsigned int> &parts, const unsigned int root)
+{
   // all parts to all ranks: an integer per cell, where a scatter would need counts
-  parts = dealii::Utilities::MPI::broadcast(comm, parts);
-  const auto counts =
+  const auto &comm = set.communicator;
+  const auto  all  = dealii::Utilities::MPI::broadcast(comm, parts, root);
+  const auto  counts =
     dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(set.numbers.size()));
-  // this rank's range, as on_rank_0() has joined them
-  const auto first = parts.begin() + std::accumulate(counts.begin(), counts.begin() + rank, 0u);
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+  // this rank's range, as on_rank() has joined them
+  const auto first = all.begin() + std::accumulate(counts.begin(), counts.begin() + rank, 0u);
   Partition  result;
   result.part.assign(first, first + counts[rank]);
-  result.n_parts = *std::max_element(parts.begin(), parts.end()) + 1;
+  result.n_parts = *std::max_element(all.begin(), all.end()) + 1;
+  return result;
+}
+} // namespace
+
+/// All are gathered before the first is partitioned, so that the ranks work at the same time.
+template <int dim>
+std::vector<Partition> graph_partitions(const std::vector<const CellSet<dim> *> &bodies,
+                                        const std::vector<double>               &cells_each)
+{
+  std::vector<GatheredCells<dim>> gathered;
+  std::vector<unsigned int>       root;
+  for (unsigned int i = 0; i < bodies.size(); ++i)
+    {
+      root.push_back(i % dealii::Utilities::MPI::n_mpi_processes(bodies[i]->communicator));
+      gathered.emplace_back(*bodies[i], root[i]);
+    }
+  std::vector<std::vector<unsigned int>> parts(bodies.size());
+  for (unsigned int i = 0; i < bodies.size(); ++i)
+    if (root[i] == dealii::Utilities::MPI::this_mpi_process(bodies[i]->communicator))
+      parts[i] = gathered[i].parts(cells_each[i]);
+  std::vector<Partition> result;
+  for (unsigned int i = 0; i < bodies.size(); ++i)
+    result.push_back(share(*bodies[i], parts[i], root[i]));
   return result;
 }
 
-template Partition graph_partition(const CellSet<2> &, double);
-template Partition graph_partition(const CellSet<3> &, double);
+template std::vector<Partition> graph_partitions(const std::vector<const CellSet<2> *> &,
+                                                 const std::vector<double> &);
+template std::vector<Partition> graph_partitions(const std::vector<const CellSet<3> *> &,
+                                                 const std::vector<double> &);
 } // namespace snug::mesh

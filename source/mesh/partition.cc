@@ -2,28 +2,55 @@
 
 namespace snug::mesh {
 template <int dim>
-const ChoiceTable<Partition(const CellSet<dim> &, double)> &partition_table()
+const ChoiceTable<bool(const CellSet<dim> &)> &partition_table()
 {
   // the texts are those of the parameter reference
-  static const ChoiceTable<Partition(const CellSet<dim> &, double)> table = {
+  static const ChoiceTable<bool(const CellSet<dim> &)> table = {
     {"auto",
      "grid for boxes and rings that are not refined locally, METIS for "
      "others",
-     [](const CellSet<dim> &set, double cells_each) {
-       // see partition_table() in the header for what ragged parts cost
-       return set.layered ? grid_partition(set, cells_each) : graph_partition(set, cells_each);
-     }},
+     // see partition_table() in the header for what ragged parts cost
+     [](const CellSet<dim> &set) { return set.layered; }},
     {"grid",
      "a grid of slabs along the axes, cut between layers of cells; near "
      "cubes, which need fewest iterations",
-     grid_partition<dim>},
+     [](const CellSet<dim> &) { return true; }},
     {"METIS",
      "parts of the cell graph with few shared faces, for meshes without "
      "layers",
-     graph_partition<dim>}};
+     [](const CellSet<dim> &) { return false; }}};
   return table;
 }
 
-template const ChoiceTable<Partition(const CellSet<2> &, double)> &partition_table<2>();
-template const ChoiceTable<Partition(const CellSet<3> &, double)> &partition_table<3>();
+template <int dim>
+std::vector<Partition> partitions(const std::string               &method,
+                                  const std::vector<CellSet<dim>> &bodies,
+                                  const std::vector<double>       &cells_each)
+{
+  const auto                       &by_grid = choose(partition_table<dim>(), method).make;
+  std::vector<Partition>            result(bodies.size());
+  std::vector<unsigned int>         others;
+  std::vector<const CellSet<dim> *> graphs;
+  std::vector<double>               cells_of_graphs;
+  for (unsigned int body = 0; body < bodies.size(); ++body)
+    if (by_grid(bodies[body]))
+      result[body] = grid_partition(bodies[body], cells_each[body]);
+    else
+      {
+        others.push_back(body);
+        graphs.push_back(&bodies[body]);
+        cells_of_graphs.push_back(cells_each[body]);
+      }
+  const auto of_graphs = graph_partitions(graphs, cells_of_graphs);
+  for (unsigned int i = 0; i < others.size(); ++i)
+    result[others[i]] = of_graphs[i];
+  return result;
+}
+
+template const ChoiceTable<bool(const CellSet<2> &)> &partition_table<2>();
+template const ChoiceTable<bool(const CellSet<3> &)> &partition_table<3>();
+template std::vector<Partition>
+partitions(const std::string &, const std::vector<CellSet<2>> &, const std::vector<double> &);
+template std::vector<Partition>
+partitions(const std::string &, const std::vector<CellSet<3>> &, const std::vector<double> &);
 } // namespace snug::mesh

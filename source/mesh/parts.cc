@@ -58,7 +58,6 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
   unsigned long  n_cells      = 0;
   for (const auto &set : sets)
     n_cells += set.n_global;
-  const auto         &partition = choose(partition_table<dim>(), parameters.method).make;
   std::vector<double> cells_each;
   for (const auto &set : sets)
     if (parameters.subdomains == 0)
@@ -72,11 +71,10 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
   Parts parts;
   do
     {
-      parts = Parts();
+      parts = {partitions(parameters.method, sets, cells_each), {}};
       for (unsigned int body = 0; body < sets.size(); ++body)
         {
-          parts.of_body.push_back(partition(sets[body], cells_each[body]));
-          parts.cells.push_back(cells_of_parts(parts.of_body.back(), communicator));
+          parts.cells.push_back(cells_of_parts(parts.of_body[body], communicator));
           cells_each[body] /= 2.;
         }
   } while (n_filled(parts) < least && cells_each.front() > 0.1);

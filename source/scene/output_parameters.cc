@@ -17,6 +17,9 @@ void OutputParameters::declare(Entries &entries)
               "Those that are left out take neither time nor room.");
   entries.add("Compression", compression, between(0., 9.),
               "Of *.vtu: 0: none; 1: fast; 9: smallest.");
+  entries.add("Ranks per file", ranks_per_file, at_least(1),
+              "Ranks whose cells share one file of a state, solution-STATE.GROUP.vtu: the first of "
+              "them writes it, and needs memory for all of it.");
   entries.add("Export QP", export_qp,
               "Also write the quadratic program of the first state and its solution into qp/, for "
               "other solvers, as PETSc's binary files and in Matrix Market format: see "

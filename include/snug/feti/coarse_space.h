@@ -27,8 +27,8 @@ struct SubdomainTable
 class CoarseSpace
 {
 public:
-  /// Patterns for @p layout. Collective.
-  CoarseSpace(const RowLayout &layout, const SubdomainTable &table);
+  /// Patterns for @p layout. Factorized by @p n_ranks, see coarse_team(). Collective.
+  CoarseSpace(const RowLayout &layout, const SubdomainTable &table, unsigned int n_ranks);
 
   /**
    * New numbers. Collective.
@@ -90,7 +90,7 @@ private:
   CsrMatrix                 gram;
   std::vector<std::size_t>  bounded_places; ///< in gram of contact rows
   std::vector<double>       equality_gram;
-  FactorPool                factor_pool{FactorOf::coarse};
+  FactorPool                factor_pool;
   qp::MultiVector           modes;
   std::vector<unsigned int> representative;
 

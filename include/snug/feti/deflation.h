@@ -27,10 +27,11 @@ class Deflation
 {
 public:
   /// @p raw of this rank's subdomains that have modes, ascending. Systems and layout must outlive
-  /// this object. Collective.
+  /// this object. E is factorized by @p coarse_ranks, see coarse_team(). Collective.
   Deflation(const std::vector<SubdomainSystem> &systems,
             const RowLayout                    &layout,
             const SubdomainTable               &table,
+            unsigned int                        coarse_ranks,
             std::vector<RowForces>              raw);
 
   /// C, F C and E for the present matrices. Collective.
@@ -82,6 +83,7 @@ private:
   std::vector<Part>                   parts;
   CsrMatrix                           E;
   std::vector<double>                 scale; ///< makes its diagonal 1
+  std::shared_ptr<const Team>         team;  ///< of the factor of E
   std::unique_ptr<SparseFactor>       factor;
 };
 } // namespace snug::feti

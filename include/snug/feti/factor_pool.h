@@ -20,11 +20,12 @@ class FactorPool
 public:
   /// By CHOLMOD with orders of its own unless said otherwise: most matrices are small, whatever
   /// the package of the stiffness. Counts factorizations in @p work; it and @p orderings must
-  /// outlive this object.
-  explicit FactorPool(FactorOf       of,
-                      Factorization  package   = Factorization::CHOLMOD,
-                      FillOrderings *orderings = nullptr,
-                      Work          *work      = nullptr);
+  /// outlive this object. With a @p team see SparseFactor.
+  explicit FactorPool(FactorOf                    of,
+                      Factorization               package   = Factorization::CHOLMOD,
+                      FillOrderings              *orderings = nullptr,
+                      Work                       *work      = nullptr,
+                      std::shared_ptr<const Team> team      = nullptr);
 
   /// The factorization of @p A, which returns when the pointer and its copies are gone; that may be
   /// after the end of the pool.
@@ -48,11 +49,12 @@ private:
     std::map<Key, std::weak_ptr<const SparseFactor>> used;
   };
 
-  FactorOf               of;
-  Factorization          package;
-  FillOrderings         *orderings;
-  Work                  *work;
-  std::shared_ptr<Items> items = std::make_shared<Items>();
+  FactorOf                    of;
+  Factorization               package;
+  FillOrderings              *orderings;
+  Work                       *work;
+  std::shared_ptr<const Team> team;
+  std::shared_ptr<Items>      items = std::make_shared<Items>();
 };
 } // namespace snug::feti
 

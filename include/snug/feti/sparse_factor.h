@@ -5,6 +5,9 @@
 #include <snug/feti/csr_matrix.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/feti/fill_orderings.h>
+#include <snug/feti/team.h>
+
+#include <memory>
 
 namespace snug::feti {
 /// The matrices that are factorized. PETSc's options for one begin with its name and "_":
@@ -34,8 +37,8 @@ void check_factor_options(Factorization package);
 
 /**
  * Cholesky factorization of sparse symmetric positive definite matrices
- * of one pattern on one process, by a package of PETSc. The symbolic part
- * is done once. Scaling the matrix by a power of two changes no digit:
+ * of one pattern on one process, or on a team of them, by a package of
+ * PETSc. The symbolic part is done once. Scaling the matrix by a power of two changes no digit:
  * the package factorizes it divided by one, so that no square root of its
  * units is taken. No matrix is kept.
  */
@@ -47,12 +50,15 @@ public:
    * @param[in] of whose options of PETSc hold.
    * @param[in] package unless the options name another.
    * @param[in] orderings where CHOLMOD takes its order from; null: it tries some of its own.
+   * @param[in] team Factorizes matrices that are the same on all its ranks, and all functions are
+   *   collective on them; null: this rank alone.
    * @throws InputError see check_factor_options()
    */
-  SparseFactor(const CsrMatrix &pattern,
-               FactorOf         of,
-               Factorization    package,
-               FillOrderings   *orderings = nullptr);
+  SparseFactor(const CsrMatrix            &pattern,
+               FactorOf                    of,
+               Factorization               package,
+               FillOrderings              *orderings = nullptr,
+               std::shared_ptr<const Team> team      = nullptr);
 
   /**
    * Factorize a matrix of the pattern.
@@ -60,7 +66,7 @@ public:
    *   or the solution of one check system is wrong (packages can fail
    *   silently); @p what names the matrix. It counts as singular where
    *   entries of a solution that should be of order one are above
-   *   @p singular_size: 1e11 leaves five digits.
+   *   @p singular_size: 1e11 leaves five digits. Other matrices may follow.
    */
   void factorize(const CsrMatrix &A, const std::string &what, double singular_size = 1e11);
 
@@ -68,22 +74,32 @@ public:
   void solve(const qp::MultiVector &b, qp::MultiVector &x) const;
 
 private:
-  void            analyse(const CsrMatrix   &pattern,
-                          const std::string &prefix,
-                          const std::string &package,
-                          FillOrderings     *orderings);
-  petsc::IndexSet elimination_order(Mat                wrapped,
-                                    const CsrPattern  &pattern,
-                                    const std::string &prefix,
-                                    FillOrderings     *orderings) const;
+  void            analyse(const CsrMatrix &pattern);
+  petsc::IndexSet elimination_order(Mat wrapped, const CsrPattern &pattern) const;
+  void            factorize_values(const CsrMatrix &A, const std::string &what);
   void            check(const CsrMatrix &A, const std::string &what, double singular_size) const;
+  petsc::Matrix   petsc_copy(const CsrMatrix &A) const;
+  void            solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) const;
 
-  PetscInt      n;
-  bool          is_lu;
-  petsc::Matrix factor;
-  petsc::Vector right_hand_side, solution;
-  double        unit = 1.; ///< power of two; the factor is of A / unit
+  PetscInt                    n;
+  std::string                 prefix, package; ///< PETSc's names
+  bool                        is_lu;
+  FillOrderings              *orderings;
+  std::shared_ptr<const Team> team; ///< before what lives on its communicator
+  petsc::Matrix               factor;
+  petsc::Vector               right_hand_side, solution;
+  bool                        has_failed = false;
+  double                      unit       = 1.; ///< power of two; the factor is of A / unit
 };
+
+/**
+ * Who factorizes a coarse problem of @p n_rows that all ranks have: null, each of them for itself,
+ * or a team of @p wanted. By size if that is 0: alone is faster up to 20,000 rows, and than three
+ * ranks; a team has one for 6,000 rows. Alone, too, by a package of PETSc's options but MUMPS.
+ * Collective.
+ */
+std::shared_ptr<const Team>
+coarse_team(MPI_Comm all, unsigned int n_rows, FactorOf of, unsigned int wanted);
 } // namespace snug::feti
 
 #endif

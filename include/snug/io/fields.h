@@ -13,7 +13,8 @@
 namespace snug::io {
 /**
  * The series solution.pvd of fields on the bodies: state number i is
- * solution-000i.pvtu, which joins one solution-000i.RANK.vtu per rank.
+ * solution-000i.pvtu, which joins one solution-000i.GROUP.vtu per group of ranks, as many as
+ * OutputParameters say, with a piece per rank.
  *
  * Points lie on the design, before deformation: "warp by vector
  * displacement" shows the deformed bodies, by minus design_displacement

@@ -18,8 +18,8 @@ struct Quantity
 
 /**
  * Cells of dimension @p d in space of dimension @p dim that share points, with values at the points
- * and of the cells, and their VTU text. A cell of degree p is drawn as p^d cells, linear between
- * its points. Numbers are written in single precision, vectors with three components.
+ * and of the cells, and their text in VTU files. A cell of degree p is drawn as p^d cells, linear
+ * between its points. Numbers are written in single precision, vectors with three components.
  *
  * Source: VTK file formats, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
  */
@@ -35,11 +35,11 @@ public:
   /// @param[in] points Of its (p+1)^d nodes, tensor-product order, first coordinate fastest.
   void add_cell(const std::vector<unsigned int> &points, const std::vector<double> &values);
 
-  /// @param[in] compression Level of zlib, 0 (none) to 9.
-  std::string vtu(unsigned int compression) const;
+  /// Its part of the text of a VTU file. @param[in] compression Level of zlib, 0 (none) to 9.
+  std::string piece(unsigned int compression) const;
 
-  /// The PVTU text that joins the VTU files @p pieces.
-  std::string pvtu(const std::vector<std::string> &pieces) const;
+  /// The PVTU text that joins VTU files.
+  std::string pvtu(const std::vector<std::string> &files) const;
 
 private:
   /// One quantity at all points, or of all cells.
@@ -58,6 +58,9 @@ private:
   Array                     places{"", dim, 3, {}};
   std::vector<std::int32_t> corners; ///< 2^d of each drawn cell, in VTK's order
 };
+
+/// The VTU text of pieces with the same quantities, as of several ranks.
+std::string vtu(const std::vector<std::string> &pieces);
 
 /// The PVD text of a series of (time, file).
 std::string pvd(const std::vector<std::pair<double, std::string>> &series);

@@ -60,24 +60,34 @@ struct Partition
 };
 
 /**
- * Ways to partition the cells of a body into parts of about a given number
- * of cells. Collective. Rows "auto", "grid" and "METIS".
+ * Whether the cells of a body are partitioned by a grid, else as a graph: rows "auto", "grid" and
+ * "METIS".
  *
  * Parts that are cubes of cells with flat sides need half the iterations
  * of the ragged ones a graph partitioner finds (54 subdomains of 6^3
  * cells, two cubes: 14 against 31 for a linear solve to 1e-6).
  */
 template <int dim>
-const ChoiceTable<Partition(const CellSet<dim> &, double)> &partition_table();
+const ChoiceTable<bool(const CellSet<dim> &)> &partition_table();
 
-/// Row "grid": slabs along the logical axes, cut between layers of cells.
+/**
+ * Each body into parts of about @p cells_each cells, by the row @p method of partition_table().
+ * Collective.
+ */
+template <int dim>
+std::vector<Partition> partitions(const std::string               &method,
+                                  const std::vector<CellSet<dim>> &bodies,
+                                  const std::vector<double>       &cells_each);
+
+/// Of one body: slabs along the logical axes, cut between layers of cells.
 template <int dim>
 Partition grid_partition(const CellSet<dim> &set, double cells_each);
 
-/// Row "METIS": the cell graph of the whole body, gathered on one rank, whose edges weigh as much
-/// as the faces' areas: parts of flat cells are not flat.
+/// By METIS: the cell graph of each whole body, gathered on one rank, the bodies on the ranks in
+/// turn. Its edges weigh as much as the faces' areas: parts of flat cells are not flat.
 template <int dim>
-Partition graph_partition(const CellSet<dim> &set, double cells_each);
+std::vector<Partition> graph_partitions(const std::vector<const CellSet<dim> *> &bodies,
+                                        const std::vector<double>               &cells_each);
 } // namespace snug::mesh
 
 #endif

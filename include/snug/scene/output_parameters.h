@@ -14,11 +14,12 @@ namespace snug::scene {
 struct OutputParameters
 {
   /// besides displacement and body
-  std::vector<std::string> fields      = {"stress",    "von_mises",           "region",
-                                          "subdomain", "design_displacement", "shape_gradient",
-                                          "error"};
-  unsigned int             compression = 1; ///< level of zlib
-  bool                     export_qp   = false;
+  std::vector<std::string> fields         = {"stress",    "von_mises",           "region",
+                                             "subdomain", "design_displacement", "shape_gradient",
+                                             "error"};
+  unsigned int             compression    = 1;  ///< level of zlib
+  unsigned int             ranks_per_file = 16; ///< of the fields
+  bool                     export_qp      = false;
 
   bool has(const std::string &field) const;
 

@@ -1,7 +1,7 @@
-// What the coarse problem G G' costs a rank that keeps all of it: subdomains in a cube, each
-// coupled with its 26 neighbours, six rigid modes each. Prints CSV: seconds of the numeric
-// factorization and of a solve with one column, and the megabytes of the factor, medians of the
-// repeats given.
+// What the coarse problem G G' costs a rank that keeps all of it, or in a team of all ranks:
+// subdomains in a cube, each coupled with its 26 neighbours, six rigid modes each. Prints CSV:
+// seconds of the numeric factorization and of a solve with one column, and the megabytes of the
+// factor on rank 0, medians of the repeats given.
 
 #include <snug/base/narrow.h>
 #include <snug/feti/sparse_factor.h>
@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 
 namespace {
 using namespace snug;
@@ -77,21 +78,28 @@ int main(int argc, char **argv)
       std::cerr << "usage: benchmark.coarse REPEATS SUBDOMAINS_PER_EDGE..." << std::endl;
       return 2;
     }
+  const auto n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const auto team =
+    n_ranks > 1 ? std::make_shared<const feti::Team>(MPI_COMM_WORLD, n_ranks) : nullptr;
+  const bool prints  = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   const auto repeats = narrow<unsigned int>(std::strtoul(argv[1], nullptr, 10));
-  std::cout << "subdomains,modes,factorization,solve,MB" << std::endl;
+  if (prints)
+    std::cout << "ranks,subdomains,modes,factorization,solve,MB" << std::endl;
   for (int i = 2; i < argc; ++i)
     {
       const auto         n      = narrow<unsigned int>(std::strtoul(argv[i], nullptr, 10));
       const auto         matrix = coarse_matrix(n);
       const double       before = megabytes();
-      feti::SparseFactor factor(matrix, feti::FactorOf::coarse, feti::Factorization::CHOLMOD);
+      feti::SparseFactor factor(matrix, feti::FactorOf::coarse, feti::Factorization::CHOLMOD,
+                                nullptr, team);
       const double    factorization = seconds(repeats, [&]() { factor.factorize(matrix, "G G'"); });
       const double    held          = megabytes() - before;
       qp::MultiVector b(matrix.n_rows()), x(matrix.n_rows());
       std::fill(b.column(0), b.column(0) + b.n_rows(), 1.);
       const double solve = seconds(10 * repeats, [&]() { factor.solve(b, x); });
-      std::cout << n * n * n << ',' << matrix.n_rows() << ',' << factorization << ',' << solve
-                << ',' << held << std::endl;
+      if (prints)
+        std::cout << n_ranks << ',' << n * n * n << ',' << matrix.n_rows() << ',' << factorization
+                  << ',' << solve << ',' << held << std::endl;
     }
   return 0;
 }

@@ -87,6 +87,11 @@ TEST_P(Factors, SingularMatricesAreErrors)
     {
       feti::SparseFactor factor(*matrix, feti::FactorOf::kplus, GetParam());
       expect_clear(complaint(factor, *matrix));
+      if (matrix == &loose)
+        {
+          ASSERT_EQ(complaint(factor, truss_on_springs()), "");
+          expect_inverse(truss_on_springs(), factor);
+        }
     }
 }
 
@@ -117,6 +122,67 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
   expect_clear(complaint(factor, K));
 }
 
+/// Those of PETSc hold while this lives.
+class PetscOption
+{
+public:
+  PetscOption(const std::string &the_name, const std::string &value) : name(the_name)
+  {
+    petsc::check(PetscOptionsSetValue(nullptr, name.c_str(), value.c_str()));
+  }
+  ~PetscOption() { PetscOptionsClearValue(nullptr, name.c_str()); }
+  PetscOption(const PetscOption &)            = delete;
+  PetscOption &operator=(const PetscOption &) = delete;
+
+private:
+  std::string name;
+};
+
+/// Of any number of ranks, and also bad matrices are errors on all of them.
+TEST(TeamFactors, InvertOnAllRanks)
+{
+  petsc::return_errors();
+  int size;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const auto good  = truss_on_springs();
+  auto       loose = good, not_a_number = good;
+  for (PetscInt p = loose.row_start()[3]; p < loose.row_start()[4]; ++p)
+    {
+      loose.values[p]                                     = 0.;
+      loose.values[loose.position(loose.columns()[p], 3)] = 0.;
+    }
+  not_a_number.values[not_a_number.position(7, 7)] = nan;
+  for (int members = 1; members <= size; ++members)
+    {
+      const auto         team = std::make_shared<const feti::Team>(MPI_COMM_WORLD, members);
+      feti::SparseFactor factor(good, feti::FactorOf::coarse, feti::Factorization::CHOLMOD, nullptr,
+                                team);
+      for (const auto *bad : {&loose, &not_a_number})
+        {
+          expect_clear(complaint(factor, *bad));
+          ASSERT_EQ(complaint(factor, good), "");
+          expect_inverse(good, factor);
+        }
+    }
+  PetscPopErrorHandler();
+}
+
+TEST(TeamFactors, AreMadeWhereTheyAreFaster)
+{
+  int size;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const auto members = [](const unsigned int n_rows, const unsigned int wanted) {
+    const auto team = feti::coarse_team(MPI_COMM_WORLD, n_rows, feti::FactorOf::coarse, wanted);
+    return team ? team->size() : 1;
+  };
+  EXPECT_EQ(members(1000, 0), 1);
+  EXPECT_EQ(members(1000000, 0), size < 4 ? 1 : size);
+  EXPECT_EQ(members(1000000, 1), 1);
+  EXPECT_EQ(members(1000, 100), size);
+  const PetscOption package("-coarse_pc_factor_mat_solver_type", "cholmod");
+  EXPECT_EQ(members(1000, 2), 1);
+}
+
 TEST_P(Factors, UnitsAreNoErrors)
 {
   auto       K    = truss_on_springs();
@@ -138,22 +204,6 @@ TEST_P(Factors, AnEmptyMatrixHasAnEmptyInverse)
   EXPECT_EQ(complaint(factor, empty), "");
   expect_inverse(empty, factor);
 }
-
-/// Those of PETSc hold while this lives.
-class PetscOption
-{
-public:
-  PetscOption(const std::string &the_name, const std::string &value) : name(the_name)
-  {
-    petsc::check(PetscOptionsSetValue(nullptr, name.c_str(), value.c_str()));
-  }
-  ~PetscOption() { PetscOptionsClearValue(nullptr, name.c_str()); }
-  PetscOption(const PetscOption &)            = delete;
-  PetscOption &operator=(const PetscOption &) = delete;
-
-private:
-  std::string name;
-};
 
 bool is_unused(const std::string &option)
 {

@@ -1,4 +1,5 @@
 #include <snug/io/fields.h>
+#include <snug/io/text_file.h>
 
 #include <gtest/gtest.h>
 
@@ -41,6 +42,13 @@ struct Bodies
   const std::vector<state::BodyModel<dim>> models;
 };
 
+scene::OutputParameters a_file_per_rank()
+{
+  scene::OutputParameters parameters;
+  parameters.ranks_per_file = 1;
+  return parameters;
+}
+
 std::string piece_of_rank(const std::string &stem)
 {
   int rank;
@@ -60,7 +68,7 @@ void expect_linear_fields(unsigned int degree)
   const test::ScratchDirectory scratch;
   const Bodies<dim>            bodies(true, degree);
   const auto                   materials = test::two_materials();
-  io::FieldOutput<dim>         output(scratch.path, {});
+  io::FieldOutput<dim>         output(scratch.path, a_file_per_rank());
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
 
   int rank;
@@ -116,7 +124,7 @@ TEST(FieldOutput, CellsShareTheirPoints)
 {
   const test::ScratchDirectory scratch;
   const Bodies<2>              bodies(false, 2);
-  io::FieldOutput<2>           output(scratch.path, {});
+  io::FieldOutput<2>           output(scratch.path, a_file_per_rank());
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   std::set<unsigned int> nodes;
@@ -134,20 +142,20 @@ TEST(FieldOutput, WritesWhatIsAskedForAtAnyCompression)
     output.write(bodies.sources(), 0., linear_state(bodies.mesh));
     return test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   };
-  const auto all = written({});
+  const auto all = written(a_file_per_rank());
   for (const unsigned int level : {0, 9})
-    EXPECT_EQ(written({scene::OutputParameters().fields, level}).arrays, all.arrays);
+    EXPECT_EQ(written({scene::OutputParameters().fields, level, 1}).arrays, all.arrays);
   auto few = all.arrays;
   for (const char *name : {"stress", "region", "subdomain", "design_displacement"})
     few.erase(name);
-  EXPECT_EQ(written({{"von_mises"}, 1}).arrays, few);
+  EXPECT_EQ(written({{"von_mises"}, 1, 1}).arrays, few);
 }
 
 TEST(FieldOutput, ListsTimesAndPieces)
 {
   const test::ScratchDirectory scratch;
   const Bodies<2>              bodies(false, 1);
-  io::FieldOutput<2>           output(scratch.path, {});
+  io::FieldOutput<2>           output(scratch.path, a_file_per_rank());
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
   output.write(bodies.sources(), 17., linear_state(bodies.mesh));
   MPI_Barrier(MPI_COMM_WORLD);
@@ -165,11 +173,45 @@ TEST(FieldOutput, ListsTimesAndPieces)
     EXPECT_EQ(test::count(pvtu, std::string("Name=\"") + name + "\""), 1) << name;
 }
 
+/// Pieces are what is between the words that open and close the grid.
+std::string pieces_of(const std::string &file)
+{
+  const std::string text  = test::read_file(file);
+  const auto        begin = text.find("<Piece");
+  return text.substr(begin, text.find("</UnstructuredGrid>") - begin);
+}
+
+TEST(FieldOutput, RanksShareFiles)
+{
+  const test::ScratchDirectory scratch;
+  const Bodies<2>              bodies(false, 1);
+  const auto                   state = linear_state(bodies.mesh);
+  io::FieldOutput<2>           alone(scratch.path, a_file_per_rank());
+  alone.write(bodies.sources(), 0., state);
+  MPI_Barrier(MPI_COMM_WORLD);
+  int size;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  std::vector<std::string> of_rank;
+  for (int rank = 0; rank < size; ++rank)
+    of_rank.push_back(pieces_of(scratch.file("solution-0000." + io::padded(rank, 4) + ".vtu")));
+  MPI_Barrier(MPI_COMM_WORLD);
+  auto parameters           = a_file_per_rank();
+  parameters.ranks_per_file = 2;
+  io::FieldOutput<2> in_pairs(scratch.path, parameters);
+  in_pairs.write(bodies.sources(), 0., state);
+  MPI_Barrier(MPI_COMM_WORLD);
+  for (int first = 0; first < size; first += 2)
+    EXPECT_EQ(pieces_of(scratch.file("solution-0000." + io::padded(first / 2, 4) + ".vtu")),
+              of_rank[first] + (first + 1 < size ? of_rank[first + 1] : ""));
+  EXPECT_EQ(test::count(test::read_file(scratch.file("solution-0000.pvtu")), "<Piece Source"),
+            (size + 1) / 2);
+}
+
 TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
 {
   const test::ScratchDirectory scratch;
   const Bodies<2>              bodies(false, 1);
-  io::FieldOutput<2>           output(scratch.path, {});
+  io::FieldOutput<2>           output(scratch.path, a_file_per_rank());
   const auto                   state = linear_state(bodies.mesh);
   int                          rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -194,7 +236,7 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
   std::vector<state::BodyModel<2>> models(1);
   models[0].materials        = {{1., 0.3}};
   const auto         tearing = test::one_subdomain_per_rank(mesh);
-  io::FieldOutput<2> output(scratch.path, {});
+  io::FieldOutput<2> output(scratch.path, a_file_per_rank());
   output.write({mesh, tearing, models}, 0., linear_state(mesh));
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   EXPECT_EQ(vtu.n_cells, mesh.cells().size());
