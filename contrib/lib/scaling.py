@@ -13,7 +13,9 @@ Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains:
   F-mult   d n/p + s(N) C + messages (LATENCY + bytes/BANDWIDTH) + collectives (...) log2 p
   face     f(N)                     the coarse factorization after a change of the active set
   memory   M0 + M1 n/p + M2 n + m(N)
-f, s and m are of the coarse problem that each rank keeps, powers of N beyond what was measured.
+f, s and m are of the coarse problem that each rank keeps, powers of N beyond what was measured; of a
+large one that a team of ranks shares they are multiplied by what the largest teams that were measured
+took of what one rank takes, seconds by CORES/members as if cores of their own kept them as busy.
 """
 
 import csv
@@ -26,6 +28,13 @@ COARSE_SOLVES = 3.5            # per F-mult: projections, amplitudes, feasible f
 LATENCY, BANDWIDTH = 2e-6, 1e10  # of a usual cluster network [s, bytes/s]; assumed, not measured
 MEMORY = 4000.                 # MB a rank has; assumed
 CORES = 2                      # of the machine that measured: seconds of more ranks say nothing
+MODES = 6                      # of a subdomain
+
+
+def team(subdomains, p):
+    """Ranks that share a coarse problem, as Solver/Coarse ranks = 0 chooses them."""
+    rows = MODES * subdomains
+    return 1 if rows <= 20000 or p < 4 else min(p, max(4, int(rows / 6000)))
 
 
 def read(path):
@@ -98,13 +107,28 @@ class Model:
         self.bytes_per_share = most["message_bytes_per_f_mult"] / share
         self.collectives = most["collectives_per_f_mult"]
         self.bytes_per_subdomain = most["collective_bytes_per_f_mult"] / most["subdomains"]
+        alone = [row for row in coarse if row["ranks"] == 1]
         self.solve, self.factorize, self.factor_mb = (
-            Power([(row["subdomains"], row[key]) for row in coarse])
+            Power([(row["subdomains"], row[key]) for row in alone])
             for key in ("solve", "factorization", "MB"))
+        largest = max(alone, key=lambda row: row["subdomains"])
+        self.teams = {int(row["ranks"]): {
+            "solve": row["solve"] / largest["solve"] * min(1., CORES / row["ranks"]),
+            "factorize": row["factorization"] / largest["factorization"]
+                         * min(1., CORES / row["ranks"]),
+            "MB": row["MB"] / largest["MB"]}
+            for row in coarse if row["subdomains"] == largest["subdomains"]}
+        self.teams[1] = {"solve": 1., "factorize": 1., "MB": 1.}
+
+    def of_team(self, subdomains, p):
+        """What a rank of a team takes of what one rank alone takes: at most the largest measured."""
+        members = team(subdomains, p)
+        return self.teams[max(size for size in self.teams if size <= members)]
 
     def stages(self, n, p):
         """Seconds of a cold state."""
         subdomains = n / UNKNOWNS_PER_SUBDOMAIN
+        share = self.of_team(subdomains, p)
         hops = math.log2(p)
         messages = self.messages * LATENCY + self.bytes_per_share * (n / p) ** (2. / 3.) / BANDWIDTH
         collectives = hops * (self.collectives * LATENCY
@@ -113,15 +137,17 @@ class Model:
                 "setup, of all on each rank": self.setup[1] * n,
                 "factorizations": self.factors * n / p,
                 "F": F_MULTS * self.f_mult * n / p,
-                "coarse solves": F_MULTS * COARSE_SOLVES * self.solve(subdomains),
-                "coarse factorizations": FACES * self.factorize(subdomains),
+                "coarse solves": F_MULTS * COARSE_SOLVES * share["solve"]
+                                 * self.solve(subdomains),
+                "coarse factorizations": FACES * share["factorize"] * self.factorize(subdomains),
                 "messages": F_MULTS * messages,
                 "collective calls": F_MULTS * collectives}
 
     def megabytes(self, n, p):
         return {"of the rank's part": self.memory[0] + self.memory[1] * n / p,
                 "of all on each rank": self.memory[2] * n,
-                "coarse factor": self.factor_mb(n / UNKNOWNS_PER_SUBDOMAIN)}
+                "coarse factor": self.factor_mb(n / UNKNOWNS_PER_SUBDOMAIN)
+                                 * self.of_team(n / UNKNOWNS_PER_SUBDOMAIN, p)["MB"]}
 
 
 def ranks_of_all(ranks):
@@ -137,7 +163,11 @@ def main(ranks, coarse):
     print(f"per F-mult {model.messages:.1f} messages, {model.collectives:.1f} collective calls of",
           f"{model.bytes_per_subdomain:.0f} bytes per subdomain")
     print(f"coarse exponents: factorization {model.factorize.exponent:.2f},",
-          f"solve {model.solve.exponent:.2f}, memory {model.factor_mb.exponent:.2f}\n")
+          f"solve {model.solve.exponent:.2f}, memory {model.factor_mb.exponent:.2f}")
+    for members, of in sorted(model.teams.items()):
+        print(f"a team of {members}: factorization {of['factorize']:.2f} of one rank's,",
+              f"solve {of['solve']:.2f}, memory {of['MB']:.2f}")
+    print()
     print("| unknowns | ranks | seconds | of these compute shared out | largest of the rest |"
           " MB per rank | largest of these |")
     print("|---|---|---|---|---|---|---|")

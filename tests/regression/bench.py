@@ -18,15 +18,18 @@ EXPECTED = {"whole": (["seconds", "cpu", "MB", "setup", "solve"], 2),
 
 
 def is_fitted(scaling, ranks):
-    """The cost model of many ranks finds the powers that a table of the coarse problem was made of."""
+    """The cost model of many ranks finds the powers and the gain of a team that a table of the coarse
+    problem was made of."""
     with tempfile.TemporaryDirectory() as directory:
         paths = [pathlib.Path(directory) / name for name in ("ranks.csv", "coarse.csv")]
         paths[0].write_text(ranks)
-        paths[1].write_text("subdomains,factorization,solve,MB\n" + "".join(
-            f"{n},{1e-8 * n ** 2},{1e-7 * n ** 1.25},{1e-3 * n ** 1.5}\n" for n in (100, 1000, 5000)))
+        paths[1].write_text("ranks,subdomains,factorization,solve,MB\n" + "".join(
+            f"{ranks},{n},{wall * 1e-8 * n ** 2},{wall * 1e-7 * n ** 1.25},{1e-3 * n ** 1.5 / ranks}\n"
+            for ranks, wall in ((1, 1.), (4, 1.5)) for n in (100, 1000, 5000)))
         done = subprocess.run([sys.executable, scaling, *paths], text=True, check=False,
                               capture_output=True)
     right = "factorization 2.00, solve 1.25, memory 1.50" in done.stdout and \
+        "team of 4: factorization 0.75 of one rank's, solve 0.75, memory 0.25" in done.stdout and \
         done.stdout.count("| 1e+0") == 6
     print("scaling", "right" if right else "wrong: " + done.stdout + done.stderr)
     return right
