@@ -87,9 +87,10 @@ ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>             
   AssertDimension(of_rows.size(), solver.contact().n_rows());
   for (const auto &pair : solver.contact().pairs())
     {
-      slave_of[pair.slave].push_back(pairs.size());
-      if (!pair.obstacle)
-        master_of[pair.master].push_back(pairs.size());
+      for (const auto &boundary : pair.slave.boundaries())
+        slave_of[boundary].push_back(pairs.size());
+      for (const auto &boundary : pair.master.boundaries())
+        master_of[boundary].push_back(pairs.size());
       pairs.push_back(std::make_unique<SlaveSide>(surface, pair, positions, shape,
                                                   nodal_values(solver, pairs.size(), of_rows)));
     }

@@ -43,12 +43,12 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
     {
       const auto gaps = contact.point_gaps(p, positions, held);
       for (const auto &face : mesh.boundary_faces())
-        if (contact::Pair::Side(face.body, face.boundary) == contact.pairs()[p].slave)
+        if (contact::is_on(face, contact.pairs()[p].slave))
           for (unsigned int q = 0; q < gauss.size(); ++q)
             {
               const auto             values     = shape.at(gauss.point(q));
               const auto             on_surface = shape.samples_at(gauss.point(q));
-              Point                  point{p, face.cell, {}, 0., 0., {}};
+              Point                  point{p, 0, face.cell, {}, 0., 0., {}};
               dealii::Tensor<1, dim> place, area_vector;
               for (unsigned int k = 0; k < face.nodes.size(); ++k)
                 {
@@ -70,6 +70,8 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                 continue;
               point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();
               point.gap  = *gap;
+              point.named =
+                contact.joined_pairs()[p].pair_of({face.body, face.boundary}, point.gap.master_boundary);
               point.residual = gap->gap - jump(point, u);
               points.push_back(point);
             }
@@ -135,11 +137,11 @@ std::vector<response::PressureRows>
 GapResidual<dim>::pressures(const std::vector<double> &of_rows) const
 {
   const auto                          q = values(of_rows);
-  std::vector<response::PressureRows> of_pairs(solver.contact().pairs().size());
+  std::vector<response::PressureRows> of_pairs(solver.contact().named_pairs().size());
   for (unsigned int i = 0; i < points.size(); ++i)
     {
-      of_pairs[points[i].pair].force.push_back(q[i] * points[i].area);
-      of_pairs[points[i].pair].area.push_back(points[i].area);
+      of_pairs[points[i].named].force.push_back(q[i] * points[i].area);
+      of_pairs[points[i].named].area.push_back(points[i].area);
     }
   const auto everywhere = [&](const std::vector<double> &values) {
     std::vector<double> all;

@@ -239,11 +239,16 @@ Counts count_in(const scene::Scene &scene, const unsigned int ranks)
     }
   for (const auto &pair : scene.contact.pairs)
     {
-      const double slave  = nodes_of_face.at(pair.slave);
-      const auto   master = nodes_of_face.find(pair.master);
-      const bool   either = pair.parameters.slave == contact::Slave::finer;
+      const auto nodes_of = [&](const std::string &side) {
+        double sum = 0.; // of an obstacle
+        for (const auto &face : contact::faces_of_side(side))
+          if (const auto found = nodes_of_face.find(face); found != nodes_of_face.end())
+            sum += found->second;
+        return sum;
+      };
+      const bool either = pair.parameters.slave == contact::Slave::finer;
       result.contact_rows +=
-        either && master != nodes_of_face.end() ? std::max(slave, master->second) : slave;
+        std::max(nodes_of(pair.slave), either ? nodes_of(pair.master) : 0.);
     }
   if (scene.tearing.subdomains > 0)
     each.assign(cells.size(), result.cells / scene.tearing.subdomains);

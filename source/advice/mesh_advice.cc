@@ -81,18 +81,18 @@ template <int dim>
 std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>
 boundaries_at(const Subject<dim>                        &subject,
               const typename mesh::BodyMesh<dim>::Field &x,
-              const contact::Pair::Side                 &side,
+              const contact::Side                       &side,
               const std::function<bool(unsigned int)>   &is_near)
 {
   const auto               &mesh = subject.mesh();
   std::vector<unsigned int> nodes; // on the side
   const auto                for_faces = [&](const auto &act) {
     for (const auto &face : mesh.boundary_faces())
-      if (face.body == side.first)
+      if (face.body == side.body())
         act(face);
   };
   for_faces([&](const auto &face) {
-    if (face.boundary == side.second)
+    if (contact::is_on(face, side))
       std::copy_if(face.nodes.begin(), face.nodes.end(), std::back_inserter(nodes), is_near);
   });
   std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> result;
@@ -118,14 +118,14 @@ boundaries_at(const Subject<dim>                        &subject,
 template <int dim>
 bool has_edge(const Subject<dim>                        &subject,
               const typename mesh::BodyMesh<dim>::Field &x,
-              const contact::Pair::Side                 &side,
+              const contact::Side                       &side,
               const std::function<bool(unsigned int)>   &is_near)
 {
   const auto found   = boundaries_at(subject, x, side, is_near);
   const auto is_held = [&](const auto &boundary) {
     return std::any_of(subject.model().supports.begin(), subject.model().supports.end(),
                        [&](const auto &support) {
-                         return support.body == side.first && support.boundary == boundary.first &&
+                         return support.body == side.body() && support.boundary == boundary.first &&
                                 (support.component == dim ||
                                  std::abs(boundary.second[support.component]) > 0.9);
                        });
@@ -134,7 +134,8 @@ bool has_edge(const Subject<dim>                        &subject,
   const bool axis   = subject.mesh().idealization().is_axisymmetric();
   for (const auto &own : found)
     for (const auto &other : found)
-      result = result || (own.first == side.second && other.first != side.second &&
+      result = result || (side.has({side.body(), own.first}) &&
+                          !side.has({side.body(), other.first}) &&
                           own.second * other.second < 0.8 && !is_held(other) &&
                           !(axis && other.second[0] < -0.9));
   return dealii::Utilities::MPI::max(int(result), subject.mesh().communicator()) == 1;

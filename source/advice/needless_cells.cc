@@ -122,7 +122,7 @@ private:
     const auto        sides = contact::boundaries_of(subject.model().pairs);
     for (const auto &face : mesh.boundary_faces())
       if (std::binary_search(sides.begin(), sides.end(),
-                             contact::Pair::Side{face.body, face.boundary}))
+                             contact::Boundary(face.body, face.boundary)))
         in_contact[face.cell] = true;
     const unsigned int all = 4 * regions.size(); // where the sums of all begin
     for (unsigned int c = 0; c < subject.states.size(); ++c)

@@ -120,10 +120,8 @@ std::vector<typename PointData<dim>::Touch> PointData<dim>::touches(const Place<
   std::vector<Touch> result;
   for (unsigned int p = 0; p < gaps.size(); ++p)
     {
-      const auto                &pair = subject.model().pairs[p];
-      const contact::Pair::Side  here{at.body, at.boundary};
-      const contact::Pair::Side &master = pair.obstacle ? pair.slave : pair.master;
-      if (here != pair.slave && here != master)
+      const auto &pair = subject.model().pairs[p];
+      if (!pair.slave.has({at.body, at.boundary}) && !pair.master.has({at.body, at.boundary}))
         continue;
       Touch touch{gaps[p].value(at.x), 0., {}, {}, bool(obstacles[p])};
       if (obstacles[p])

@@ -173,6 +173,17 @@ find_face(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std:
 }
 
 template <int dim>
+contact::Side find_side(const scene::Scene        &scene,
+                        const mesh::BodyMesh<dim> &mesh,
+                        const std::string         &side)
+{
+  contact::Side result;
+  for (const auto &face : contact::faces_of_side(side))
+    result.add(find_face(scene, mesh, face));
+  return result;
+}
+
+template <int dim>
 std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &scene,
                                                    const mesh::BodyMesh<dim> &mesh)
 {
@@ -238,6 +249,8 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
   template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,                \
                                                            const mesh::BodyMesh<dim> &,         \
                                                            const std::string &);                \
+  template contact::Side find_side(const scene::Scene &, const mesh::BodyMesh<dim> &,           \
+                                   const std::string &);                                        \
   template std::vector<state::LoadCase<dim>>     build_load_cases(const scene::Scene &,         \
                                                                   const mesh::BodyMesh<dim> &); \
   template std::vector<supports::Support<dim>>   build_supports(const scene::Scene &,           \

@@ -12,7 +12,7 @@ contact::Pair find_pair(const scene::Scene                      &scene,
                         const contact::ContactParameters::Entry &entry)
 {
   contact::Pair pair;
-  pair.slave       = find_face(scene, mesh, entry.slave);
+  pair.slave       = find_side(scene, mesh, entry.slave);
   pair.slave_name  = entry.slave;
   pair.master_name = entry.master;
   pair.parameters  = entry.parameters;
@@ -20,7 +20,7 @@ contact::Pair find_pair(const scene::Scene                      &scene,
     if (obstacle.name == entry.master)
       pair.obstacle = obstacle;
   if (!pair.obstacle)
-    pair.master = find_face(scene, mesh, entry.master);
+    pair.master = find_side(scene, mesh, entry.master);
   return pair;
 }
 
@@ -75,7 +75,9 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
 {
   auto faces = held_along_normals(scene);
   for (const auto &pair : scene.contact.pairs)
-    faces.insert(faces.end(), {pair.slave, pair.master});
+    for (const auto &side : {pair.slave, pair.master})
+      for (const auto &face : contact::faces_of_side(side))
+        faces.push_back(face);
   bool is_designed = false;
   for (const auto &shape : scene.shapes)
     {
@@ -123,9 +125,9 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
     }
   model.load_cases   = build_load_cases(scene, mesh);
   model.supports     = build_supports(scene, mesh);
-  const auto modulus = [&](const contact::Pair::Side &side) {
+  const auto modulus = [&](const contact::Side &side) {
     double least = std::numeric_limits<double>::max();
-    for (const auto &material : model.bodies[side.first].materials)
+    for (const auto &material : model.bodies[side.body()].materials)
       least = std::min(least, material.youngs_modulus);
     return least;
   };

@@ -50,11 +50,11 @@ Box<dim> box_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
 }
 
 template <int dim>
-Box<dim> box_of_boundary(const mesh::BodyMesh<dim> &mesh, unsigned int body, unsigned int boundary)
+Box<dim> box_of_side(const mesh::BodyMesh<dim> &mesh, const contact::Side &side)
 {
   std::vector<dealii::Tensor<1, dim>> points;
   for (const auto &face : mesh.boundary_faces())
-    if (face.body == body && face.boundary == boundary)
+    if (contact::is_on(face, side))
       for (const unsigned int node : face.nodes)
         points.push_back(mesh.reference_positions()[node]);
   return box_of<dim>(points, mesh.communicator());
@@ -114,7 +114,7 @@ typename Inventory<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mesh,
     {
       const mesh::Surface<dim> surface(mesh, {{body, b}});
       entry.boundaries.push_back(
-        {names[b], area_of(mesh, surface), box_of_boundary(mesh, body, b)});
+        {names[b], area_of(mesh, surface), box_of_side<dim>(mesh, {body, b})});
     }
   return entry;
 }
@@ -196,10 +196,10 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
       Box<dim> boxes[2];
       for (const unsigned int side : {0, 1})
         {
-          const auto face = find_face(scene, mesh, side == 0 ? pair.slave : pair.master);
-          const auto body = box_of_body(mesh, face.first);
-          boxes[side]     = box_of_boundary(mesh, face.first, face.second);
-          size            = std::max(size, body.lower.distance(body.upper));
+          const auto faces = find_side(scene, mesh, side == 0 ? pair.slave : pair.master);
+          const auto body  = box_of_body(mesh, faces.body());
+          boxes[side]      = box_of_side(mesh, faces);
+          size             = std::max(size, body.lower.distance(body.upper));
         }
       const double gap = distance<dim>(boxes[0], boxes[1]);
       if (gap <= too_far * size)

@@ -54,10 +54,17 @@ void Results<dim>::print_pairs() const
   for (const auto &place : contact.places())
     ++rows[place.pair];
   const faces::FaceShape<dim> shape(problem->mesh->degree());
-  const auto                  print_side = [&](const contact::Pair::Side &side) {
-    const auto   kind = problem->mesh->geometry(side.first).boundary_shape(side.second);
-    const double height = std::max(kind.facet_height, contact::face_height(surface, shape, side));
-    out << kind.name;
+  const auto                  print_side = [&](const contact::Side &side) {
+    double      height = contact::face_height(surface, shape, side);
+    std::string names;
+    for (const auto &[body, boundary] : side.boundaries())
+      {
+        const auto kind = problem->mesh->geometry(body).boundary_shape(boundary);
+        height          = std::max(height, kind.facet_height);
+        if (names.find(kind.name) == std::string::npos)
+          names += (names.empty() ? "" : ", ") + kind.name;
+      }
+    out << names;
     if (height > 0.)
       out << ", faces " << height << " off";
   };
@@ -155,7 +162,7 @@ void Results<dim>::draw(const double                  time,
       pictures[c].fields.write({*problem->mesh, problem->tearing, solver.model().bodies}, time,
                                states[c], gradient ? &*gradient : nullptr,
                                errors.empty() ? nullptr : &errors[c].energy.cells);
-      pictures[c].contact.write({*problem->mesh, solver.surface(), contact.pairs(),
+      pictures[c].contact.write({*problem->mesh, solver.surface(), contact.joined_pairs(),
                                  contact.places(), contact.shared_nodes()},
                                 time, states[c]);
     }

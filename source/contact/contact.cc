@@ -2,6 +2,7 @@
 #include <snug/contact/contact.h>
 #include <snug/contact/mortar_rows.h>
 #include <snug/contact/pair_rows.h>
+#include <snug/faces/nodal_normals.h>
 
 #include <algorithm>
 #include <map>
@@ -38,19 +39,13 @@ PairFaces sides_of(const mesh::Surface<dim> &surface, const Pair &pair)
           pair.obstacle ? std::vector<unsigned int>() : faces_of(surface, pair.master)};
 }
 
-void exchange_sides(Pair &pair)
-{
-  std::swap(pair.slave, pair.master);
-  std::swap(pair.slave_name, pair.master_name);
-}
-
 /// Size of the master's faces over that of the slave's.
 template <int dim>
 double relative_size(const mesh::Surface<dim>                 &surface,
                      const typename mesh::Surface<dim>::Field &positions,
                      const Pair                               &pair)
 {
-  const auto size = [&](const Pair::Side &side) {
+  const auto size = [&](const Side &side) {
     return mean_face_size(surface, faces_of(surface, side), positions);
   };
   return size(pair.master) / size(pair.slave);
@@ -86,63 +81,206 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
                       unsigned int                      degree,
                       const Field                      &positions,
                       const faces::HeldDirections<dim> &held)
-  : surface(surface), shape(degree), chosen(pairs)
+  : surface(surface), shape(degree), joined(join_pairs(surface, shape, pairs, positions))
 {
-  const std::vector<bool> none(surface.n_nodes(), false);
-  for (Pair &pair : chosen)
+  choose_slaves(positions, held);
+  named.resize(pairs.size());
+  for (const JoinedPair &of : joined)
+    for (const auto &part : of.parts)
+      {
+        const Pair &pair = pairs[part.pair];
+        named[part.pair] = {pair.slave_name, pair.master_name, pair.obstacle, {}};
+        if (!pair.slave.has(part.slave))
+          std::swap(named[part.pair].slave_name, named[part.pair].master_name);
+      }
+  make_groups(positions, held);
+  // Of the pairs of one boundary of each side that a list of boundaries stands for, some may be
+  // too far apart to touch.
+  for (unsigned int p = joined.size(); p-- > 0;)
+    if (groups[p].rows->slaves().empty())
+      {
+        joined.erase(joined.begin() + p);
+        chosen.erase(chosen.begin() + p);
+        matching_of.erase(matching_of.begin() + p);
+        groups.erase(groups.begin() + p);
+      }
+  number_rows(positions, held);
+}
+
+/// Choose the slaves and the methods of the joined pairs. The choices are made once: a design that
+/// changes which side is finer must not exchange the sides, or the kind of the rows, when contact
+/// is paired anew.
+template <int dim>
+void Contact<dim>::choose_slaves(const Field                      &positions,
+                                 const faces::HeldDirections<dim> &held)
+{
+  // Whether the sides of a pair of the scene are exchanged: in all joined pairs that it is part of,
+  // as its force is that on one side.
+  std::map<unsigned int, bool> exchanged;
+  for (JoinedPair &of : joined)
     {
-      const bool may_exchange = pair.parameters.slave == Slave::finer && !pair.obstacle;
+      Pair      &pair         = of.pair;
+      bool       is_exchanged = false;
+      const auto known        = std::find_if(of.parts.begin(), of.parts.end(), [&](const auto &part) {
+        return exchanged.count(part.pair) > 0;
+      });
+      const auto exchange     = [&]() {
+        of.exchange_sides();
+        is_exchanged = !is_exchanged;
+      };
+      if (known != of.parts.end() && exchanged[known->pair])
+        exchange();
+      const bool may_exchange =
+        pair.parameters.slave == Slave::finer && !pair.obstacle && known == of.parts.end();
       if (may_exchange && relative_size(surface, positions, pair) < 1. - finer_by)
-        exchange_sides(pair);
+        exchange();
       matching_of.emplace_back();
+      chosen.push_back(pair);
       if (!pair.obstacle)
-        matching_of.back() =
-          matching<dim>({surface, shape, pair, sides_of(surface, pair), positions, held, none});
+        matching_of.back() = matching<dim>(geometry(chosen.size() - 1, positions, held));
       if (!pair.parameters.method)
         pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
       if (may_exchange && pair.parameters.method == Method::mortar &&
           asks_too_much(relative_size(surface, positions, pair), pair.contrast))
-        exchange_sides(pair);
+        exchange();
       if (!pair.obstacle)
         matching_of.back().finer = relative_size(surface, positions, pair);
-      // The choices are made once: a design that changes which side is finer must not exchange the
-      // sides, or the kind of the rows, when contact is paired anew.
       pair.parameters.slave = Slave::first;
+      chosen.back()         = pair;
+      for (const auto &part : of.parts)
+        exchanged[part.pair] = is_exchanged;
     }
-  this->pair(positions, held);
+}
+
+template <int dim>
+PairGeometry<dim> Contact<dim>::geometry(const unsigned int                p,
+                                         const Field                      &positions,
+                                         const faces::HeldDirections<dim> &held,
+                                         std::vector<bool>                 taken) const
+{
+  taken.resize(surface.n_nodes(), false);
+  return {surface,   shape, chosen[p], sides_of(surface, chosen[p]),
+          positions, held,  std::move(taken)};
 }
 
 template <int dim>
 void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim> &held)
 {
-  AssertDimension(held.size(), surface.n_nodes());
-  groups.clear();
+  make_groups(positions, held);
+  number_rows(positions, held);
+}
+
+template <int dim>
+void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirections<dim> &held)
+{
   row_places.clear();
-  // nodes with a row, by what their rows are against
-  std::map<std::pair<std::string, Pair::Side>, std::vector<bool>> taken;
-  for (unsigned int p = 0; p < chosen.size(); ++p)
-    {
-      const Pair &pair = chosen[p];
-      // Pairs that overlap may bring the same node and master together twice; the two rows would be
-      // equal and W = B D^-1 B' singular.
-      auto &taken_here = taken[{pair.obstacle ? pair.obstacle->name : "", pair.master}];
-      taken_here.resize(surface.n_nodes(), false);
-      groups.push_back(
-        make_group({surface, shape, pair, sides_of(surface, pair), positions, held, taken_here}));
-      for (const unsigned int slave : groups.back().rows->slaves())
-        {
-          // The number of a row is its place here, over all groups.
-          row_places.push_back({p, slave});
-          taken_here[slave] = true;
-        }
-      // Replicated data: the same answer, and the same error, on all ranks.
-      if (groups.back().rows->slaves().empty())
-        throw InputError(
-          "contact pair '" + pair.name() +
-          "': no slave node lies opposite to the master within the search distance and angle");
-    }
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    for (const unsigned int slave : groups[p].rows->slaves())
+      // The number of a row is its place here, over all groups.
+      row_places.push_back({p, slave});
+  share_rows(positions, held);
+  check_named_pairs();
   collect_shared_nodes();
   measure_pairing(positions);
+}
+
+template <int dim>
+void Contact<dim>::make_groups(const Field &positions, const faces::HeldDirections<dim> &held)
+{
+  AssertDimension(held.size(), surface.n_nodes());
+  groups.clear();
+  for (unsigned int p = 0; p < chosen.size(); ++p)
+    groups.push_back(make_group(geometry(p, positions, held)));
+  auto taken = contested_nodes(positions);
+  for (unsigned int p = 0; p < chosen.size(); ++p)
+    if (!taken[p].empty())
+      groups[p] = make_group(geometry(p, positions, held, std::move(taken[p])));
+}
+
+/// Slave nodes of each group that have a row against the same surface in another group, whose side
+/// faces it better: two such rows would be nearly equal and W = B D^-1 B' singular. Empty: none.
+template <int dim>
+std::vector<std::vector<bool>> Contact<dim>::contested_nodes(const Field &positions) const
+{
+  struct Row
+  {
+    unsigned int group;
+    double       cosine; ///< between the normals of the group's side and of the row
+  };
+  std::map<std::pair<std::string, Boundary>, std::vector<unsigned int>> groups_of; // a surface
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    groups_of[{chosen[p].obstacle ? chosen[p].obstacle->name : "", joined[p].master_surface}]
+      .push_back(p);
+  std::vector<std::vector<bool>> taken(groups.size());
+  for (const auto &[against, of_surface] : groups_of)
+    {
+      if (of_surface.size() == 1)
+        continue;
+      std::map<unsigned int, std::vector<Row>> at_node;
+      for (const unsigned int p : of_surface)
+        {
+          const auto                    &slaves = groups[p].rows->slaves();
+          const auto                     faces  = faces_of(surface, chosen[p].slave);
+          const faces::NodalNormals<dim> normals(surface, faces, shape, positions);
+          const auto                     rows = groups[p].rows->rows(positions);
+          for (unsigned int i = 0; i < slaves.size(); ++i)
+            at_node[slaves[i]].push_back({p, normals.normals()[slaves[i]] * rows[i].normal});
+        }
+      for (const auto &[node, rows] : at_node)
+        {
+          auto best = rows.front();
+          for (const Row &row : rows)
+            if (row.cosine > best.cosine + 1e-9) // of equal ones the first
+              best = row;
+          for (const Row &row : rows)
+            if (row.group != best.group)
+              {
+                taken[row.group].resize(surface.n_nodes(), false);
+                taken[row.group][node] = true;
+              }
+        }
+    }
+  return taken;
+}
+
+template <int dim>
+void Contact<dim>::share_rows(const Field &positions, const faces::HeldDirections<dim> &held)
+{
+  for (NamedPair &pair : named)
+    pair.rows.clear();
+  unsigned int row = 0;
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    for (const PairShares &shares :
+         row_shares(joined[p], geometry(p, positions, held), *groups[p].rows))
+      {
+        double largest = 0.;
+        for (const auto &[pair, share] : shares)
+          {
+            named[pair].rows.emplace_back(row, share);
+            if (share > largest)
+              {
+                largest               = share;
+                row_places[row].named = pair;
+              }
+          }
+        ++row;
+      }
+}
+
+/// Replicated data: the same answer, and the same error, on all ranks.
+template <int dim>
+void Contact<dim>::check_named_pairs() const
+{
+  std::vector<bool> has_rows(named.size(), false);
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    if (!groups[p].rows->slaves().empty())
+      for (const auto &part : joined[p].parts)
+        has_rows[part.pair] = true;
+  for (unsigned int pair = 0; pair < named.size(); ++pair)
+    if (!has_rows[pair])
+      throw InputError(
+        "contact pair '" + named[pair].name() +
+        "': no slave node lies opposite to the master within the search distance and angle");
 }
 
 /// Groups number their own rows; rows of Contact count through all groups.
@@ -172,7 +310,7 @@ void Contact<dim>::measure_pairing(const Field &positions)
   gaps.assign(groups.size(), {});
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
-      const auto &[p, slave] = row_places[i];
+      const auto &[p, slave, of] = row_places[i];
       paired_offsets.push_back(slave_minus_master(paired[i], positions));
       double gap = paired[i].gap;
       // An obstacle that moves into a body is a load, not a body at the wrong place.
@@ -305,8 +443,7 @@ Contact<dim>::point_gaps(const unsigned int                p,
                          const Field                      &positions,
                          const faces::HeldDirections<dim> &held) const
 {
-  return std::make_unique<PointGaps<dim>>(PairGeometry<dim>{
-    surface, shape, chosen[p], sides_of(surface, chosen[p]), positions, held, {}});
+  return std::make_unique<PointGaps<dim>>(geometry(p, positions, held));
 }
 
 template <int dim>
@@ -331,7 +468,7 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
       const auto offset         = slave_minus_master(rows[i], positions);
-      const auto &[pair, slave] = row_places[i];
+      const auto &[pair, slave, of] = row_places[i];
       const auto &off_face      = rows[i].off_face;
       // Where the foot follows the offset is along the normal, but for coordinates that are fixed.
       const auto moved = off_face ? offset : offset - paired_offsets[i];

@@ -1,8 +1,7 @@
 #include <snug/base/shared_work.h>
 #include <snug/contact/mortar_rows.h>
 #include <snug/contact/opposite_faces.h>
-
-#include <deal.II/base/quadrature_lib.h>
+#include <snug/faces/tributary.h>
 
 #include <numeric>
 #include <set>
@@ -18,32 +17,6 @@ const double uncovered_edge = 0.01;
 
 /// A node is held if its supports leave less than this of its normal.
 const double held_part = 0.1;
-
-/// Integrals of the shape functions over a whole face.
-/// With the same number of Gauss points as tributary areas have.
-template <int dim>
-std::vector<double> whole_integrals(const mesh::Surface<dim>                 &surface,
-                                    unsigned int                              face,
-                                    const faces::FaceShape<dim>              &shape,
-                                    const typename mesh::Surface<dim>::Field &positions)
-{
-  const auto                   &nodes = surface.faces()[face].nodes;
-  const dealii::QGauss<dim - 1> gauss(shape.degree() + 2);
-  std::vector<double>           result(nodes.size(), 0.);
-  for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const auto             values = shape.at(gauss.point(q));
-      dealii::Tensor<1, dim> x;
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        x += values.value[k] * positions[nodes[k]];
-      const double weight =
-        gauss.weight(q) * surface.idealization().weight(x) *
-        faces::area_vector(faces::tangents<dim>(values, nodes, positions)).norm();
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        result[k] += weight * values.value[k];
-    }
-  return result;
-}
 
 double sum(const std::vector<double> &values)
 {
@@ -106,7 +79,7 @@ mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                   
                                                     const Field &positions) const
 {
   mortar::FaceCover cover = {face.face, of_nodes.slave,
-                             whole_integrals(surface, face.face, shape, positions)};
+                             faces::shape_integrals(surface, face.face, shape, positions)};
   // The Gram matrix of shape functions over a sliver of a face is nearly singular: its inverse
   // would give multiplier functions with large values of both signs.
   if (sum(cover.covered) < least_biorthogonal_cover * sum(cover.whole))

@@ -1,19 +1,43 @@
+#include <snug/base/values.h>
 #include <snug/contact/pair.h>
 
 #include <algorithm>
 
 namespace snug::contact {
-std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const std::vector<Pair> &pairs)
+/// With blanks, because names of mesh files may have a plus sign.
+std::vector<std::string> faces_of_side(const std::string &side)
 {
-  std::vector<std::pair<unsigned int, unsigned int>> boundaries;
-  for (const auto &pair : pairs)
+  const std::string        plus = " + ";
+  std::vector<std::string> faces;
+  std::size_t              begin = 0;
+  for (auto end = side.find(plus); end != std::string::npos; end = side.find(plus, begin))
     {
-      boundaries.push_back(pair.slave);
-      if (!pair.obstacle)
-        boundaries.push_back(pair.master);
+      faces.push_back(trim(side.substr(begin, end - begin)));
+      begin = end + plus.size();
     }
-  std::sort(boundaries.begin(), boundaries.end());
-  boundaries.erase(std::unique(boundaries.begin(), boundaries.end()), boundaries.end());
-  return boundaries;
+  faces.push_back(trim(side.substr(begin)));
+  return faces;
+}
+
+void Side::add(const Boundary &boundary)
+{
+  const auto place = std::lower_bound(members.begin(), members.end(), boundary);
+  if (place == members.end() || *place != boundary)
+    members.insert(place, boundary);
+}
+
+bool Side::has(const Boundary &boundary) const
+{
+  return std::binary_search(members.begin(), members.end(), boundary);
+}
+
+std::vector<Boundary> boundaries_of(const std::vector<Pair> &pairs)
+{
+  Side all;
+  for (const auto &pair : pairs)
+    for (const Side *side : {&pair.slave, &pair.master})
+      for (const Boundary &boundary : side->boundaries())
+        all.add(boundary);
+  return all.boundaries();
 }
 } // namespace snug::contact

@@ -24,11 +24,11 @@ double face_size(const std::vector<unsigned int>          &nodes,
 } // namespace
 
 template <int dim>
-std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side)
+std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Side &side)
 {
   std::vector<unsigned int> faces;
   for (unsigned int f = 0; f < surface.faces().size(); ++f)
-    if (Pair::Side(surface.faces()[f].body, surface.faces()[f].boundary) == side)
+    if (is_on(surface.faces()[f], side))
       faces.push_back(f);
   return faces;
 }
@@ -47,12 +47,12 @@ double mean_face_size(const mesh::Surface<dim>                 &surface,
 template <int dim>
 double face_height(const mesh::Surface<dim>    &surface,
                    const faces::FaceShape<dim> &shape,
-                   const Pair::Side            &side)
+                   const Side                  &side)
 {
   const auto &X       = surface.reference_positions();
   double      largest = 0.;
   for (const auto &face : surface.faces())
-    if (Pair::Side(face.body, face.boundary) == side)
+    if (is_on(face, side))
       for (unsigned int k = 0; k < face.samples.size(); ++k)
         {
           auto offset = X[face.samples[k]];
@@ -89,11 +89,11 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                   \
-  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Pair::Side &);  \
+  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);  \
   template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
                                  const mesh::Surface<dim>::Field &);                            \
   template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,        \
-                              const Pair::Side &);                                              \
+                              const Side &);                                              \
   template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                      \
                                                const mesh::Surface<dim>::Field &);              \
   template struct PairGeometry<dim>;                                                            \

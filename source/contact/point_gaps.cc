@@ -3,7 +3,7 @@
 
 namespace snug::contact {
 template <int dim>
-PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair) : positions(pair.positions)
+PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair) : positions(pair.positions), surface(pair.surface)
 {
   const auto &parameters = pair.pair.parameters;
   if (parameters.gap != "0")
@@ -83,6 +83,8 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       result.normal /= result.normal.norm();
       result.gap     = result.normal * (place(*nearest) - x) + nearest->relief;
       result.masters = nearest->masters;
+      const auto &face       = surface.faces()[nearest->face];
+      result.master_boundary = {face.body, face.boundary};
     }
   if (offset)
     result.gap += offset->value(dealii::Point<dim>(x));

@@ -39,24 +39,24 @@ state::ContactPoint shared_point(const Shares &shares, const Point &point)
   return result;
 }
 
+/// Of the rows of the joined pair @p p, per surface node.
 template <int dim>
 std::vector<state::ContactPoint> nodal_points(const Sources<dim>                     &sources,
+                                              const unsigned int                      p,
                                               const std::vector<state::ContactPoint> &rows)
 {
   AssertDimension(rows.size(), sources.places.size());
   std::vector<state::ContactPoint> points(sources.surface.n_nodes());
   std::vector<bool>                seen(points.size(), false);
   for (unsigned int i = 0; i < rows.size(); ++i)
-    {
-      const unsigned int node = sources.places[i].slave;
-      // a node of several pairs has several rows
-      if (!seen[node] || rows[i].force > points[node].force)
-        points[node] = rows[i];
-      seen[node] = true;
-    }
+    if (sources.places[i].pair == p)
+      {
+        points[sources.places[i].slave] = rows[i];
+        seen[sources.places[i].slave]   = true;
+      }
   // Order matters: masters of hanging nodes may themselves show shares of rows.
   for (const auto &shared : sources.shared_nodes)
-    if (!seen[shared.node])
+    if (!seen[shared.node] && sources.places[shared.rows[0].first].pair == p)
       points[shared.node] = shared_point(shared.rows, [&](unsigned int row) { return rows[row]; });
   for (unsigned int node = 0; node < points.size(); ++node)
     if (!sources.surface.masters(node).empty())
@@ -72,11 +72,16 @@ std::string faces_text(const Sources<dim>             &sources,
                        const SurfaceFields<dim>       &fields,
                        const unsigned int              compression)
 {
-  const auto        nodal = nodal_points<dim>(sources, state.contact);
-  const auto       &pairs = sources.pairs;
-  std::vector<bool> candidate(sources.surface.n_nodes(), false);
+  const auto                                   &pairs = sources.pairs;
+  std::vector<std::vector<state::ContactPoint>> nodal;
+  std::vector<std::vector<bool>>                candidate(pairs.size());
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    {
+      nodal.push_back(nodal_points<dim>(sources, p, state.contact));
+      candidate[p].assign(sources.surface.n_nodes(), false);
+    }
   for (const auto &row : sources.places)
-    candidate[row.slave] = true;
+    candidate[row.pair][row.slave] = true;
   // values below have the order of these quantities
   VtuGrid<dim - 1, dim>                                grid({{"pressure", 1},
                                                              {"gap", 1},
@@ -94,12 +99,13 @@ std::string faces_text(const Sources<dim>             &sources,
   std::map<std::pair<unsigned int, int>, unsigned int> number; // of a node of a pair
   for (const auto &face : sources.surface.faces())
     {
-      const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const contact::Pair &pair) {
-        return pair.slave == std::make_pair(face.body, face.boundary);
+      const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
+        return contact::is_on(face, of.pair.slave);
       });
       // the first pair counts: a face shows one
-      const bool                slave = found != pairs.end();
-      const int                 pair  = slave ? narrow<int>(found - pairs.begin()) : -1;
+      const bool         slave = found != pairs.end();
+      const unsigned int p     = found - pairs.begin();
+      const int pair = slave ? narrow<int>(found->pair_of({face.body, face.boundary}, {})) : -1;
       std::vector<unsigned int> corners;
       for (const unsigned int node : face.nodes)
         {
@@ -107,14 +113,14 @@ std::string faces_text(const Sources<dim>             &sources,
           if (is_new)
             {
               // A master side may share its edge with a slave side.
-              const auto          point  = slave ? nodal[node] : state::ContactPoint();
+              const auto          point  = slave ? nodal[p][node] : state::ContactPoint();
               std::vector<double> values = {point.pressure,
                                             point.gap,
                                             point.force,
                                             point.area,
                                             double(point.active),
                                             double(point.weak),
-                                            double(slave && candidate[node]),
+                                            double(slave && candidate[p][node]),
                                             double(slave),
                                             double(pair),
                                             double(face.body)};
@@ -143,7 +149,7 @@ std::string rows_text(const Sources<dim>             &sources,
     {
       const auto &row   = sources.places[i];
       const auto &point = state.contact[i];
-      text += std::to_string(row.pair);
+      text += std::to_string(row.named);
       for (unsigned int c = 0; c < dim; ++c)
         text += ',' + exact(fields.positions[row.slave][c]);
       for (const double x : {point.force, point.pressure, point.gap, point.area})

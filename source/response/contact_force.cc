@@ -19,7 +19,7 @@ normal_gradient(const state::StateSolver<dim>            &solver,
   typename mesh::Surface<dim>::Field moved(surface.n_nodes());
   const auto                         at_rest = moved;
   for (const auto &face : surface.faces())
-    if (contact::Pair::Side(face.body, face.boundary) == pair.slave)
+    if (contact::is_on(face, pair.slave))
       for (const unsigned int node : face.nodes)
         moved[node] = e;
   auto       gradient = solver.contact().energy_gradient(positions, moved, forces);
@@ -40,7 +40,7 @@ public:
   void check(const state::StateSolver<dim> &solver) const override
   {
     // Both throw for names that do not exist.
-    rows_of_pair(solver, parameters.pair);
+    row_shares(solver, parameters.pair);
     if (parameters.component != Component::normal)
       unit_vector<dim>(parameters);
   }
@@ -48,13 +48,13 @@ public:
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
-    const auto chosen = rows_of_pair(solver, parameters.pair);
+    const auto shares = row_shares(solver, parameters.pair);
     const auto rows   = solver.contact().rows(solver.surface().gather(state.positions));
     double     force  = 0.;
     for (unsigned int i = 0; i < rows.size(); ++i)
-      if (chosen[i])
+      if (shares[i] != 0.)
         force -=
-          state.contact[i].force *
+          shares[i] * state.contact[i].force *
           // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i itself.
           (parameters.component == Component::normal
              ? -1.
@@ -80,11 +80,10 @@ public:
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    const auto    chosen = rows_of_pair(solver, parameters.pair);
+    const auto    shares = row_shares(solver, parameters.pair);
     Partials<dim> result;
     // J is linear in the forces: its derivatives are the factors of value().
-    for (const bool row : chosen)
-      result.forces.push_back(row ? 1. : 0.);
+    result.forces = shares;
     result.positions.resize(solver.mesh().n_points());
     if (parameters.component == Component::normal)
       return result;
@@ -100,8 +99,8 @@ public:
       {
         std::vector<double> forces(rows.size(), 0.);
         for (unsigned int i = 0; i < rows.size(); ++i)
-          if (chosen[i] && solver.contact().places()[i].pair == p)
-            forces[i] = -state.contact[i].force;
+          if (solver.contact().places()[i].pair == p)
+            forces[i] = -shares[i] * state.contact[i].force;
         solver.surface().add_owned(normal_gradient(solver, pairs[p], x, forces, e),
                                    result.positions);
       }

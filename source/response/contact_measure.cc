@@ -8,16 +8,18 @@ namespace {
 /// bodies of revolution with degree 2.
 const double smallest_area = 1e-10;
 
+/// Rows and their shares.
+using Counted = std::vector<std::pair<unsigned int, double>>;
+
 /// The given rows of a state, in the order of @p rows.
 template <int dim>
-PressureRows pressure_rows(const std::vector<unsigned int> &rows,
-                           const state::ContactState<dim>  &state)
+PressureRows pressure_rows(const Counted &rows, const state::ContactState<dim> &state)
 {
   PressureRows result;
-  for (const unsigned int i : rows)
+  for (const auto &[i, share] : rows)
     {
-      result.force.push_back(state.contact[i].force);
-      result.area.push_back(state.contact[i].area);
+      result.force.push_back(share * state.contact[i].force);
+      result.area.push_back(share * state.contact[i].area);
     }
   return result;
 }
@@ -41,7 +43,7 @@ public:
   }
 
   /// Throws where there is no such pair.
-  void check(const state::StateSolver<dim> &solver) const override { rows_of_pair(solver, pair); }
+  void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair); }
 
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
@@ -77,8 +79,9 @@ public:
     result.forces.assign(state.contact.size(), 0.);
     for (unsigned int i = 0; i < rows.size(); ++i)
       {
-        result.forces[rows[i]] = measured.by_force[i];
-        by_area[rows[i]]       = measured.by_area[i];
+        const auto &[row, share] = rows[i];
+        result.forces[row]       = share * measured.by_force[i];
+        by_area[row]             = share * measured.by_area[i];
       }
     result.positions.resize(solver.mesh().n_points());
     // The gradient at the surface nodes is replicated: each rank adds those of its own nodes.
@@ -89,21 +92,21 @@ public:
   }
 
 private:
-  std::vector<unsigned int> counted_rows(const state::StateSolver<dim>  &solver,
-                                         const state::ContactState<dim> &state) const
+  Counted counted_rows(const state::StateSolver<dim>  &solver,
+                       const state::ContactState<dim> &state) const
   {
     // Contact points are replicated: no communication, and the same rows on all ranks.
-    const auto chosen  = rows_of_pair(solver, pair);
+    const auto shares  = row_shares(solver, pair);
     double     largest = 0.;
-    for (unsigned int i = 0; i < chosen.size(); ++i)
-      if (chosen[i])
+    for (unsigned int i = 0; i < shares.size(); ++i)
+      if (shares[i] != 0.)
         largest = std::max(largest, state.contact[i].area);
-    std::vector<unsigned int> result;
-    for (unsigned int i = 0; i < chosen.size(); ++i)
+    Counted result;
+    for (unsigned int i = 0; i < shares.size(); ++i)
       // Scale 0: supports hold the row entirely, it has no multiplier.
-      if (chosen[i] && solver.gluing().contact_scales()[i] != 0. &&
+      if (shares[i] != 0. && solver.gluing().contact_scales()[i] != 0. &&
           state.contact[i].area > smallest_area * largest)
-        result.push_back(i);
+        result.emplace_back(i, shares[i]);
     return result;
   }
 
@@ -116,9 +119,8 @@ private:
 template <int dim>
 std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std::string &name)
 {
-  const auto       &pairs = solver.contact().pairs();
   std::vector<bool> chosen;
-  for (const auto &pair : pairs)
+  for (const auto &pair : solver.contact().named_pairs())
     // Which side is the slave may have been chosen by the program: users need not know.
     chosen.push_back(name.empty() || name == pair.name() ||
                      name == pair.master_name + ": " + pair.slave_name);
@@ -128,12 +130,16 @@ std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std:
 }
 
 template <int dim>
-std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std::string &name)
+std::vector<double> row_shares(const state::StateSolver<dim> &solver, const std::string &name)
 {
-  const auto        chosen = chosen_pairs(solver, name);
-  std::vector<bool> result;
-  for (const auto &place : solver.contact().places())
-    result.push_back(chosen[place.pair]);
+  const auto          chosen = chosen_pairs(solver, name);
+  std::vector<double> result(solver.contact().n_rows(), name.empty() ? 1. : 0.);
+  if (name.empty()) // exactly 1, not a sum of shares
+    return result;
+  for (unsigned int p = 0; p < chosen.size(); ++p)
+    if (chosen[p])
+      for (const auto &[row, share] : solver.contact().named_pairs()[p].rows)
+        result[row] += share;
   return result;
 }
 
@@ -147,10 +153,10 @@ std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &p
 
 template std::vector<bool> chosen_pairs(const state::StateSolver<2> &, const std::string &);
 template std::vector<bool> chosen_pairs(const state::StateSolver<3> &, const std::string &);
-template std::vector<bool> rows_of_pair(const state::StateSolver<2> &, const std::string &);
+template std::vector<double> row_shares(const state::StateSolver<2> &, const std::string &);
 template std::unique_ptr<Response<2>>
 contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);
-template std::vector<bool> rows_of_pair(const state::StateSolver<3> &, const std::string &);
+template std::vector<double> row_shares(const state::StateSolver<3> &, const std::string &);
 template std::unique_ptr<Response<3>>
 contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);
 } // namespace snug::response

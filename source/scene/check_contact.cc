@@ -20,11 +20,24 @@ void check_sides(const Scene                             &scene,
                     "' is an obstacle and must come second: "
                     "'body.boundary: " +
                     pair.slave + "'");
-  require_face(scene, contact, "Pairs", value, pair.slave);
+  const auto slaves = contact::faces_of_side(pair.slave), masters = contact::faces_of_side(pair.master);
+  const auto check_side = [&](const std::vector<std::string> &faces) {
+    for (const auto &face : faces)
+      {
+        require_face(scene, contact, "Pairs", value, face);
+        contact.require(split_face(face).first == split_face(faces.front()).first, "Pairs", value,
+                        "'" + faces.front() + "' and '" + face +
+                          "' must be boundaries of one body to make one side");
+        contact.require(std::count(faces.begin(), faces.end(), face) == 1, "Pairs", value,
+                        "'" + face + "' must be named once by a side");
+      }
+  };
+  check_side(slaves);
   if (!is_obstacle(scene, pair.master))
-    require_face(scene, contact, "Pairs", value, pair.master);
-  contact.require(pair.slave != pair.master, "Pairs", value,
-                  "'" + pair.slave + "' must not be paired with itself");
+    check_side(masters);
+  for (const auto &face : slaves)
+    contact.require(std::count(masters.begin(), masters.end(), face) == 0, "Pairs", value,
+                    "'" + face + "' must not be paired with itself");
 }
 } // namespace
 

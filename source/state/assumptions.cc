@@ -48,10 +48,12 @@ double seen_facets(const StateSolver<dim> &solver, const unsigned int p)
   if (pair.obstacle || (pair.parameters.method == contact::Method::nodal &&
                         solver.contact().matchings()[p].complete()))
     return 0.;
-  const auto height = [&](const contact::Pair::Side &side) {
-    return solver.mesh().geometry(side.first).boundary_shape(side.second).facet_height;
-  };
-  return std::max(height(pair.slave), height(pair.master));
+  double height = 0.;
+  for (const auto *side : {&pair.slave, &pair.master})
+    for (const auto &[body, boundary] : side->boundaries())
+      height =
+        std::max(height, solver.mesh().geometry(body).boundary_shape(boundary).facet_height);
+  return height;
 }
 
 template <int dim>

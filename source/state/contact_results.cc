@@ -133,37 +133,40 @@ void sum_up_contact(const contact::Contact<dim> &contact,
                     const RowCoefficients<dim>  &rows,
                     ContactState<dim>           &state)
 {
-  for (const auto &pair : contact.pairs())
-    {
-      state.pairs.emplace_back();
-      state.pairs.back().name = pair.name();
-    }
-  for (unsigned int i = 0; i < state.contact.size(); ++i)
-    {
-      const ContactPoint &point = state.contact[i];
-      PairState<dim>     &pair  = state.pairs[contact.places()[i].pair];
-      ++pair.rows;
-      // The normal points into the master and -force * normal acts on the slave side.
-      pair.force -= point.force * rows.contact[i].normal;
-      pair.contact_area += point.strong ? point.area : 0.;
-      pair.max_pressure = std::max(pair.max_pressure, point.pressure);
-      pair.active_contacts += point.strong;
-      state.weak_contacts += point.weak;
-    }
+  std::vector<double> pressures; // that shared nodes show, by their first row
+  pressures.assign(state.contact.size(), 0.);
   for (const auto &node : contact.shared_nodes())
     {
       double pressure = 0.;
       for (const auto &row : node.rows)
         pressure += row.second * state.contact[row.first].pressure;
-      double &largest = state.pairs[contact.places()[node.rows[0].first].pair].max_pressure;
+      double &largest = pressures[node.rows[0].first];
       largest         = std::max(largest, pressure);
     }
-  for (const auto &pair : state.pairs)
+  for (const auto &named : contact.named_pairs())
     {
+      PairState<dim> pair;
+      pair.name = named.name();
+      for (const auto &[i, share] : named.rows)
+        {
+          const ContactPoint &point = state.contact[i];
+          ++pair.rows;
+          // The normal points into the master and -force * normal acts on the slave side.
+          pair.force -= share * point.force * rows.contact[i].normal;
+          pair.contact_area += point.strong ? share * point.area : 0.;
+          pair.max_pressure = std::max({pair.max_pressure, point.pressure, pressures[i]});
+          pair.active_contacts += point.strong;
+        }
       state.contact_force += pair.force;
       state.contact_area += pair.contact_area;
       state.max_pressure = std::max(state.max_pressure, pair.max_pressure);
-      state.active_contacts += pair.active_contacts;
+      state.pairs.push_back(pair);
+    }
+  for (const ContactPoint &point : state.contact)
+    {
+      // A row of several pairs counts once.
+      state.active_contacts += point.strong;
+      state.weak_contacts += point.weak;
     }
 }
 } // namespace

@@ -105,43 +105,43 @@ void add_places(const StateSolver<dim>     &solver,
   const auto                          &contact = solver.contact();
   const auto                           x       = solver.surface().gather(state.positions);
   const auto                           sizes   = contact::node_face_sizes(solver.surface(), x);
-  std::vector<std::vector<Force<dim>>> forces(state.pairs.size());
-  std::vector<double>                  sums(state.pairs.size(), 0.), largest = sums;
   std::vector<std::vector<bool>>       on_slave_side;
   for (const auto &pair : contact.pairs())
     {
       on_slave_side.emplace_back(solver.surface().n_nodes(), false);
       for (const auto &face : solver.surface().faces())
-        if (contact::Pair::Side(face.body, face.boundary) == pair.slave)
+        if (contact::is_on(face, pair.slave))
           for (const unsigned int node : face.nodes)
             on_slave_side.back()[node] = true;
     }
-  for (unsigned int i = 0; i < state.contact.size(); ++i)
-    {
-      const auto &[pair, slave] = contact.places()[i];
-      const auto &point         = state.contact[i];
-      auto       &of_pair       = state.pairs[pair];
-      const auto &row           = rows.contact[i];
-      const auto  at            = place<dim>(row, slave, on_slave_side[pair], x);
-      forces[pair].emplace_back(at, resultant(solver, -point.force * row.normal));
-      of_pair.centre += point.force * at;
-      sums[pair] += point.force;
-      if (point.pressure > largest[pair])
-        {
-          largest[pair]     = point.pressure;
-          of_pair.peak      = x[slave];
-          of_pair.peak_size = sizes[slave];
-        }
-    }
   for (unsigned int p = 0; p < state.pairs.size(); ++p)
     {
-      auto       &pair     = state.pairs[p];
-      const auto &obstacle = contact.pairs()[p].obstacle;
-      if (obstacle)
-        pair.centre = contact::to_point<dim>(obstacle->point);
-      else if (sums[p] > 0.)
-        pair.centre /= sums[p];
-      pair.moment = moment_about<dim>(pair.centre, forces[p]);
+      auto                   &of_pair = state.pairs[p];
+      const auto             &named   = contact.named_pairs()[p];
+      std::vector<Force<dim>> forces;
+      double                  sum = 0., largest = 0.;
+      for (const auto &[i, share] : named.rows)
+        {
+          const auto &[pair, slave, of] = contact.places()[i];
+          const auto &point         = state.contact[i];
+          const auto &row           = rows.contact[i];
+          const auto  at            = place<dim>(row, slave, on_slave_side[pair], x);
+          const auto  force         = share * point.force;
+          forces.emplace_back(at, resultant(solver, -force * row.normal));
+          of_pair.centre += force * at;
+          sum += force;
+          if (point.pressure > largest)
+            {
+              largest           = point.pressure;
+              of_pair.peak      = x[slave];
+              of_pair.peak_size = sizes[slave];
+            }
+        }
+      if (named.obstacle)
+        of_pair.centre = contact::to_point<dim>(named.obstacle->point);
+      else if (sum > 0.)
+        of_pair.centre /= sum;
+      of_pair.moment = moment_about<dim>(of_pair.centre, forces);
     }
 }
 } // namespace
@@ -158,7 +158,7 @@ void add_reactions(const StateSolver<dim>     &solver,
   for (const auto &reaction : state.reactions)
     state.balance += reaction.force;
   for (unsigned int p = 0; p < state.pairs.size(); ++p)
-    if (solver.contact().pairs()[p].obstacle)
+    if (solver.contact().named_pairs()[p].obstacle)
       state.balance += resultant(solver, state.pairs[p].force);
 }
 

@@ -29,7 +29,7 @@ public:
   double excess_work(const std::vector<state::ContactPoint>    &rows,
                      const typename mesh::BodyMesh<dim>::Field &v) const;
 
-  /// q dA and dA at all points, pair by pair, on all ranks. Collective.
+  /// q dA and dA at all points, by named pairs, on all ranks. Collective.
   std::vector<response::PressureRows> pressures(const std::vector<double> &of_rows) const;
 
   /// Of the slave faces of a pair, at their nodes, the least d of any of their points; infinite at
@@ -39,7 +39,7 @@ public:
 private:
   struct Point
   {
-    unsigned int                                 pair, cell;
+    unsigned int                                 pair, named, cell; ///< joined and named pair
     std::vector<std::pair<unsigned int, double>> shape; ///< surface nodes, values
     double                                       area;  ///< of the true surface [length^2]
     double                                       residual;

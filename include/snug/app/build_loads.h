@@ -23,6 +23,11 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
 template <int dim>
 std::pair<unsigned int, unsigned int>
 find_face(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &face);
+
+/// The boundaries of "body.boundary + body.boundary + ...".
+template <int dim>
+contact::Side
+find_side(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side);
 } // namespace snug::app
 
 #endif

@@ -1,6 +1,7 @@
 #ifndef snug_contact_contact_h
 #define snug_contact_contact_h
 
+#include <snug/contact/joined_pairs.h>
 #include <snug/contact/matching.h>
 #include <snug/contact/point_gaps.h>
 #include <snug/contact/row_group.h>
@@ -12,8 +13,21 @@ namespace snug::contact {
 /// Where a row stands.
 struct RowPlace
 {
-  unsigned int pair;
+  unsigned int pair;  ///< of Contact::pairs()
   unsigned int slave; ///< surface node
+  unsigned int named = 0; ///< of Contact::named_pairs(), the one with the largest share
+};
+
+/// A pair as the scene names it, and the rows that count as its own.
+struct NamedPair
+{
+  std::string                       slave_name, master_name; ///< after the choice of the slave
+  std::optional<ObstacleParameters> obstacle;
+  /// ascending rows and their shares: parts of the force and of the area that belong to this pair
+  std::vector<std::pair<unsigned int, double>> rows;
+
+  /// "slave: master"
+  std::string name() const { return slave_name + ": " + master_name; }
 };
 
 /// The gaps of a pair, without the motion of an obstacle.
@@ -25,11 +39,12 @@ struct PairedGaps
 };
 
 /**
- * All contact rows of a scene: one group per pair, in the order of the
- * pairs, with the pair's gap formula at the slave nodes added to the gaps
- * of the group. Pairing, of nodes with faces, is done by the constructor
- * and pair() and frozen in between; see RowGroup for the meaning of the
- * functions.
+ * All contact rows of a scene: one group per joined pair (JoinedPair), in
+ * the order of pairs(), with the pair's gap formula at the slave nodes added
+ * to the gaps of the group. A slave node that touches the same surface by
+ * several groups has a row in the group whose side faces that surface best.
+ * Pairing, of nodes with faces, is done by the constructor and pair() and
+ * frozen in between; see RowGroup for the meaning of the functions.
  */
 template <int dim>
 class Contact
@@ -54,8 +69,12 @@ public:
   Contact(const Contact &)            = delete;
   Contact &operator=(const Contact &) = delete;
 
-  /// The pairs with their slaves chosen, which come first, and their methods.
+  /// The joined pairs with their slaves chosen, which come first, and their methods.
   const std::vector<Pair> &pairs() const { return chosen; }
+  /// The same with the boundaries that each pair of the scene brings together.
+  const std::vector<JoinedPair> &joined_pairs() const { return joined; }
+  /// The pairs as the scene names them, in its order. Shares are those where contact was paired.
+  const std::vector<NamedPair> &named_pairs() const { return named; }
   /// Of each pair when it was first paired; nothing of obstacles.
   const std::vector<Matching> &matchings() const { return matching_of; }
   unsigned int                 n_rows() const { return row_places.size(); }
@@ -103,7 +122,9 @@ private:
 
   const mesh::Surface<dim>   &surface;
   const faces::FaceShape<dim> shape;
-  std::vector<Pair>           chosen;
+  std::vector<JoinedPair>     joined;
+  std::vector<Pair>           chosen; ///< those of joined
+  std::vector<NamedPair>      named;
   std::vector<Matching>       matching_of; ///< each pair
   std::vector<Group>          groups;      ///< one per pair
   std::vector<RowPlace>       row_places;
@@ -111,6 +132,16 @@ private:
   Field                       paired_offsets; ///< of each row, when paired
   std::vector<PairedGaps>     gaps;           ///< of each pair, when paired
 
+  PairGeometry<dim> geometry(unsigned int                      p,
+                             const Field                      &positions,
+                             const faces::HeldDirections<dim> &held,
+                             std::vector<bool>                 taken = {}) const;
+  void  choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held);
+  void  make_groups(const Field &positions, const faces::HeldDirections<dim> &held);
+  void  number_rows(const Field &positions, const faces::HeldDirections<dim> &held);
+  std::vector<std::vector<bool>> contested_nodes(const Field &positions) const;
+  void                           check_named_pairs() const;
+  void  share_rows(const Field &positions, const faces::HeldDirections<dim> &held);
   void  collect_shared_nodes();
   void  measure_pairing(const Field &positions);
   Group make_group(const PairGeometry<dim> &geometry) const;

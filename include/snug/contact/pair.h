@@ -57,13 +57,16 @@ struct PairParameters
   void check(const SectionCheck &section) const;
 };
 
+/// The faces that the side of a pair names: "body.boundary + body.boundary" has two.
+std::vector<std::string> faces_of_side(const std::string &side);
+
 /// Entries of `subsection Contact`.
 struct ContactParameters
 {
   struct Entry
   {
-    std::string    slave;  ///< body.boundary
-    std::string    master; ///< body.boundary or obstacle
+    std::string    slave;  ///< body.boundary + ...
+    std::string    master; ///< body.boundary + ..., or an obstacle
     PairParameters parameters;
 
     std::string section() const { return "Pair " + slave + ": " + master; }
@@ -79,11 +82,38 @@ struct ContactParameters
   void declare(Entries &entries);
 };
 
+/// Body and boundary.
+using Boundary = std::pair<unsigned int, unsigned int>;
+
+/// One side of a pair: one or several boundaries of a body.
+class Side
+{
+public:
+  Side() = default;
+  Side(unsigned int body, unsigned int boundary) : members({{body, boundary}}) {}
+  Side(const Boundary &boundary) : members({boundary}) {}
+
+  /// Ascending.
+  const std::vector<Boundary> &boundaries() const { return members; }
+  /// Of a side that has a boundary.
+  unsigned int body() const { return members.front().first; }
+  void         add(const Boundary &boundary);
+  bool         has(const Boundary &boundary) const;
+
+private:
+  std::vector<Boundary> members;
+};
+
+/// Whether a face of a mesh or of a surface lies on @p side.
+template <typename Face>
+bool is_on(const Face &face, const Side &side)
+{
+  return side.has({face.body, face.boundary});
+}
+
 /// One contact pair: a slave side and a master side or obstacle.
 struct Pair
 {
-  using Side = std::pair<unsigned int, unsigned int>; ///< body, boundary
-
   Side                              slave, master;
   std::string                       slave_name = {}, master_name = {};
   PairParameters                    parameters = {};
@@ -95,8 +125,8 @@ struct Pair
   std::string name() const { return slave_name + ": " + master_name; }
 };
 
-/// (body, boundary) of all sides of @p pairs that have a mesh, ascending.
-std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const std::vector<Pair> &pairs);
+/// Of all sides of @p pairs, ascending.
+std::vector<Boundary> boundaries_of(const std::vector<Pair> &pairs);
 } // namespace snug::contact
 
 #endif

@@ -10,7 +10,7 @@
 namespace snug::contact {
 /// The faces of a side, ascending, so that the order of rows does not depend on the ranks.
 template <int dim>
-std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Pair::Side &side);
+std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Side &side);
 
 /// Mean edge length of @p faces: diagonal over sqrt(dim-1) [length].
 template <int dim>
@@ -22,7 +22,7 @@ double mean_face_size(const mesh::Surface<dim>                 &surface,
 template <int dim>
 double face_height(const mesh::Surface<dim>    &surface,
                    const faces::FaceShape<dim> &shape,
-                   const Pair::Side            &side);
+                   const Side                  &side);
 
 /// The two sides of a pair: indices of surface faces.
 struct PairFaces

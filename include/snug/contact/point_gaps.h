@@ -15,6 +15,7 @@ struct PointGap
   dealii::Tensor<1, dim> normal;   ///< n, of length 1, into the master
   double                 gap = 0.; ///< between the true surfaces [length]
   Weights                masters;  ///< w_k; none of obstacles
+  Boundary               master_boundary; ///< {} of obstacles
 };
 
 /// The gaps of a pair at any points of its slave side, as NodalRows and ObstacleRows have
@@ -44,6 +45,7 @@ private:
   std::unique_ptr<geometry::Formula<dim>> offset;
   std::unique_ptr<Obstacle<dim>>          obstacle;
   dealii::Tensor<1, dim>                  shift; ///< of the obstacle
+  const mesh::Surface<dim>               &surface;
   std::vector<unsigned int>               master_faces, slave_faces;
   Normals                                 normals, slave_normals; ///< the latter of mortar
   std::unique_ptr<Projector<dim>>         projector;

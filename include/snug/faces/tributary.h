@@ -41,6 +41,14 @@ std::vector<double> tributary_areas(const TributaryFaces<dim>                &of
                                     const std::vector<unsigned int>          &nodes,
                                     const typename mesh::Surface<dim>::Field &positions);
 
+/// Return the integrals of the shape functions of the nodes of a @p face, a surface index, with
+/// the weight of the idealization [length^2].
+template <int dim>
+std::vector<double> shape_integrals(const mesh::Surface<dim>                 &surface,
+                                    unsigned int                              face,
+                                    const FaceShape<dim>                     &shape,
+                                    const typename mesh::Surface<dim>::Field &positions);
+
 /// gradient_a += d/dX_a sum_i factors_i area_i over @p nodes i, for all
 /// surface nodes a: hanging ones count as independent positions.
 template <int dim>

@@ -25,7 +25,7 @@ namespace snug::io {
  * | active, weak        | 1 or 0                        |                 |
  * | candidate           | 1 where there is a row        |                 |
  * | slave               | 1 on the slave side, else 0   |                 |
- * | pair                | first of the slave side or -1 | index           |
+ * | pair                | of the slave face, first; -1  | index           |
  * | body                | index of `Bodies`             |                 |
  * | displacement        |                               | length          |
  * | design_displacement | design minus reference        | length          |
@@ -35,7 +35,8 @@ namespace snug::io {
  * Pressure, gap and flags stand at slave nodes; hanging ones interpolate
  * pressure and gap and are active or weak where all their masters are; so
  * do nodes that the rows of others act for (mortar). Elsewhere they are 0.
- * A node of several pairs shows its largest force.
+ * A node of several pairs has a point in each. In the table a row has the
+ * pair with the largest share in it.
  */
 template <int dim>
 class ContactOutput
@@ -46,7 +47,7 @@ public:
   {
     const mesh::BodyMesh<dim>              &mesh;
     const mesh::Surface<dim>               &surface;
-    const std::vector<contact::Pair>       &pairs;
+    const std::vector<contact::JoinedPair> &pairs;
     const std::vector<contact::RowPlace>   &places;
     const std::vector<contact::SharedNode> &shared_nodes;
   };

@@ -15,7 +15,7 @@ std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std:
 /// Which contact rows belong to the pair called @p name, either side
 /// first; empty: all. @throws InputError if there is no such pair.
 template <int dim>
-std::vector<bool> rows_of_pair(const state::StateSolver<dim> &solver, const std::string &name);
+std::vector<double> row_shares(const state::StateSolver<dim> &solver, const std::string &name);
 
 /// @name What response_table() is made of
 /// @{

@@ -25,7 +25,7 @@ struct ContactScene
     , slave(1, geometry::boundary_index(mesh.geometry(1), "bottom"))
     , master(0, geometry::boundary_index(mesh.geometry(0), "top"))
     , surface(mesh, {slave, master})
-    , pairs{{slave, master}}
+    , pairs{{{slave, master}, {{slave, master, 0}}, slave, master}}
   {
     state.positions     = mesh.reference_positions();
     state.displacement  = test::linear_field<dim>(state.positions);
@@ -58,7 +58,7 @@ struct ContactScene
   mesh::BodyMesh<dim>                   mesh;
   std::pair<unsigned int, unsigned int> slave, master;
   mesh::Surface<dim>                    surface;
-  std::vector<contact::Pair>            pairs;
+  std::vector<contact::JoinedPair>      pairs;
   std::vector<contact::RowPlace>        places;
   std::vector<contact::SharedNode>      shared;
   state::ContactState<dim>              state;
@@ -177,7 +177,7 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
   const test::ScratchDirectory           scratch;
   const mesh::BodyMesh<2>                mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
   const mesh::Surface<2>                 surface(mesh, {});
-  const std::vector<contact::Pair>       pairs;
+  const std::vector<contact::JoinedPair> pairs;
   const std::vector<contact::RowPlace>   places;
   const std::vector<contact::SharedNode> shared;
   io::ContactOutput<2>                   output(scratch.path, {});

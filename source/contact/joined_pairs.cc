@@ -1,0 +1,240 @@
+#include <snug/contact/joined_pairs.h>
+#include <snug/faces/nodal_normals.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+namespace snug::contact {
+namespace {
+void exchange(Pair &pair)
+{
+  std::swap(pair.slave, pair.master);
+  std::swap(pair.slave_name, pair.master_name);
+}
+
+bool are_equal(const PairParameters &a, const PairParameters &b)
+{
+  const auto all = [](const PairParameters &p) {
+    return std::tie(p.method, p.slave, p.search_distance, p.largest_angle, p.gap, p.interference);
+  };
+  return all(a) == all(b);
+}
+
+/// The pairs of one boundary of each side.
+std::vector<JoinedPair::Part> parts_of(const Pair &pair, const unsigned int index)
+{
+  std::vector<JoinedPair::Part> parts;
+  for (const Boundary &slave : pair.slave.boundaries())
+    if (pair.obstacle)
+      parts.push_back({slave, {}, index});
+    else
+      for (const Boundary &master : pair.master.boundaries())
+        parts.push_back({slave, master, index});
+  return parts;
+}
+
+/// "a + b" of the different names, in their order.
+std::string sum_of(const std::vector<std::string> &names)
+{
+  std::vector<std::string> different;
+  for (const auto &side : names)
+    for (const auto &name : faces_of_side(side))
+      if (std::find(different.begin(), different.end(), name) == different.end())
+        different.push_back(name);
+  std::string result;
+  for (const auto &name : different)
+    result += (result.empty() ? "" : " + ") + name;
+  return result;
+}
+} // namespace
+
+/// Sets of numbers that are united step by step; each is known by its smallest number.
+class Unions
+{
+public:
+  explicit Unions(const unsigned int n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
+
+  unsigned int root(unsigned int i) const
+  {
+    while (parent[i] != i)
+      i = parent[i];
+    return i;
+  }
+
+  void unite(const unsigned int i, const unsigned int j)
+  {
+    const auto [low, high] = std::minmax({root(i), root(j)});
+    parent[high]           = low;
+  }
+
+private:
+  std::vector<unsigned int> parent;
+};
+
+/// Which boundaries of the pairs continue each other.
+template <int dim>
+class SmoothSurfaces
+{
+public:
+  using Field = typename mesh::Surface<dim>::Field;
+
+  SmoothSurfaces(const mesh::Surface<dim>    &surface,
+                 const faces::FaceShape<dim> &shape,
+                 const std::vector<Pair>     &pairs,
+                 const Field                 &positions)
+    : boundaries(boundaries_of(pairs)), surfaces(boundaries.size())
+  {
+    std::vector<Field> normals;
+    for (const Boundary &boundary : boundaries)
+      {
+        const auto faces = faces_of(surface, boundary);
+        normals.push_back(
+          faces::NodalNormals<dim>(surface, faces, shape, positions).normals());
+      }
+    const double least_cosine = std::cos(smooth_meeting / 180. * dealii::numbers::PI);
+    for (unsigned int i = 0; i < boundaries.size(); ++i)
+      for (unsigned int j = i + 1; j < boundaries.size(); ++j)
+        // Normals of nodes that a boundary does not have are zero.
+        for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+          if (normals[i][node] * normals[j][node] > least_cosine)
+            {
+              meetings.insert({i, j});
+              surfaces.unite(i, j);
+              break;
+            }
+  }
+
+  /// Whether the boundaries are the same or share nodes and meet smoothly there.
+  bool meet(const Boundary &a, const Boundary &b) const
+  {
+    const auto [i, j] = std::minmax({index(a), index(b)});
+    return i == j || meetings.count({i, j}) > 0;
+  }
+
+  Boundary surface_of(const Boundary &boundary) const
+  {
+    return boundaries[surfaces.root(index(boundary))];
+  }
+
+private:
+  const std::vector<Boundary>                     boundaries;
+  Unions                                          surfaces;
+  std::set<std::pair<unsigned int, unsigned int>> meetings;
+
+  unsigned int index(const Boundary &boundary) const
+  {
+    return std::lower_bound(boundaries.begin(), boundaries.end(), boundary) - boundaries.begin();
+  }
+};
+
+unsigned int JoinedPair::pair_of(const Boundary &slave, const Boundary &master) const
+{
+  const auto find = [this](const auto &is_wanted) {
+    return std::find_if(parts.begin(), parts.end(), is_wanted);
+  };
+  auto found =
+    find([&](const Part &part) { return part.slave == slave && part.master == master; });
+  if (found == parts.end())
+    found = find([&](const Part &part) { return part.slave == slave; });
+  if (found == parts.end())
+    found = find([&](const Part &part) { return part.master == master; });
+  return found == parts.end() ? parts.front().pair : found->pair;
+}
+
+void JoinedPair::exchange_sides()
+{
+  exchange(pair);
+  for (Part &part : parts)
+    std::swap(part.slave, part.master);
+  std::swap(slave_surface, master_surface);
+}
+
+template <int dim>
+std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &surface,
+                                   const faces::FaceShape<dim>              &shape,
+                                   std::vector<Pair>                         pairs,
+                                   const typename mesh::Surface<dim>::Field &positions)
+{
+  const SmoothSurfaces<dim> smooth(surface, shape, pairs, positions);
+  const auto                can_join = [&](const JoinedPair::Part &a, const JoinedPair::Part &b) {
+    const auto &obstacle = pairs[a.pair].obstacle, &other = pairs[b.pair].obstacle;
+    if (!are_equal(pairs[a.pair].parameters, pairs[b.pair].parameters) || !obstacle != !other ||
+        !smooth.meet(a.slave, b.slave))
+      return false;
+    return obstacle ? obstacle->name == other->name
+                    : smooth.surface_of(a.master) == smooth.surface_of(b.master);
+  };
+  std::vector<JoinedPair::Part> parts;
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    {
+      const auto joins = [&](const std::vector<JoinedPair::Part> &own) {
+        return std::any_of(own.begin(), own.end(), [&](const auto &part) {
+          return std::any_of(parts.begin(), parts.end(),
+                             [&](const auto &other) { return can_join(part, other); });
+        });
+      };
+      auto own = parts_of(pairs[p], p);
+      if (!joins(own) && pairs[p].parameters.slave == Slave::finer && !pairs[p].obstacle)
+        {
+          exchange(pairs[p]);
+          if (const auto exchanged = parts_of(pairs[p], p); joins(exchanged))
+            own = exchanged;
+          else
+            exchange(pairs[p]);
+        }
+      parts.insert(parts.end(), own.begin(), own.end());
+    }
+  Unions unions(parts.size());
+  for (unsigned int i = 0; i < parts.size(); ++i)
+    for (unsigned int j = i + 1; j < parts.size(); ++j)
+      if (can_join(parts[i], parts[j]))
+        unions.unite(i, j);
+  std::map<unsigned int, JoinedPair> joined; // by the first part
+  for (unsigned int i = 0; i < parts.size(); ++i)
+    {
+      const auto &part = parts[i];
+      const auto [place, is_new] = joined.try_emplace(unions.root(i));
+      JoinedPair &of             = place->second;
+      if (is_new)
+        {
+          of.pair          = pairs[part.pair];
+          of.pair.slave    = {};
+          of.pair.master   = {};
+          of.slave_surface = smooth.surface_of(part.slave);
+          if (!of.pair.obstacle)
+            of.master_surface = smooth.surface_of(part.master);
+        }
+      of.pair.slave.add(part.slave);
+      if (!of.pair.obstacle)
+        of.pair.master.add(part.master);
+      of.parts.push_back(part);
+    }
+  std::vector<JoinedPair> result;
+  for (auto &[first, of] : joined)
+    {
+      std::vector<std::string> slaves, masters;
+      for (const auto &part : of.parts)
+        {
+          slaves.push_back(pairs[part.pair].slave_name);
+          masters.push_back(pairs[part.pair].master_name);
+        }
+      of.pair.slave_name  = sum_of(slaves);
+      of.pair.master_name = sum_of(masters);
+      result.push_back(std::move(of));
+    }
+  return result;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template std::vector<JoinedPair> join_pairs(const mesh::Surface<dim> &,                       \
+                                              const faces::FaceShape<dim> &, std::vector<Pair>, \
+                                              const mesh::Surface<dim>::Field &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::contact
