@@ -107,8 +107,10 @@ void ContactParameters::declare(Entries &entries)
   entries.add("Pairs", {[names]() { return to_text(names()); }, read},
               allowed(
                 "a list 'body.boundary: body.boundary, ...' or 'body.boundary: obstacle, ...'"),
-              "Pairs of faces, or of a face and an obstacle, separated by commas. 'punch.bottom: "
-              "foundation.top'.");
+              "Pairs of faces, or of a face and an obstacle, separated by commas: 'punch.bottom: "
+              "foundation.top'. A side may name several boundaries of a body: 'punch.nose + "
+              "punch.fillet: groove.floor + groove.wall'. Pairs whose boundaries continue each "
+              "other smoothly on both sides are one contact, and each reports its share.");
   entries.add(
     "Update pairing", update_pairing,
     "How often an optimization that has met its tolerance goes on with contact paired "

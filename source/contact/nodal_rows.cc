@@ -4,7 +4,6 @@
 #include <snug/contact/supported_normals.h>
 #include <snug/faces/tributary.h>
 
-#include <algorithm>
 #include <map>
 
 namespace snug::contact {
@@ -98,25 +97,9 @@ public:
 
   const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
 
-  /// Where a node is without an area, on the axis, the parabola through the other nodes of the face
-  /// that is level there has (4 p_1 - p_2) / 3.
   std::vector<SharedNode> shared_nodes() const override
   {
-    std::map<unsigned int, unsigned int> rows_of;
-    for (unsigned int i = 0; i < slave_nodes.size(); ++i)
-      rows_of[slave_nodes[i]] = i;
-    std::vector<SharedNode> result;
-    for (const unsigned int f : sides.slave)
-      for (const unsigned int node : idle)
-        {
-          auto nodes = surface.faces()[f].nodes;
-          if (nodes.back() == node)
-            std::reverse(nodes.begin(), nodes.end());
-          if (nodes.front() == node && nodes.size() == 3 && rows_of.count(nodes[1]) > 0 &&
-              rows_of.count(nodes[2]) > 0)
-            result.push_back({node, {{rows_of[nodes[1]], 4. / 3.}, {rows_of[nodes[2]], -1. / 3.}}});
-        }
-    return result;
+    return shared_on_axis(surface, sides.slave, slave_nodes, idle);
   }
 
   std::vector<Row<dim>> rows(const Field &positions) const override

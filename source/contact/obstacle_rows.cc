@@ -31,12 +31,21 @@ public:
             continue;
           visited[node] = true;
           const auto d  = obstacle->distance(dealii::Point<dim>(pair.positions[node]));
-          if (d && opposition.holds(node, d->value, -d->gradient))
-            slave_nodes.push_back(node);
+          if (!d || !opposition.holds(node, d->value, -d->gradient))
+            continue;
+          // A row of a node without an area would hold it, but show no pressure.
+          const bool has_area =
+            !faces::is_without_area(surface, shape.degree(), pair.positions[node]);
+          (has_area ? slave_nodes : idle).push_back(node);
         }
   }
 
   const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
+
+  std::vector<SharedNode> shared_nodes() const override
+  {
+    return shared_on_axis(surface, slave_faces, slave_nodes, idle);
+  }
 
   std::vector<Row<dim>> rows(const Field &positions) const override
   {
@@ -101,6 +110,7 @@ private:
   std::unique_ptr<Obstacle<dim>> obstacle;
   dealii::Tensor<1, dim>         shift; ///< w
   std::vector<unsigned int>      slave_faces, slave_nodes;
+  std::vector<unsigned int>      idle; ///< as in NodalRows
 
   ObstacleDistance<dim> distance(const dealii::Tensor<1, dim> &x) const
   {

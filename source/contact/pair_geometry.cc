@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace snug::contact {
 namespace {
@@ -76,6 +77,29 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
 }
 
 template <int dim>
+std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
+                                       const std::vector<unsigned int> &faces,
+                                       const std::vector<unsigned int> &slaves,
+                                       const std::vector<unsigned int> &idle)
+{
+  std::map<unsigned int, unsigned int> rows_of;
+  for (unsigned int i = 0; i < slaves.size(); ++i)
+    rows_of[slaves[i]] = i;
+  std::vector<SharedNode> result;
+  for (const unsigned int f : faces)
+    for (const unsigned int node : idle)
+      {
+        auto nodes = surface.faces()[f].nodes;
+        if (nodes.back() == node)
+          std::reverse(nodes.begin(), nodes.end());
+        if (nodes.front() == node && nodes.size() == 3 && rows_of.count(nodes[1]) > 0 &&
+            rows_of.count(nodes[2]) > 0)
+          result.push_back({node, {{rows_of[nodes[1]], 4. / 3.}, {rows_of[nodes[2]], -1. / 3.}}});
+      }
+  return result;
+}
+
+template <int dim>
 Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
   : normals(faces::NodalNormals<dim>(pair.surface, pair.sides.slave, pair.shape, pair.positions)
               .normals())
@@ -96,6 +120,9 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
                               const Side &);                                              \
   template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                      \
                                                const mesh::Surface<dim>::Field &);              \
+  template std::vector<SharedNode> shared_on_axis(                                              \
+    const mesh::Surface<dim> &, const std::vector<unsigned int> &,                              \
+    const std::vector<unsigned int> &, const std::vector<unsigned int> &);                      \
   template struct PairGeometry<dim>;                                                            \
   template class Opposition<dim>;
 SNUG_INSTANTIATE(2)

@@ -57,7 +57,11 @@ void NodalNormals<dim>::normalise_areas(const Field         &x,
 template <int dim>
 void NodalNormals<dim>::correct()
 {
-  using Known = const geometry::KnownSurface<dim> *;
+  using Known         = const geometry::KnownSurface<dim> *;
+  const auto       &X = surface.reference_positions();
+  const auto        normal_of = [&X](const Known &of, const unsigned int node) {
+    return of->normal(dealii::Point<dim>(X[node]));
+  };
   std::vector<Known> known(surface.n_nodes(), nullptr);
   std::vector<bool>  several(surface.n_nodes(), false);
   bool               any = false;
@@ -65,8 +69,11 @@ void NodalNormals<dim>::correct()
     for (const unsigned int node : surface.faces()[f].nodes)
       {
         const Known here = surface.faces()[f].known;
-        // Of a face without one, or with another one, the normal is a mean.
-        several[node] = several[node] || here == nullptr || (known[node] && known[node] != here);
+        // Of a face without one, or with another one, the normal is a mean. The parts of a surface
+        // that is cut into boundaries are known separately, to the digits of a mesh file.
+        several[node] = several[node] || here == nullptr ||
+                        (known[node] && known[node] != here &&
+                         (normal_of(known[node], node) - normal_of(here, node)).norm() > 1e-6);
         known[node]   = here;
         any           = any || here != nullptr;
       }
@@ -74,13 +81,11 @@ void NodalNormals<dim>::correct()
     return;
   Field               reference;
   std::vector<double> lengths;
-  normalise_areas(surface.reference_positions(), reference, lengths);
+  normalise_areas(X, reference, lengths);
   for (unsigned int node = 0; node < unit.size(); ++node)
     if (known[node] && !several[node])
       {
-        const auto exact =
-          known[node]->normal(dealii::Point<dim>(surface.reference_positions()[node]));
-        unit[node] += exact - reference[node];
+        unit[node] += normal_of(known[node], node) - reference[node];
         length[node] = unit[node].norm();
         unit[node] /= length[node];
       }

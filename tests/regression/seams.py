@@ -10,59 +10,75 @@ a corner touches two walls. 'all' runs every combination instead of a sample of 
 import csv
 import itertools
 import json
+import math
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 PRESSURE = 100.
-QUAD = {"bottom": (1, (0, 1)), "right": (2, (1, 2)), "top": (3, (2, 3)), "left": (4, (3, 0))}
-HEX = {"bottom": 1, "top": 2, "front": 3, "right": 4, "back": 5, "left": 6}
+SIDES = {2: {"bottom": 1, "right": 2, "top": 3, "left": 4},
+         3: {"bottom": 1, "top": 2, "front": 3, "right": 4, "back": 5, "left": 6}}
 
 
 class Block:
-    """A box of equal cells as an Abaqus file; faces in contact are cut by name(centre)."""
+    """Equal cells of a box as an Abaqus file, those that keep(centre) names. Boundary faces are
+    called by their sides, those of cut_face by name(centre)."""
 
-    def __init__(self, lower, upper, cells, lift=lambda x: 0.):
-        self.lower, self.upper, self.cells, self.lift = lower, upper, cells, lift
+    def __init__(self, lower, upper, cells, lift=lambda x: 0., keep=lambda x: True):
+        self.lower, self.upper, self.cells = lower, upper, cells
+        self.lift, self.keep = lift, keep
         self.dim = len(cells)
 
-    def text(self, cut_face, name):
-        dim, n = self.dim, self.cells
-        steps = [range(c + 1) for c in reversed(n)]
+    def point(self, place):
+        return [a + (b - a) * i / c
+                for a, b, i, c in zip(self.lower, self.upper, place, self.cells)]
+
+    def has(self, place):
+        return all(0 <= i < n for i, n in zip(place, self.cells)) and \
+            self.keep(self.point([i + 0.5 for i in place]))
+
+    def text(self, name):
+        """The file and the names of the faces that are no sides of the box: name(side, centre)."""
+        dim = self.dim
         number, lines = {}, ["*Node"]
-        for index in itertools.product(*steps):
+        for index in itertools.product(*[range(c + 1) for c in reversed(self.cells)]):
             place = tuple(reversed(index))
-            x = [a + (b - a) * i / c for a, b, i, c in zip(self.lower, self.upper, place, n)]
-            x[-1] += self.lift(x[:-1]) * (1. - place[-1] / n[-1])
             number[place] = len(number) + 1
+            x = self.point(place)
+            x[-1] += self.lift(x[:-1]) * (1. - place[-1] / self.cells[-1])
             lines.append(f"{number[place]}, " + ", ".join(repr(v) for v in x))
         lines.append("*Element, type=" + ("CPE4" if dim == 2 else "C3D8"))
         corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
         if dim == 3:
             corners = [(*c, 0) for c in corners] + [(*c, 1) for c in corners]
-        surfaces = {}
-        faces = {side: QUAD[side][0] for side in QUAD} if dim == 2 else HEX
-        ends = {"left": (0, 0), "right": (0, 1), "bottom": (dim - 1, 0), "top": (dim - 1, 1)}
+        ends = {"left": (0, -1), "right": (0, 1), "bottom": (dim - 1, -1), "top": (dim - 1, 1)}
         if dim == 3:
-            ends.update(front=(1, 0), back=(1, 1))
+            ends.update(front=(1, -1), back=(1, 1))
+        surfaces = {}
         element = 0
-        for index in itertools.product(*[range(c) for c in reversed(n)]):
+        for index in itertools.product(*[range(c) for c in reversed(self.cells)]):
             place = tuple(reversed(index))
+            if not self.has(place):
+                continue
             element += 1
             lines.append(f"{element}, " + ", ".join(
                 str(number[tuple(p + c for p, c in zip(place, corner))]) for corner in corners))
-            for side, (axis, end) in ends.items():
-                if place[axis] != (n[axis] - 1) * end:
+            for side, (axis, direction) in ends.items():
+                beside = [p + (direction if a == axis else 0) for a, p in enumerate(place)]
+                if self.has(beside):
                     continue
-                centre = [a + (b - a) * (i + 0.5) / c
-                          for a, b, i, c in zip(self.lower, self.upper, place, n)]
-                of = name(centre) if side == cut_face else side
-                surfaces.setdefault(of, []).append((element, faces[side]))
+                centre = self.point([p + 0.5 + (0.5 * direction if a == axis else 0.)
+                                     for a, p in enumerate(place)])
+                surfaces.setdefault(name(side, centre), []).append((element, SIDES[dim][side]))
         for of, members in surfaces.items():
             lines.append(f"*Surface, type=ELEMENT, name={of}")
             lines += [f"{e}, S{f}" for e, f in members]
         return "\n".join(lines) + "\n", [of for of in surfaces if of not in ends]
+
+
+def on_face(cut_face, name):
+    return lambda side, centre: name(centre) if side == cut_face else side
 
 
 def whole(side):
@@ -76,6 +92,12 @@ def halves(side, at):
 def thirds(side, at):
     """Three parts that meet in a point."""
     return lambda x: side + ("a" if x[1] > at else "b" if x[0] < at else "c")
+
+
+def sphere(radius, middle):
+    """The height of a circle or a sphere, which the program knows again in each part of a face. A
+    free form is fitted in each part by itself, to some 1e-6 of the pressures."""
+    return lambda x: radius - math.sqrt(radius ** 2 - sum((v - middle) ** 2 for v in x))
 
 
 def run(snug, directory, scene, ranks=1):
@@ -165,11 +187,11 @@ def check_case(snug, case, ranks):
     results = []
     for slave, master in ((whole("s"), whole("m")), (case["slave"], case["master_cut"])):
         with tempfile.TemporaryDirectory() as directory:
-            text, slaves = punch.text("bottom", slave)
+            text, slaves = punch.text(on_face("bottom", slave))
             (pathlib.Path(directory) / "punch.inp").write_text(text)
             masters = []
             if case["master"] == "body":
-                text, masters = below.text("top", master)
+                text, masters = below.text(on_face("top", master))
                 (pathlib.Path(directory) / "foundation.inp").write_text(text)
             if case["master"] == "obstacle":
                 pairs = [("punch." + s, "floor") for s in slaves]
@@ -248,31 +270,208 @@ def cases(every):
                     "cells": 4, "below": below, "named": "list" if cut == "list" else "pairs",
                     "patch": method == "mortar" or below == 4,
                     "name": f"{model} degree {degree} {method} {master} {below}, cut: {cut}"})
-    if not every:
+    if every == "crowned":
+        result = []
+    elif not every:
         result = result[::7]
     # through the peak of a crowned punch
     for dim, method, master in ((2, "nodal", "obstacle"), (2, "mortar", "body"), (3, "nodal", "body"),
                                 (3, "mortar", "body")):
-        lift = (lambda x: 0.1 * sum((v - 0.5) ** 2 for v in x))
         result.append({
             "dim": dim, "model": "plane strain" if dim == 2 else "solid", "degree": 1,
             "method": method, "master": master, "slave": halves("s", 0.5),
             "master_cut": halves("m", 0.5), "areas": [], "cells": 8, "below": 8,
-            "named": "pairs", "patch": False, "lift": lift,
+            "named": "pairs", "patch": False, "lift": sphere(4., 0.5),
             "name": f"crowned {dim}D {method} {master}"})
     return result
 
 
+CORNER = """
+set Task = state
+set Dimension = {dim}
+set Element degree = {degree}
+set Bodies = block{bodies}
+set Obstacles = {obstacles}
+subsection Body block
+  set Mesh = file
+  set Mesh file = block.inp
+  set Young's modulus = 1000
+  set Supports = {rollers}
+  set Pressure = top: 100, right: 50
+end
+{more}
+subsection Contact
+  set Pairs = {pairs}
+  set Method = {method}
+end
+subsection Solver
+  set Relative tolerance = 1e-11
+end
+"""
+
+
+def check_corner(snug, dim, degree, method, master, ranks):
+    """A block in a corner, pressed by 100 from above and by 50 from its side: the nodes on the
+    edge of both faces have a row for each wall, with the area on its own faces."""
+    rollers = "front: y" if dim == 3 else ""
+    block = Block([0.] * dim, [1.] * dim, [4, *[3] * (dim - 2), 4])
+    ell = Block([-0.5, *[0.] * (dim - 2), -0.5], [1.] * dim, [6, *[3] * (dim - 2), 6],
+                keep=lambda x: x[0] < 0. or x[-1] < 0.)
+    runs = []
+    pairs = {"obstacle": ["block.bottom: floor, block.left: wall",
+                          "block.left: wall, block.bottom: floor"],
+             "body": ["block.bottom: ell.floor, block.left: ell.wall",
+                      "block.left + block.bottom: ell.wall + ell.floor"]}[master]
+    with tempfile.TemporaryDirectory() as directory:
+        folder = pathlib.Path(directory)
+        (folder / "block.inp").write_text(block.text(lambda side, x: side)[0])
+        (folder / "ell.inp").write_text(ell.text(
+            lambda side, x: "floor" if side == "top" and abs(x[-1]) < 1e-9
+            else "wall" if side == "right" and abs(x[0]) < 1e-9 else side)[0])
+        more = {"body": f"""
+subsection Body ell
+  set Mesh = file
+  set Mesh file = ell.inp
+  set Young's modulus = 1000
+  set Supports = bottom: {"xyz"[:dim]}{", " + rollers if rollers else ""}
+end
+""", "obstacle": f"""
+subsection Obstacle floor
+end
+subsection Obstacle wall
+  set Normal = {"1, 0" if dim == 2 else "1, 0, 0"}
+end
+"""}[master]
+        for of in pairs:
+            runs.append(run(snug, directory, CORNER.format(
+                dim=dim, degree=degree, method=method, rollers=rollers, pairs=of, more=more,
+                bodies=", ell" if master == "body" else "",
+                obstacles="floor, wall" if master == "obstacle" else ""), ranks))
+    errors = []
+    for summary, rows in runs:
+        force = summary["state"]["contact_force"]
+        for d, wanted in ((0, 50.), (dim - 1, 100.)):
+            if abs(abs(force[d]) - wanted) > 1e-7:
+                errors.append(f"force {force}")
+        if master == "obstacle":
+            errors += [f"pressure {row['pressure']} at {row['x']}" for row in rows
+                       if min(abs(row["pressure"] - p) for p in (50., 100.)) > 1e-6]
+    key = {"floor": 100., "wall": 50.}
+    for name, wanted in key.items():
+        for pair in runs[0][0]["state"]["pairs"]:
+            if name in pair["name"] and abs(max(map(abs, pair["force"])) - wanted) > 1e-7:
+                errors.append(f"force of {pair['name']}: {pair['force']}")
+    # Rows that a list adds, of a face along a wall, carry nothing.
+    pressures = [sorted(row["pressure"] for row in rows if row["pressure"] > 1e-6)
+                 for summary, rows in runs]
+    if len(pressures[0]) != len(pressures[1]) or any(
+            abs(a - b) > 1e-6 * max(pressures[0]) for a, b in zip(*pressures)):
+        errors.append(f"pressures {pressures[0][:3]} and {pressures[1][:3]}")
+    return errors
+
+
+GRADIENT = """
+set Task = sensitivity
+set Dimension = {dim}
+set Bodies = punch, foundation
+set Responses = value
+subsection Body punch
+  set Mesh = file
+  set Mesh file = punch.inp
+  set Young's modulus = 1000
+  set Supports = left: x, right: x{front}
+  set Pressure = top: 20
+end
+subsection Body foundation
+  set Box cells = {cells}
+  set Young's modulus = 1000
+  set Supports = bottom: {all}
+end
+subsection Shape
+  set Basis = Bezier patch
+  set Face = foundation.top
+  set Control points = {points}
+  set Direction = {direction}
+  set Bounds = -0.1, 0.1
+end
+subsection Contact
+  set Pairs = {pairs}
+  set Slave = first
+  set Method = {method}
+end
+subsection Solver
+  set Relative tolerance = 1e-12
+end
+subsection Response value
+  set Quantity = {quantity}
+  set Pair = {pair}
+end
+subsection Optimization
+  set Objective = value
+end
+"""
+
+
+def gradients(snug, slave, quantity, pair, case):
+    """Those of one response by all methods: {method: values}."""
+    dim, method, ranks = case
+    punch = Block([0.] * (dim - 1) + [1.], [1.] * (dim - 1) + [2.], [8, *[4] * (dim - 2), 2],
+                  lift=sphere(16., 0.45))
+    with tempfile.TemporaryDirectory() as directory:
+        text, slaves = punch.text(on_face("bottom", slave))
+        (pathlib.Path(directory) / "punch.inp").write_text(text)
+        summary, _ = run(snug, directory, GRADIENT.format(
+            dim=dim, method=method, quantity=quantity, pair=pair, all="xyz"[:dim],
+            cells=", ".join(["7", *["5"] * (dim - 2), "3"]),
+            front=", front: y, back: y" if dim == 3 else "",
+            points=", ".join(["3"] * (dim - 1)), direction=", ".join(["0"] * (dim - 1) + ["1"]),
+            pairs=", ".join(f"punch.{s}: foundation.top" for s in slaves)), ranks)
+    return {of["method"]: of["values"] for of in summary["gradient"]["methods"]}
+
+
+def check_gradient(snug, dim, method, ranks):
+    """Derivatives with a punch that is cut through the peak of its pressure: those with an uncut
+    one, and of the force on one part those by finite differences."""
+    errors, case = [], (dim, method, ranks)
+
+    def compare(what, values, others, tolerance):
+        scale = max(map(abs, others))
+        difference = max(abs(a - b) for a, b in zip(values, others))
+        if not difference <= tolerance * scale:
+            errors.append(f"{what} {difference / scale:.1e} off")
+
+    for quantity in ("potential energy", "pressure norm", "contact area", "peak pressure"):
+        uncut = gradients(snug, whole("s"), quantity, "", case)
+        cut = gradients(snug, halves("s", 0.5), quantity, "", case)
+        compare(quantity, cut["adjoint"], uncut["adjoint"], 1e-8)
+    for quantity in ("contact force", "pressure norm"):
+        half = gradients(snug, halves("s", 0.5), quantity, "punch.sa: foundation.top", case)
+        compare(f"{quantity} of a half, adjoint", half["adjoint"], half["direct"], 1e-8)
+        compare(f"{quantity} of a half", half["adjoint"], half["finite differences"], 1e-4)
+    return errors
+
+
 def main(snug, *more):
-    every = "all" in more
+    every = next((m for m in more if m in ("all", "crowned")), "")
     ranks = max([int(m) for m in more if m.isdigit()] + [1])
+    checks = [(case["name"], lambda case=case: check_case(snug, case, ranks))
+              for case in cases(every)]
+    corners = [corner for corner in itertools.product((2, 3), (1, 2), ("nodal", "mortar"),
+                                                      ("obstacle", "body"))
+               if corner[2:] != ("mortar", "obstacle")]
+    for corner in corners if every else corners[1::4]:
+        checks.append(("corner " + " ".join(map(str, corner)),
+                       lambda corner=corner: check_corner(snug, *corner, ranks)))
+    for dim, method in ((2, "nodal"), (2, "mortar"), (3, "mortar")) if every else ((2, "nodal"),):
+        checks.append((f"gradient {dim}D {method}",
+                       lambda dim=dim, method=method: check_gradient(snug, dim, method, ranks)))
     wrong = 0
-    for case in cases(every):
+    for name, check in checks:
         try:
-            errors = check_case(snug, case, ranks)
+            errors = check()
         except RuntimeError as error:
             errors = [str(error)]
-        print(case["name"], "right" if not errors else "wrong: " + "; ".join(errors[:3]), flush=True)
+        print(name, "right" if not errors else "wrong: " + "; ".join(errors[:3]), flush=True)
         wrong += bool(errors)
     print(f"{wrong} wrong")
     return wrong > 0

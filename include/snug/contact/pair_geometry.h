@@ -2,6 +2,7 @@
 #define snug_contact_pair_geometry_h
 
 #include <snug/contact/pair.h>
+#include <snug/contact/row_group.h>
 #include <snug/faces/face_shape.h>
 #include <snug/faces/held_directions.h>
 
@@ -58,6 +59,15 @@ struct PairGeometry
 template <int dim>
 std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &surface,
                                     const typename mesh::Surface<dim>::Field &positions);
+
+/// Slave nodes without an area, on the axis of revolution, that the rows of other nodes act for:
+/// the parabola through the other two nodes of the face that is level there has
+/// (4 p_1 - p_2) / 3. @p slaves are the nodes of the rows, @p idle those without an area.
+template <int dim>
+std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
+                                       const std::vector<unsigned int> &faces,
+                                       const std::vector<unsigned int> &slaves,
+                                       const std::vector<unsigned int> &idle);
 
 /// Whether slave nodes and what they were found to be opposite to are
 /// close enough and face each other.

@@ -153,7 +153,7 @@ TEST(Trust, AsksForFacesAcrossEachPatch)
   EXPECT_EQ(faces.size(), state.active_contacts + 3u);
   for (const unsigned int face : faces)
     EXPECT_EQ(problem.solver.surface().faces()[face].body,
-              problem.solver.contact().pairs()[0].slave.first);
+              problem.solver.contact().pairs()[0].slave.body());
 }
 
 TEST(Trust, SeesTwoPatches)

@@ -122,6 +122,65 @@ TEST(ObstacleRows, ANodeMeetsAnObstacleOnce)
   EXPECT_EQ(contact.n_rows(), 5u + 2u - 1u);
 }
 
+TEST(Contact, ANodeOnASharpEdgeBelongsToTheFaceThatMeetsTheObstacle)
+{
+  // Bottom and left face of a box are no smooth surface. The node that they share presses on a
+  // plane below with the area on the bottom, in whatever order the pairs stand.
+  const TwoBoxes<2>      boxes(TwoBoxes<2>::boxes(4, 4), 1);
+  const mesh::Surface<2> surface(boxes.mesh, {{0, 2}, {0, 0}});
+  const auto             positions = surface.gather(boxes.mesh.reference_positions());
+  Pair                   bottom = plane_below(0.9), left = bottom;
+  bottom.slave_name             = "bottom";
+  left.slave                    = {0, 0};
+  left.slave_name               = "left";
+  for (const auto &pairs : {std::vector<Pair>{bottom, left}, std::vector<Pair>{left, bottom}})
+    {
+      const Contact<2> contact(surface, pairs, 1, positions,
+                               HeldDirections<2>(surface.n_nodes()));
+      const auto       areas = contact.areas(positions);
+      double           area  = 0.;
+      for (const auto &pair : contact.named_pairs())
+        if (pair.slave_name == "bottom")
+          {
+            EXPECT_EQ(pair.rows.size(), 5u);
+            for (const auto &[row, share] : pair.rows)
+              area += share * areas[row];
+          }
+      EXPECT_NEAR(area, 1., 1e-14);
+    }
+}
+
+/// The upper box's bottom and the lower box's top, each with the shares of two pairs of the scene
+/// that name the sides in opposite order.
+TEST(Contact, PairsOfTheSameFacesAreOneContact)
+{
+  const TwoBoxes<2> scene(TwoBoxes<2>::boxes(4, 4), 1);
+  Pair              pair      = TwoBoxes<2>::pair();
+  pair.parameters.slave       = Slave::finer;
+  Pair              exchanged = pair;
+  std::swap(exchanged.slave, exchanged.master);
+  std::swap(exchanged.slave_name, exchanged.master_name);
+  const Contact<2> contact(scene.surface, {pair, exchanged}, 1, scene.positions, scene.held);
+  EXPECT_EQ(contact.pairs().size(), 1u);
+  EXPECT_EQ(contact.n_rows(), 5u);
+  for (const auto &named : contact.named_pairs())
+    EXPECT_EQ(named.name(), "slave: master");
+  // Other entries make another contact, whose rows would be the same: each node has one.
+  exchanged.parameters.gap = "0.1";
+  const Contact<2> two(scene.surface, {pair, exchanged}, 1, scene.positions, scene.held);
+  EXPECT_EQ(two.pairs().size(), 2u);
+}
+
+TEST(Pair, SidesNameSeveralFaces)
+{
+  EXPECT_EQ(faces_of_side("a.nose + a.fillet"), (std::vector<std::string>{"a.nose", "a.fillet"}));
+  EXPECT_EQ(faces_of_side("a.c+d"), std::vector<std::string>{"a.c+d"});
+  Side side(1, 4);
+  side.add({1, 2});
+  side.add({1, 4});
+  EXPECT_EQ(side.boundaries(), (std::vector<Boundary>{{1, 2}, {1, 4}}));
+}
+
 TEST(Contact, SlaveIsTheFinerSideOfNodalRows)
 {
   const TwoBoxes<3> scene(TwoBoxes<3>::boxes(3, 5), 1);

@@ -113,7 +113,7 @@ struct Round
     , surface(mesh, {side(0, "outer"), side(1, "inner")})
   {}
 
-  Pair::Side side(unsigned int body, const std::string &name) const
+  Boundary side(unsigned int body, const std::string &name) const
   {
     return {body, geometry::boundary_index(mesh.geometry(body), name)};
   }

@@ -19,7 +19,7 @@ struct TwoBoxes
 
   TwoBoxes(const Bodies &bodies, unsigned int degree, MPI_Comm communicator)
     : mesh(communicator, bodies, degree)
-    , surface(mesh, {pair().slave, pair().master})
+    , surface(mesh, snug::contact::boundaries_of({pair()}))
     , positions(surface.gather(mesh.reference_positions()))
     , held(surface.n_nodes())
   {}

@@ -171,8 +171,8 @@ std::pair<double, double> curved_punch(unsigned int n, bool punch_is_slave)
 {
   auto scene                                       = two_blocks<2>(2 * n, 3 * n, 40.);
   scene.bodies[0].loads[face_index(1, 1)].pressure = 1.;
-  const contact::Pair::Side punch(0, face_index(1, 0));
-  const contact::Pair::Side foundation(1, face_index(1, 1));
+  const contact::Boundary punch(0, face_index(1, 0));
+  const contact::Boundary foundation(1, face_index(1, 1));
   contact::Pair pair{punch_is_slave ? punch : foundation, punch_is_slave ? foundation : punch};
   pair.parameters.slave  = contact::Slave::first;
   pair.parameters.method = Method::mortar;
