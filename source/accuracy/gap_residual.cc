@@ -70,8 +70,8 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                 continue;
               point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();
               point.gap  = *gap;
-              point.named =
-                contact.joined_pairs()[p].pair_of({face.body, face.boundary}, point.gap.master_boundary);
+              point.named    = contact.joined_pairs()[p].pair_of({face.body, face.boundary},
+                                                                 point.gap.master_boundary);
               point.residual = gap->gap - jump(point, u);
               points.push_back(point);
             }

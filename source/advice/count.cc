@@ -247,8 +247,7 @@ Counts count_in(const scene::Scene &scene, const unsigned int ranks)
         return sum;
       };
       const bool either = pair.parameters.slave == contact::Slave::finer;
-      result.contact_rows +=
-        std::max(nodes_of(pair.slave), either ? nodes_of(pair.master) : 0.);
+      result.contact_rows += std::max(nodes_of(pair.slave), either ? nodes_of(pair.master) : 0.);
     }
   if (scene.tearing.subdomains > 0)
     each.assign(cells.size(), result.cells / scene.tearing.subdomains);

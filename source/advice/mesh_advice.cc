@@ -134,10 +134,10 @@ bool has_edge(const Subject<dim>                        &subject,
   const bool axis   = subject.mesh().idealization().is_axisymmetric();
   for (const auto &own : found)
     for (const auto &other : found)
-      result = result || (side.has({side.body(), own.first}) &&
-                          !side.has({side.body(), other.first}) &&
-                          own.second * other.second < 0.8 && !is_held(other) &&
-                          !(axis && other.second[0] < -0.9));
+      result =
+        result ||
+        (side.has({side.body(), own.first}) && !side.has({side.body(), other.first}) &&
+         own.second * other.second < 0.8 && !is_held(other) && !(axis && other.second[0] < -0.9));
   return dealii::Utilities::MPI::max(int(result), subject.mesh().communicator()) == 1;
 }
 

@@ -173,9 +173,8 @@ find_face(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std:
 }
 
 template <int dim>
-contact::Side find_side(const scene::Scene        &scene,
-                        const mesh::BodyMesh<dim> &mesh,
-                        const std::string         &side)
+contact::Side
+find_side(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side)
 {
   contact::Side result;
   for (const auto &face : contact::faces_of_side(side))
@@ -245,16 +244,16 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
   return supports;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                   \
-  template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,                \
-                                                           const mesh::BodyMesh<dim> &,         \
-                                                           const std::string &);                \
-  template contact::Side find_side(const scene::Scene &, const mesh::BodyMesh<dim> &,           \
-                                   const std::string &);                                        \
-  template std::vector<state::LoadCase<dim>>     build_load_cases(const scene::Scene &,         \
-                                                                  const mesh::BodyMesh<dim> &); \
-  template std::vector<supports::Support<dim>>   build_supports(const scene::Scene &,           \
-                                                                const mesh::BodyMesh<dim> &);
+#define SNUG_INSTANTIATE(dim)                                                                 \
+  template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,              \
+                                                           const mesh::BodyMesh<dim> &,       \
+                                                           const std::string &);              \
+  template contact::Side find_side(const scene::Scene &, const mesh::BodyMesh<dim> &,         \
+                                   const std::string &);                                      \
+  template std::vector<state::LoadCase<dim>>   build_load_cases(const scene::Scene &,         \
+                                                                const mesh::BodyMesh<dim> &); \
+  template std::vector<supports::Support<dim>> build_supports(const scene::Scene &,           \
+                                                              const mesh::BodyMesh<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -111,8 +111,7 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
 /// changes which side is finer must not exchange the sides, or the kind of the rows, when contact
 /// is paired anew.
 template <int dim>
-void Contact<dim>::choose_slaves(const Field                      &positions,
-                                 const faces::HeldDirections<dim> &held)
+void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held)
 {
   // Whether the sides of a pair of the scene are exchanged: in all joined pairs that it is part of,
   // as its force is that on one side.
@@ -121,10 +120,10 @@ void Contact<dim>::choose_slaves(const Field                      &positions,
     {
       Pair      &pair         = of.pair;
       bool       is_exchanged = false;
-      const auto known        = std::find_if(of.parts.begin(), of.parts.end(), [&](const auto &part) {
+      const auto known    = std::find_if(of.parts.begin(), of.parts.end(), [&](const auto &part) {
         return exchanged.count(part.pair) > 0;
       });
-      const auto exchange     = [&]() {
+      const auto exchange = [&]() {
         of.exchange_sides();
         is_exchanged = !is_exchanged;
       };
@@ -159,7 +158,7 @@ PairGeometry<dim> Contact<dim>::geometry(const unsigned int                p,
                                          std::vector<bool>                 taken) const
 {
   taken.resize(surface.n_nodes(), false);
-  return {surface,   shape, chosen[p], sides_of(surface, chosen[p]),
+  return {surface,   shape, chosen[p],       sides_of(surface, chosen[p]),
           positions, held,  std::move(taken)};
 }
 
@@ -467,9 +466,9 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      const auto offset         = slave_minus_master(rows[i], positions);
+      const auto offset             = slave_minus_master(rows[i], positions);
       const auto &[pair, slave, of] = row_places[i];
-      const auto &off_face      = rows[i].off_face;
+      const auto &off_face          = rows[i].off_face;
       // Where the foot follows the offset is along the normal, but for coordinates that are fixed.
       const auto moved = off_face ? offset : offset - paired_offsets[i];
       // The closest point on an obstacle follows the node, so it cannot drift off.

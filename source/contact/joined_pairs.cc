@@ -93,8 +93,7 @@ public:
     for (const Boundary &boundary : boundaries)
       {
         const auto faces = faces_of(surface, boundary);
-        normals.push_back(
-          faces::NodalNormals<dim>(surface, faces, shape, positions).normals());
+        normals.push_back(faces::NodalNormals<dim>(surface, faces, shape, positions).normals());
       }
     const double least_cosine = std::cos(smooth_meeting / 180. * dealii::numbers::PI);
     for (unsigned int i = 0; i < boundaries.size(); ++i)
@@ -137,8 +136,7 @@ unsigned int JoinedPair::pair_of(const Boundary &slave, const Boundary &master) 
   const auto find = [this](const auto &is_wanted) {
     return std::find_if(parts.begin(), parts.end(), is_wanted);
   };
-  auto found =
-    find([&](const Part &part) { return part.slave == slave && part.master == master; });
+  auto found = find([&](const Part &part) { return part.slave == slave && part.master == master; });
   if (found == parts.end())
     found = find([&](const Part &part) { return part.slave == slave; });
   if (found == parts.end())
@@ -167,7 +165,7 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
         !smooth.meet(a.slave, b.slave))
       return false;
     return obstacle ? obstacle->name == other->name
-                    : smooth.surface_of(a.master) == smooth.surface_of(b.master);
+                                   : smooth.surface_of(a.master) == smooth.surface_of(b.master);
   };
   std::vector<JoinedPair::Part> parts;
   for (unsigned int p = 0; p < pairs.size(); ++p)
@@ -197,7 +195,7 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
   std::map<unsigned int, JoinedPair> joined; // by the first part
   for (unsigned int i = 0; i < parts.size(); ++i)
     {
-      const auto &part = parts[i];
+      const auto &part           = parts[i];
       const auto [place, is_new] = joined.try_emplace(unions.root(i));
       JoinedPair &of             = place->second;
       if (is_new)

@@ -46,9 +46,8 @@ double mean_face_size(const mesh::Surface<dim>                 &surface,
 }
 
 template <int dim>
-double face_height(const mesh::Surface<dim>    &surface,
-                   const faces::FaceShape<dim> &shape,
-                   const Side                  &side)
+double
+face_height(const mesh::Surface<dim> &surface, const faces::FaceShape<dim> &shape, const Side &side)
 {
   const auto &X       = surface.reference_positions();
   double      largest = 0.;
@@ -113,16 +112,17 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                   \
-  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);  \
+  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);        \
   template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
                                  const mesh::Surface<dim>::Field &);                            \
   template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,        \
-                              const Side &);                                              \
-  template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                      \
-                                               const mesh::Surface<dim>::Field &);              \
-  template std::vector<SharedNode> shared_on_axis(                                              \
-    const mesh::Surface<dim> &, const std::vector<unsigned int> &,                              \
-    const std::vector<unsigned int> &, const std::vector<unsigned int> &);                      \
+                              const Side &);                                                    \
+  template std::vector<double>     node_face_sizes(const mesh::Surface<dim> &,                  \
+                                                   const mesh::Surface<dim>::Field &);          \
+  template std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim> &,                   \
+                                                  const std::vector<unsigned int> &,            \
+                                                  const std::vector<unsigned int> &,            \
+                                                  const std::vector<unsigned int> &);           \
   template struct PairGeometry<dim>;                                                            \
   template class Opposition<dim>;
 SNUG_INSTANTIATE(2)

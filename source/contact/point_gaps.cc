@@ -3,7 +3,8 @@
 
 namespace snug::contact {
 template <int dim>
-PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair) : positions(pair.positions), surface(pair.surface)
+PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
+  : positions(pair.positions), surface(pair.surface)
 {
   const auto &parameters = pair.pair.parameters;
   if (parameters.gap != "0")
@@ -17,9 +18,9 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair) : positions(pair.positi
     }
   master_faces = pair.sides.master;
   normals      = std::make_unique<SupportedNormals<dim>>(pair.surface, master_faces, pair.shape,
-                                                    positions, pair.held);
+                                                         positions, pair.held);
   projector    = std::make_unique<Projector<dim>>(pair.surface, master_faces, pair.shape, positions,
-                                               normals->normals());
+                                                  normals->normals());
   if (parameters.method == Method::mortar)
     {
       slave_faces   = pair.sides.slave;
@@ -81,8 +82,8 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
           result.normal -= weight * normals->normals()[node];
       // those of mortar rows are shorter between nodes, and so an offset of them is too large
       result.normal /= result.normal.norm();
-      result.gap     = result.normal * (place(*nearest) - x) + nearest->relief;
-      result.masters = nearest->masters;
+      result.gap             = result.normal * (place(*nearest) - x) + nearest->relief;
+      result.masters         = nearest->masters;
       const auto &face       = surface.faces()[nearest->face];
       result.master_boundary = {face.body, face.boundary};
     }

@@ -69,19 +69,19 @@ private:
   /// opposite to none goes to the pair of the nearest one.
   void add_opposite()
   {
-    const auto &surface  = geometry.surface;
-    const auto  opposite = opposite_faces(geometry);
-    const auto  x        = mortar::node_arrays<dim>(geometry.positions);
+    const auto                          &surface  = geometry.surface;
+    const auto                           opposite = opposite_faces(geometry);
+    const auto                           x        = mortar::node_arrays<dim>(geometry.positions);
     const mortar::SegmentQuadrature<dim> quadrature(geometry.shape.degree(),
                                                     surface.idealization());
-    const NearestFace<dim> nearest(surface, geometry.sides.master, geometry.shape,
-                                   geometry.positions);
+    const NearestFace<dim>               nearest(surface, geometry.sides.master, geometry.shape,
+                                                 geometry.positions);
     for (unsigned int i = 0; i < geometry.sides.slave.size(); ++i)
       {
         const unsigned int face    = geometry.sides.slave[i];
         const auto         pair_at = [&](const unsigned int master) {
           return joined.pair_of(boundary_of(surface.faces()[face]),
-                                boundary_of(surface.faces()[master]));
+                                        boundary_of(surface.faces()[master]));
         };
         dealii::Tensor<1, dim> centre;
         for (const unsigned int node : surface.faces()[face].nodes)
@@ -113,9 +113,8 @@ private:
 } // namespace
 
 template <int dim>
-std::vector<PairShares> row_shares(const JoinedPair        &joined,
-                                   const PairGeometry<dim> &geometry,
-                                   const RowGroup<dim>     &group)
+std::vector<PairShares>
+row_shares(const JoinedPair &joined, const PairGeometry<dim> &geometry, const RowGroup<dim> &group)
 {
   const auto        &slaves = group.slaves();
   const unsigned int first  = joined.parts.front().pair;
@@ -143,7 +142,7 @@ std::vector<PairShares> row_shares(const JoinedPair        &joined,
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                             \
+#define SNUG_INSTANTIATE(dim)                                                                \
   template std::vector<PairShares> row_shares(const JoinedPair &, const PairGeometry<dim> &, \
                                               const RowGroup<dim> &);
 SNUG_INSTANTIATE(2)

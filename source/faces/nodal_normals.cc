@@ -57,9 +57,9 @@ void NodalNormals<dim>::normalise_areas(const Field         &x,
 template <int dim>
 void NodalNormals<dim>::correct()
 {
-  using Known         = const geometry::KnownSurface<dim> *;
-  const auto       &X = surface.reference_positions();
-  const auto        normal_of = [&X](const Known &of, const unsigned int node) {
+  using Known           = const geometry::KnownSurface<dim> *;
+  const auto &X         = surface.reference_positions();
+  const auto  normal_of = [&X](const Known &of, const unsigned int node) {
     return of->normal(dealii::Point<dim>(X[node]));
   };
   std::vector<Known> known(surface.n_nodes(), nullptr);
@@ -74,8 +74,8 @@ void NodalNormals<dim>::correct()
         several[node] = several[node] || here == nullptr ||
                         (known[node] && known[node] != here &&
                          (normal_of(known[node], node) - normal_of(here, node)).norm() > 1e-6);
-        known[node]   = here;
-        any           = any || here != nullptr;
+        known[node] = here;
+        any         = any || here != nullptr;
       }
   if (!any)
     return;

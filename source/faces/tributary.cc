@@ -75,7 +75,7 @@ std::vector<double> tributary_areas(const TributaryFaces<dim>                &of
 template <int dim>
 std::vector<double> shape_integrals(const mesh::Surface<dim>                 &surface,
                                     const unsigned int                        face,
-                                    const FaceShape<dim>              &shape,
+                                    const FaceShape<dim>                     &shape,
                                     const typename mesh::Surface<dim>::Field &positions)
 {
   const auto                   &nodes = surface.faces()[face].nodes;
@@ -87,9 +87,8 @@ std::vector<double> shape_integrals(const mesh::Surface<dim>                 &su
       dealii::Tensor<1, dim> x;
       for (unsigned int k = 0; k < nodes.size(); ++k)
         x += values.value[k] * positions[nodes[k]];
-      const double weight =
-        gauss.weight(q) * surface.idealization().weight(x) *
-        area_vector(tangents<dim>(values, nodes, positions)).norm();
+      const double weight = gauss.weight(q) * surface.idealization().weight(x) *
+                            area_vector(tangents<dim>(values, nodes, positions)).norm();
       for (unsigned int k = 0; k < nodes.size(); ++k)
         result[k] += weight * values.value[k];
     }
@@ -137,9 +136,9 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
   template std::vector<double> tributary_areas(const TributaryFaces<dim> &,              \
                                                const std::vector<unsigned int> &,        \
                                                const mesh::Surface<dim>::Field &);       \
-  template std::vector<double> shape_integrals(                                          \
-    const mesh::Surface<dim> &, unsigned int, const FaceShape<dim> &,                    \
-    const mesh::Surface<dim>::Field &);                                                  \
+  template std::vector<double> shape_integrals(const mesh::Surface<dim> &, unsigned int, \
+                                               const FaceShape<dim> &,                   \
+                                               const mesh::Surface<dim>::Field &);       \
   template void                add_tributary_gradient(const TributaryFaces<dim> &,       \
                                                       const std::vector<unsigned int> &, \
                                                       const mesh::Surface<dim>::Field &, \

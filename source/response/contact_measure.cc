@@ -151,8 +151,8 @@ std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &p
   return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries);
 }
 
-template std::vector<bool> chosen_pairs(const state::StateSolver<2> &, const std::string &);
-template std::vector<bool> chosen_pairs(const state::StateSolver<3> &, const std::string &);
+template std::vector<bool>   chosen_pairs(const state::StateSolver<2> &, const std::string &);
+template std::vector<bool>   chosen_pairs(const state::StateSolver<3> &, const std::string &);
 template std::vector<double> row_shares(const state::StateSolver<2> &, const std::string &);
 template std::unique_ptr<Response<2>>
 contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);

@@ -20,7 +20,8 @@ void check_sides(const Scene                             &scene,
                     "' is an obstacle and must come second: "
                     "'body.boundary: " +
                     pair.slave + "'");
-  const auto slaves = contact::faces_of_side(pair.slave), masters = contact::faces_of_side(pair.master);
+  const auto slaves     = contact::faces_of_side(pair.slave),
+             masters    = contact::faces_of_side(pair.master);
   const auto check_side = [&](const std::vector<std::string> &faces) {
     for (const auto &face : faces)
       {

@@ -51,8 +51,7 @@ double seen_facets(const StateSolver<dim> &solver, const unsigned int p)
   double height = 0.;
   for (const auto *side : {&pair.slave, &pair.master})
     for (const auto &[body, boundary] : side->boundaries())
-      height =
-        std::max(height, solver.mesh().geometry(body).boundary_shape(boundary).facet_height);
+      height = std::max(height, solver.mesh().geometry(body).boundary_shape(boundary).facet_height);
   return height;
 }
 

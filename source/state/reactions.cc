@@ -102,10 +102,10 @@ void add_places(const StateSolver<dim>     &solver,
                 const RowCoefficients<dim> &rows,
                 ContactState<dim>          &state)
 {
-  const auto                          &contact = solver.contact();
-  const auto                           x       = solver.surface().gather(state.positions);
-  const auto                           sizes   = contact::node_face_sizes(solver.surface(), x);
-  std::vector<std::vector<bool>>       on_slave_side;
+  const auto                    &contact = solver.contact();
+  const auto                     x       = solver.surface().gather(state.positions);
+  const auto                     sizes   = contact::node_face_sizes(solver.surface(), x);
+  std::vector<std::vector<bool>> on_slave_side;
   for (const auto &pair : contact.pairs())
     {
       on_slave_side.emplace_back(solver.surface().n_nodes(), false);
@@ -123,10 +123,10 @@ void add_places(const StateSolver<dim>     &solver,
       for (const auto &[i, share] : named.rows)
         {
           const auto &[pair, slave, of] = contact.places()[i];
-          const auto &point         = state.contact[i];
-          const auto &row           = rows.contact[i];
-          const auto  at            = place<dim>(row, slave, on_slave_side[pair], x);
-          const auto  force         = share * point.force;
+          const auto &point             = state.contact[i];
+          const auto &row               = rows.contact[i];
+          const auto  at                = place<dim>(row, slave, on_slave_side[pair], x);
+          const auto  force             = share * point.force;
           forces.emplace_back(at, resultant(solver, -force * row.normal));
           of_pair.centre += force * at;
           sum += force;

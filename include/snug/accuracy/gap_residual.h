@@ -40,8 +40,8 @@ private:
   struct Point
   {
     unsigned int                                 pair, named, cell; ///< joined and named pair
-    std::vector<std::pair<unsigned int, double>> shape; ///< surface nodes, values
-    double                                       area;  ///< of the true surface [length^2]
+    std::vector<std::pair<unsigned int, double>> shape;             ///< surface nodes, values
+    double                                       area; ///< of the true surface [length^2]
     double                                       residual;
     contact::PointGap<dim>                       gap;
   };

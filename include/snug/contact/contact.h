@@ -13,8 +13,8 @@ namespace snug::contact {
 /// Where a row stands.
 struct RowPlace
 {
-  unsigned int pair;  ///< of Contact::pairs()
-  unsigned int slave; ///< surface node
+  unsigned int pair;      ///< of Contact::pairs()
+  unsigned int slave;     ///< surface node
   unsigned int named = 0; ///< of Contact::named_pairs(), the one with the largest share
 };
 
@@ -136,9 +136,9 @@ private:
                              const Field                      &positions,
                              const faces::HeldDirections<dim> &held,
                              std::vector<bool>                 taken = {}) const;
-  void  choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held);
-  void  make_groups(const Field &positions, const faces::HeldDirections<dim> &held);
-  void  number_rows(const Field &positions, const faces::HeldDirections<dim> &held);
+  void              choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held);
+  void              make_groups(const Field &positions, const faces::HeldDirections<dim> &held);
+  void              number_rows(const Field &positions, const faces::HeldDirections<dim> &held);
   std::vector<std::vector<bool>> contested_nodes(const Field &positions) const;
   void                           check_named_pairs() const;
   void  share_rows(const Field &positions, const faces::HeldDirections<dim> &held);

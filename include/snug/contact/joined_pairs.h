@@ -54,9 +54,8 @@ using PairShares = std::map<unsigned int, double>;
 /// tributary area on their own slave boundary and opposite to their own master boundary.
 /// Collective where a slave boundary has several masters.
 template <int dim>
-std::vector<PairShares> row_shares(const JoinedPair        &joined,
-                                   const PairGeometry<dim> &geometry,
-                                   const RowGroup<dim>     &group);
+std::vector<PairShares>
+row_shares(const JoinedPair &joined, const PairGeometry<dim> &geometry, const RowGroup<dim> &group);
 } // namespace snug::contact
 
 #endif

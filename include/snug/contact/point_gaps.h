@@ -12,9 +12,9 @@ namespace snug::contact {
 template <int dim>
 struct PointGap
 {
-  dealii::Tensor<1, dim> normal;   ///< n, of length 1, into the master
-  double                 gap = 0.; ///< between the true surfaces [length]
-  Weights                masters;  ///< w_k; none of obstacles
+  dealii::Tensor<1, dim> normal;          ///< n, of length 1, into the master
+  double                 gap = 0.;        ///< between the true surfaces [length]
+  Weights                masters;         ///< w_k; none of obstacles
   Boundary               master_boundary; ///< {} of obstacles
 };
 
