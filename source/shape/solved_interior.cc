@@ -170,8 +170,8 @@ private:
       for (const auto &entry : rows[node])
         {
           const PetscInt row = numbers[node], column = entry.first;
-          check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, &entry.second[0][0],
-                                    INSERT_VALUES));
+          check(
+            MatSetValuesBlocked(matrix, 1, &row, 1, &column, &entry.second[0][0], INSERT_VALUES));
         }
     check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
