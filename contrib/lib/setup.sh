@@ -11,9 +11,12 @@ run_packages=(g++ cmake ninja-build openmpi-bin libdeal.ii-dev libnlopt-dev
   libnlopt-cxx-dev nlohmann-json3-dev zlib1g-dev libopenblas0-serial
   python3 python3-matplotlib python3-vtk9)
 
+# deal.II of Debian 13 links with mold, but its package does not depend on mold.
+grep -qs '^VERSION_ID="12"' /etc/os-release || run_packages+=(mold)
+
 # To test as well. GTest's CMake package refuses to load without gmock.
 # shellcheck disable=SC2034
-test_packages=(libgtest-dev libgmock-dev clang-format python3-scipy)
+test_packages=(libgtest-dev libgmock-dev clang-format-19 python3-scipy)
 
 # One thread per rank, and more ranks than cores allowed (doc/cluster.md).
 set -a
@@ -33,6 +36,24 @@ die()
   shift
   say "contrib/$(basename -- "$0"): $*"
   exit "$status"
+}
+
+# step LOG MESSAGE COMMAND...: run the command and print one line with its time.
+# What the command prints is appended to LOG, and shown where the command fails.
+step()
+{
+  local log=$1 message=$2 begin=$SECONDS
+  shift 2
+  mkdir -p -- "$(dirname -- "$log")"
+  printf '%s ... ' "$message" >&2
+  if "$@" 3>&2 >>"$log" 2>&1; then
+    say "($((SECONDS - begin)) s)"
+  else
+    say failed
+    tail -n 40 -- "$log" >&2
+    say "The full log is in $log"
+    return 1
+  fi
 }
 
 # The packages among the arguments that dpkg does not have, in one line.
@@ -66,12 +87,14 @@ install_packages()
     say "sudo apt install --no-install-recommends $missing"
     exit 1
   fi
-  say "Installing $missing"
+  local log=$repository/build/build.log
   export DEBIAN_FRONTEND=noninteractive
-  apt-get update -q || say "apt-get update failed; trying with the old lists"
+  step "$log" "Updating the lists of packages" apt-get update -q ||
+    say "apt-get update failed; trying with the old lists"
   # The list is split on purpose.
   # shellcheck disable=SC2086
-  apt-get install -q -y --no-install-recommends $missing ||
+  step "$log" "Installing $missing" \
+    apt-get install -q -y --no-install-recommends $missing ||
     die 1 "apt could not install: $missing"
 }
 
@@ -94,7 +117,8 @@ configure()
   [ $done = no ] || return 0
   set -- "${@/#/-D}"
   [ -f "$directory/CMakeCache.txt" ] || set -- -G Ninja "$@"
-  cmake -S "$repository" -B "$directory" "$@"
+  step "$directory/build.log" "Configuring ${directory##*/}" \
+    cmake -S "$repository" -B "$directory" "$@"
 }
 
 # GiB that may still be used here: the machine's, or less in a container.
@@ -129,8 +153,28 @@ jobs_at_once()
   echo "$jobs"
 }
 
+# compile DIRECTORY TARGET: the command of build()'s step. The progress count goes to the
+# descriptor 3: on a terminal in place, else once for each tenth.
+compile()
+{
+  local line tenth shown=0
+  cmake --build "$1" --target "$2" --parallel "$(jobs_at_once)" 2>&1 |
+    while IFS= read -r line; do
+      printf '%s\n' "$line"
+      [[ $line =~ ^\[\ *([0-9]+)[/%]([0-9]*)\]\ (Building|Linking) ]] || continue
+      tenth=$((10 * BASH_REMATCH[1] / ${BASH_REMATCH[2]:-100}))
+      if [ -t 3 ]; then
+        printf '\r%s ... %s ' "$message" "${line%%]*}]" >&3
+      elif [ "$tenth" != "$shown" ]; then
+        printf '%s ' "${line%%]*}]" >&3
+      fi
+      shown=$tenth
+    done
+  return "${PIPESTATUS[0]}"
+}
+
 # build DIRECTORY TARGET
 build()
 {
-  cmake --build "$1" --target "$2" --parallel "$(jobs_at_once)"
+  step "$1/build.log" "Compiling ${1##*/}" compile "$@"
 }

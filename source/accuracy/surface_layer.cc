@@ -102,13 +102,13 @@ SurfaceLayer<dim>::locals(const Face                 &face,
       };
       const auto normal = on_face.area / on_face.area.norm();
       const auto delta  = on_surface.position - on_face.position;
-      Local      local{stresses[q],
-                  elasticity::value(shape, v),
-                  change(delta),
-                  change((delta * normal) * normal),
-                       {},
-                       {},
-                       {}};
+      Local      local  = {stresses[q],
+                           elasticity::value(shape, v),
+                           change(delta),
+                           change((delta * normal) * normal),
+                           {},
+                           {},
+                           {}};
       if (is_supported(face))
         local.same = traction<dim>(fluxes[q], on_face.area);
       else

@@ -190,7 +190,7 @@ std::vector<double> products_with(const CsrMatrix &K, const std::vector<double> 
 {
   std::vector<std::array<double, 3>> reached;
   for (std::size_t i = 0; i < list.size(); i += 3)
-    reached.push_back({list[i], list[i + 1], list[i + 2]});
+    reached.push_back({{list[i], list[i + 1], list[i + 2]}});
   std::sort(reached.begin(), reached.end());
   std::vector<std::size_t> start(K.n_rows() + 1, 0); // of each j
   for (const auto &entry : reached)

@@ -158,7 +158,8 @@ void SparseFactor::analyse(const CsrMatrix &pattern)
   petsc::check(MatSetOptionsPrefixFactor(matrix, prefix.c_str()));
   const auto error = MatGetFactor(matrix, package.c_str(),
                                   is_lu ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY, factor.put());
-  if (error == PETSC_ERR_MISSING_FACTOR)
+  // Some versions of PETSc return no factor and no error where a package has no such factorization.
+  if (error == PETSC_ERR_MISSING_FACTOR || (error == 0 && factor == nullptr))
     throw_no_factorization(prefix, package, is_lu);
   petsc::check(error);
   MatFactorInfo info;

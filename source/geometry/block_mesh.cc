@@ -134,7 +134,7 @@ bool order_consistently(BlockMesh<dim> &mesh)
   if (!is_consistent(cells))
     return false;
   for (unsigned int b = 0; b < cells.size(); ++b)
-    mesh.blocks[b] = cells[b].vertices;
+    mesh.blocks[b].assign(cells[b].vertices.begin(), cells[b].vertices.end());
   return true;
 }
 

@@ -10,16 +10,17 @@
 #include <map>
 
 namespace snug::io {
-namespace {
-template <int dim>
-using Sources = typename ContactOutput<dim>::Sources;
-
-/// At the nodes of the surface, on all ranks.
+/// At the nodes of the surface, on all ranks. Not in the unnamed namespace, because gcc warns of
+/// captures of such types in members of other classes.
 template <int dim>
 struct SurfaceFields
 {
   typename mesh::Surface<dim>::Field reference, positions, displacement;
 };
+
+namespace {
+template <int dim>
+using Sources = typename ContactOutput<dim>::Sources;
 
 /// Pressure and gap by the shares of others, flags where all have them.
 /// Force and area stay 0, so that sums over nodes do not count any of them twice.

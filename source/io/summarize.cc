@@ -77,8 +77,8 @@ Summary::State summarize(const state::ContactState<dim> &state)
 }
 
 namespace {
-const std::array<const char *, 8> stages = {"setup", "assembly", "factorization", "soft modes",
-                                            "solve", "gradient", "accuracy",      "output"};
+const std::array<const char *, 8> stages = {
+  {"setup", "assembly", "factorization", "soft modes", "solve", "gradient", "accuracy", "output"}};
 } // namespace
 
 Summary::Times collect_times(const RunContext &context)

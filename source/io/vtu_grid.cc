@@ -86,11 +86,11 @@ constexpr std::uint8_t cell_type()
 template <int d>
 std::vector<std::array<unsigned int, 3>> corner_offsets()
 {
-  std::vector<std::array<unsigned int, 3>> result = {{0, 0, 0}, {1, 0, 0}};
+  std::vector<std::array<unsigned int, 3>> result = {{{0, 0, 0}}, {{1, 0, 0}}};
   if (d > 1)
-    result.insert(result.end(), {{1, 1, 0}, {0, 1, 0}});
+    result.insert(result.end(), {{{1, 1, 0}}, {{0, 1, 0}}});
   if (d > 2)
-    result.insert(result.end(), {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}});
+    result.insert(result.end(), {{{0, 0, 1}}, {{1, 0, 1}}, {{1, 1, 1}}, {{0, 1, 1}}});
   return result;
 }
 } // namespace

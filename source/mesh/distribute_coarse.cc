@@ -236,7 +236,8 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
           vertex = number[vertex];
         }
       description.cell_infos[0].push_back(cell_info<dim>(cell, places.rank[cell]));
-      description.cell_infos[0].back().boundary_ids = neighbourhood.boundaries[cell];
+      const auto &boundaries = neighbourhood.boundaries[cell];
+      description.cell_infos[0].back().boundary_ids.assign(boundaries.begin(), boundaries.end());
     }
   result.create_triangulation(description);
   std::vector<unsigned int> parts;

@@ -29,7 +29,7 @@ constexpr double steep = 1e-2;
  * gradient_tolerance or, since the accepted design before, the objective
  * changed by at most objective_tolerance |f(x)| or every variable by at
  * most design_tolerance of its bound width; if the line search shortened
- * that step, the next one must agree. NLopt 2.7.1 has its
+ * that step, the next one must agree. NLopt has its
  * own tests, but they also report success at designs that violate the
  * constraints, so they are switched off. The other algorithms do not tell
  * their iterations: each design that is better than all before counts as
@@ -101,9 +101,14 @@ Search::Search(const DesignProblem          &design_problem,
   , centre(problem.start()->y)
 {
   const auto &relations = problem.relations();
-  if (!takes_equalities(algorithm) &&
-      std::count(relations.begin(), relations.end(), Relation::equal) > 0)
+  const auto  n_equal =
+    static_cast<std::size_t>(std::count(relations.begin(), relations.end(), Relation::equal));
+  if (!takes_equalities(algorithm) && n_equal > 0)
     throw InputError(to_text(algorithm) + " takes no equality constraints");
+  if (n_equal > centre.size())
+    throw InputError("the number of equality constraints, " + std::to_string(n_equal) +
+                     ", must not exceed the number of design variables, " +
+                     std::to_string(centre.size()));
   use(algorithm);
 }
 

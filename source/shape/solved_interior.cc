@@ -170,8 +170,8 @@ private:
       for (const auto &entry : rows[node])
         {
           const PetscInt row = numbers[node], column = entry.first;
-          check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, entry.second.begin_raw(),
-                                    INSERT_VALUES));
+          check(
+            MatSetValuesBlocked(matrix, 1, &row, 1, &column, &entry.second[0][0], INSERT_VALUES));
         }
     check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
@@ -188,7 +188,10 @@ private:
     check(KSPSetOperators(solver, matrix, matrix));
     check(KSPSetType(solver, KSPCG));
     check(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
-    check(KSPSetTolerances(solver, solve_tolerance, 0., PETSC_DEFAULT, PETSC_DEFAULT));
+    PetscReal divergence;
+    PetscInt  max_iterations;
+    check(KSPGetTolerances(solver, nullptr, nullptr, &divergence, &max_iterations));
+    check(KSPSetTolerances(solver, solve_tolerance, 0., divergence, max_iterations));
     PC preconditioner;
     check(KSPGetPC(solver, &preconditioner));
     check(PCSetType(preconditioner, PCGAMG));

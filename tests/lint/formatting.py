@@ -6,8 +6,8 @@ import subprocess
 
 from files import CODE, text_files
 
-# Debian 12's; another version formats some lines differently.
-VERSION = "14"
+# The one version that both Debian 12 and 13 have; another one formats some lines differently.
+VERSION = "19"
 
 
 def find_program():
@@ -26,7 +26,7 @@ def check(root):
     program = find_program()
     if program is None:
         return [f".clang-format:1: no clang-format {VERSION} on the PATH"
-                " (Debian 12: apt install clang-format)"]
+                f" (Debian: apt install clang-format-{VERSION})"]
     files = list(text_files(root, ("include", "source", "tests"), CODE))
     if not files:
         return []

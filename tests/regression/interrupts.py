@@ -59,7 +59,7 @@ class Check:
         self.failed = 0
 
     def start(self, name, *entries):
-        launcher = ([self.options.mpiexec, "-q", "-np", str(self.options.ranks)]
+        launcher = ([self.options.mpiexec, "-np", str(self.options.ranks)]
                     if self.options.ranks > 1 else [])
         output = self.folder / name
         command = [*launcher, self.options.program, self.options.scene, "--output", str(output)]

@@ -106,7 +106,8 @@ bool takes_equalities(Algorithm algorithm);
  *
  * @throws InputError if a lower bound is above its upper bound, a bound or
  *   the start is not finite, a tolerance is not positive, no evaluation is
- *   allowed, or the algorithm cannot hold equalities.
+ *   allowed, the algorithm cannot hold equalities, or there are more
+ *   equalities than variables.
  * @throws SolveError, TangledMesh or Interrupted if the first evaluation
  *   does: there is no design to return.
  */

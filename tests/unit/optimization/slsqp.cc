@@ -214,7 +214,7 @@ TEST(Slsqp, NeverClaimsSuccessForAVolumeThatCannotBe)
 
 TEST(Slsqp, MeetsNonlinearConstraintsAlsoWithLooseObjectiveTolerance)
 {
-  // NLopt 2.7.1 by itself reports success with |c| = 6e-3 here and there.
+  // NLopt by itself reports success with |c| = 6e-3 here and there.
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6})
     {
       OptimizationParameters parameters;
@@ -246,4 +246,31 @@ TEST(Slsqp, RejectsWrongInput)
   parameters                     = OptimizationParameters();
   parameters.objective_tolerance = 0.;
   rejects(knapsack.problem(), parameters);
+}
+
+TEST(Slsqp, RejectsMoreEqualitiesThanVariablesInOneLine)
+{
+  auto problem     = Knapsack(2).problem();
+  problem.evaluate = [inner = problem.evaluate](const std::vector<double> &x) {
+    auto value = inner(x);
+    value.constraints.resize(3, value.constraints[0]);
+    value.jacobian.resize(3, value.jacobian[0]);
+    return value;
+  };
+  problem.constraint_scales.resize(3, 1.);
+  for (const auto algorithm : {Algorithm::SLSQP, Algorithm::AUGLAG})
+    {
+      OptimizationParameters parameters;
+      parameters.algorithm = algorithm;
+      try
+        {
+          minimize(problem, parameters);
+          FAIL() << "3 equalities for 2 variables";
+        }
+      catch (const InputError &error)
+        {
+          EXPECT_EQ(one_line(error), "the number of equality constraints, 3, must not exceed the "
+                                     "number of design variables, 2");
+        }
+    }
 }
