@@ -146,11 +146,15 @@ template <int dim>
 void add_corners(const Subject<dim> &subject, std::vector<Advice> &advice)
 {
   const double far_above = 1.3;
-  for (unsigned int p = 0; p < subject.solver.contact().pairs().size(); ++p)
+  for (const auto &joined : subject.solver.contact().joined_pairs())
     for (const auto &state : subject.states)
       {
-        const auto &pair = subject.solver.contact().pairs()[p];
-        const auto &of   = state.pairs[p];
+        // Of the pairs of the scene that are joined, that with the peak.
+        const auto &pair = joined.pair;
+        auto        of   = state.pairs[joined.parts.front().pair];
+        for (const auto &part : joined.parts)
+          if (state.pairs[part.pair].max_pressure > of.max_pressure)
+            of = state.pairs[part.pair];
         if (of.active_contacts == 0 ||
             of.max_pressure * of.contact_area < far_above * of.force.norm())
           continue;

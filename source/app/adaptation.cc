@@ -1,6 +1,7 @@
 #include <snug/accuracy/transfer.h>
 #include <snug/accuracy/trust.h>
 #include <snug/app/adaptation.h>
+#include <snug/contact/joined_pairs.h>
 #include <snug/contact/matching.h>
 #include <snug/mesh/refined_cells.h>
 #include <snug/state/assumptions.h>
@@ -105,9 +106,11 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells
       const auto                  pairs = build_model(with, *mesh).pairs;
       const mesh::Surface<dim>    surface(*mesh, contact::boundaries_of(pairs));
       const faces::FaceShape<dim> shape(mesh->degree());
-      for (const auto &pair : pairs)
-        add(mesh::gather_cells(*mesh, surface.cells_of(contact::coarse_faces(
-                                        surface, shape, pair, surface.reference_positions()))),
+      for (const auto &joined :
+           contact::join_pairs(surface, shape, pairs, surface.reference_positions()))
+        add(mesh::gather_cells(*mesh, surface.cells_of(
+                                        contact::coarse_faces(surface, shape, joined.pair,
+                                                              surface.reference_positions()))),
             cells);
       if (cells == *given || pass == most_passes)
         {
