@@ -146,7 +146,7 @@ struct TwoBoxes
   bool is_master(unsigned int node) const
   {
     for (const auto &face : surface.faces())
-      if (face.body == pair().master.first &&
+      if (face.body == pair().master.body() &&
           std::find(face.nodes.begin(), face.nodes.end(), node) != face.nodes.end())
         return true;
     return false;
