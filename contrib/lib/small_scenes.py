@@ -148,8 +148,9 @@ def array(picture, name, width):
     head = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
     # lengths: of the list, a block, the last block, and each packed one
     size = 4 * (3 + head)
-    packed = struct.unpack(f"<{3 + head}I", base64.b64decode(text)[:size])[3:]
-    data, body = b"", base64.b64decode(text[4 * math.ceil(size / 3):])
+    end = 4 * math.ceil(size / 3)
+    packed = struct.unpack(f"<{3 + head}I", base64.b64decode(text[:end]))[3:]
+    data, body = b"", base64.b64decode(text[end:])
     for length in packed:
         data, body = data + zlib.decompress(body[:length]), body[length:]
     return list(struct.iter_unpack(f"<{width}f", data))

@@ -34,7 +34,7 @@ def check(root):
                           text=True, stderr=subprocess.PIPE, check=False)
     found = re.findall(r"^(.+?:\d+):\d+: error: code should be clang-formatted",
                        done.stderr, re.MULTILINE)
-    messages = [f"{place.replace(str(root) + '/', '', 1)}: run clang-format -i"
+    messages = [f"{place.replace(str(root) + '/', '', 1)}: run clang-format-{VERSION} -i"
                 for place in dict.fromkeys(found)]
     if done.returncode != 0 and not messages:
         messages = [f".clang-format:1: {done.stderr.strip()}"]
