@@ -1,6 +1,8 @@
 """Tables of doc/theory.md that contrib/gallery --write remakes."""
 
-from gallery_runs import solve
+import runpy
+
+from gallery_runs import ROOT, solve
 
 METIS = ["Decomposition/Method=METIS", "Decomposition/Subdomains=64"]
 # In the order of the rows.
@@ -24,4 +26,13 @@ def soft_modes():
                "linear": both("linear_f_mults"), "cold": both("f_mults"), "quantities": []}
 
 
-TABLES = {"soft-modes": soft_modes}
+def targets():
+    """Targets of 1 % of all scenes of the study."""
+    study = runpy.run_path(str(ROOT / "contrib/studies/targets"))
+    for name, scene in study["SCENES"].items():
+        for _, _, _, meshes, unknowns, _, estimated, true in study["rows"](name, scene, [1]):
+            yield {"meshes": str(meshes), "unknowns": f"{unknowns:,}",
+                   "estimated": f"{estimated:.2f} %", "true": f"{true:.2f} %", "quantities": []}
+
+
+TABLES = {"soft-modes": soft_modes, "targets": targets}

@@ -11,9 +11,9 @@ sys.path.insert(0, str(ROOT / "contrib" / "lib"))
 import page_tables  # noqa: E402
 
 
-def row(unknowns, *quantities, **more):
-    return {"unknowns": str(unknowns), "F-mults": "12", "seconds": "0.1",
-            "quantities": [("", *of) for of in quantities], **more}
+def row(unknowns, *quantities, more=None):
+    return {"F-mults": "12", "seconds": "0.1", "quantities": [("", *of) for of in quantities],
+            **(more or {}), "unknowns": str(unknowns)}
 
 
 def rewritten(text, **rows):
@@ -61,8 +61,8 @@ class PageTables(unittest.TestCase):
                 names, lines = match[2].split(), match[4].splitlines()
                 n = (len(page_tables.split(lines[0])) - 3) // 2 if match[3] is None else 5
                 more = {key.strip(): "" for key in (match[3] or "").split(",")} \
-                    if "soft-modes" in names else {}
-                rows = {name: (len(lines) - 2) // len(names) * [row(5, *n * [(1., 1.)], **more)]
+                    if page.name == "theory.md" else {}
+                rows = {name: (len(lines) - 2) // len(names) * [row(5, *n * [(1., 1.)], more=more)]
                         for name in names}
                 page_tables.rewritten(page, text, rows)
 
