@@ -143,6 +143,19 @@ void complete(Scene &scene)
     obstacle.complete(scene.dimension);
 }
 
+/// What a mesh file holds. @throws InputError naming the entry.
+std::string mesh_text(const SceneSource &source, const std::string &file)
+{
+  try
+    {
+      return source.read_file(file);
+    }
+  catch (const InputError &error)
+    {
+      throw bad_entry("Mesh file", file, error.what());
+    }
+}
+
 /// Read the mesh files of all bodies. Their paths become absolute, so
 /// that the scene may be printed elsewhere.
 void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene)
@@ -164,7 +177,7 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
                         .lexically_normal()
                         .string();
           mesh.imported =
-            mesh_file::import_mesh(source.read_file(mesh.file), mesh, scene.dimension);
+            mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
         }
       catch (const InputError &error)
         {
