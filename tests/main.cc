@@ -1,8 +1,11 @@
+#include <snug/base/blocked_signals.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -39,7 +42,9 @@ class Failures : public ::testing::EmptyTestEventListener
 int main(int argc, char *argv[])
 {
   ::testing::InitGoogleTest(&argc, argv);
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  auto blocked = std::make_unique<snug::BlockedSignals>(); // for the threads of MPI
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  blocked.reset();
   auto &listeners = ::testing::UnitTest::GetInstance()->listeners();
   if (this_mpi_process(MPI_COMM_WORLD) != 0)
     {

@@ -11,7 +11,8 @@ void AccuracyParameters::declare(Entries &entries)
     "Target", targets, allowed("a list 'response: error, response: error, ...'"),
     "The mesh is refined until the estimated errors of these responses, names in 'Responses' or "
     "quantities, are smaller in all load cases: 'peak pressure: 1 %' of its value, or 'tip: 0.02' "
-    "in its units. Faces that meet in contact get one size. Designs are sought on meshes for 8, "
+    "in its units; at least 1e-8 % of its value in both cases. Faces that meet in contact get one "
+    "size. Designs are sought on meshes for 8, "
     "3 and 1 times the targets, of which the objective must be one, and verified. Empty: the mesh "
     "as given.");
   entries.add("Maximum levels", maximum_levels, between(1., 20.),
@@ -41,7 +42,9 @@ void AccuracyParameters::check(const SectionCheck &section) const
       }
     catch (const std::exception &)
       {
-        require(false, "the target of '" + name + "' must be like '1 %' or '0.02', above 0");
+        require(false, "the target of '" + name +
+                         "' must be like '1 %', at least 1e-8 %, or "
+                         "'0.02', above 0");
       }
 }
 } // namespace snug::accuracy

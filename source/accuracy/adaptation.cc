@@ -26,7 +26,8 @@ Target read_target(const std::string &text)
   target.relative        = rest == "%";
   if (target.relative)
     target.value /= 100.;
-  if (!std::isfinite(target.value) || target.value <= 0. || !(rest.empty() || target.relative))
+  if (!std::isfinite(target.value) || target.value <= 0. ||
+      (target.relative && target.value < smallest_target) || !(rest.empty() || target.relative))
     throw std::invalid_argument("no target");
   return target;
 }

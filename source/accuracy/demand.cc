@@ -33,12 +33,26 @@ bool Demand::is_noise() const
          std::abs(values[n - 1] - values[n - 2]) > 0.5 * std::abs(values[n - 1]);
 }
 
+/// Return why no mesh can meet the target of a response of this size; empty: one may.
+std::string Demand::too_small(const Measured &measured) const
+{
+  const double least = smallest_target * std::abs(measured.value);
+  if (target.allowed(measured.value) >= least)
+    return "";
+  std::ostringstream text;
+  text << "the target " << target.value << " of " << name << " must be at least " << least
+       << ", 1e-8 % of its value " << measured.value;
+  return text.str();
+}
+
 /// A response that is zero has the error of the solver, of which no mesh makes a small part, and
 /// meets its target by chance.
 std::string Demand::note(const Measured &measured, const bool is_met)
 {
   errors.push_back(measured.error);
   values.push_back(measured.value);
+  if (const auto why = too_small(measured); !is_met && !why.empty())
+    return why;
   if (is_met && is_noise())
     return text_of(name, measured) + " has changed its sign from mesh to mesh, and half of itself "
                                      "on the last: it seems to be "

@@ -1,6 +1,7 @@
 #include <snug/app/command_line.h>
 #include <snug/app/failure.h>
 #include <snug/app/study.h>
+#include <snug/base/blocked_signals.h>
 #include <snug/base/errors.h>
 #include <snug/base/petsc_handle.h>
 #include <snug/base/version.h>
@@ -12,6 +13,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 
 namespace {
 using namespace snug;
@@ -84,8 +86,10 @@ int main(int argc, char *argv[])
     }
   pass_to_petsc(options.petsc);
   // PETSc would take our options for its own and print its own help.
-  int                                      no_options = 1;
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(no_options, argv, 1);
+  int  no_options = 1;
+  auto blocked    = std::make_unique<BlockedSignals>(); // for the threads of MPI
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(no_options, argv, 1);
+  blocked.reset();
   petsc::return_errors();
   PetscPopSignalHandler();
   return app::guarded(MPI_COMM_WORLD, [&options]() { return app::run(options); });

@@ -5,6 +5,7 @@
 #include <snug/io/qp_export.h>
 #include <snug/io/shape_export.h>
 #include <snug/state/assumptions.h>
+#include <snug/state/symmetry_planes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,7 @@ void Results<dim>::print_header()
   print_import_notes(problem->scene, out);
   print_pairs();
   warn(unrefined(problem->scene, *problem->mesh));
+  warn(state::symmetry_warnings(*problem->mesh, solver.model().supports, solver.contact().pairs()));
   warn(state::matching_warnings(solver.contact().pairs(), solver.contact().matchings()));
   warn(state::overlap_warnings(solver.contact().pairs(), solver.contact().paired_gaps()));
 }
@@ -66,7 +68,7 @@ void Results<dim>::print_pairs() const
       }
     out << names;
     if (height > 0.)
-      out << ", faces " << height << " off";
+      out << ", facets up to " << height << " off the true surface";
   };
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {

@@ -11,6 +11,7 @@
 #include <snug/io/summary.h>
 #include <snug/io/text_file.h>
 #include <snug/scene/read_scene.h>
+#include <snug/state/symmetry_planes.h>
 
 #include <petscblaslapack.h>
 
@@ -21,9 +22,15 @@
 
 namespace snug::app {
 namespace {
-void print_certificate(std::ostream &out, const state::Certificate &errors)
+/// States on the way to targets are solved no better than the error of their mesh asks for.
+template <int dim>
+void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
 {
-  out << "certificate: equilibrium " << errors.equilibrium << ", continuity " << errors.continuity
+  const auto &errors = state.certificate;
+  out << "certificate";
+  if (state.tolerance > qp::SolverParameters().relative_tolerance)
+    out << " of a solution to the relative tolerance " << state.tolerance << " only";
+  out << ": equilibrium " << errors.equilibrium << ", continuity " << errors.continuity
       << ", penetration " << errors.penetration << ", negative pressure "
       << errors.negative_pressure << ", complementarity " << errors.complementarity << std::endl;
 }
@@ -62,7 +69,7 @@ void print_state(std::ostream &out, const state::ContactState<dim> &state)
   out << "loads (" << state.load << "), with supports and obstacles (" << state.balance << ")\n";
   out << state.dual.method << ": " << state.dual.outer_iterations << " outer iterations, "
       << state.f_mults << " F-mults\n";
-  print_certificate(out, state.certificate);
+  print_certificate(out, state);
 }
 
 template <int dim>
@@ -160,7 +167,10 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   for (const auto &line : unrefined(scene, *mesh))
     context.out() << "warning: " << line << '\n';
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
-  const auto              positions = problem.positions(problem.shapes->start());
+  for (const auto &line : state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
+                                                   problem.solver->contact().pairs()))
+    context.out() << "warning: " << line << '\n';
+  const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.
   for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
     made_of(scene, [&]() {
@@ -324,7 +334,8 @@ int run(const Options &options)
   reserve_blas_buffer();
   RunContext         context(MPI_COMM_WORLD, std::cout);
   const scene::Scene scene = scene::read_scene(
-    {options.file, scene::read_text(options.file, MPI_COMM_WORLD), options.sets, options.output,
+    {options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
+     options.sets, options.output,
      [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)

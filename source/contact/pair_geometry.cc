@@ -58,7 +58,13 @@ face_height(const mesh::Surface<dim> &surface, const faces::FaceShape<dim> &shap
           auto offset = X[face.samples[k]];
           for (unsigned int a = 0; a < face.nodes.size(); ++a)
             offset -= shape.at_sample(k).value[a] * X[face.nodes[a]];
-          largest = std::max(largest, offset.norm());
+          // Along the normal alone: samples of graded cells lie beside the points of the face with
+          // the same coordinates, also where the face is plane.
+          const auto n =
+            faces::area_vector(faces::tangents<dim>(shape.at_sample(k), face.nodes, X));
+          const double height = std::abs(offset * n) / n.norm();
+          if (height > round_off * face_size<dim>(face.nodes, X))
+            largest = std::max(largest, height);
         }
   return largest;
 }

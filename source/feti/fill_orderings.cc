@@ -1,3 +1,4 @@
+#include <snug/base/blocked_signals.h>
 #include <snug/base/narrow.h>
 #include <snug/feti/fill_orderings.h>
 
@@ -40,8 +41,9 @@ std::vector<PetscInt> nested_dissection(const CsrPattern &pattern)
     }
   if (neighbours.empty())
     return result;
-  idx_t              n = narrow<idx_t>(pattern.n_rows);
-  std::vector<idx_t> order(n), place(n);
+  idx_t                n = narrow<idx_t>(pattern.n_rows);
+  std::vector<idx_t>   order(n), place(n);
+  const BlockedSignals during_call;
   if (METIS_NodeND(&n, start.data(), neighbours.data(), nullptr, nullptr, order.data(),
                    place.data()) != METIS_OK)
     throw std::runtime_error("METIS could not order the unknowns of a subdomain");

@@ -1,3 +1,4 @@
+#include <snug/base/blocked_signals.h>
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
 #include <snug/base/petsc_options.h>
@@ -145,6 +146,7 @@ petsc::Matrix SparseFactor::petsc_copy(const CsrMatrix &A) const
 
 void SparseFactor::analyse(const CsrMatrix &pattern)
 {
+  const BlockedSignals                during_analysis; // packages may order by METIS
   std::optional<petsc::DefaultOption> methods, silence;
   if (package == MATSOLVERCHOLMOD)
     {

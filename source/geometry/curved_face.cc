@@ -17,9 +17,11 @@ unsigned int curved_boundary(const std::vector<std::string> &names,
 }
 
 template <int dim>
-CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value) : flat(flat)
+CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value)
+  : flat(flat), apex(flat.centre)
 {
-  const std::vector<std::string> word  = words(value);
+  const std::size_t              at    = value.find(" at ");
+  const std::vector<std::string> word  = words(value.substr(0, at));
   const std::string              shape = word.empty() ? "" : word[0];
   // no formula begins with these words, as muParser knows neither
   if (shape != "sphere" && shape != "cylinder")
@@ -28,10 +30,14 @@ CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value)
       return;
     }
   if (word.size() != (shape == "sphere" ? 2 : 3))
-    throw bad_entry(curved_entry, flat.name + ": " + value,
-                    "must be 'sphere R', 'cylinder AXIS R' or a formula");
+    throw bad_entry(
+      curved_entry, flat.name + ": " + value,
+      "must be 'sphere R', 'cylinder AXIS R', either with 'at' and the coordinates of "
+      "the apex, or a formula");
   if (shape == "cylinder")
     set_axis(word[1], value);
+  if (at != std::string::npos)
+    set_apex(value.substr(at + 4), value);
   set_radius(word.back(), value);
 }
 
@@ -49,18 +55,58 @@ void CurvedFace<dim>::set_axis(const std::string &axis, const std::string &value
 }
 
 template <int dim>
+void CurvedFace<dim>::set_apex(const std::string &coordinates, const std::string &value)
+{
+  std::string axes;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (is_across(d))
+      axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
+  std::vector<double> numbers;
+  bool                good = true;
+  try
+    {
+      from_text(coordinates, numbers);
+    }
+  catch (const std::invalid_argument &)
+    {
+      good = false;
+    }
+  auto next = numbers.begin();
+  for (unsigned int d = 0; d < dim && good; ++d)
+    if (is_across(d))
+      {
+        good = next != numbers.end() && std::isfinite(*next);
+        if (good)
+          apex[d] = *next++;
+      }
+  if (!good || next != numbers.end())
+    throw bad_entry(curved_entry, flat.name + ": " + value,
+                    "'at' must be followed by the coordinates " + axes + " of the apex");
+}
+
+template <int dim>
 void CurvedFace<dim>::set_radius(const std::string &number, const std::string &value)
 {
   std::istringstream stream(number);
   // the farthest corner of the face must still lie below the surface, or R^2 - r^2 < 0
-  const double least = std::sqrt(squared_distance(flat.half_size));
+  dealii::Point<dim> farthest = flat.half_size;
+  for (unsigned int d = 0; d < dim; ++d)
+    farthest[d] += std::abs(apex[d] - flat.centre[d]);
+  const double least = std::sqrt(squared_distance(farthest));
   if (!(stream >> radius) || !stream.eof() || !std::isfinite(radius) || std::abs(radius) <= least)
     {
       std::ostringstream allowed;
       allowed << "the radius must be a number R with |R| > " << least
-              << ", half the extent of the face";
+              << ", the largest distance of the face from the apex";
       throw bad_entry(curved_entry, flat.name + ": " + value, allowed.str());
     }
+}
+
+/// Return whether the surface is curved along @p axis: it is no normal and no cylinder's axis.
+template <int dim>
+bool CurvedFace<dim>::is_across(const unsigned int axis) const
+{
+  return axis != flat.boundary / 2 && axis != straight_axis;
 }
 
 /// r^2: without the normal of the face and the axis of a cylinder.
@@ -69,7 +115,7 @@ double CurvedFace<dim>::squared_distance(const dealii::Point<dim> &offset) const
 {
   double sum = 0.;
   for (unsigned int d = 0; d < dim; ++d)
-    if (d != flat.boundary / 2 && d != straight_axis)
+    if (is_across(d))
       sum += offset[d] * offset[d];
   return sum;
 }
@@ -84,11 +130,11 @@ double CurvedFace<dim>::displacement(const dealii::Point<dim> &point) const
       on_face[flat.boundary / 2] = flat.centre[flat.boundary / 2];
       return formula->value(on_face);
     }
-  const double r2 = squared_distance(dealii::Point<dim>(point - flat.centre));
+  const double r2 = squared_distance(dealii::Point<dim>(point - apex));
   // |R| - sqrt(R^2 - r^2) without cancellation for r << |R|
   const double R      = std::abs(radius);
   const double recede = r2 / (R + std::sqrt(R * R - r2));
-  // the face touches at its centre: a convex one recedes from there
+  // the face touches at the apex: a convex one recedes from there
   return radius > 0. ? -recede : recede;
 }
 
@@ -98,7 +144,7 @@ std::optional<KnownSurface<dim>> CurvedFace<dim>::known() const
   if (formula)
     return {};
   KnownSurface<dim> result;
-  result.centre = flat.centre;
+  result.centre = apex;
   // R > 0: the centre is inside
   result.centre[flat.boundary / 2] -= (flat.boundary % 2 == 1 ? 1. : -1.) * radius;
   result.radius = std::abs(radius);

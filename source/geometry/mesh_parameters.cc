@@ -20,11 +20,15 @@ void declare_box(Entries &entries, BodyMeshParameters &mesh)
   entries.add(
     "Curved faces", access(mesh.curved_faces, ';'),
     allowed("a list 'boundary: sphere R; boundary: cylinder AXIS R; boundary: FORMULA' of "
-            "different boundaries, separated by semicolons"),
+            "different boundaries, separated by semicolons; 'at' and the coordinates of the apex "
+            "may follow R"),
     "Faces that are not flat, separated by semicolons (formulas may hold commas): 'bottom: sphere "
     "4', 'bottom: cylinder x 4' (radius [length], positive if convex; the axis is the cylinder's, "
     "z in 2D) or a formula of x, y, z for the outward displacement of the face [length], 'bottom: "
-    "-(x^2)/8'. Of a mesh file: boundaries that lie on a sphere or a cylinder, 'ball: sphere; "
+    "-(x^2)/8'. The apex of a sphere or a cylinder, where it touches the flat face, is the centre "
+    "of the face; 'bottom: sphere 4 at 0, 0' or 'bottom: cylinder y 4 at 0' give its coordinates "
+    "across the normal and the axis [length], as for half of a body, whose apex lies on the plane "
+    "of symmetry. Of a mesh file: boundaries that lie on a sphere or a cylinder, 'ball: sphere; "
     "bore: cylinder z', whose centre and radius are found.");
 }
 

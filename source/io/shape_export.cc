@@ -132,8 +132,9 @@ template <int dim>
 void write_control_points(const std::string                         &path,
                           const std::vector<shape::MovedPoint<dim>> &points)
 {
-  // positions of the present design, and the moves from the reference
-  std::string text = dim == 3 ? "shape,index,x,y,z,dx,dy,dz\n" : "shape,index,x,y,dx,dy\n";
+  // positions of the present design, the moves from the reference, and what the point moves
+  std::string text = dim == 3 ? "shape,index,x,y,z,dx,dy,dz,variables,body_x,body_y,body_z\n"
+                              : "shape,index,x,y,dx,dy,variables,body_x,body_y\n";
   for (const auto &point : points)
     {
       text += point.shape + ',' + std::to_string(point.index);
@@ -141,6 +142,12 @@ void write_control_points(const std::string                         &path,
         text += ',' + exact(point.position[c]);
       for (unsigned int c = 0; c < dim; ++c)
         text += ',' + exact(point.move[c]);
+      text += ',';
+      for (const auto &[variable, sign] : point.variables)
+        text += (text.back() == ',' ? "" : " ") + std::string(sign < 0. ? "-" : "") + "design[" +
+                std::to_string(variable) + ']';
+      for (unsigned int c = 0; c < dim; ++c)
+        text += ',' + exact(point.on_body[c]);
       text += '\n';
     }
   write_text_file(path, text);

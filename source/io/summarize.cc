@@ -54,6 +54,7 @@ Summary::State summarize(const state::ContactState<dim> &state)
   result.linear_f_mults        = state.linear_f_mults;
   result.method                = state.dual.method;
   result.certificate           = state.certificate;
+  result.tolerance             = state.tolerance;
   result.assumptions           = state.assumptions;
   for (const auto &of_pair : state.pairs)
     {

@@ -100,6 +100,7 @@ Json summary_part(const Summary::State &state)
             {"penetration", certificate.penetration},
             {"negative_pressure", certificate.negative_pressure},
             {"complementarity", certificate.complementarity}}},
+          {"tolerance", state.tolerance},
           {"assumptions",
            {{"rotation", state.assumptions.rotation},
             {"strain", state.assumptions.strain},
@@ -167,6 +168,55 @@ Json summary_part(const Summary::LoadCase &load_case)
   if (load_case.initial_state)
     part["initial_state"] = summary_part(*load_case.initial_state);
   return part;
+}
+
+/// Return the values by which load cases are compared.
+Json main_values(const Summary::State &state)
+{
+  Json  values       = {{"compliance", state.compliance},
+                        {"contact_area", state.contact_area},
+                        {"max_pressure", state.max_pressure},
+                        {"worst_certificate", state.certificate.worst()},
+                        {"responses", Json::object()}};
+  auto &of_responses = values["responses"];
+  for (const auto &[name, value] : state.responses)
+    of_responses[name] = value;
+  return values;
+}
+
+/// Replace what is smaller in @p largest by the @p values of a load case.
+void keep_largest(const std::string &load_case, const Json &values, Json &largest)
+{
+  for (const auto &[name, value] : values.items())
+    {
+      Json &place = largest[name];
+      if (value.is_object())
+        {
+          if (place.is_null())
+            place = Json::object();
+          keep_largest(load_case, value, place);
+        }
+      // Written so that NaN counts.
+      else if (place.is_null() || !(value.get<double>() <= place["value"].get<double>()))
+        place = {{"load_case", load_case}, {"value", value}};
+    }
+}
+
+/// Add which load case @p state shows, the main values of all of them, and the largest of each
+/// value with its load case. All are null if there is only one load case.
+void add_load_cases(const std::vector<Summary::LoadCase> &load_cases, Json &state)
+{
+  for (const char *key : {"load_case", "load_cases", "largest"})
+    state[key] = nullptr;
+  if (load_cases.empty())
+    return;
+  state["load_case"] = load_cases.front().name;
+  for (const auto &load_case : load_cases)
+    {
+      const Json values                   = main_values(load_case.state);
+      state["load_cases"][load_case.name] = values;
+      keep_largest(load_case.name, values, state["largest"]);
+    }
 }
 
 /// The keys of a part that was not computed, with null for values.
@@ -251,6 +301,7 @@ std::string Summary::json() const
                {"memory", summary_part(memory)},
                {"task", task},
                {"warnings", warnings}};
+  add_load_cases(load_cases, text["state"]);
   // Only with a second state or load case or with targets; the keys above are always there.
   if (initial_state)
     text["initial_state"] = summary_part(*initial_state);

@@ -1,3 +1,4 @@
+#include <snug/base/blocked_signals.h>
 #include <snug/base/narrow.h>
 #include <snug/mesh/partition.h>
 
@@ -84,7 +85,8 @@ std::vector<unsigned int> metis_parts(const FaceAreas &graph, unsigned int n_par
       weights.push_back(weight(face.second, mean));
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
-  idx_t n = narrow<idx_t>(graph.size()), k = n_parts, one = 1, cut = 0;
+  idx_t                n = narrow<idx_t>(graph.size()), k = n_parts, one = 1, cut = 0;
+  const BlockedSignals during_call;
   // The methods METIS recommends for few and for many parts.
   const auto method = k <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
   if (method(&n, &one, start.data(), neighbours.data(), nullptr, nullptr, weights.data(), &k,

@@ -2,15 +2,33 @@
 #include <snug/base/run_context.h>
 #include <snug/optimization/journal.h>
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
 namespace snug::optimization {
 namespace {
-bool bitwise_equal(const std::vector<double> &a, const std::vector<double> &b)
+/// Return whether two designs are the same to replay_tolerance.
+bool are_same(const DesignProblem       &problem,
+              const std::vector<double> &a,
+              const std::vector<double> &b)
 {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  if (a.size() != b.size())
+    return false;
+  double largest = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max({largest, std::abs(a[i]), std::abs(b[i])});
+  for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      const bool   is_bounded = i < problem.lower.size() && i < problem.upper.size();
+      const double size =
+        is_bounded ? std::min(largest, problem.upper[i] - problem.lower[i]) : largest;
+      // Written so that NaN differs.
+      if (!(std::abs(a[i] - b[i]) <= replay_tolerance * size))
+        return false;
+    }
+  return true;
 }
 
 Evaluation replay(const JournalRecord &record)
@@ -164,11 +182,11 @@ DesignProblem Journal::journaled(const DesignProblem &problem)
 }
 
 /// Whether the next record is that of @p x.
-bool Journal::is_replayed(const std::vector<double> &x)
+bool Journal::is_replayed(const DesignProblem &problem, const std::vector<double> &x)
 {
   if (is_live || next == recorded.size())
     return false;
-  if (bitwise_equal(recorded[next].x, x))
+  if (are_same(problem, recorded[next].x, x))
     {
       ++replayed;
       return true;
@@ -195,7 +213,7 @@ void Journal::go_live(const DesignProblem &problem, const bool last_again)
 
 Evaluation Journal::evaluate(const DesignProblem &problem, const std::vector<double> &x)
 {
-  const bool is_known = is_replayed(x);
+  const bool is_known = is_replayed(problem, x);
   if (!is_known)
     {
       go_live(problem, false);
@@ -212,7 +230,7 @@ void Journal::differentiate(const DesignProblem       &problem,
                             const std::vector<double> &x,
                             Evaluation                &evaluation)
 {
-  if (is_replayed(x))
+  if (is_replayed(problem, x))
     {
       evaluation = replay(recorded[next++]);
       return;

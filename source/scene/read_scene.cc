@@ -11,11 +11,38 @@
 
 namespace snug::scene {
 namespace {
-/// Contents of @p file, or the reason why it cannot be read.
-bool try_to_read(const std::string &file, std::string &text)
+/// The most that is read from devices and pipes [bytes].
+constexpr std::size_t longest_stream = 16u << 20;
+
+/// What a device or a pipe holds, or the reason why it is not taken.
+bool try_to_read_stream(std::istream &in, std::string &text)
 {
+  text.resize(longest_stream + 1);
+  in.read(&text[0], static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() <= longest_stream)
+    return true;
+  text = "it is not a regular file and holds more than 16 MB";
+  return false;
+}
+
+/// Contents of @p file, or the reason why it cannot be read.
+bool try_to_read(const std::string &file, const TextSource source, std::string &text)
+{
+  std::error_code unknown;
+  const auto      type = std::filesystem::status(file, unknown).type();
+  const bool      is_stream =
+    type == std::filesystem::file_type::character || type == std::filesystem::file_type::fifo ||
+    type == std::filesystem::file_type::block || type == std::filesystem::file_type::socket;
+  if (is_stream && source == TextSource::regular_file)
+    {
+      text = "it must be a regular file, not a device or a pipe";
+      return false;
+    }
   errno = 0;
-  std::ifstream      in(file, std::ios::binary);
+  std::ifstream in(file, std::ios::binary);
+  if (is_stream && in)
+    return try_to_read_stream(in, text);
   std::ostringstream contents;
   if (in && in.peek() != std::ifstream::traits_type::eof())
     contents << in.rdbuf();
@@ -116,6 +143,19 @@ void complete(Scene &scene)
     obstacle.complete(scene.dimension);
 }
 
+/// What a mesh file holds. @throws InputError naming the entry.
+std::string mesh_text(const SceneSource &source, const std::string &file)
+{
+  try
+    {
+      return source.read_file(file);
+    }
+  catch (const InputError &error)
+    {
+      throw bad_entry("Mesh file", file, error.what());
+    }
+}
+
 /// Read the mesh files of all bodies. Their paths become absolute, so
 /// that the scene may be printed elsewhere.
 void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene)
@@ -137,7 +177,7 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
                         .lexically_normal()
                         .string();
           mesh.imported =
-            mesh_file::import_mesh(source.read_file(mesh.file), mesh, scene.dimension);
+            mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
         }
       catch (const InputError &error)
         {
@@ -155,7 +195,7 @@ std::string table_cell(std::string text)
 
 } // namespace
 
-std::string read_text(const std::string &file, MPI_Comm communicator)
+std::string read_text(const std::string &file, MPI_Comm communicator, const TextSource source)
 {
   int rank;
   MPI_Comm_rank(communicator, &rank);
@@ -163,7 +203,7 @@ std::string read_text(const std::string &file, MPI_Comm communicator)
   unsigned long header[2] = {0, 0}; // success, length
   if (rank == 0)
     {
-      header[0] = try_to_read(file, text);
+      header[0] = try_to_read(file, source, text);
       header[1] = text.size();
     }
   MPI_Bcast(header, 2, MPI_UNSIGNED_LONG, 0, communicator);

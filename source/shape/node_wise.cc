@@ -84,12 +84,15 @@ Modes<dim> node_wise(const ShapedFace<dim> &face, const ShapeParameters &paramet
       }
   auto weights = filter_weights(places, areas, radius);
   lead_to_fixed(places, fixed_points(modes.controls, parameters), radius, weights);
-  modes.n_nodes = face.surface().n_nodes();
-  std::vector<typename Modes<dim>::Row> rows(modes.n_nodes);
+  modes.n_nodes   = face.surface().n_nodes();
+  using Rows      = std::vector<typename Modes<dim>::Row>;
+  const auto kept = std::make_shared<Rows>(modes.n_nodes);
+  auto      &rows = *kept;
   for (unsigned int i = 0; i < nodes.size(); ++i)
     for (const auto &weight : weights[i])
       rows[nodes[i]].emplace_back(weight.first, weight.second * d[nodes[i]]);
-  modes.row = [rows = std::move(rows)](unsigned int node) { return rows[node]; };
+  modes.row          = [kept](unsigned int node) { return (*kept)[node]; };
+  modes.row_at_point = [kept, nodes](unsigned int i) { return (*kept)[nodes[i]]; };
   return modes;
 }
 

@@ -180,6 +180,16 @@ std::vector<double> Shape<dim>::transpose(const Field &gradient) const
 }
 
 template <int dim>
+dealii::Tensor<1, dim> Shape<dim>::move_at_point(const unsigned int         i,
+                                                 const std::vector<double> &alpha) const
+{
+  dealii::Tensor<1, dim> move;
+  for (const auto &[variable, direction] : modes.row_at_point(i))
+    move += alpha[variable] * direction;
+  return move;
+}
+
+template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>> Shape<dim>::faces() const
 {
   if (face)

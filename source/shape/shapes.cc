@@ -126,14 +126,20 @@ std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<doubl
           // Several variables may move one point. Controls come in the order of their points, so
           // that a new point has the next index.
           if (first + control.point == points.size())
-            points.push_back({part.name,
-                              control.point,
-                              control.shown ? control.shown->first : control.position,
-                              {}});
+            {
+              const auto place = control.shown ? control.shown->first : control.position;
+              points.push_back({part.name,
+                                control.point,
+                                place,
+                                {},
+                                place + part.basis->move_at_point(control.point, values)});
+            }
           auto      &point = points[first + control.point];
           const auto move = values[i] * (control.shown ? control.shown->second : control.direction);
           point.position += move;
           point.move += move;
+          if (const auto [variable, sign] = part.links.tie(i); sign != 0.)
+            point.variables.emplace_back(part.first + variable, sign);
         }
     }
   return points;

@@ -77,15 +77,17 @@ public:
     Modes<dim> modes;
     modes.n_variables = directions.size() * net.n_points();
     modes.n_nodes     = places.size();
-    modes.row         = [net = net, places = places, directions = directions](unsigned int node) {
+    const auto row_at = [net = net, directions = directions](const std::vector<double> &place) {
       typename Modes<dim>::Row row;
-      if (!places[node].empty())
-        for (const auto &value : net.values(places[node]))
+      if (!place.empty())
+        for (const auto &value : net.values(place))
           for (unsigned int j = 0; j < directions.size(); ++j)
             // the variables of a point are next to each other
             row.emplace_back(directions.size() * value.first + j, value.second * directions[j]);
       return row;
     };
+    modes.row          = [=, places = places](unsigned int node) { return row_at(places[node]); };
+    modes.row_at_point = [=, net = net](unsigned int i) { return row_at(net.greville(i)); };
     // Frozen points are listed as well: their numbers are those that users see.
     for (unsigned int i = 0; i < net.n_points(); ++i)
       {

@@ -133,7 +133,8 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
   };
   // Symmetry compares control points, which are no nodes: at one height, moving along the mean
   // direction, images are found whatever the mesh.
-  const auto mean = mean_direction(face, directions);
+  const auto                          mean = mean_direction(face, directions);
+  std::vector<dealii::Tensor<1, dim>> shown_directions;
   for (unsigned int i = 0; i < net.n_points(); ++i)
     {
       // Across the face at the mean of the nodes; moves are relative to the face itself.
@@ -143,7 +144,14 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
         position[axes[t]] = lower[axes[t]] + fractions[t] * (upper[axes[t]] - lower[axes[t]]);
       modes.controls.push_back({i, position, mean, net.on_border(i), false,
                                 point_above(face, directions, axes, position)});
+      shown_directions.push_back(modes.controls.back().shown->second);
     }
+  modes.row_at_point = [=](unsigned int i) {
+    typename Modes<dim>::Row row;
+    for (const auto &value : net.values(net.greville(i)))
+      row.emplace_back(value.first, value.second * shown_directions[i]);
+    return row;
+  };
   return modes;
 }
 

@@ -39,6 +39,7 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
       if (state.certificate.worst() <= wanted)
         {
           state.solved_to             = parameters.relative_tolerance;
+          state.tolerance             = wanted;
           state.dual.outer_iterations = outer;
           state.f_mults               = context().work.f_mults - mults;
           return;

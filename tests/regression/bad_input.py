@@ -184,6 +184,11 @@ def check_mesh_files(runner):
             place.append(path.name)
         runner.expect_error_of(title, [scene], [*place, *names])
         runner.expect_error(title, ["--validate", scene], names, ranks=3)
+    scene = mesh_scene(runner, "a mesh without end", {"Mesh file": "/dev/zero"})
+    runner.expect_error_of("mesh of a device", [scene],
+                           [scene.name, "/dev/zero", "must be a regular file"])
+    runner.expect_error("parameters without end", ["/dev/zero"],
+                        ["/dev/zero", "more than 16 MB"], ranks=3)
     scene = mesh_scene(runner, "no such mesh", {"Mesh file": "nowhere.msh"})
     runner.expect_error("missing mesh file", [scene],
                         [scene.name, "nowhere.msh"], ranks=3)
@@ -245,6 +250,16 @@ def check_targets(runner):
             settings.pop()
         words = [word for setting in settings for word in ("--set", setting)]
         runner.expect_error_of(title, [ADAPTED, *words], names, 3)
+
+
+def check_small_targets(runner):
+    """Targets below the rounding of their responses are refused, relative ones at once."""
+    for target, status, names in [
+            ("1e-300 %", 2, ["'Accuracy/Target'", "1e-300 %", "at least 1e-8 %"]),
+            ("9e-9 %", 2, ["'Accuracy/Target'", "9e-9 %", "at least 1e-8 %"]),
+            ("1e-300", 3, ["the target 1e-300 of potential energy", "must be at least"])]:
+        runner.expect_error("target too small", [
+            ADAPTED, "--set", f"Accuracy/Target=potential energy: {target}"], names, status)
 
 
 def check_good(runner, scene):
@@ -317,6 +332,7 @@ def main():
                             [runner.write("floating", floating)], [], status=3)
         check_unsolved(runner, scene)
         check_targets(runner)
+        check_small_targets(runner)
         for path in options.unsolvable:
             runner.expect_error_of(path.name, [path.resolve()], [], status=3)
         runner.examine_waiting()

@@ -5,6 +5,8 @@ An optimization goes on to the end of its evaluation, writes the results of its 
 design and ends with status 0, whichever rank got the signal; a second signal ends it at
 once. States and sensitivities end at once. The ranks get the signal, not their launcher,
 which has its own idea of signals: Open MPI kills what does not end within a second.
+METIS catches SIGTERM while it works: a signal must end the run as ever. An interrupted
+optimization goes on with its record on another number of ranks as well.
 """
 
 import argparse
@@ -19,6 +21,29 @@ import tempfile
 import time
 
 SECONDS = 60  # much more than an evaluation, on a busy machine
+
+# METIS partitions it for a tenth of a second.
+PARTITIONED = """
+set Bodies = upper, lower
+set Task = state
+subsection Body upper
+  set Box corner = 0, 0, 1
+  set Box cells = {0}
+  set Supports = left: x, front: y
+  set Pressure = top: 1
+end
+subsection Body lower
+  set Box cells = {0}
+  set Supports = bottom: xyz
+end
+subsection Contact
+  set Pairs = upper.bottom: lower.top
+end
+subsection Decomposition
+  set Method = METIS
+  set Subdomains = 100
+end
+""".format("28, 28, 20")
 
 
 def descendants(process):
@@ -58,11 +83,13 @@ class Check:
         self.folder = pathlib.Path(folder)
         self.failed = 0
 
-    def start(self, name, *entries):
-        launcher = ([self.options.mpiexec, "-np", str(self.options.ranks)]
-                    if self.options.ranks > 1 else [])
+    def command(self, scene, output, ranks):
+        launcher = ([self.options.mpiexec, "-np", str(ranks)] if ranks > 1 else [])
+        return [*launcher, self.options.program, scene, "--output", str(output)]
+
+    def start(self, name, *entries, scene=None):
         output = self.folder / name
-        command = [*launcher, self.options.program, self.options.scene, "--output", str(output)]
+        command = self.command(scene or self.options.scene, output, self.options.ranks)
         for entry in entries:
             command += ["--set", entry]
         return output, subprocess.Popen(command, stdout=subprocess.DEVNULL,
@@ -116,6 +143,35 @@ class Check:
         self.failed += len(found)
         for problem in found:
             print(f"WRONG {problem}: {summary}, evaluations {done}")
+        self.goes_on_with_other_ranks(output, len(done))
+
+    def goes_on_with_other_ranks(self, output, n_done):
+        """Sums over ranks differ by rounding, and the designs with them."""
+        ranks = 3 if self.options.ranks == 1 else self.options.ranks - 1
+        run = subprocess.run([*self.command(self.options.scene, output, ranks), "--restart"],
+                             capture_output=True, text=True, timeout=SECONDS, check=False)
+        good = (run.returncode == 0 and "restart: replaying" in run.stdout and
+                "another design" not in run.stdout and len(objectives(output)) > n_done)
+        print(f"{'good' if good else 'WRONG'} restart on {ranks} ranks after {n_done} values")
+        if not good:
+            print(run.stdout, run.stderr)
+        self.failed += not good
+
+    def ends_within_metis(self):
+        """The handler is that of METIS: states have none of their own."""
+        scene = self.folder / "partitioned.prm"
+        scene.write_text(PARTITIONED)
+        _, process = self.start("partitioned", scene=str(scene))
+
+        def metis_works():
+            return any(catches(rank, signal.SIGTERM)
+                       for rank in ranks_of(process.pid, self.options.program))
+        self.wait_until(process, metis_works)
+        for rank in ranks_of(process.pid, self.options.program):
+            if catches(rank, signal.SIGTERM):
+                os.kill(rank, signal.SIGTERM)
+                break
+        self.verdict("METIS, SIGTERM", process, self.killed(signal.SIGTERM))
 
     def second_signal(self, number):
         # finer, so that what follows the first one lasts until the second
@@ -142,6 +198,7 @@ def main():
         check = Check(options, folder)
         check.ends_at_once("state", signal.SIGTERM)
         check.ends_at_once("sensitivity", signal.SIGINT)
+        check.ends_within_metis()
         check.keeps_the_best(signal.SIGTERM, 0)
         check.keeps_the_best(signal.SIGINT, -1)
         if options.ranks == 1:

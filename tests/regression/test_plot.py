@@ -3,14 +3,19 @@
 
 import pathlib
 import sys
+import types
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "contrib" / "lib"))
+PLOT = pathlib.Path(__file__).resolve().parents[2] / "contrib" / "plot"
+sys.path.insert(0, str(PLOT.parent / "lib"))
 
 try:
     import numpy as np
     import pressure
-except ImportError as missing:
+    plot = types.ModuleType("plot")
+    plot.__file__ = str(PLOT)
+    exec(compile(PLOT.read_text(encoding="utf-8"), str(PLOT), "exec"), plot.__dict__)
+except (ImportError, SystemExit) as missing:
     print(f"skipped: {missing}")
     sys.exit(0)
 
@@ -52,6 +57,32 @@ class Plot(unittest.TestCase):
 
     def test_the_cut_goes_through_the_peak(self):
         self.assertTrue(np.allclose(eighth_of_a_sphere().peaks(), [0., 0., 1.], atol=1e-12))
+
+    def test_each_state_is_cut_at_its_own_peak(self):
+        before, after, other = (eighth_of_a_sphere(loaded=loaded) for loaded in (.2, .1, .15))
+        after.points = np.roll(after.points, 1, axis=1)  # its peak is at the pole of the x axis
+        pairs = {0: [before, other], 1: [other, after]}
+        original = plot.slave_sides
+        plot.slave_sides = lambda states: pairs
+        try:
+            self.assertEqual(plot.loaded_sides([None, None]), [before, other])
+            pairs[0] = [before, after]
+            sides = plot.loaded_sides([None, None])
+            grid = type("Grid", (), {"GetBounds": lambda self: [0., 1., 0., 1., 0., 1.]})()
+            self.assertEqual([round(plot.place_of_cut(grid, side, 0), 9) for side in sides],
+                             [0., 1.])
+            pairs.clear()
+            self.assertEqual(plot.loaded_sides([None, None]), [None, None])
+        finally:
+            plot.slave_sides = original
+
+    def test_a_lower_last_state_has_its_own_scale_as_well(self):
+        def scales(*peaks):
+            return [peak for _, _, peak in plot.panels_of(
+                ["before", "after"][:len(peaks)], list("ab"), list(peaks))]
+        self.assertEqual(scales(10., 2.), [10., 10., 2.])
+        self.assertEqual(scales(2., 10.), [10., 10.])
+        self.assertEqual(scales(10.), [10.])
 
 
 if __name__ == "__main__":

@@ -14,8 +14,11 @@ struct Target
   double allowed(double response) const;
 };
 
-/// "1 %" of the response, or a number in its units.
-/// @throws std::invalid_argument for anything else.
+/// The smallest target relative to a response: the rounding of states is above it.
+constexpr double smallest_target = 1e-10;
+
+/// Return the target of "1 %" of the response, or of a number in its units.
+/// @throws std::invalid_argument for anything else, and for relative targets below smallest_target.
 Target read_target(const std::string &text);
 
 /// The part of the allowed error that a mesh is refined for, so that the last step neither misses

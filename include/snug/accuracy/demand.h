@@ -45,7 +45,8 @@ struct Demand
   std::string note(const Measured &measured, bool is_met);
 
 private:
-  bool is_noise() const;
+  bool        is_noise() const;
+  std::string too_small(const Measured &measured) const;
 };
 } // namespace snug::accuracy
 

@@ -19,7 +19,8 @@ double mean_face_size(const mesh::Surface<dim>                 &surface,
                       const std::vector<unsigned int>          &faces,
                       const typename mesh::Surface<dim>::Field &positions);
 
-/// How far the true surface of @p side lies off its faces at most, at the reference [length].
+/// Return the maximum distance of the true surface of @p side from its faces, measured along the
+/// normals of the faces, at the reference [length]; 0 if it is round-off.
 template <int dim>
 double face_height(const mesh::Surface<dim>    &surface,
                    const faces::FaceShape<dim> &shape,

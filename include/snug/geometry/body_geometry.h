@@ -66,10 +66,11 @@ struct BodyMeshParameters
   /// per axis: half of the cells are equal and fill this much from the
   /// lower end, the rest grow from there [length]; 0: not; default 0
   std::vector<double> fine_length;
-  /// face name -> "sphere R" | "cylinder x R" | formula of x, y, z giving
-  /// the outward displacement of the face [length]. The curved face
-  /// touches the flat one at its centre; R > 0 is convex. In 2D a
-  /// cylinder's axis is z.
+  /// face name -> "sphere R" | "sphere R at x, y" | "cylinder x R" |
+  /// "cylinder x R at y" | formula of x, y, z giving the outward
+  /// displacement of the face [length]. The curved face touches the flat
+  /// one at its centre, or at the coordinates given; R > 0 is convex. In 2D
+  /// a cylinder's axis is z.
   std::map<std::string, std::string> curved_faces;
 
   /// @name Round bodies

@@ -30,16 +30,19 @@ struct FlatFace
  * The outward displacement of a box face that makes it a sphere, a
  * cylinder or the graph of a formula.
  *
- * Sphere and cylinder of radius R touch the flat face at its centre:
+ * Sphere and cylinder of radius R touch the flat face at their apex:
  *   displacement = -sign(R) (|R| - sqrt(R^2 - r^2)),
- * r: distance from the centre, or from the cylinder's centre line.
+ * r: distance from the apex, or from the cylinder's line of apexes. The apex
+ * is the centre of the face, or the point that the value gives.
  */
 template <int dim>
 class CurvedFace
 {
 public:
   /**
-   * @p value: "sphere R", "cylinder AXIS R" or a formula [length].
+   * @p value: "sphere R", "cylinder AXIS R", each with "at C, ..." if the apex
+   * is not the centre of the face, or a formula [length]. C: the coordinates
+   * across the normal and the axis, in the order x, y, z.
    * @throws InputError naming the entry Curved faces if @p value is none
    *   of these, the axis is not tangent to the face, or |R| does not
    *   exceed the largest r on the face.
@@ -60,9 +63,12 @@ private:
   std::unique_ptr<Formula<dim>> formula; ///< null: sphere or cylinder
   double                        radius        = 0.;
   unsigned int                  straight_axis = dim; ///< cylinder's, in the box
+  dealii::Point<dim>            apex;
 
   void   set_radius(const std::string &number, const std::string &value);
   void   set_axis(const std::string &axis, const std::string &value);
+  void   set_apex(const std::string &coordinates, const std::string &value);
+  bool   is_across(unsigned int axis) const;
   double squared_distance(const dealii::Point<dim> &offset) const;
 };
 } // namespace snug::geometry

@@ -30,8 +30,10 @@ void write_surface(const std::string                        &stem,
                    const typename mesh::Surface<dim>::Field &positions);
 
 /**
- * Write the control points as CSV with columns shape, index, x, y, z (3D)
- * and dx, dy, dz, how far they moved [length]. For one rank.
+ * Write the control points as CSV with columns shape, index, x, y, z (3D),
+ * dx, dy, dz, how far they moved, variables, entries of the design with their
+ * signs, and body_x, body_y, body_z, the point of the body there [length]. For
+ * one rank.
  * @throws std::runtime_error if it cannot be written.
  */
 template <int dim>

@@ -84,6 +84,7 @@ struct Summary
     /// names and values of the scene's responses
     std::vector<std::pair<std::string, double>> responses;
     state::Certificate                          certificate;
+    double                                      tolerance = none; ///< met by the certificate
     state::Assumptions                          assumptions;
     std::optional<Accuracy>                     accuracy;
   };
@@ -175,9 +176,11 @@ struct Summary
     std::vector<std::pair<std::string, double>> stages;
   };
 
-  Program                     program;
-  Mesh                        mesh;
-  State                       state; ///< of the final design; the first load case
+  Program program;
+  Mesh    mesh;
+  /// Of the final design. Of several load cases this is the first one; in the file it also has
+  /// the main values of all load cases by name, and the largest value of each with its load case.
+  State                       state;
   std::optional<Gradient>     gradient;
   std::optional<Optimization> optimization;
   Work                        work;

@@ -28,10 +28,18 @@ struct JournalSettings
   std::function<void(const std::string &)> log;
 };
 
+/// Designs this close are the same one to a replay, relative to the largest variable, or to the
+/// width of the bounds if that is smaller. Scales of constraints are sums over ranks: on another
+/// number of ranks they differ by rounding, and with them the designs that an optimizer makes of
+/// recorded values.
+constexpr double replay_tolerance = 1e-8;
+
 /**
  * Records every evaluation of a design problem, once more where it gains gradients, and on a
  * restart returns the recorded ones in order instead of evaluating again. The optimizer is
  * deterministic, so it takes the same path, bit for bit, and goes on from where the record ends.
+ * On another number of ranks the path agrees to replay_tolerance: recorded values are returned for
+ * designs that differ by less.
  * Problems that follow one another, as when contact is paired anew, share a journal.
  *
  * A record is complete when its last line is. Before that of evaluate() number v is begun, every
@@ -43,7 +51,7 @@ struct JournalSettings
  *
  * They are not (the log says so) if the number of ranks has changed, a
  * file is missing or cut short, or a replayed design differs from the one
- * asked for; the record is then cut there.
+ * asked for by more than replay_tolerance; the record is then cut there.
  *
  * Only rank 0 reads and writes journal.txt.
  */
@@ -78,7 +86,7 @@ private:
   Evaluation evaluate(const DesignProblem &problem, const std::vector<double> &x);
   void
   differentiate(const DesignProblem &problem, const std::vector<double> &x, Evaluation &evaluation);
-  bool        is_replayed(const std::vector<double> &x);
+  bool        is_replayed(const DesignProblem &problem, const std::vector<double> &x);
   void        go_live(const DesignProblem &problem, bool last_again);
   Evaluation  recorded_live(const DesignProblem               &problem,
                             const std::vector<double>         &x,

@@ -22,11 +22,20 @@ struct SceneSource
   std::function<std::string(const std::string &file)> read_file = {};
 };
 
+/// From where text may be read. Devices and pipes need not end.
+enum class TextSource
+{
+  regular_file,
+  any ///< devices and pipes as well, such as /dev/stdin, if they hold at most 16 MB
+};
+
 /**
- * Contents of a file, read by rank 0 only. Collective.
+ * Return the contents of a file, read by rank 0 only. Collective.
  * @throws InputError on all ranks if it cannot be read.
  */
-std::string read_text(const std::string &file, MPI_Comm communicator);
+std::string read_text(const std::string &file,
+                      MPI_Comm           communicator,
+                      TextSource         source = TextSource::regular_file);
 
 /**
  * Read and check a scene and the mesh files it names. Lists left empty

@@ -35,6 +35,12 @@ public:
 
   unsigned int n_variables() const { return size; }
 
+  /// Return the variable and the sign that control @p i is tied to; the sign 0: it is fixed.
+  std::pair<unsigned int, double> tie(unsigned int i) const
+  {
+    return {ties[i].variable, ties[i].sign};
+  }
+
   /// L alpha.
   std::vector<double> expand(const std::vector<double> &alpha) const;
 

@@ -43,6 +43,9 @@ struct Modes
   std::function<Row(unsigned int)> row = [](unsigned int) { return Row(); };
   /// One per variable, or none if variables have no place.
   std::vector<Control<dim>> controls;
+  /// Row of the point of the body at the place where control point @p i is shown, as of a node;
+  /// only with controls.
+  std::function<Row(unsigned int i)> row_at_point = {};
 
   Field               apply(const std::vector<double> &alpha) const;
   std::vector<double> transpose(const Field &gradient) const;
@@ -111,6 +114,10 @@ public:
   std::vector<double> transpose(const Field &gradient) const override;
 
   const std::vector<Control<dim>> &controls() const { return modes.controls; }
+
+  /// Return the move of the point of the body at the place where control point @p i is shown, by
+  /// this basis' own variables.
+  dealii::Tensor<1, dim> move_at_point(unsigned int i, const std::vector<double> &alpha) const;
 
   /// (body, boundary) of the faces that are shaped, ascending. Collective.
   std::vector<std::pair<unsigned int, unsigned int>> faces() const;

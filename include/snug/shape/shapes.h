@@ -14,6 +14,11 @@ struct MovedPoint
   unsigned int           index; ///< within its shape
   dealii::Point<dim>     position;
   dealii::Tensor<1, dim> move; ///< from the reference to position
+  /// the point of the body, for shapes of a face on the face, at the same place of the reference
+  /// as the control point; it moves by this shape alone
+  dealii::Point<dim> on_body = {};
+  /// index among all design variables and sign, of each direction that is not fixed
+  std::vector<std::pair<unsigned int, double>> variables = {};
 };
 
 /**
@@ -46,7 +51,7 @@ public:
   const std::vector<double> &start() const { return initial; }
   /// @}
 
-  /// The control points of a design, shape by shape.
+  /// Return the control points of a design, shape by shape.
   std::vector<MovedPoint<dim>> control_points(const std::vector<double> &alpha) const;
 
 private:

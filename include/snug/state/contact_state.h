@@ -118,6 +118,7 @@ struct ContactState
   /// distance from a weakly active contact; infinite without contacts
   double        degeneracy_distance = std::numeric_limits<double>::infinity();
   double        solved_to           = 0.; ///< relative KKT residual asked of the solver
+  double        tolerance           = 0.; ///< relative, that the certificate meets
   unsigned long f_mults             = 0;  ///< of the contact solve
   unsigned long linear_f_mults      = 0;  ///< 0: not asked for
   Certificate   certificate;

@@ -1,4 +1,5 @@
 #include <snug/accuracy/adaptation.h>
+#include <snug/accuracy/demand.h>
 #include <snug/accuracy/transfer.h>
 #include <snug/accuracy/trust.h>
 #include <snug/mesh/refined_cells.h>
@@ -54,8 +55,23 @@ TEST(Target, ReadsPartsAndNumbers)
   EXPECT_DOUBLE_EQ(accuracy::read_target("1 %").allowed(-50.), 0.5);
   EXPECT_DOUBLE_EQ(accuracy::read_target("0.2%").allowed(50.), 0.1);
   EXPECT_DOUBLE_EQ(accuracy::read_target("0.02").allowed(50.), 0.02);
-  for (const char *wrong : {"", "%", "-1 %", "0", "1 N", "inf"})
+  EXPECT_DOUBLE_EQ(accuracy::read_target("1e-8 %").allowed(1.), 1e-10);
+  EXPECT_DOUBLE_EQ(accuracy::read_target("1e-12").allowed(1e-6), 1e-12); // in units
+  for (const char *wrong : {"", "%", "-1 %", "0", "1 N", "inf", "1e-300 %", "9e-9 %"})
     EXPECT_THROW(accuracy::read_target(wrong), std::exception) << wrong;
+}
+
+TEST(Demand, NamesATargetBelowTheRoundingOfItsResponse)
+{
+  const auto why = [](const std::string &target, const double value) {
+    return accuracy::Demand{"tip", 0, 0, accuracy::read_target(target), false}.note({value, 1.},
+                                                                                    false);
+  };
+  EXPECT_EQ(why("1e-8 %", -3.), "");
+  EXPECT_EQ(why("1e-12", 1e-6), "");
+  EXPECT_EQ(why("1e-12", 0.), "");
+  EXPECT_EQ(why("1e-12", -2.), "the target 1e-12 of tip must be at least 2e-10, 1e-8 % of its "
+                               "value -2");
 }
 
 TEST(StepTolerance, FollowsTheError)

@@ -199,3 +199,37 @@ TEST(TrueSurfaces, RoundBodiesTurnFreely)
   EXPECT_LT(Round<3>(2, 3, 1).largest_moment(Method::nodal), 1e-14);
   EXPECT_LT(Round<3>(2, 3, 1).largest_moment(Method::mortar), 1e-14);
 }
+
+/// Cells that are refined unevenly: their samples lie beside the points of the faces with the same
+/// coordinates, but faces of a plane are not off it, and chords of an arc by their sagitta.
+TEST(TrueSurfaces, HeightsOfFacesAreMeasuredAlongTheirNormals)
+{
+  for (const double grading : {1., 1e3})
+    for (const bool is_round : {false, true})
+      {
+        geometry::BodyMeshParameters box;
+        box.cells              = {6, 2};
+        box.grading            = {grading, 1.};
+        box.sampled_boundaries = {"top"};
+        box.is_designed        = true; // planes as well
+        if (is_round)
+          box.curved_faces = {{"top", "cylinder z 3"}};
+        const mesh::BodyMesh<2>   mesh(MPI_COMM_WORLD, {box}, 1);
+        const mesh::Surface<2>    surface(mesh, {{0, 3}});
+        const faces::FaceShape<2> shape(1);
+        double                    width = 0.;
+        for (const auto &face : surface.faces())
+          {
+            ASSERT_FALSE(face.samples.empty());
+            const auto &x = surface.reference_positions();
+            width         = std::max(width, (x[face.nodes[1]] - x[face.nodes[0]]).norm());
+          }
+        const double height = face_height<2>(surface, shape, {0, 3});
+        if (!is_round)
+          EXPECT_EQ(height, 0.) << grading;
+        else
+          // samples are next to the middle where cells are not graded, and never above it
+          EXPECT_NEAR(height, 3. - std::sqrt(9. - width * width / 4.),
+                      (grading > 1. ? 0.3 : 1e-2) * height);
+      }
+}

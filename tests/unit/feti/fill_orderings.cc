@@ -1,9 +1,16 @@
+#include <snug/base/blocked_signals.h>
 #include <snug/feti/fill_orderings.h>
 #include <snug/feti/sparse_factor.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include <unistd.h>
 
 using namespace snug;
 
@@ -36,6 +43,13 @@ feti::CsrMatrix laplacian(const unsigned int n, const bool backwards = false)
     for (PetscInt p = A.row_start()[i]; p < A.row_start()[i + 1]; ++p)
       A.values[p] = A.columns()[p] == PetscInt(i) ? 4.5 : -1.;
   return A;
+}
+
+volatile std::sig_atomic_t n_signals = 0;
+
+void count_signal(int)
+{
+  n_signals = n_signals + 1;
 }
 } // namespace
 
@@ -94,4 +108,32 @@ TEST(FillOrderings, LeaveTheInverseAsItIs)
   other.solve(b, y);
   for (unsigned int i = 0; i < A.n_rows(); ++i)
     EXPECT_NEAR(x(i), y(i), 1e-13 * std::abs(y(i)));
+}
+
+/// METIS catches SIGTERM: the signal comes as soon as it does, and takes effect when it is done.
+TEST(FillOrderings, ASignalWhileMetisWorksIsNotLost)
+{
+  n_signals         = 0;
+  const auto before = std::signal(SIGTERM, count_signal);
+  const auto A      = laplacian(200);
+
+  std::atomic<bool> is_over{false}, is_sent{false};
+  auto              blocked = std::make_unique<BlockedSignals>(); // for the other thread
+  std::thread       sender([&]() {
+    struct sigaction now;
+    while (!is_over && !is_sent)
+      if (sigaction(SIGTERM, nullptr, &now) == 0 && now.sa_handler != count_signal)
+        {
+          is_sent = true;
+          kill(getpid(), SIGTERM);
+        }
+  });
+  blocked.reset();
+  feti::FillOrderings orderings;
+  EXPECT_NO_THROW(orderings.of(*A.pattern()));
+  is_over = true;
+  sender.join();
+  EXPECT_TRUE(is_sent);
+  EXPECT_EQ(n_signals, is_sent ? 1 : 0);
+  std::signal(SIGTERM, before);
 }

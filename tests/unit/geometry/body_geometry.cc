@@ -267,6 +267,46 @@ TEST(BodyGeometry, RejectsBadEntriesByName)
   EXPECT_EQ(box_complaint<3>(curved("bottom", "sphere 1.81")), "");
   EXPECT_EQ(box_complaint<3>(curved("bottom", "cylinder x 1.51")), "");
   EXPECT_NE(box_complaint<2>(curved_2d("bottom", "cylinder x 4")), "");
+  // from a corner of the bottom to the other one: sqrt(2^2 + 3^2) = 3.61
+  EXPECT_EQ(box_complaint<3>(curved("bottom", "sphere 3.61 at 1, 2")), "");
+  expect_entry("Curved faces", curved("bottom", "sphere 3.6 at 1, 2"));
+  EXPECT_EQ(box_complaint<3>(curved("bottom", "cylinder y 2.1 at 3")), "");
+  expect_entry("Curved faces", curved("bottom", "cylinder y 1.9 at 3"));
+  for (const auto *value :
+       {"sphere 9 at 1", "sphere 9 at 1, 2, 3", "sphere 9 at", "sphere 9 at a, b",
+        "cylinder x 9 at 1, 2", "sphere at 1, 2", "sphere 9 at 1, nan"})
+    expect_entry("Curved faces", curved("bottom", value));
+}
+
+TEST(BodyGeometry, TheApexIsWhereTheValueSays)
+{
+  // of half a body: on the plane x = 1; of a quarter: on the corner (1, 2)
+  const struct
+  {
+    std::string value;
+    double      y; ///< of the apex; of cylinders along y any
+  } cases[] = {{"cylinder y 9 at 1", 4.}, {"sphere 9 at 1, 2", 2.}, {"sphere -9 at 1, 2", 2.}};
+  for (const auto &of : cases)
+    {
+      const auto   geometry = box<3>(curved("bottom", of.value));
+      const double sign     = of.value.find('-') == std::string::npos ? 1. : -1.;
+      for (const auto &point : logical_points<3>(4))
+        {
+          const auto   x  = geometry->grid_position(point);
+          const double dx = x[0] - 1., dy = of.value[0] == 'c' ? 0. : x[1] - of.y;
+          EXPECT_NEAR(x[2], 3. + sign * (9. - std::sqrt(81. - dx * dx - dy * dy)), 1e-13);
+        }
+      const auto known = geometry->known_surfaces();
+      ASSERT_EQ(known.size(), 1u);
+      for (const auto &point : logical_points<3>(4))
+        EXPECT_NEAR(known[0].distance(geometry->grid_position(point)), 0., 1e-13);
+    }
+  const auto flat = box<2>(curved_2d("top", "cylinder z 7 at 3"));
+  for (const auto &point : logical_points<2>(3))
+    {
+      const auto x = flat->grid_position(point);
+      EXPECT_NEAR(x[1], 5. - (7. - std::sqrt(49. - (x[0] - 3.) * (x[0] - 3.))), 1e-13);
+    }
 }
 
 TEST(BodyGeometry, FormulaErrorQuotesTheParserAndPrintsNothing)

@@ -132,15 +132,19 @@ TEST(ControlPoints, ReadBackBitForBit)
   if (!scratch.is_first())
     return;
   std::vector<shape::MovedPoint<3>> points(2);
-  points[0]         = {"a", 0, {0.1, 0.2, 1. / 3.}, {}};
-  points[1]         = {"a", 1, {-1., 0., 1e-30}, {}};
-  points[0].move[2] = 0.7;
-  points[1].move[0] = -0.1;
+  points[0]           = {"a", 0, {0.1, 0.2, 1. / 3.}, {}};
+  points[1]           = {"a", 1, {-1., 0., 1e-30}, {}};
+  points[0].move[2]   = 0.7;
+  points[1].move[0]   = -0.1;
+  points[0].variables = {{12, 1.}, {3, -1.}};
+  points[0].on_body   = {0.3, 0.25, 1. / 7.};
   io::write_control_points<3>(scratch.file("c.csv"), points);
   const auto table = test::read_csv(test::read_file(scratch.file("c.csv")));
   ASSERT_EQ(table.size(), 3u);
-  EXPECT_EQ(table[0],
-            (std::vector<std::string>{"shape", "index", "x", "y", "z", "dx", "dy", "dz"}));
+  EXPECT_EQ(table[0], (std::vector<std::string>{"shape", "index", "x", "y", "z", "dx", "dy", "dz",
+                                                "variables", "body_x", "body_y", "body_z"}));
+  EXPECT_EQ(table[1][8], "design[12] -design[3]");
+  EXPECT_EQ(table[2][8], ""); // fixed
   for (unsigned int i = 0; i < 2; ++i)
     {
       EXPECT_EQ(table[i + 1][0], "a");
@@ -149,6 +153,7 @@ TEST(ControlPoints, ReadBackBitForBit)
         {
           EXPECT_EQ(std::stod(table[i + 1][2 + c]), points[i].position[c]);
           EXPECT_EQ(std::stod(table[i + 1][5 + c]), points[i].move[c]);
+          EXPECT_EQ(std::stod(table[i + 1][9 + c]), points[i].on_body[c]);
         }
     }
 }

@@ -80,6 +80,38 @@ TEST(Summary, WhatIsNotComputedIsNull)
   EXPECT_TRUE(json["gradient"]["values"].is_null());
 }
 
+TEST(Summary, TheStateNamesItsLoadCaseAndTheLargestOfAll)
+{
+  io::Summary summary;
+  Json        json = Json::parse(summary.json());
+  for (const char *key : {"load_case", "load_cases", "largest"})
+    EXPECT_TRUE(json["state"].contains(key) && json["state"][key].is_null()) << key;
+  summary.load_cases.resize(3);
+  const char *names[] = {"push", "pull", "twist"};
+  for (unsigned int c = 0; c < 3; ++c)
+    {
+      auto &state                  = summary.load_cases[c].state;
+      summary.load_cases[c].name   = names[c];
+      state.max_pressure           = c == 1 ? 30. : 10. - c;
+      state.contact_area           = 1.;
+      state.compliance             = -5. + c;
+      state.responses              = {{"tip", c == 0 ? 0.3 : -0.3}};
+      state.certificate.continuity = 1e-9 * (c + 1);
+    }
+  summary.state = summary.load_cases[0].state;
+  json          = Json::parse(summary.json())["state"];
+  EXPECT_EQ(json["load_case"], "push");
+  EXPECT_EQ(json["max_pressure"], 10.);
+  EXPECT_EQ(json["load_cases"].size(), 3u);
+  EXPECT_EQ(json["load_cases"]["twist"]["max_pressure"], 8.);
+  EXPECT_EQ(json["load_cases"]["twist"]["responses"]["tip"], -0.3);
+  const auto largest = [&](const char *name) { return json["largest"][name]; };
+  EXPECT_EQ(largest("max_pressure"), Json::parse(R"({"load_case": "pull", "value": 30.0})"));
+  EXPECT_EQ(largest("compliance"), Json::parse(R"({"load_case": "twist", "value": -3.0})"));
+  EXPECT_EQ(largest("worst_certificate")["load_case"], "twist");
+  EXPECT_EQ(largest("responses")["tip"]["load_case"], "push");
+}
+
 TEST(Summary, WarningsMayHoldAnything)
 {
   io::Summary summary;
@@ -109,6 +141,7 @@ TEST(Summary, CopiesAState)
   state.dual.method             = "active set";
   state.linear_f_mults          = 19;
   state.certificate.penetration = 1e-9;
+  state.tolerance               = 2e-3;
   io::Summary summary;
   summary.state   = io::summarize(state);
   const Json json = Json::parse(summary.json())["state"];
@@ -118,6 +151,7 @@ TEST(Summary, CopiesAState)
   EXPECT_EQ(json["outer_iterations"], 4);
   EXPECT_EQ(json["method"], "active set");
   EXPECT_EQ(json["linear_f_mults"], 19);
+  EXPECT_EQ(json["tolerance"], 2e-3);
   EXPECT_EQ(json["certificate"]["penetration"], 1e-9);
 }
 

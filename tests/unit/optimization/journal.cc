@@ -222,6 +222,44 @@ TEST(Journal, AnotherDesignCutsTheRecordAndStartsCold)
   EXPECT_EQ(contents.records[1].x, (std::vector<double>{0.2, 0.8}));
 }
 
+/// As on another number of ranks, where the designs asked for differ by rounding.
+TEST(Journal, DesignsThatAgreeToTheToleranceAreReplayed)
+{
+  Folder      folder;
+  WarmProblem first(folder.path);
+  first.run();
+  const auto before = folder.text();
+  for (const double distance : {0.5 * replay_tolerance, 2. * replay_tolerance})
+    {
+      folder.write(before);
+      WarmProblem second(folder.path, true);
+      {
+        Journal      journal(second.settings);
+        const auto   journaled = journal.journaled(second.problem);
+        unsigned int n         = 0;
+        for (const auto &record : parse_journal(before, second.settings.fingerprint, "").records)
+          {
+            auto x = record.x;
+            x[0] += distance * std::max(std::abs(x[0]), std::abs(x[1])) * (n == 0 ? 0. : 1.);
+            Evaluation found = record.evaluation;
+            try
+              {
+                found = journaled.evaluate(x);
+              }
+            catch (const TangledMesh &)
+              {
+                EXPECT_EQ(record.outcome, JournalRecord::Outcome::tangled);
+              }
+            if (distance < replay_tolerance && record.outcome == JournalRecord::Outcome::value)
+              expect_same_bits(found, record.evaluation);
+            ++n;
+          }
+        EXPECT_EQ(journal.n_replayed(), distance < replay_tolerance ? n : 1u);
+      }
+      EXPECT_EQ(folder.text() == before, distance < replay_tolerance);
+    }
+}
+
 TEST(Journal, CutAndKilledBeforeTheNextRecordItHasNoStaleWarmStart)
 {
   Folder      folder;

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include <unistd.h>
+
 #include <snug/base/values.h>
 
 using namespace snug;
@@ -244,6 +246,34 @@ TEST(ReadText, GivesTheContentsOfAFile)
   std::ofstream(file).close();
   EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD), "");
   std::remove(file.c_str());
+}
+
+TEST(ReadText, TakesDevicesAndPipesOnlyIfAskedAndOnlyIfTheyEnd)
+{
+  using Source         = scene::TextSource;
+  const auto complaint = [](const std::string &file, const Source source) -> std::string {
+    try
+      {
+        scene::read_text(file, MPI_COMM_WORLD, source);
+        return "";
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+  };
+  EXPECT_NE(complaint("/dev/zero", Source::regular_file).find("must be a regular file"),
+            std::string::npos);
+  EXPECT_NE(complaint("/dev/zero", Source::any).find("more than 16 MB"), std::string::npos);
+  EXPECT_EQ(complaint("/dev/null", Source::any), "");
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  ASSERT_EQ(write(ends[1], "set Task = state", 16), 16);
+  close(ends[1]);
+  const auto file = "/dev/fd/" + std::to_string(ends[0]);
+  EXPECT_NE(complaint(file, Source::regular_file), "");
+  EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD, Source::any), "set Task = state");
+  close(ends[0]);
 }
 
 TEST(ReadText, NamesAFileThatCannotBeRead)

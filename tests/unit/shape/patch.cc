@@ -191,6 +191,64 @@ TEST(Patch, ControlPointsLieOnTheFace)
       }
 }
 
+/// The point of the body that is exported with a control point is where a node of the moved mesh is
+/// that has the same place: between these points the net is off the face.
+TEST(Patch, PointsOfTheBodyLieOnTheMovedFace)
+{
+  auto bodies            = plain_cube<2>(4); // nodes at the places of five control points
+  bodies[0].curved_faces = {{"top", "cylinder z 2 at 0"}};
+  const mesh::BodyMesh<2> mesh(MPI_COMM_SELF, bodies, 1);
+  auto                    patch = on_top<2>("Bezier patch", "cube");
+  patch.name                    = "first";
+  auto mirrored                 = patch;
+  mirrored.name                 = "second";
+  mirrored.basis                = "Bezier box";
+  mirrored.face                 = "";
+  mirrored.bodies               = {"cube"};
+  mirrored.box_size             = {1., 1.};
+  mirrored.box_corner           = {0., 0.};
+  mirrored.direction            = {0., 1.};
+  mirrored.control_points       = {5, 2};
+  mirrored.symmetry             = {{"x", 0.5}};
+  for (const auto &[shape, n_variables] : {std::make_pair(patch, 5u), std::make_pair(mirrored, 6u)})
+    {
+      const shape::Shapes<2> shapes(mesh, {{"cube"}}, {shape});
+      ASSERT_EQ(shapes.n_variables(), n_variables);
+      const auto   design  = random_numbers(n_variables, 3);
+      const auto   moves   = shapes.apply(design);
+      const auto   points  = shapes.control_points(design);
+      unsigned int n_found = 0;
+      for (const auto &point : points)
+        {
+          const double x = point.index % 5 / 4.;
+          ASSERT_EQ(point.variables.size(), 1u);
+          for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+            {
+              const auto &logical = mesh.logical_positions()[node];
+              // the box ends at the corner of the face, where it is highest
+              const bool on_top = shape.basis == "Bezier patch"
+                                    ? logical[1] == 1.
+                                    : x == 0. && point.index >= 5 && logical[1] == 1.;
+              if (!on_top || std::abs(logical[0] - x) > 1e-12)
+                continue;
+              const auto at = mesh.reference_positions()[node] + moves[node];
+              EXPECT_NEAR((point.on_body - at).norm(), 0., 1e-12) << point.index;
+              ++n_found;
+              if (x > 0. && x < 1.)
+                EXPECT_GT((point.position - at).norm(), 1e-3);
+            }
+        }
+      EXPECT_EQ(n_found, shape.basis == "Bezier patch" ? 5u : 1u);
+    }
+  // both together: variables are counted through
+  const auto points = shape::Shapes<2>(mesh, {{"cube"}}, {patch, mirrored})
+                        .control_points(std::vector<double>(11, 0.1));
+  ASSERT_EQ(points.size(), 15u);
+  const auto first = std::make_pair(points[3].variables[0], points[8].variables[0]);
+  EXPECT_EQ(first.first, std::make_pair(3u, 1.));
+  EXPECT_EQ(first.second, std::make_pair(5u + 1u, 1.)); // the image of control point 1
+}
+
 /// A cylinder's side: its nodes move along the radius.
 TEST(Patch, FollowsTheNormalsOfACurvedFace)
 {

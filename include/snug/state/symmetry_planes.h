@@ -1,0 +1,22 @@
+#ifndef snug_state_symmetry_planes_h
+#define snug_state_symmetry_planes_h
+
+#include <snug/contact/pair.h>
+#include <snug/mesh/body_mesh.h>
+#include <snug/supports/support.h>
+
+namespace snug::state {
+/**
+ * Return one line for each contact side on a sphere, a cylinder or another
+ * known surface that does not meet a plane of symmetry at a right angle. A
+ * plane of symmetry is a plane boundary held along its normal alone, at a
+ * displacement of zero, unless the opposite one is as well, or the axis of an
+ * axisymmetric model. Collective.
+ */
+template <int dim>
+std::vector<std::string> symmetry_warnings(const mesh::BodyMesh<dim>                 &mesh,
+                                           const std::vector<supports::Support<dim>> &supports,
+                                           const std::vector<contact::Pair>          &pairs);
+} // namespace snug::state
+
+#endif
