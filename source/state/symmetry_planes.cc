@@ -33,7 +33,7 @@ struct Plane
   std::set<unsigned int> nodes; ///< of the surface
 };
 
-using Boundaries = std::map<contact::Pair::Side, Boundary>;
+using Boundaries = std::map<contact::Boundary, Boundary>;
 
 template <int dim>
 Boundaries held_boundaries(const std::vector<supports::Support<dim>> &supports)
@@ -53,15 +53,15 @@ Boundaries held_boundaries(const std::vector<supports::Support<dim>> &supports)
 
 /// Return the plane that a boundary lies on, if it is one and is held along its normal alone.
 template <int dim>
-std::optional<Plane<dim>> plane_of(const contact::Pair::Side &side,
-                                   const Boundary            &boundary,
-                                   const mesh::Surface<dim>  &surface,
-                                   const unsigned int         degree)
+std::optional<Plane<dim>> plane_of(const contact::Boundary  &side,
+                                   const Boundary           &boundary,
+                                   const mesh::Surface<dim> &surface,
+                                   const unsigned int        degree)
 {
   Plane<dim>                  plane{boundary.name, side.first, {}, {}};
   const faces::FaceShape<dim> shape(degree);
   for (const auto &face : surface.faces())
-    if (contact::Pair::Side(face.body, face.boundary) == side)
+    if (contact::Boundary(face.body, face.boundary) == side)
       for (unsigned int k = 0; k < face.nodes.size(); ++k)
         {
           auto n = faces::area_vector(
@@ -117,18 +117,19 @@ std::vector<std::string> symmetry_warnings(const mesh::BodyMesh<dim>            
                                            const std::vector<supports::Support<dim>> &supports,
                                            const std::vector<contact::Pair>          &pairs)
 {
-  const auto                                 held = held_boundaries(supports);
-  std::map<contact::Pair::Side, std::string> sides;
+  const auto                               held = held_boundaries(supports);
+  std::map<contact::Boundary, std::string> sides;
   for (const auto &pair : pairs)
     {
-      sides[pair.slave] = pair.slave_name;
-      if (!pair.obstacle)
-        sides[pair.master] = pair.master_name;
+      for (const auto &boundary : pair.slave.boundaries())
+        sides[boundary] = pair.slave_name;
+      for (const auto &boundary : pair.master.boundaries())
+        sides[boundary] = pair.master_name;
     }
-  std::set<contact::Pair::Side> boundaries;
+  std::set<contact::Boundary> boundaries;
   for (const auto &[side, name] : sides)
     boundaries.insert(side);
-  std::vector<contact::Pair::Side> candidates;
+  std::vector<contact::Boundary> candidates;
   for (const auto &[side, boundary] : held)
     if (boundary.is_at_rest && boundary.components.size() == 1)
       {
