@@ -31,8 +31,8 @@ struct JournalSettings
 /// Designs this close are the same one to a replay, relative to the largest variable, or to the
 /// width of the bounds if that is smaller. Scales of constraints are sums over ranks: on another
 /// number of ranks they differ by rounding, and with them the designs that an optimizer makes of
-/// recorded values.
-constexpr double replay_tolerance = 1e-8;
+/// recorded values: by 1e-7 where MMA solves its subproblems.
+constexpr double replay_tolerance = 1e-6;
 
 /**
  * Records every evaluation of a design problem, once more where it gains gradients, and on a
