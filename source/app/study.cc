@@ -160,7 +160,8 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   for (const auto &line : unrefined(scene, *mesh))
     context.out() << "warning: " << line << '\n';
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
-  const auto              positions = problem.positions(problem.shapes->start());
+  problem.check_overlaps();
+  const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.
   for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
     made_of(scene, [&]() {
@@ -215,6 +216,7 @@ std::string run_given(RunContext &context, const scene::Scene &scene, const Opti
 {
   print_estimate(context, scene, 0, false);
   ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
+  problem.check_overlaps();
   if (!options.restart)
     io::remove_results(context, output_directories(scene));
   Results<dim> results(problem);

@@ -40,6 +40,8 @@ public:
     return result;
   }
 
+  bool reads_pressure() const override { return true; }
+
   /// Throws where there is no such pair.
   void check(const state::StateSolver<dim> &solver) const override { rows_of_pair(solver, pair); }
 

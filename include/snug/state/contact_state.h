@@ -94,7 +94,7 @@ struct ContactState
   unsigned int                load_case = 0;
   unsigned int                pairing   = 0; ///< how often contact was paired anew before
   Field                       positions;     ///< [length]
-  Field                       displacement;  ///< [length]
+  Field                       displacement;  ///< continuous, see make_continuous() [length]
   feti::PrimalVectors         u;             ///< per subdomain
   qp::DualSolution            dual;
   std::vector<ContactPoint>   contact;
@@ -118,6 +118,7 @@ struct ContactState
   /// distance from a weakly active contact; infinite without contacts
   double        degeneracy_distance = std::numeric_limits<double>::infinity();
   double        solved_to           = 0.; ///< relative KKT residual asked of the solver
+  double        tolerance           = 0.; ///< of the certificate
   unsigned long f_mults             = 0;  ///< of the contact solve
   unsigned long linear_f_mults      = 0;  ///< 0: not asked for
   Certificate   certificate;

@@ -30,6 +30,7 @@ Found<dim> found(const TestScene<dim>                            &scene,
   const auto                                            state = problem.solve();
   std::vector<std::unique_ptr<response::Response<dim>>> owned;
   std::vector<const response::Response<dim> *>          responses;
+  std::optional<state::ContactState<dim>>               solved_on;
   Found<dim>                                            result;
   for (const auto &one : parameters)
     {
@@ -39,7 +40,8 @@ Found<dim> found(const TestScene<dim>                            &scene,
     }
   if (estimate)
     result.estimates =
-      accuracy::estimate(problem.solver, state, responses, sensitivity::Solves::block).responses;
+      accuracy::estimate(problem.solver, state, responses, sensitivity::Solves::block, solved_on)
+        .responses;
   return result;
 }
 
