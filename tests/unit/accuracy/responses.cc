@@ -112,6 +112,37 @@ TEST(ResponseEstimate, IsTheErrorOfSmoothStates)
     }
 }
 
+/// Near Poisson's ratio one half the errors of pressures count as much as those of displacements,
+/// and jumps that a loose solve leaves are worth much more than both.
+TEST(ResponseEstimate, SeesNearlyIncompressibleCells)
+{
+  if (!is_alone())
+    GTEST_SKIP();
+  const std::vector<response::ResponseParameters> responses = {named("potential energy"),
+                                                               named("strain energy"),
+                                                               named("peak pressure")};
+  for (const unsigned int degree : {1, 2})
+    for (const double nu : {0.49, 0.499, 0.4999})
+      {
+        const auto scene = nearly_incompressible<2>(8, nu, degree, 1e-9);
+        auto       loose = scene, fine = nearly_incompressible<2>(32, nu, 2, 1e-9);
+        loose.solver.relative_tolerance = 1e-2;
+        const auto there                = found(fine, responses, false);
+        const auto here = found(scene, responses), loosely = found(loose, responses);
+        for (unsigned int j = 0; j < responses.size(); ++j)
+          {
+            const auto what = responses[j].name + ", nu " + std::to_string(nu);
+            for (const auto *one : {&here, &loosely})
+              {
+                const double ratio =
+                  one->estimates[j].error() / std::abs(there.values[j] - here.values[j]);
+                EXPECT_GT(ratio, 0.8) << what << ", degree " << degree;
+                EXPECT_LT(ratio, 3.) << what << ", degree " << degree;
+              }
+          }
+      }
+}
+
 /// Where energy and gap residual nearly cancel, E is up to several times the error.
 TEST(ResponseEstimate, IsNotBelowTheErrorOfContactThatEnds)
 {
