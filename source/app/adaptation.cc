@@ -180,7 +180,14 @@ Adaptation<dim>::solve_next(Mesh mesh, const RefinedCells &cells)
   for (const auto &state : solved->states)
     starts.push_back(accuracy::transferred(*solved->problem->solver, state, *next->problem->solver,
                                            next->problem->positions(design(*next))));
-  solve(*next, starts);
+  try
+    {
+      solve(*next, starts);
+    }
+  catch (const SolveError &)
+    {
+      solve(*next, {}); // the forces of a coarse mesh may lead astray
+    }
   return next;
 }
 
@@ -245,19 +252,25 @@ void Adaptation<dim>::add(const std::vector<dealii::CellId> &marked, RefinedCell
       mesh::refine(cell, cells);
 }
 
-/// Cells of contacts of too few faces, of which no response can do without its distribution of
-/// pressure, and of those all but closed. @return whether there are any. Collective.
+template <int dim>
+bool Adaptation<dim>::reads_pressure() const
+{
+  return std::any_of(demands.begin(), demands.end(),
+                     [](const auto &demand) { return demand.reads_pressure; });
+}
+
+/// Cells of contacts of too few faces, if a response reads their pressure, and of those all but
+/// closed. @return whether there are any. Collective.
 template <int dim>
 bool Adaptation<dim>::add_doubtful(RefinedCells &cells) const
 {
   const auto &solver   = *solved->problem->solver;
   bool        doubtful = false;
-  const bool  pressure = std::any_of(demands.begin(), demands.end(),
-                                     [](const auto &demand) { return demand.reads_pressure; });
   for (const auto &state : solved->states)
     {
       const auto faces =
-        accuracy::doubtful_faces(solver, state, pressure ? scene.accuracy.contact_faces : 0.);
+        accuracy::doubtful_faces(solver, state,
+                                 reads_pressure() ? scene.accuracy.contact_faces : 0.);
       doubtful = doubtful || !faces.empty();
       add(mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), cells);
     }

@@ -96,7 +96,7 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
     if (!is_met(d))
       text += " " + accuracy::text_of(demands[d].name, solved->measured[d]);
   return text +
-         (contact_faces(solved->states) < scene.accuracy.contact_faces
+         (reads_pressure() && contact_faces(solved->states) < scene.accuracy.contact_faces
             ? " with too few faces across a contact"
             : "") +
          "; " + advice;

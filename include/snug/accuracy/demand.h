@@ -46,7 +46,8 @@ struct Demand
   std::string note(const Measured &measured, bool is_met);
 
 private:
-  bool is_noise() const;
+  bool                is_noise() const;
+  std::vector<double> parts() const;
 };
 } // namespace snug::accuracy
 

@@ -89,6 +89,7 @@ private:
   void                   report(const Stage &stage);
   Design                 design(const Stage &stage) const;
   bool                   is_at_rest() const;
+  bool                   reads_pressure() const;
   bool                   is_met(unsigned int demand) const;
   double                 least() const;
   double                 next_tolerance() const;
