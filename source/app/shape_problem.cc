@@ -26,7 +26,7 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
   // contact is paired where the optimization starts, not at the reference
   solver    = made_of(scene, [&]() {
     return std::make_unique<state::StateSolver<dim>>(*mesh, tearing, build_model(scene, *mesh),
-                                                     positions(shapes->start()), context);
+                                                        positions(shapes->start()), context);
   });
   objective = make_response(scene.optimization.objective);
   for (const auto &response : scene.responses)
