@@ -21,8 +21,10 @@ void AccuracyParameters::declare(Entries &entries)
   entries.add(
     "Marking share", marking_share, between(0.05, 0.95),
     "Cells with this part of the error are refined at once, or fewer where that is enough.");
-  entries.add("Contact faces", contact_faces, between(2., 100.),
-              "A contact of fewer faces across is refined, whatever its estimated error.");
+  entries.add(
+    "Contact faces", contact_faces, between(2., 100.),
+    "A contact of fewer faces across is refined, whatever its estimated error, for targets "
+    "that read pressures: measures of them and von Mises norms.");
   entries.add("Verify", verify,
               "Of a state: also solve the mesh with all cells refined, and compare.");
 }

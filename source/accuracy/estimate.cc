@@ -2,9 +2,12 @@
 #include <snug/accuracy/gap_residual.h>
 #include <snug/accuracy/local_errors.h>
 #include <snug/accuracy/surface_layer.h>
+#include <snug/base/errors.h>
 #include <snug/mesh/shared_nodes.h>
 #include <snug/sensitivity/methods.h>
+#include <snug/state/assumptions.h>
 #include <snug/state/contact_results.h>
+#include <snug/state/continuity.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,12 +23,31 @@ double ResponseEstimate::error() const
 
 namespace {
 /// The estimates have two digits at most.
-const double adjoint_tolerance = 1e-4;
+const double first_adjoint_tolerance = 1e-4;
+
+/// What the solver leaves may have this part of the estimated error of the mesh, or of the
+/// displacement, in the energy norm.
+const double part_of_error = 0.1, part_of_displacement = 1e-4;
+
+/// Rounding stops the solver before so many smaller tolerances.
+const unsigned int most_attempts = 6;
+
+/// Return the factor of the next tolerance where the solver leaves @p excess times as much as it
+/// may: a power of ten, so that rounding does not change it.
+double tightened(const double excess)
+{
+  return excess < 3. ? 0.1 : excess < 30. ? 0.01 : 0.001;
+}
 
 /// Rows without an area carry no pressure.
 double pressure(const double force, const double area)
 {
   return area > 0. ? force / area : 0.;
+}
+
+double square(const double x)
+{
+  return x * x;
 }
 
 /// u + factor v
@@ -39,6 +61,31 @@ std::vector<dealii::Tensor<1, dim>> sum(std::vector<dealii::Tensor<1, dim>>     
   return u;
 }
 
+/// Of column @p j, how far the copies of each node are apart: the square root of the sum of the
+/// squares of the changes that make them continuous, which is the same on any ranks. Collective.
+template <int dim>
+typename mesh::BodyMesh<dim>::Field jump(const state::StateSolver<dim> &solver,
+                                         const feti::PrimalVectors     &torn,
+                                         const feti::PrimalVectors     &continuous,
+                                         const unsigned int             j)
+{
+  const auto         &mesh = solver.mesh();
+  std::vector<double> sums(static_cast<std::size_t>(dim) * mesh.n_local_nodes(), 0.);
+  for (unsigned int s = 0; s < torn.size(); ++s)
+    {
+      const auto &nodes = solver.tearing().subdomains[s].nodes;
+      for (unsigned int i = 0; i < torn[s].n_rows(); ++i)
+        sums[static_cast<std::size_t>(dim) * nodes[i / dim] + i % dim] +=
+          square(torn[s](i, j) - continuous[s](i, j));
+    }
+  mesh::sum_at_shared_nodes(mesh, dim, sums);
+  typename mesh::BodyMesh<dim>::Field result(mesh.n_local_nodes());
+  for (unsigned int i = 0; i < sums.size(); ++i)
+    result[i / dim][i % dim] = std::sqrt(sums[i]);
+  mesh.interpolate_hanging(result);
+  return mesh::owners_values(mesh, result);
+}
+
 template <int dim>
 class Adjoints
 {
@@ -46,8 +93,9 @@ public:
   Adjoints(const state::StateSolver<dim>                      &solver,
            const state::ContactState<dim>                     &state,
            const std::vector<const response::Response<dim> *> &responses,
-           const sensitivity::Solves                           solves)
-    : solver(solver), state(state), column(responses.size(), responses.size())
+           const sensitivity::Solves                           solves,
+           const double                                        tolerance)
+    : solver(solver), column(responses.size(), responses.size())
   {
     std::vector<response::Partials<dim>> partials;
     for (unsigned int j = 0; j < responses.size(); ++j)
@@ -56,10 +104,18 @@ public:
           column[j] = partials.size();
           partials.push_back(responses[j]->partials(solver, state));
         }
+    if (partials.empty())
+      return;
     auto parameters               = solver.model().solver;
-    parameters.relative_tolerance = std::max(parameters.relative_tolerance, adjoint_tolerance);
-    if (!partials.empty())
-      solution = sensitivity::adjoint_states(solver, state, partials, solves, parameters);
+    parameters.relative_tolerance = tolerance;
+    auto solution = sensitivity::adjoint_states(solver, state, partials, solves, parameters);
+    for (const auto &point : state.contact)
+      areas.push_back(point.area);
+    const auto &feti = solver.feti(state);
+    dual             = solution.dual;
+    norms            = state::energy_norms(feti, solution.primal);
+    torn = continuous = solution.primal;
+    state::make_continuous(feti, nullptr, continuous);
   }
 
   /// Of a response that needs a solve.
@@ -69,26 +125,36 @@ public:
   {
     LoadedDisplacement<dim> z;
     z.displacement =
-      sum(mesh::owners_values(solver.mesh(),
-                              state::nodal_values(solver, solution.primal, column[j])),
+      sum(mesh::owners_values(solver.mesh(), state::nodal_values(solver, continuous, column[j])),
           -derivative.stiffness, u.displacement);
-    const auto forces = solver.gluing().gather_contact(solution.dual.column(column[j]));
+    const auto forces = solver.gluing().gather_contact(dual.column(column[j]));
     for (unsigned int i = 0; i < forces.size(); ++i)
       {
         const double scale = solver.gluing().contact_scales()[i];
-        z.pressures.push_back(scale > 0. ? pressure(forces[i] / scale, state.contact[i].area) : 0.);
+        z.pressures.push_back(scale > 0. ? pressure(forces[i] / scale, areas[i]) : 0.);
       }
     z.loads = derivative.load;
     z.more  = &derivative;
     return z;
   }
 
+  typename mesh::BodyMesh<dim>::Field jump_of(const unsigned int j) const
+  {
+    return jump(solver, torn, continuous, column[j]);
+  }
+
+  /// In the energy norm.
+  double norm(const unsigned int j) const { return norms[column[j]]; }
+
 private:
-  const state::StateSolver<dim>  &solver;
-  const state::ContactState<dim> &state;
-  std::vector<unsigned int>       column; ///< of each response that needs one
-  sensitivity::KktVectors         solution;
+  const state::StateSolver<dim> &solver;
+  std::vector<unsigned int>      column; ///< of each response that needs one
+  std::vector<double>            areas;  ///< of the contact rows
+  qp::MultiVector                dual;
+  feti::PrimalVectors            torn, continuous;
+  std::vector<double>            norms; ///< of the columns
 };
+
 /// The state itself.
 template <int dim>
 LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
@@ -101,26 +167,12 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
   return u;
 }
 
-/// Rounding may make the square of a cell without error negative.
+/// A displacement that nothing causes.
 template <int dim>
-EnergyEstimate energy_estimate(const state::StateSolver<dim>          &solver,
-                               const state::ContactState<dim>         &state,
-                               const std::vector<std::vector<double>> &products)
+LoadedDisplacement<dim> unloaded(const typename mesh::BodyMesh<dim>::Field &displacement,
+                                 const std::size_t                          n_rows)
 {
-  EnergyEstimate result;
-  double         square = 0.;
-  for (const auto &of_cell : products)
-    {
-      const double of_this = std::max(0., of_cell[0]);
-      result.cells.push_back(std::sqrt(of_this));
-      square += of_this;
-    }
-  square       = dealii::Utilities::MPI::sum(square, solver.mesh().communicator());
-  result.error = std::sqrt(square);
-  // |u_h|^2 is twice the strain energy, and u - u_h nearly orthogonal to u_h.
-  const double whole = 2. * state.strain_energy + square;
-  result.relative    = whole > 0. ? std::sqrt(square / whole) : 0.;
-  return result;
+  return {displacement, std::vector<double>(n_rows, 0.), 0.};
 }
 
 /// By the parts of the cells of this rank.
@@ -139,23 +191,103 @@ ResponseEstimate response_estimate(const std::vector<double> &cells,
   result.contact = dealii::Utilities::MPI::sum(result.contact, comm);
   return result;
 }
-} // namespace
+
+/// Estimates by a state and adjoints as they are, and what the solver has left in the state and the
+/// adjoints over what it may leave.
+struct Attempt
+{
+  Estimates estimates;
+  double    excess = 0., adjoint_excess = 0.;
+};
+
+/// Products of local errors of fields and of their jumps.
+template <int dim>
+class Products
+{
+public:
+  /// Collective.
+  Products(const LocalErrors<dim>                     &local,
+           const std::vector<LoadedDisplacement<dim>> &fields,
+           const std::vector<LoadedDisplacement<dim>> &jumps,
+           MPI_Comm                                    comm)
+    : n(fields.size()), comm(comm)
+  {
+    auto all = fields;
+    all.insert(all.end(), jumps.begin(), jumps.end());
+    of_cells = local.products(all);
+  }
+
+  unsigned int n_cells() const { return of_cells.size(); }
+
+  /// a(e_0, e_i)
+  double with_first(const unsigned int cell, const unsigned int i) const
+  {
+    return of_cells[cell].products[i];
+  }
+
+  /// Of the local errors of field i, per cell.
+  std::vector<double> norms(const unsigned int i) const
+  {
+    std::vector<double> result;
+    for (const auto &of_cell : of_cells)
+      result.push_back(of_cell.norms[i]);
+    return result;
+  }
+
+  /// Over the cells of all ranks. Collective.
+  double norm(const unsigned int i) const
+  {
+    double square = 0.;
+    for (const double of_cell : norms(i))
+      square += of_cell * of_cell;
+    return std::sqrt(dealii::Utilities::MPI::sum(square, comm));
+  }
+
+  /// The error that the jumps of a field make, over what it may be. Local problems answer stresses
+  /// of a stiff cell beside a soft one, or pressures of a nearly incompressible one, with
+  /// much more than the energy of the jumps. Collective.
+  double excess(const unsigned int i, const double displacement) const
+  {
+    const double allowed = std::max(part_of_error * norm(i), part_of_displacement * displacement);
+    return allowed > 0. ? norm(n + i) / allowed : 0.;
+  }
+
+private:
+  const unsigned int      n;
+  const MPI_Comm          comm;
+  std::vector<CellErrors> of_cells;
+};
+
+template <int dim>
+EnergyEstimate energy_estimate(const state::ContactState<dim> &state, const Products<dim> &products)
+{
+  EnergyEstimate result{products.norms(0), products.norm(0)};
+  // |u_h|^2 is twice the strain energy, and u - u_h nearly orthogonal to u_h.
+  const double square = result.error * result.error, whole = 2. * state.strain_energy + square;
+  result.relative = whole > 0. ? std::sqrt(square / whole) : 0.;
+  return result;
+}
 
 /// The adjoint of the energy is the state itself, with the opposite sign: no local problem of its
 /// own. Pressures of rows are of second order, which at degree 2 is less than displacements have:
 /// there products of errors are as large as what rows do more than pressures, which is left out,
 /// and the size of the reading is all that is known of it.
 template <int dim>
-Estimates estimate(const state::StateSolver<dim>                      &solver,
-                   const state::ContactState<dim>                     &state,
-                   const std::vector<const response::Response<dim> *> &responses,
-                   const sensitivity::Solves                           solves)
+Attempt attempt(const state::StateSolver<dim>                      &solver,
+                const state::ContactState<dim>                     &state,
+                const std::vector<const response::Response<dim> *> &responses,
+                const sensitivity::Solves                           solves,
+                const double                                        adjoint_tolerance)
 {
-  const unsigned int                          n = responses.size();
-  const Adjoints<dim>                         adjoints(solver, state, responses, solves);
+  const unsigned int  n = responses.size();
+  const Adjoints<dim> adjoints(solver, state, responses, solves, adjoint_tolerance);
   std::vector<response::FieldDerivative<dim>> derivatives(n);
-  std::vector<LoadedDisplacement<dim>>        all = {loaded(solver, state)};
-  std::vector<unsigned int>                   place(n, 0); // in `all`
+  std::vector<LoadedDisplacement<dim>>        all        = {loaded(solver, state)};
+  auto                                        continuous = state.u;
+  state::make_continuous(solver.feti(state), &solver.feti(state).g(), continuous);
+  std::vector<LoadedDisplacement<dim>> jumps = {
+    unloaded<dim>(jump(solver, state.u, continuous, 0), state.contact.size())};
+  std::vector<unsigned int> place(n, 0); // in `all`
   for (unsigned int j = 0; j < n; ++j)
     if (responses[j]->needs_solution())
       derivatives[j] = responses[j]->field_derivative(solver, state);
@@ -164,9 +296,16 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
       {
         place[j] = all.size();
         all.push_back(adjoints.of(j, derivatives[j], all[0]));
+        jumps.push_back(unloaded<dim>(adjoints.jump_of(j), state.contact.size()));
       }
-  const auto products = LocalErrors<dim>(solver, state).products(all);
-  Estimates  result{energy_estimate(solver, state, products), {}};
+  const Products<dim> products(LocalErrors<dim>(solver, state), all, jumps,
+                               solver.mesh().communicator());
+  Attempt             result{{energy_estimate(state, products), {}}};
+  result.excess = products.excess(0, std::sqrt(2. * state.strain_energy));
+  for (unsigned int j = 0; j < n; ++j)
+    if (place[j] > 0)
+      result.adjoint_excess =
+        std::max(result.adjoint_excess, products.excess(place[j], adjoints.norm(j)));
   if (responses.empty())
     return result;
   const GapResidual<dim> gaps(solver, state);
@@ -178,9 +317,9 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
       const double        s           = derivatives[j].stiffness;
       const auto         &z           = all[place[j]];
       std::vector<double> cells, contact = gaps.integral(z.pressures);
-      for (unsigned int cell = 0; cell < products.size(); ++cell)
-        cells.push_back(sign * (products[cell][place[j]] - layer[cell][place[j]]) +
-                        s / 2. * (products[cell][0] - layer[cell][0]));
+      for (unsigned int cell = 0; cell < products.n_cells(); ++cell)
+        cells.push_back(sign * (products.with_first(cell, place[j]) - layer[cell][place[j]]) +
+                        s / 2. * (products.with_first(cell, 0) - layer[cell][0]));
       for (double &of_cell : contact)
         of_cell *= sign;
       auto       one       = response_estimate(cells, contact, solver.mesh().communicator());
@@ -189,16 +328,47 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
         one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
       if (const auto read = responses[j]->measured(solver, gaps.pressures(all[0].pressures)))
         (is_linear ? one.contact : one.reading) += *read - responses[j]->value(solver, state);
-      result.responses.push_back(std::move(one));
+      result.estimates.responses.push_back(std::move(one));
     }
   return result;
+}
+} // namespace
+
+template <int dim>
+Estimates estimate(const state::StateSolver<dim>                      &solver,
+                   const state::ContactState<dim>                     &state,
+                   const std::vector<const response::Response<dim> *> &responses,
+                   const sensitivity::Solves                           solves,
+                   std::optional<state::ContactState<dim>>            &solved_on)
+{
+  double adjoint_tolerance =
+    std::max(solver.model().solver.relative_tolerance, first_adjoint_tolerance);
+  const auto last   = [&]() -> const auto   &{ return solved_on ? *solved_on : state; };
+  auto       result = attempt(solver, state, responses, solves, adjoint_tolerance);
+  for (unsigned int n = 1; n < most_attempts && !state::is_at_rest(state) &&
+                           std::max(result.excess, result.adjoint_excess) > 1.;
+       ++n)
+    try
+      {
+        if (result.excess > 1.)
+          solved_on = solver.solve_on(last(), tightened(result.excess) * last().tolerance);
+        if (result.adjoint_excess > 1.)
+          adjoint_tolerance *= tightened(result.adjoint_excess);
+        result = attempt(solver, last(), responses, solves, adjoint_tolerance);
+      }
+    catch (const SolveError &)
+      {
+        break; // rounding, or as many F-mults as are allowed: no more digits
+      }
+  return result.estimates;
 }
 
 template <int dim>
 EnergyEstimate estimate_energy(const state::StateSolver<dim>  &solver,
                                const state::ContactState<dim> &state)
 {
-  return estimate<dim>(solver, state, {}, sensitivity::Solves::block).energy;
+  std::optional<state::ContactState<dim>> solved_on;
+  return estimate<dim>(solver, state, {}, sensitivity::Solves::block, solved_on).energy;
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                    \
@@ -206,7 +376,7 @@ EnergyEstimate estimate_energy(const state::StateSolver<dim>  &solver,
                                           const state::ContactState<dim> &);                     \
   template Estimates estimate(const state::StateSolver<dim> &, const state::ContactState<dim> &, \
                               const std::vector<const response::Response<dim> *> &,              \
-                              sensitivity::Solves);
+                              sensitivity::Solves, std::optional<state::ContactState<dim>> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -3,7 +3,16 @@
 #include <snug/elasticity/cell_point.h>
 #include <snug/mesh/shared_nodes.h>
 
+#include <cmath>
+#include <numeric>
+
 namespace snug::accuracy {
+namespace {
+/// Products of mixed elements of degree 2 see 0.5 to 0.8 of errors: those of displacements and
+/// of pressures nearly cancel.
+const double mixed_of_degree_2 = 1.6;
+} // namespace
+
 template <int dim>
 LocalErrors<dim>::LocalErrors(const state::StateSolver<dim>  &solver,
                               const state::ContactState<dim> &state)
@@ -203,14 +212,14 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
 
 /// Neighbours are often the same cell at another place: they share a factorization.
 template <int dim>
-std::vector<std::vector<double>>
+std::vector<CellErrors>
 LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
 {
   const unsigned int                 n_cells = mesh.cells().size(), n = of.size();
   std::vector<std::vector<Residual>> residuals; // [displacement][cell]
   for (const auto &one : of)
     residuals.push_back(on_faces(one));
-  std::vector<std::vector<double>>             result(n_cells, std::vector<double>(n * n, 0.));
+  std::vector<CellErrors>                      result(n_cells);
   std::unique_ptr<elasticity::LocalError<dim>> problem;
   for (unsigned int cell = 0; cell < n_cells; ++cell)
     {
@@ -220,19 +229,38 @@ LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
       if (!problem || !problem->fits(space, X, fields.material(cell), held[cell]))
         problem = std::make_unique<elasticity::LocalError<dim>>(space, X, fields.material(cell),
                                                                 held[cell]);
-      std::vector<Residual> errors;
+      const double part = space.formulation == elasticity::Formulation::B_bar && mesh.degree() == 2
+                            ? mixed_of_degree_2
+                            : 1.;
+      std::vector<Residual>            errors;
+      std::vector<std::vector<double>> dilatations;
       for (unsigned int i = 0; i < n; ++i)
         {
+          auto &r = residuals[i][cell];
           problem->add_residual(fields.fluxes(cell, of[i], space.quadrature),
-                                body_forces(cell, of[i]), residuals[i][cell]);
-          errors.push_back(residuals[i][cell]);
+                                body_forces(cell, of[i]), r);
+          dilatations.push_back(
+            problem->missing_dilatation(fields.at_cell(cell, of[i].displacement)));
+          problem->subtract_dilatation(dilatations[i], r);
+          errors.push_back(r);
           problem->solve(errors.back());
         }
+      const auto product = [](const std::vector<double> &a, const std::vector<double> &b) {
+        return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+      };
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
           // a(e_i, e_j) = r_i(e_j)
-          for (unsigned int k = 0; k < errors[j].size(); ++k)
-            result[cell][i * n + j] += residuals[i][cell][k] * errors[j][k];
+          result[cell].products.push_back(part * (product(residuals[i][cell], errors[j]) -
+                                                  product(dilatations[i], dilatations[j])));
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double of_pressures = 2. * problem->dilatation_work(dilatations[i], errors[i]) +
+                                      product(dilatations[i], dilatations[i]);
+          // rounding may make the square of a cell without error negative
+          result[cell].norms.push_back(
+            std::sqrt(std::max(0., product(residuals[i][cell], errors[i]) + of_pressures)));
+        }
     }
   return result;
 }

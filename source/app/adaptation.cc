@@ -1,6 +1,7 @@
 #include <snug/accuracy/transfer.h>
 #include <snug/accuracy/trust.h>
 #include <snug/app/adaptation.h>
+#include <snug/base/errors.h>
 #include <snug/contact/joined_pairs.h>
 #include <snug/contact/matching.h>
 #include <snug/mesh/refined_cells.h>
@@ -15,24 +16,6 @@
 #include <sstream>
 
 namespace snug::app {
-namespace {
-template <int dim>
-unsigned long unknowns(const mesh::BodyMesh<dim> &mesh)
-{
-  return dim * mesh.n_global_free_nodes();
-}
-
-/// The least of all load cases.
-template <int dim>
-double contact_faces(const std::vector<state::ContactState<dim>> &states)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto &state : states)
-    least = std::min(least, state.assumptions.width);
-  return least;
-}
-} // namespace
-
 /// Cells are chosen by what the states before tell, which subdomains change by as much as the
 /// tolerance: the same subdomains on any ranks make the same meshes.
 template <int dim>
@@ -54,12 +37,15 @@ Adaptation<dim>::Adaptation(RunContext         &context,
   // in two steps: the first adds to the cells
   auto mesh = matched_mesh(refined);
   solved    = stage(std::move(mesh), refined, tolerance);
+  if (cells.empty())
+    solved->problem->check_overlaps();
   for (unsigned int j = 0; j < targets.size(); ++j)
     for (unsigned int c = 0; c < solved->problem->n_load_cases(); ++c)
       demands.push_back(
         {(scene.load_cases.size() > 1 ? scene.load_cases[c].name + "." : "") + targets[j].first, c,
          j, accuracy::read_target(targets[j].second),
-         solved->problem->make_response(targets[j].first)->stationary()});
+         solved->problem->make_response(targets[j].first)->stationary(),
+         solved->problem->make_response(targets[j].first)->reads_pressure()});
   solve(*solved, {});
 }
 
@@ -144,13 +130,22 @@ void Adaptation<dim>::solve(Stage &stage, const std::vector<qp::WarmStart> &star
   stage.states = problem.solve(design(stage), starts);
   for (const auto &target : scene.accuracy.targets)
     stage.responses.push_back(problem.make_response(target.first));
+  measure(stage);
+}
+
+/// The values of the targets, without errors. Collective.
+template <int dim>
+void Adaptation<dim>::measure(Stage &stage) const
+{
+  stage.measured.clear();
   for (const auto &demand : demands)
     stage.measured.push_back(
-      {stage.responses[demand.place]->value(*problem.solver, stage.states[demand.load_case]),
+      {stage.responses[demand.place]->value(*stage.problem->solver, stage.states[demand.load_case]),
        std::numeric_limits<double>::infinity()});
 }
 
-/// The errors of a mesh on which they have a meaning. Collective.
+/// The errors of a mesh on which they have a meaning; states that are not solved well enough for
+/// it are solved on. Collective.
 template <int dim>
 void Adaptation<dim>::estimate(Stage &stage) const
 {
@@ -159,15 +154,20 @@ void Adaptation<dim>::estimate(Stage &stage) const
   std::vector<const response::Response<dim> *> responses;
   for (const auto &response : stage.responses)
     responses.push_back(response.get());
-  for (const auto &state : stage.states)
+  stage.errors.clear();
+  for (auto &state : stage.states)
     {
-      auto estimates =
-        accuracy::estimate(*stage.problem->solver, state, responses, scene.gradient.solves);
+      std::optional<state::ContactState<dim>> solved_on;
+      auto estimates = accuracy::estimate(*stage.problem->solver, state, responses,
+                                          scene.gradient.solves, solved_on);
+      if (solved_on)
+        state = std::move(*solved_on);
       MeshError error{std::move(estimates.energy), {}};
       for (unsigned int j = 0; j < targets.size(); ++j)
         error.responses.emplace_back(targets[j].first, std::move(estimates.responses[j]));
       stage.errors.push_back(std::move(error));
     }
+  measure(stage);
   for (unsigned int d = 0; d < demands.size(); ++d)
     stage.measured[d].error =
       stage.errors[demands[d].load_case].responses[demands[d].place].second.error();
@@ -183,33 +183,15 @@ Adaptation<dim>::solve_next(Mesh mesh, const RefinedCells &cells)
   for (const auto &state : solved->states)
     starts.push_back(accuracy::transferred(*solved->problem->solver, state, *next->problem->solver,
                                            next->problem->positions(design(*next))));
-  solve(*next, starts);
-  return next;
-}
-
-template <int dim>
-void Adaptation<dim>::report(const Stage &stage)
-{
-  io::Summary::AdaptedMesh mesh;
-  mesh.dofs          = unknowns(*stage.problem->mesh);
-  mesh.contact_faces = contact_faces(stage.states);
-  mesh.tolerance     = *stage.scene.state_tolerance;
-  mesh.seconds       = context.seconds() - began;
-  for (const auto &state : stage.states)
-    mesh.f_mults += state.f_mults;
-  auto &out = context.out();
-  out << "mesh " << summary.meshes.size() + 1 << ": " << mesh.dofs << " unknowns";
-  if (std::isfinite(mesh.contact_faces))
-    out << ", contact " << std::round(10. * mesh.contact_faces) / 10. << " faces across";
-  for (unsigned int d = 0; d < demands.size(); ++d)
+  try
     {
-      const auto &estimate = stage.measured[d];
-      mesh.responses.push_back({demands[d].name, estimate.value, estimate.error});
-      out << ", " << accuracy::text_of(demands[d].name, estimate);
+      solve(*next, starts);
     }
-  out << ", " << mesh.f_mults << " F-mults to " << mesh.tolerance << ", " << mesh.seconds << " s"
-      << std::endl;
-  summary.meshes.push_back(mesh);
+  catch (const SolveError &)
+    {
+      solve(*next, {}); // the forces of a coarse mesh may lead astray
+    }
+  return next;
 }
 
 /// Without loads there is rounding, of which nothing can be estimated.
@@ -242,11 +224,21 @@ double Adaptation<dim>::next_tolerance() const
   return tolerance;
 }
 
+/// That of all states.
+template <int dim>
+double Adaptation<dim>::tolerance(const Stage &stage)
+{
+  double largest = 0.;
+  for (const auto &state : stage.states)
+    largest = std::max(largest, state.tolerance);
+  return largest;
+}
+
 /// The states are known less well than the errors, as where the first mesh is better than needed.
 template <int dim>
 bool Adaptation<dim>::is_rough() const
 {
-  return *solved->scene.state_tolerance > 10. * next_tolerance();
+  return tolerance(*solved) > 10. * next_tolerance();
 }
 
 template <int dim>
@@ -263,7 +255,15 @@ void Adaptation<dim>::add(const std::vector<dealii::CellId> &marked, RefinedCell
       mesh::refine(cell, cells);
 }
 
-/// Cells of contacts of too few faces. @return whether there are any. Collective.
+template <int dim>
+bool Adaptation<dim>::reads_pressure() const
+{
+  return std::any_of(demands.begin(), demands.end(),
+                     [](const auto &demand) { return demand.reads_pressure; });
+}
+
+/// Cells of contacts of too few faces, if a response reads their pressure, and of those all but
+/// closed. @return whether there are any. Collective.
 template <int dim>
 bool Adaptation<dim>::add_doubtful(RefinedCells &cells) const
 {
@@ -271,8 +271,10 @@ bool Adaptation<dim>::add_doubtful(RefinedCells &cells) const
   bool        doubtful = false;
   for (const auto &state : solved->states)
     {
-      const auto faces = accuracy::doubtful_faces(solver, state, scene.accuracy.contact_faces);
-      doubtful         = doubtful || !faces.empty();
+      const auto faces =
+        accuracy::doubtful_faces(solver, state,
+                                 reads_pressure() ? scene.accuracy.contact_faces : 0.);
+      doubtful = doubtful || !faces.empty();
       add(mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), cells);
     }
   return doubtful;
@@ -302,60 +304,23 @@ void Adaptation<dim>::add_marked(RefinedCells &cells) const
       }
 }
 
-/// What keeps a demand from ever being met.
+/// Of a contact that stays too narrow, as where a slender body bends: the cells that estimates
+/// mark, though their sum is not trusted. Collective.
 template <int dim>
-std::string Adaptation<dim>::failure()
+void Adaptation<dim>::add_marked_beside(RefinedCells &cells)
 {
-  std::string first;
-  for (unsigned int d = 0; d < demands.size(); ++d)
+  const auto measured = solved->measured;
+  try
     {
-      const auto text = demands[d].note(solved->measured[d], is_met(d));
-      first           = first.empty() ? text : first;
+      estimate(*solved);
+      add_marked(cells);
     }
-  return first;
-}
-
-template <int dim>
-std::string Adaptation<dim>::missed(const std::string &advice) const
-{
-  std::string text = "targets are not met:";
-  for (unsigned int d = 0; d < demands.size(); ++d)
-    if (!is_met(d))
-      text += " " + accuracy::text_of(demands[d].name, solved->measured[d]);
-  return text +
-         (contact_faces(solved->states) < scene.accuracy.contact_faces
-            ? " with too few faces across a contact"
-            : "") +
-         "; " + advice;
-}
-
-/// What is left of the error of a mesh when all cells are refined is 4^-p of it.
-template <int dim>
-std::string Adaptation<dim>::verify()
-{
-  RefinedCells cells = refined;
-  add(mesh::all_cells(*solved->problem->mesh), cells);
-  auto mesh = matched_mesh(cells);
-  if (!fits(*mesh))
-    return "the finer mesh that verifies has " + std::to_string(unknowns(*mesh)) +
-           " unknowns; allow more 'Maximum unknowns', or leave out 'Verify'";
-  const auto   fine = solve_next(std::move(mesh), cells);
-  const double part = 1. - std::pow(4., -1. * scene.degree);
-  std::string  failure;
-  for (unsigned int d = 0; d < demands.size(); ++d)
+  catch (const SolveError &)
     {
-      const double value = fine->measured[d].value;
-      const double error = std::abs(value - solved->measured[d].value) / part;
-      const auto   text  = accuracy::text_of(demands[d].name, {solved->measured[d].value, error});
-      context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
-                    << std::endl;
-      summary.verified.push_back({demands[d].name, value, error});
-      if (error > demands[d].target.allowed(value))
-        failure = "the finer mesh says " + text + ": the target is missed; ask for less";
+      // no estimate: the contact alone is refined
     }
-  if (!failure.empty())
-    finer = cells;
-  return failure;
+  solved->errors.clear();
+  solved->measured = measured;
 }
 
 template <int dim>
@@ -367,17 +332,21 @@ std::string Adaptation<dim>::reach(const double factor)
     {
       RefinedCells cells    = refined;
       const bool   doubtful = !is_at_rest() && add_doubtful(cells);
+      n_doubtful            = doubtful ? n_doubtful + 1 : 0;
+      std::string why;
       if (!doubtful)
-        estimate(*solved);
+        {
+          estimate(*solved);
+          why = failure();
+        }
       else
         for (unsigned int d = 0; d < demands.size(); ++d)
           demands[d].pass(solved->measured[d].value);
       report(*solved);
+      if (!why.empty())
+        return why;
       if (!doubtful)
         {
-          auto why = failure();
-          if (!why.empty())
-            return why;
           add_marked(cells);
           summary.met = true;
           for (unsigned int d = 0; d < demands.size(); ++d)
@@ -385,16 +354,40 @@ std::string Adaptation<dim>::reach(const double factor)
           if (summary.met && !is_rough())
             return "";
         }
+      else if (n_doubtful > 1)
+        add_marked_beside(cells);
       if (cells == refined && !is_rough())
         return missed("allow more 'Maximum levels', or ask for less");
+      why = go_on(cells);
+      if (!why.empty())
+        return missed(why);
+    }
+}
+
+/// To the mesh of @p cells. @return why there is none; empty: it is solved. Collective.
+template <int dim>
+std::string Adaptation<dim>::go_on(RefinedCells &cells)
+{
+  try
+    {
       auto mesh = matched_mesh(cells);
       if (!fits(*mesh))
-        return missed("the next mesh has " + std::to_string(unknowns(*mesh)) +
-                      " unknowns: allow more 'Maximum unknowns', or ask for less");
+        return "the next mesh has " + std::to_string(unknowns(*mesh)) +
+               " unknowns: allow more 'Maximum unknowns', or ask for less";
       // The mesh that is solved from goes only when the next one is solved.
       auto next = solve_next(std::move(mesh), cells);
       solved    = std::move(next);
       refined   = cells;
+      return "";
+    }
+  // The scene is right, as the meshes before were solved.
+  catch (const InputError &error)
+    {
+      return std::string("the next mesh cannot be solved: ") + error.what();
+    }
+  catch (const SolveError &error)
+    {
+      return std::string("the next mesh cannot be solved: ") + error.what();
     }
 }
 

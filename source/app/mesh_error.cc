@@ -36,8 +36,9 @@ std::vector<MeshError> mesh_errors(const ShapeProblem<dim>                  &pro
       responses.push_back(of_name.second);
   for (const auto &state : states)
     {
-      auto estimates =
-        accuracy::estimate(*problem.solver, state, responses, problem.scene.gradient.solves);
+      std::optional<state::ContactState<dim>> solved_on;
+      auto estimates = accuracy::estimate(*problem.solver, state, responses,
+                                          problem.scene.gradient.solves, solved_on);
       result.push_back({std::move(estimates.energy), {}});
       for (auto &of_response : estimates.responses)
         result.back().responses.emplace_back(

@@ -24,16 +24,21 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
     });
   }
   // contact is paired where the optimization starts, not at the reference
-  solver = made_of(scene, [&]() {
+  solver    = made_of(scene, [&]() {
     return std::make_unique<state::StateSolver<dim>>(*mesh, tearing, build_model(scene, *mesh),
-                                                     positions(shapes->start()), context);
-  });
-  made_of(scene, [&]() {
-    state::check_overlaps(solver->contact().pairs(), solver->contact().paired_gaps());
+                                                        positions(shapes->start()), context);
   });
   objective = make_response(scene.optimization.objective);
   for (const auto &response : scene.responses)
     responses.push_back(make_response(response.name));
+}
+
+template <int dim>
+void ShapeProblem<dim>::check_overlaps() const
+{
+  made_of(scene, [&]() {
+    state::check_overlaps(solver->contact().pairs(), solver->contact().paired_gaps());
+  });
 }
 
 template <int dim>

@@ -170,6 +170,7 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   for (const auto &line : state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
                                                    problem.solver->contact().pairs()))
     context.out() << "warning: " << line << '\n';
+  problem.check_overlaps();
   const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.
   for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
@@ -225,6 +226,7 @@ std::string run_given(RunContext &context, const scene::Scene &scene, const Opti
 {
   print_estimate(context, scene, 0, false);
   ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
+  problem.check_overlaps();
   if (!options.restart)
     io::remove_results(context, output_directories(scene));
   Results<dim> results(problem);

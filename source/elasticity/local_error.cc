@@ -3,6 +3,7 @@
 #include <snug/elasticity/stress.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace snug::elasticity {
 namespace {
@@ -218,31 +219,41 @@ std::vector<double> LocalError<dim>::matrix(const double lambda, const double mu
   return A;
 }
 
-/// A += factor sum_k c_k c_k', c_k' v = int psi_k div v dV with the functions of a pressure
-/// space.
+/// A += factor sum_k c_k c_k', c_k' v = int psi_k div v dV with the functions of the pressure space
+/// of one degree more.
 template <int dim>
-void LocalError<dim>::add_projected(const double factor, std::vector<double> &A) const
+void LocalError<dim>::add_projected(const double factor, std::vector<double> &A)
 {
   const unsigned int              n = space.functions.size(), size = space.size();
   std::vector<dealii::Point<dim>> points;
   for (const auto &shape : space.quadrature)
     points.push_back(shape.point);
-  const PressureSpace<dim> pressures(space.degree, points, dV);
-  for (const auto &psi : pressures.functions())
+  const PressureSpace<dim> pressures(space.degree + 1, points, dV);
+  const auto   n_known = PressureSpace<dim>(space.degree, points, dV).functions().size();
+  const double root    = std::sqrt(factor);
+  for (unsigned int k = 0; k < pressures.functions().size(); ++k)
     {
-      std::vector<double> row(size, 0.);
+      const auto         &psi = pressures.functions()[k];
+      std::vector<double> row(size, 0.), weights;
       for (unsigned int q = 0; q < at.size(); ++q)
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int c = 0; c < dim; ++c)
-            row[dim * i + c] += psi[q] * dV[q] * at[q][i].divergence(c);
+        {
+          weights.push_back(root * psi[q] * dV[q]);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              row[dim * i + c] += weights[q] * at[q][i].divergence(c);
+        }
       for (unsigned int i = 0; i < size; ++i)
         for (unsigned int j = 0; j < size; ++j)
-          A[i * size + j] += factor * row[i] * row[j];
+          A[i * size + j] += row[i] * row[j];
+      if (k < n_known)
+        continue;
+      missing.push_back(weights);
+      missing_rows.push_back(row);
     }
 }
 
 template <int dim>
-std::vector<double> LocalError<dim>::matrix() const
+std::vector<double> LocalError<dim>::matrix()
 {
   const double mu = material.lame_mu();
   if (space.formulation == Formulation::standard)
@@ -250,6 +261,38 @@ std::vector<double> LocalError<dim>::matrix() const
   auto A = matrix(-2. / 3. * mu, mu);
   add_projected(material.bulk_modulus(), A);
   return A;
+}
+
+template <int dim>
+std::vector<double> LocalError<dim>::missing_dilatation(const Nodes &u) const
+{
+  std::vector<double> d(missing.size(), 0.);
+  for (unsigned int q = 0; !missing.empty() && q < at.size(); ++q)
+    {
+      const double dilatation =
+        trace(CellPoint<dim>(space.quadrature[q], X, space.idealization).gradient(u));
+      for (unsigned int k = 0; k < d.size(); ++k)
+        d[k] += missing[k][q] * dilatation;
+    }
+  return d;
+}
+
+template <int dim>
+double LocalError<dim>::dilatation_work(const std::vector<double> &d, const LocalResidual &e) const
+{
+  double sum = 0.;
+  for (unsigned int k = 0; k < d.size(); ++k)
+    for (unsigned int i = 0; i < e.size(); ++i)
+      sum += d[k] * missing_rows[k][i] * e[i];
+  return sum;
+}
+
+template <int dim>
+void LocalError<dim>::subtract_dilatation(const std::vector<double> &d, LocalResidual &r) const
+{
+  for (unsigned int k = 0; k < d.size(); ++k)
+    for (unsigned int i = 0; i < r.size(); ++i)
+      r[i] -= d[k] * missing_rows[k][i];
 }
 
 template <int dim>

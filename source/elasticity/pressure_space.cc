@@ -14,13 +14,19 @@ PressureSpace<dim>::PressureSpace(const unsigned int                     degree,
   AssertDimension(points.size(), dV.size());
   // Gram-Schmidt from 1, xi_1 - 1/2, ... The functions are nearly orthogonal from the start, in a
   // cell that is not very distorted, so that one pass is enough.
-  const unsigned int n_functions = degree == 1 ? 1 : 1 + dim;
-  for (unsigned int i = 0; i < n_functions; ++i)
+  std::vector<std::vector<unsigned int>> axes = {{}}; // of the factors
+  for (unsigned int i = 0; degree > 1 && i < dim; ++i)
+    axes.push_back({i});
+  for (unsigned int i = 0; degree > 2 && i < dim; ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+      axes.push_back({i, j});
+  for (const auto &of_function : axes)
     {
       std::vector<double> f(points.size(), 1.);
-      for (unsigned int q = 0; i > 0 && q < f.size(); ++q)
+      for (unsigned int q = 0; q < f.size(); ++q)
         // In reference coordinates, so that the functions go with the cell.
-        f[q] = points[q][i - 1] - 0.5;
+        for (const unsigned int axis : of_function)
+          f[q] *= points[q][axis] - 0.5;
       for (const auto &g : orthonormal)
         {
           const double part = product(f, g);

@@ -42,6 +42,8 @@ public:
     return result;
   }
 
+  bool reads_pressure() const override { return true; }
+
   /// Throws where there is no such pair.
   void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair); }
 

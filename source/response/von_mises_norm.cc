@@ -20,6 +20,9 @@ public:
 
   std::vector<std::string> entries() const override { return {"Body", "Exponent"}; }
 
+  /// Below a contact, stresses are those of its pressure.
+  bool reads_pressure() const override { return true; }
+
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {

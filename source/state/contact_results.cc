@@ -1,5 +1,6 @@
 #include <snug/state/assumptions.h>
 #include <snug/state/contact_results.h>
+#include <snug/state/continuity.h>
 #include <snug/state/reactions.h>
 
 #include <algorithm>
@@ -176,7 +177,10 @@ void recover_contact_results(const StateSolver<dim>     &solver,
                              const RowCoefficients<dim> &rows,
                              ContactState<dim>          &state)
 {
-  state.displacement = nodal_values(solver, state.u, 0);
+  const auto &feti = solver.feti(state);
+  auto        u    = state.u;
+  make_continuous(feti, &feti.g(), u);
+  state.displacement = nodal_values(solver, u, 0);
   describe_energies(solver, state);
   describe_contact(solver, rows, state);
   sum_up_contact(solver.contact(), rows, state);

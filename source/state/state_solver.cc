@@ -24,10 +24,10 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
   qp::WarmStart        from       = start;
   const auto          &feti       = *problem->feti;
   qp::SolverParameters parameters = model().solver;
-  const double         wanted     = parameters.relative_tolerance;
-  parameters.relative_tolerance *= certificate_margin;
-  const unsigned long mults = context().work.f_mults;
-  unsigned int        outer = 0;
+  const double         wanted     = state.tolerance;
+  parameters.relative_tolerance   = certificate_margin * wanted;
+  const unsigned long mults       = context().work.f_mults;
+  unsigned int        outer       = 0;
   for (unsigned int attempt = 0; attempt < 5; ++attempt)
     {
       const auto this_solver = choose(qp::solver_table(), parameters.method).make(parameters);
@@ -77,11 +77,33 @@ template <int dim>
 ContactState<dim>
 StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case)
 {
+  return solve(positions, start, load_case, model().solver.relative_tolerance);
+}
+
+template <int dim>
+ContactState<dim> StateSolver<dim>::solve_on(const ContactState<dim> &state,
+                                             const double             tolerance) const
+{
+  Assert(state.pairing == n_pairings, dealii::ExcMessage("the state is of another pairing"));
+  auto result =
+    solve(state.positions, {state.dual.lambda, state.dual.active, state.dual.directions},
+          state.load_case, tolerance);
+  result.f_mults += state.f_mults;
+  return result;
+}
+
+template <int dim>
+ContactState<dim> StateSolver<dim>::solve(const Field         &positions,
+                                          const qp::WarmStart &start,
+                                          const unsigned int   load_case,
+                                          const double         tolerance) const
+{
   const auto       &geometry = problem->set(positions, load_case);
   ContactState<dim> state;
   state.positions             = positions;
   state.load_case             = load_case;
   state.pairing               = n_pairings;
+  state.tolerance             = tolerance;
   state.least_scaled_jacobian = geometry.least_scaled_jacobian;
   {
     const RunContext::Timer timer(context(), "solve");

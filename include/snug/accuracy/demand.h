@@ -24,9 +24,10 @@ struct Demand
   unsigned int        place; ///< of the target in the entry
   Target              target;
   bool                is_energy;
-  double              factor = 1.; ///< that errors may be larger by
-  std::vector<double> errors = {}; ///< on the last meshes that were refined for it
-  std::vector<double> values = {}; ///< on all meshes
+  bool                reads_pressure; ///< see Response::reads_pressure()
+  double              factor = 1.;    ///< that errors may be larger by
+  std::vector<double> errors = {};    ///< on the last meshes that were refined for it
+  std::vector<double> values = {};    ///< on all meshes
 
   double allowed(const Measured &measured) const { return factor * target.allowed(measured.value); }
 
@@ -45,8 +46,10 @@ struct Demand
   std::string note(const Measured &measured, bool is_met);
 
 private:
-  bool        is_noise() const;
-  std::string too_small(const Measured &measured) const;
+  bool                is_noise() const;
+  std::string         too_small(const Measured &measured) const;
+  bool                is_noise() const;
+  std::vector<double> parts() const;
 };
 } // namespace snug::accuracy
 

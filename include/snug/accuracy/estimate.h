@@ -46,15 +46,22 @@ struct Estimates
   std::vector<ResponseEstimate> responses;
 };
 
-/// The error in the energy norm and those of responses, by one block solve for all that need one.
-/// Collective. @throws SolveError.
+/**
+ * Estimate the error in the energy norm and those of responses, by one block solve for all that
+ * need one. Where jumps between subdomains, which the solver leaves, make more than a tenth of an
+ * estimated error, as near Poisson's ratio one half, the estimate would measure the solver: the
+ * state and the adjoints are then solved on to smaller tolerances, as far as the solver can.
+ * @param[out] solved_on the state that is estimated, if it is not @p state. Collective.
+ * @throws SolveError where the adjoints cannot be solved at all.
+ */
 template <int dim>
 Estimates estimate(const state::StateSolver<dim>                      &solver,
                    const state::ContactState<dim>                     &state,
                    const std::vector<const response::Response<dim> *> &responses,
-                   sensitivity::Solves                                 solves);
+                   sensitivity::Solves                                 solves,
+                   std::optional<state::ContactState<dim>>            &solved_on);
 
-/// The first of them alone. Collective.
+/// Estimate the error in the energy norm alone, as estimate() does. Collective.
 template <int dim>
 EnergyEstimate estimate_energy(const state::StateSolver<dim>  &solver,
                                const state::ContactState<dim> &state);

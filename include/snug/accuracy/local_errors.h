@@ -10,6 +10,13 @@
 #include <vector>
 
 namespace snug::accuracy {
+/// Local errors e_i of displacements in a cell, see elasticity::LocalError.
+struct CellErrors
+{
+  std::vector<double> products; ///< a(e_i, e_j), row by row; of B-bar with the errors of pressures
+  std::vector<double> norms;    ///< of the errors of stresses; a(e_i, e_i)^(1/2) but for B-bar
+};
+
 /**
  * The local problems of LocalError in all cells of this rank, with tractions
  *   t = (sigma_h + sigma_h') n / 2   between cells, sigma_h' the neighbour's,
@@ -27,9 +34,8 @@ public:
   /// At the geometry and with the loads of @p state. References must outlive this. Collective.
   LocalErrors(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
 
-  /// a(e_i, e_j) of each cell of this rank for all i, j of @p of, row by row, fields at all
-  /// local nodes. Collective.
-  std::vector<std::vector<double>> products(const std::vector<LoadedDisplacement<dim>> &of) const;
+  /// Return the products of each cell of this rank, fields at all local nodes. Collective.
+  std::vector<CellErrors> products(const std::vector<LoadedDisplacement<dim>> &of) const;
 
 private:
   using Nodes     = typename CellFields<dim>::Nodes;

@@ -72,19 +72,24 @@ private:
   scene::Scene                  scene;
   Design                        at; ///< empty: the start
   std::vector<accuracy::Demand> demands;
-  RefinedCells                  refined; ///< of the last mesh
-  RefinedCells                  finer;   ///< see finer_cells()
-  double                        began;   ///< to make it [s]
+  RefinedCells                  refined;        ///< of the last mesh
+  RefinedCells                  finer;          ///< see finer_cells()
+  double                        began;          ///< to make it [s]
+  unsigned int                  n_doubtful = 0; ///< meshes, the last ones, see add_doubtful()
   std::unique_ptr<Stage>        solved;
 
+  static unsigned long   unknowns(const mesh::BodyMesh<dim> &mesh);
+  static double          tolerance(const Stage &stage);
   Mesh                   matched_mesh(RefinedCells &cells);
   std::unique_ptr<Stage> stage(Mesh mesh, const RefinedCells &cells, double tolerance);
   void                   solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const;
+  void                   measure(Stage &stage) const;
   void                   estimate(Stage &stage) const;
   std::unique_ptr<Stage> solve_next(Mesh mesh, const RefinedCells &cells);
   void                   report(const Stage &stage);
   Design                 design(const Stage &stage) const;
   bool                   is_at_rest() const;
+  bool                   reads_pressure() const;
   bool                   is_met(unsigned int demand) const;
   double                 least() const;
   double                 next_tolerance() const;
@@ -93,7 +98,10 @@ private:
   void                   add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
   bool                   add_doubtful(RefinedCells &cells) const;
   void                   add_marked(RefinedCells &cells) const;
+  void                   add_marked_beside(RefinedCells &cells);
   std::string            failure();
+  std::string            noted();
+  std::string            go_on(RefinedCells &cells);
   std::string            missed(const std::string &advice) const;
 };
 } // namespace snug::app

@@ -28,6 +28,10 @@ public:
                const scene::Scene                  &scene,
                std::unique_ptr<mesh::BodyMesh<dim>> mesh);
 
+  /// The limit of overlaps is one of faces: it is asked of the mesh that the user gave, not of
+  /// finer ones. @throws InputError, see state::check_overlaps().
+  void check_overlaps() const;
+
   /// Node positions of a design. Collective.
   Field positions(const Design &design) const { return shape::positions(*mesh, *shapes, design); }
 

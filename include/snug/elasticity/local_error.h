@@ -76,9 +76,17 @@ void add_force(const typename LocalSpace<dim>::Functions &values,
  * directions, is the solution of
  * @f[ a(e, v) = \int_K (b \cdot v - \sigma_h : \varepsilon(v))\,dV
  *     + \int_{\partial K} t \cdot v\,dA \quad\text{for all } v \in V, @f]
- * with the cell's own form a, B-bar included, and tractions t that balance
- * between cells. |e|^2 = a(e, e) summed over cells estimates the energy norm of
- * the error squared. V has no rigid motion, so the matrix is positive definite.
+ * with the cell's own form a and tractions t that balance between cells.
+ * |e|^2 = a(e, e) summed over cells estimates the energy norm of the error
+ * squared. V has no rigid motion, so the matrix is positive definite.
+ *
+ * B-bar is a mixed method, whose pressures p_h = kappa Pi div u_h have errors q of their
+ * own. They are sought among the polynomials of one degree more (projection Pi_+):
+ * @f[ q = \kappa(\Pi_+ \mathrm{div}\, e + d),\quad d = (\Pi_+ - \Pi)\,\mathrm{div}\, u_h,\quad
+ *     a_+(e, v) = r(v) - \kappa\,(d, \mathrm{div}\, v), @f]
+ * where a_+ projects dilatations with Pi_+ and r is the right-hand side above. The error of a
+ * functional by two such problems is the product a_+(e_1, e_2) - kappa (d_1, d_2), and the
+ * norm of the error of the stress a_+(e, e) + kappa (d, 2 div e + d), squared.
  * Source: Bank, Weiser, Math. Comp. 44 (1985) 283.
  */
 template <int dim>
@@ -108,6 +116,16 @@ public:
   /// The solution e of a(e, v) = r(v) in place of @p r.
   void solve(LocalResidual &r) const;
 
+  /// d of the displacement @p u of the cell's nodes, times kappa^(1/2), in an orthonormal
+  /// basis; empty but for B-bar.
+  std::vector<double> missing_dilatation(const Nodes &u) const;
+
+  /// (d, div e) kappa for one given so.
+  double dilatation_work(const std::vector<double> &d, const LocalResidual &e) const;
+
+  /// r(v) -= kappa (d, div v) for one given so.
+  void subtract_dilatation(const std::vector<double> &d, LocalResidual &r) const;
+
 private:
   /// A function of V at a point in space.
   struct Value
@@ -128,10 +146,13 @@ private:
   /// basis of V: function and direction
   std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> basis;
   dealii::LAPACKFullMatrix<double>                             factor;
+  /// kappa^(1/2) times functions that Pi_+ has and Pi has not, times dV, at the points
+  std::vector<std::vector<double>> missing;
+  std::vector<LocalResidual>       missing_rows; ///< and their products with div v
 
-  std::vector<double> matrix() const;
+  std::vector<double> matrix();
   std::vector<double> matrix(double lambda, double mu) const;
-  void                add_projected(double factor, std::vector<double> &A) const;
+  void                add_projected(double factor, std::vector<double> &A);
   void                find_basis();
 };
 } // namespace snug::elasticity

@@ -8,9 +8,10 @@
 namespace snug::elasticity {
 /**
  * The polynomials of degree p-1 in the reference coordinates of a cell of
- * degree p = 1 or 2 - constants, or linear functions - by their values at
- * given points, orthonormal in the product
- * @f$(f,g) = \sum_q f_q g_q dV_q@f$.
+ * degree p = 1, 2 or 3 - constants, linear or quadratic functions - by their
+ * values at given points, orthonormal in the product
+ * @f$(f,g) = \sum_q f_q g_q dV_q@f$. Functions of lower degree come first and
+ * span those of lower p.
  */
 template <int dim>
 class PressureSpace

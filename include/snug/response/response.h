@@ -76,6 +76,9 @@ public:
    */
   virtual bool stationary() const { return false; }
 
+  /// Whether J depends on how the contact pressure is distributed, and not on its resultants alone.
+  virtual bool reads_pressure() const { return false; }
+
   /// Throw an InputError unless the scene has what is measured.
   /// Collective.
   virtual void check(const state::StateSolver<dim> & /*solver*/) const {}

@@ -94,7 +94,7 @@ struct ContactState
   unsigned int                load_case = 0;
   unsigned int                pairing   = 0; ///< how often contact was paired anew before
   Field                       positions;     ///< [length]
-  Field                       displacement;  ///< [length]
+  Field                       displacement;  ///< continuous, see make_continuous() [length]
   feti::PrimalVectors         u;             ///< per subdomain
   qp::DualSolution            dual;
   std::vector<ContactPoint>   contact;

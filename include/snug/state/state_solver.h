@@ -34,6 +34,10 @@ public:
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
+  /// @p state solved on, from its own forces, until its certificate meets @p tolerance.
+  /// Collective. @throws SolveError.
+  ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
+
   /**
    * The dual problem of @p state, of the present pairing: its matrices and
    * loads are made again where the solver has been at another geometry or
@@ -70,6 +74,10 @@ public:
   RunContext  &context() const { return problem->context; }
 
 private:
+  ContactState<dim> solve(const Field         &positions,
+                          const qp::WarmStart &start,
+                          unsigned int         load_case,
+                          double               tolerance) const;
   void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
 
   /// Its matrices are a cache: states depend on positions alone.

@@ -91,6 +91,21 @@ TEST(Unbounded, IsWhatDoesNotFallByAThirdInThreeMeshes)
   EXPECT_FALSE(accuracy::is_unbounded({0.03, 0.26, 0.21, 0.17})); // the first did not know
 }
 
+TEST(Unbounded, IsNotWhatGrowsLessThanItsResponse)
+{
+  const auto last = [](const std::vector<accuracy::Measured> &meshes) {
+    accuracy::Demand demand{"tip", 0, 0, accuracy::read_target("1 %"), false, false};
+    std::string      text;
+    for (const auto &measured : meshes)
+      text = demand.note(measured, false);
+    return text;
+  };
+  // a plate that locks, and a stress at an edge
+  EXPECT_EQ(last({{-0.6, 0.4}, {-1.2, 0.5}, {-1.5, 0.5}, {-1.8, 0.4}}), "");
+  EXPECT_NE(last({{10., 4.}, {14., 5.6}, {20., 8.}, {28., 11.}}).find("unbounded"),
+            std::string::npos);
+}
+
 TEST(Zero, ChangesItsSignWithTheMesh)
 {
   EXPECT_FALSE(accuracy::changes_sign({}));

@@ -26,6 +26,23 @@ TestScene<dim> guided_blocks(unsigned int n, unsigned int m)
   return scene;
 }
 
+/// Of mixed elements, each block torn into several subdomains.
+template <int dim>
+TestScene<dim> nearly_incompressible(const unsigned int n,
+                                     const double       nu,
+                                     const unsigned int degree,
+                                     const double       tolerance)
+{
+  auto scene = guided_blocks<dim>(n, n);
+  for (auto &body : scene.bodies)
+    {
+      body.material    = {1000., nu};
+      body.formulation = elasticity::Formulation::B_bar;
+    }
+  scene.degree                    = degree;
+  scene.solver.relative_tolerance = tolerance;
+  return scene;
+}
 } // namespace snug::test
 
 #endif

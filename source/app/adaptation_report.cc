@@ -1,0 +1,143 @@
+#include <snug/app/adaptation.h>
+#include <snug/base/errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+namespace snug::app {
+namespace {
+/// Of states of which a response is called unbounded, or zero.
+const double sure_tolerance = 1e-6;
+
+/// The least of all load cases.
+template <int dim>
+double contact_faces(const std::vector<state::ContactState<dim>> &states)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto &state : states)
+    least = std::min(least, state.assumptions.width);
+  return least;
+}
+} // namespace
+
+template <int dim>
+unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &mesh)
+{
+  return dim * mesh.n_global_free_nodes();
+}
+
+template <int dim>
+void Adaptation<dim>::report(const Stage &stage)
+{
+  io::Summary::AdaptedMesh mesh;
+  mesh.dofs          = unknowns(*stage.problem->mesh);
+  mesh.contact_faces = contact_faces(stage.states);
+  mesh.tolerance     = tolerance(stage);
+  mesh.seconds       = context.seconds() - began;
+  for (const auto &state : stage.states)
+    mesh.f_mults += state.f_mults;
+  auto &out = context.out();
+  out << "mesh " << summary.meshes.size() + 1 << ": " << mesh.dofs << " unknowns";
+  if (std::isfinite(mesh.contact_faces))
+    out << ", contact " << std::round(10. * mesh.contact_faces) / 10. << " faces across";
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const auto &estimate = stage.measured[d];
+      mesh.responses.push_back({demands[d].name, estimate.value, estimate.error});
+      out << ", " << accuracy::text_of(demands[d].name, estimate);
+    }
+  out << ", " << mesh.f_mults << " F-mults to " << mesh.tolerance << ", " << mesh.seconds << " s"
+      << std::endl;
+  summary.meshes.push_back(mesh);
+}
+
+/// What keeps a demand from ever being met; empty: nothing. What a loose tolerance leaves is no
+/// error of the mesh: the answer holds for states that are solved well. Collective.
+template <int dim>
+std::string Adaptation<dim>::failure()
+{
+  const auto before = demands;
+  auto       why    = noted();
+  if (why.empty() || tolerance(*solved) <= sure_tolerance)
+    return why;
+  try
+    {
+      for (auto &state : solved->states)
+        state = solved->problem->solver->solve_on(state, sure_tolerance);
+    }
+  catch (const SolveError &)
+    {
+      return why;
+    }
+  estimate(*solved);
+  demands = before;
+  return noted();
+}
+
+template <int dim>
+std::string Adaptation<dim>::noted()
+{
+  std::string first;
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const auto text = demands[d].note(solved->measured[d], is_met(d));
+      first           = first.empty() ? text : first;
+    }
+  return first;
+}
+
+template <int dim>
+std::string Adaptation<dim>::missed(const std::string &advice) const
+{
+  std::string text = "targets are not met:";
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    if (!is_met(d))
+      text += " " + accuracy::text_of(demands[d].name, solved->measured[d]);
+  return text +
+         (reads_pressure() && contact_faces(solved->states) < scene.accuracy.contact_faces
+            ? " with too few faces across a contact"
+            : "") +
+         "; " + advice;
+}
+
+/// What is left of the error of a mesh when all cells are refined is 4^-p of it.
+template <int dim>
+std::string Adaptation<dim>::verify()
+{
+  RefinedCells cells = refined;
+  add(mesh::all_cells(*solved->problem->mesh), cells);
+  auto mesh = matched_mesh(cells);
+  if (!fits(*mesh))
+    return "the finer mesh that verifies has " + std::to_string(unknowns(*mesh)) +
+           " unknowns; allow more 'Maximum unknowns', or leave out 'Verify'";
+  const auto   fine = solve_next(std::move(mesh), cells);
+  const double part = 1. - std::pow(4., -1. * scene.degree);
+  std::string  failure;
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const double value = fine->measured[d].value;
+      const double error = std::abs(value - solved->measured[d].value) / part;
+      const auto   text  = accuracy::text_of(demands[d].name, {solved->measured[d].value, error});
+      context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
+                    << std::endl;
+      summary.verified.push_back({demands[d].name, value, error});
+      if (error > demands[d].target.allowed(value))
+        failure = "the finer mesh says " + text + ": the target is missed; ask for less";
+    }
+  if (!failure.empty())
+    finer = cells;
+  return failure;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                    \
+  template unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &); \
+  template void          Adaptation<dim>::report(const Stage &);                 \
+  template std::string   Adaptation<dim>::failure();                             \
+  template std::string   Adaptation<dim>::missed(const std::string &) const;     \
+  template std::string   Adaptation<dim>::verify();
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::app

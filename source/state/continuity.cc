@@ -1,0 +1,42 @@
+#include <snug/state/continuity.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::state {
+std::vector<double> energy_norms(const feti::TotalFeti &feti, const feti::PrimalVectors &u)
+{
+  // a rank may have no subdomain
+  const unsigned int  n = u.empty() ? 0 : u.front().n_columns();
+  std::vector<double> squares(dealii::Utilities::MPI::max(n, feti.context().communicator()), 0.);
+  for (unsigned int s = 0; s < u.size(); ++s)
+    {
+      qp::MultiVector Ku(u[s].n_rows(), n);
+      feti.subdomains()[s].K.multiply_add(1., u[s], Ku);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < Ku.n_rows(); ++i)
+          squares[j] += u[s](i, j) * Ku(i, j);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), squares.size(), MPI_DOUBLE, MPI_SUM,
+                feti.context().communicator());
+  for (double &square : squares)
+    square = std::sqrt(std::max(0., square));
+  return squares;
+}
+
+void make_continuous(const feti::TotalFeti &feti, const qp::MultiVector *g, feti::PrimalVectors &u)
+{
+  auto jumps = feti.multiply_B(u);
+  if (g)
+    jumps.add(-1., *g);
+  for (unsigned int i = 0; i < jumps.n_rows(); ++i)
+    if (feti.bounded()[i])
+      for (unsigned int j = 0; j < jumps.n_columns(); ++j)
+        jumps(i, j) = 0.;
+  const auto change = feti.multiply_Bt(jumps);
+  for (unsigned int s = 0; s < u.size(); ++s)
+    u[s].add(-1., change[s]);
+}
+} // namespace snug::state
