@@ -33,6 +33,10 @@ public:
   /// @return why they are not; empty: they are. Collective. @throws SolveError.
   std::string reach(double factor);
 
+  /// Refine until errors are at most the targets, and verify() where `Verify` asks for it, or by
+  /// default where that is cheap. @return why not; empty: they are. Collective. @throws SolveError.
+  std::string settle();
+
   /// Compare with the mesh on which all cells are refined. @return why the targets are not met
   /// there; empty: they are. Collective. @throws SolveError.
   std::string verify();
@@ -76,7 +80,14 @@ private:
   RefinedCells                  finer;   ///< see finer_cells()
   double                        began;   ///< to make it [s]
   std::unique_ptr<Stage>        solved;
+  std::unique_ptr<Stage>        finer_stage;            ///< that of finer_cells()
+  bool                          finer_is_enough = true; ///< by the error that verify() has found
+  std::vector<std::string>      unresolved;             ///< gaps, in the words of the log
 
+  static unsigned long unknowns(const mesh::BodyMesh<dim> &mesh)
+  {
+    return dim * mesh.n_global_free_nodes();
+  }
   Mesh                   matched_mesh(RefinedCells &cells);
   std::unique_ptr<Stage> stage(Mesh mesh, const RefinedCells &cells, double tolerance);
   void                   solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const;
@@ -91,7 +102,11 @@ private:
   bool                   is_rough() const;
   bool                   fits(const mesh::BodyMesh<dim> &mesh) const;
   void                   add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
-  bool                   add_doubtful(RefinedCells &cells) const;
+  bool                   add_doubtful(RefinedCells &cells);
+  double                 rough_part() const;
+  scene::Scene           scene_with(const RefinedCells &cells) const;
+  void                   resolve_data();
+  bool                   is_to_be_verified() const;
   void                   add_marked(RefinedCells &cells) const;
   std::string            failure();
   std::string            missed(const std::string &advice) const;
