@@ -21,10 +21,18 @@ const double position_round_off = 1e-11;
 /// Gaps below 0 by less than this part of a face are closed, not overlaps.
 const double closed_part = 1e-9;
 
+/// Gaps between curved bodies are of this degree where faces are small enough for their contact;
+/// higher ones would take a narrow crest on a single face for smooth.
+constexpr unsigned int rough_degree = 2;
+
 /// Faces below this part of the contact are not refined for roughness: steps, which have no
 /// pressure that a mesh could find, would be refined to the last level.
-template <int dim>
-constexpr double small_face = dim == 2 ? 1. / 256. : 1. / 1024.;
+const double small_face = 1. / 4096.;
+
+/// Peaks of pressure weigh more than their force: a measure of the peak by an exponent takes that
+/// power of them. More than 4 would refine kinks, where the pressure is unbounded but no measure
+/// is, to the last level.
+const double peak_power = 4.;
 
 /// Points of a face, and the functions of its nodes and of its samples there.
 template <int dim>
@@ -34,7 +42,8 @@ struct FacePoints
   std::vector<typename faces::FaceShape<dim>::Values> nodes, samples;
 
   /// Uneven distances are in resonance with no formula.
-  FacePoints(const faces::FaceShape<dim> &shape, const unsigned int n) : n(n)
+  FacePoints(const faces::FaceShape<dim> &shape, const unsigned int degree, const unsigned int n)
+    : n(n)
   {
     const auto coordinate = [&](const unsigned int j) {
       const double part = j * 0.6180339887498949;
@@ -46,12 +55,12 @@ struct FacePoints
         for (unsigned int d = 0, rest = i; d < dim - 1; ++d, rest /= n)
           xi[d] = coordinate(rest % n);
         nodes.push_back(shape.at(xi));
-        samples.push_back(shape.samples_at(xi));
+        samples.push_back(mesh::lagrange_point<dim - 1>(degree, xi));
       }
   }
 };
 
-/// What a function of the place has on a face beyond the polynomial of degree surface_degree.
+/// What a function of the place has on a face beyond a polynomial through it.
 struct Oscillation
 {
   double mean = 0., slope = 0.; ///< of its size, and largest of its gradient
@@ -67,9 +76,14 @@ public:
   using Field    = typename mesh::BodyMesh<dim>::Field;
   using Function = std::function<double(const dealii::Tensor<1, dim> &)>;
 
-  /// References must outlive this. Collective.
-  FaceSampler(const mesh::BodyMesh<dim> &mesh, const Field &positions, const Sampling sampling)
-    : mesh(mesh), positions(positions), shape(mesh.degree()), n_of(samples_of_level(mesh, sampling))
+  /// @p degree of the polynomial. References must outlive this. Collective.
+  FaceSampler(const mesh::BodyMesh<dim> &mesh, const Field &positions, const unsigned int degree)
+    : mesh(mesh)
+    , positions(positions)
+    , shape(mesh.degree())
+    , degree(degree)
+    , lattice_points(mesh::lagrange_nodes<dim - 1>(degree))
+    , n_of(samples_of_level(mesh, Sampling::search))
   {}
 
   /// n dA at the centre of the mesh's face, for the area of the reference face.
@@ -90,10 +104,10 @@ public:
       std::max(2 * mesh::surface_degree, n_of(mesh::level(mesh.cell_id(face.cell))));
     auto &points = by_n[n];
     if (!points)
-      points = std::make_unique<FacePoints<dim>>(shape, n);
+      points = std::make_unique<FacePoints<dim>>(shape, degree, n);
     std::vector<double> lattice, at_nodes;
-    for (unsigned int k = 0; k < lattice_points.size(); ++k)
-      lattice.push_back(of(place(face, lattice_points[k].point, shape.at_sample(k))));
+    for (const auto &sample : lattice_points)
+      lattice.push_back(of(place(face, sample.point, shape.at(sample.point))));
     const double length = area(face).norm();
     for (const unsigned int node : face.nodes)
       at_nodes.push_back(of(positions[node]));
@@ -127,11 +141,11 @@ public:
   }
 
 private:
-  const mesh::BodyMesh<dim>                      &mesh;
-  const Field                                    &positions;
-  const faces::FaceShape<dim>                     shape;
-  const std::vector<mesh::LagrangePoint<dim - 1>> lattice_points =
-    mesh::lagrange_nodes<dim - 1>(mesh::surface_degree);
+  const mesh::BodyMesh<dim>                               &mesh;
+  const Field                                             &positions;
+  const faces::FaceShape<dim>                              shape;
+  const unsigned int                                       degree;
+  const std::vector<mesh::LagrangePoint<dim - 1>>          lattice_points;
   std::function<unsigned int(unsigned int)>                n_of;
   std::map<unsigned int, std::unique_ptr<FacePoints<dim>>> by_n;
 
@@ -178,7 +192,7 @@ template <int dim>
 std::vector<double> add_volumes(const mesh::BodyMesh<dim> &mesh, std::vector<UnseenVolume> &unseen)
 {
   std::vector<double> volumes(mesh.n_bodies(), 0.);
-  FaceSampler<dim>    sampler(mesh, mesh.reference_positions(), Sampling::search);
+  FaceSampler<dim>    sampler(mesh, mesh.reference_positions(), mesh::surface_degree);
   // A formula may fail at a position that only one rank has.
   everywhere(mesh.communicator(), [&]() {
     for (const auto &face : mesh.boundary_faces())
@@ -259,17 +273,19 @@ public:
         const auto at_nodes = gaps_at(face.nodes);
         if (at_nodes.empty())
           continue;
+        const bool is_smooth =
+          pair.obstacle || face.known_surface != geometry::BodyGeometry<dim>::no_surface;
         const auto   area  = sampler.area(face);
         const double dA    = area.norm() * mesh.idealization().weight(sampler.centre(face));
         const auto   found = sampler(
             face,
             [&](const dealii::Tensor<1, dim> &x) {
-            return (is_slave ? given.given(x) : 0.) - (pair.obstacle ? 0. : area * x / area.norm());
+            return (is_slave ? given.given(x) : 0.) - (is_smooth ? 0. : area * x / area.norm());
           },
             at_nodes);
         const double part = this->part(found, std::pow(area.norm(), 1. / (dim - 1)), dA);
         to.of_cells[face.cell] += part;
-        to.to_refine[face.cell] += dA > small_face<dim> * contact_area ? part : 0.;
+        to.to_refine[face.cell] += dA > small_face * contact_area ? part : 0.;
         to.missed += part;
       }
   }
@@ -323,7 +339,10 @@ private:
   {
     if (force == 0.)
       return found.least < -closed_part * size ? 1. : 0.;
-    return found.least <= closed_part * size ? modulus / 2. * found.slope * dA / force : 0.;
+    if (found.least > closed_part * size)
+      return 0.;
+    const double q = modulus / 2. * found.slope / (force / contact_area);
+    return (std::pow(1. + q, peak_power) - 1.) / peak_power * dA / contact_area;
   }
 };
 } // namespace
@@ -338,7 +357,7 @@ std::vector<RoughPressure> rough_pressures(const state::StateSolver<dim>  &solve
   const auto                 at      = surface.gather(state.positions);
   const auto                 held    = solver.held().directions(surface, state.positions);
   const auto                 rows    = solver.contact().rows(at);
-  FaceSampler<dim>           sampler(mesh, state.positions, Sampling::search);
+  FaceSampler<dim>           sampler(mesh, state.positions, rough_degree);
   const std::vector<double>  none(mesh.cells().size(), 0.);
   std::vector<RoughPressure> result;
   for (unsigned int p = 0; p < pairs.size(); ++p)

@@ -16,9 +16,6 @@
 
 namespace snug::app {
 namespace {
-/// The part of loads, of volumes and of pressures that the first mesh may miss.
-const double resolved_part = 0.05;
-
 /// The least of all load cases.
 template <int dim>
 double contact_faces(const std::vector<state::ContactState<dim>> &states)
@@ -90,36 +87,6 @@ accuracy::Measured Adaptation<dim>::objective()
 {
   const auto combined = solved->problem->combined_objective(solved->states);
   return {combined.value, objective_error(scene, combined.factors, solved->errors)};
-}
-
-/// A first mesh that has the loads and the surfaces of the scene, of which states and estimates see
-/// nothing where no Gauss point and no node is. Collective.
-template <int dim>
-void Adaptation<dim>::resolve_data()
-{
-  const RunContext::Timer timer(context, "setup");
-  while (true)
-    {
-      const auto               with  = scene_with(refined);
-      const auto               mesh  = build_mesh<dim>(with, context.communicator());
-      auto                     cells = refined;
-      std::vector<std::string> names;
-      for (const auto &body : scene.bodies)
-        names.push_back(body.name);
-      const auto found = made_of(scene, [&]() {
-        return accuracy::unresolved_data(*mesh, build_load_cases(with, *mesh), names,
-                                         resolved_part);
-      });
-      add(found.cells, cells);
-      if (cells != refined && fits(*mesh))
-        {
-          refined = std::move(cells);
-          continue;
-        }
-      for (const auto &line : found.lines)
-        context.out() << "warning: " << line << std::endl;
-      return;
-    }
 }
 
 /// As many as faces that meet may be levels apart at first, or nearly so. Where the cells of two
@@ -292,22 +259,6 @@ void Adaptation<dim>::add(const std::vector<dealii::CellId> &marked, RefinedCell
   for (const auto &cell : marked)
     if (mesh::level(cell) < scene.accuracy.maximum_levels)
       mesh::refine(cell, cells);
-}
-
-/// The part of pressures that gaps between nodes may change: of responses that are not made of
-/// pressures, they change little. Collective.
-template <int dim>
-double Adaptation<dim>::rough_part() const
-{
-  double                              least  = 0.1;
-  const auto                         &solver = *solved->problem->solver;
-  std::vector<response::PressureRows> none(solver.contact().pairs().size());
-  for (unsigned int d = 0; d < demands.size(); ++d)
-    if (solved->responses[demands[d].place]->measured(solver, none))
-      least = std::min(least, 0.25 * demands[d].allowed(solved->measured[d]) /
-                                std::max(std::abs(solved->measured[d].value),
-                                         std::numeric_limits<double>::min()));
-  return least;
 }
 
 /// Cells of contacts of too few faces, and of gaps that have more than these. @return whether

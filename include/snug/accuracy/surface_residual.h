@@ -28,16 +28,18 @@ std::vector<UnseenVolume> unseen_volumes(const mesh::BodyMesh<dim> &mesh);
  * The pressure that roughness of the gap would make where it is finer than faces: on a face
  * @f[ q = \tfrac12 E^* \max|\nabla r|,\qquad
  *     1/E^* = (1 - \nu_1^2)/E_1 + (1 - \nu_2^2)/E_2, @f]
- * r what the gap has beyond the polynomial of degree surface_degree through it, of both sides and
- * `Gap`. Of a wave of amplitude d and length l this is pi E^* d / l, its pressure in full contact.
- * Faces count where the gap, with r, closes.
+ * r what the gap has beyond the quadratic polynomial through it, of `Gap` and of both sides, unless
+ * these lie on spheres and the like. Of a wave of amplitude d and length l this is pi E^* d / l,
+ * its pressure in full contact. Faces count where the gap, with r, closes.
  */
 struct RoughPressure
 {
-  std::string         pair;
-  double              missed = 0.; ///< sum of q dA over the force of the pair
-  std::vector<double> of_cells;    ///< its parts in the cells of this rank
-  std::vector<double> to_refine;   ///< the same, 0 on faces that are small beside the contact
+  std::string pair;
+  /// sum of ((1 + q/p)^4 - 1)/4 dA over the contact area, p the mean pressure: q dA over the
+  /// force of the pair where q is small, and more of peaks
+  double              missed = 0.;
+  std::vector<double> of_cells;  ///< its parts in the cells of this rank
+  std::vector<double> to_refine; ///< the same, 0 on faces that are small beside the contact
 };
 
 /// Of all pairs. Collective.
