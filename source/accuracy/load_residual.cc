@@ -84,6 +84,22 @@ std::vector<dealii::Tensor<1, dim>> difference(Integral<dim> fine, const Integra
 } // namespace
 
 template <int dim>
+std::function<unsigned int(unsigned int level)> samples_of_level(const mesh::BodyMesh<dim> &mesh,
+                                                                 const Sampling sampling)
+{
+  const unsigned int n_least = dim == 2 ? 16 : 4;
+  unsigned int       n_most  = n_least;
+  if (sampling == Sampling::search)
+    {
+      const double n_points = 2e5; // of all faces in space, about
+      const double n_faces =
+        dealii::Utilities::MPI::sum(double(mesh.boundary_faces().size()), mesh.communicator());
+      n_most = dim == 2 ? 256 : std::min(64., std::sqrt(n_points / n_faces));
+    }
+  return [n_least, n_most](const unsigned int level) { return std::max(n_least, n_most >> level); };
+}
+
+template <int dim>
 LoadResidual<dim>::LoadResidual(const mesh::BodyMesh<dim>  &mesh,
                                 const state::LoadCase<dim> &loads,
                                 const Field                &positions,
@@ -268,12 +284,14 @@ Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                     \
-  template class LoadResidual<dim>;                                                               \
-  template void       add_cells(const mesh::BodyMesh<dim> &, const std::vector<double> &, double, \
-                                double, Unresolved &);                                            \
-  template Unresolved unresolved_data(const mesh::BodyMesh<dim> &,                                \
-                                      const std::vector<state::LoadCase<dim>> &,                  \
+#define SNUG_INSTANTIATE(dim)                                                                      \
+  template std::function<unsigned int(unsigned int)> samples_of_level(const mesh::BodyMesh<dim> &, \
+                                                                      Sampling);                   \
+  template class LoadResidual<dim>;                                                                \
+  template void       add_cells(const mesh::BodyMesh<dim> &, const std::vector<double> &, double,  \
+                                double, Unresolved &);                                             \
+  template Unresolved unresolved_data(const mesh::BodyMesh<dim> &,                                 \
+                                      const std::vector<state::LoadCase<dim>> &,                   \
                                       const std::vector<std::string> &, double);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

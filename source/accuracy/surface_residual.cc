@@ -170,22 +170,6 @@ private:
 };
 } // namespace
 
-template <int dim>
-std::function<unsigned int(unsigned int level)> samples_of_level(const mesh::BodyMesh<dim> &mesh,
-                                                                 const Sampling sampling)
-{
-  const unsigned int n_least = dim == 2 ? 16 : 4;
-  unsigned int       n_most  = n_least;
-  if (sampling == Sampling::search)
-    {
-      const double n_points = 2e5; // of all faces in space, about
-      const double n_faces =
-        dealii::Utilities::MPI::sum(double(mesh.boundary_faces().size()), mesh.communicator());
-      n_most = dim == 2 ? 256 : std::min(64., std::sqrt(n_points / n_faces));
-    }
-  return [n_least, n_most](const unsigned int level) { return std::max(n_least, n_most >> level); };
-}
-
 namespace {
 /// Volumes of bodies by their boundaries, and those between faces and what is seen of them.
 template <int dim>
@@ -299,22 +283,24 @@ private:
   double                     force = 0., contact_area = 0.; ///< of what pushes
   std::vector<double>        gaps; ///< at surface nodes, the least of the rows there, or infinite
 
-  /// @p compliance += (1 - nu^2) / E, the largest of its bodies.
+  /// @p compliance += (1 - nu^2) / E, the least of the cells there. Collective.
   static Boundaries side(const state::StateSolver<dim>   &solver,
                          const std::vector<unsigned int> &faces,
                          double                          &compliance)
   {
     Boundaries result;
-    double     largest = 0.;
     for (const unsigned int face : faces)
-      {
-        const auto &of = solver.surface().faces()[face];
-        if (result.emplace(of.body, of.boundary).second)
-          for (const auto &material : solver.model().bodies[of.body].materials)
-            largest = std::max(largest, (1. - material.poissons_ratio * material.poissons_ratio) /
-                                          material.youngs_modulus);
-      }
-    compliance += largest;
+      result.emplace(solver.surface().faces()[face].body, solver.surface().faces()[face].boundary);
+    double least = std::numeric_limits<double>::max();
+    for (const auto &face : solver.mesh().boundary_faces())
+      if (result.count({face.body, face.boundary}) > 0)
+        {
+          const auto &material =
+            solver.model().bodies[face.body].material(solver.mesh().cells()[face.cell]);
+          const double nu = material.poissons_ratio;
+          least           = std::min(least, (1. - nu * nu) / material.youngs_modulus);
+        }
+    compliance += dealii::Utilities::MPI::min(least, solver.mesh().communicator());
     return result;
   }
 
@@ -390,13 +376,11 @@ Unresolved unresolved_gaps(const state::StateSolver<dim>  &solver,
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                      \
-  template std::function<unsigned int(unsigned int)> samples_of_level(const mesh::BodyMesh<dim> &, \
-                                                                      Sampling);                   \
-  template std::vector<UnseenVolume>                 unseen_volumes(const mesh::BodyMesh<dim> &);  \
-  template std::vector<RoughPressure> rough_pressures(const state::StateSolver<dim> &,             \
-                                                      const state::ContactState<dim> &);           \
-  template Unresolved                 unresolved_gaps(const state::StateSolver<dim> &,             \
+#define SNUG_INSTANTIATE(dim)                                                            \
+  template std::vector<UnseenVolume>  unseen_volumes(const mesh::BodyMesh<dim> &);       \
+  template std::vector<RoughPressure> rough_pressures(const state::StateSolver<dim> &,   \
+                                                      const state::ContactState<dim> &); \
+  template Unresolved                 unresolved_gaps(const state::StateSolver<dim> &,   \
                                                       const state::ContactState<dim> &, double);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -5,6 +5,8 @@
 
 #include <deal.II/grid/cell_id.h>
 
+#include <functional>
+
 namespace snug::accuracy {
 /// How densely formulas are sampled, in parts of a face or cell per direction.
 enum class Sampling
@@ -12,6 +14,11 @@ enum class Sampling
   search, ///< as densely as features of a hundredth of a coarse face ask for
   measure ///< 16 times as many points as the mesh has on a face
 };
+
+/// The number of parts per direction of a face at a level above its coarse face. Collective.
+template <int dim>
+std::function<unsigned int(unsigned int level)> samples_of_level(const mesh::BodyMesh<dim> &mesh,
+                                                                 Sampling sampling);
 
 /**
  * The part of the loads that the quadrature of a mesh misses where pressures, tractions and body

@@ -4,14 +4,7 @@
 #include <snug/accuracy/load_residual.h>
 #include <snug/state/state_solver.h>
 
-#include <functional>
-
 namespace snug::accuracy {
-/// The number of parts per direction of a face at a level above its coarse face. Collective.
-template <int dim>
-std::function<unsigned int(unsigned int level)> samples_of_level(const mesh::BodyMesh<dim> &mesh,
-                                                                 Sampling sampling);
-
 /// The volume between the true surface of a body and the polynomials of degree surface_degree
 /// through it on each face, over the volume of the body.
 struct UnseenVolume
