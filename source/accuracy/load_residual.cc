@@ -255,6 +255,9 @@ std::string percent(const double part)
   return text.str();
 }
 
+/// The part of the volume of a body that its surface may hide.
+const double unseen_part = 0.05;
+
 template <int dim>
 Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
                            const std::vector<state::LoadCase<dim>> &loads,
@@ -275,9 +278,9 @@ Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
         }
   const auto volumes = unseen_volumes(mesh);
   for (unsigned int body = 0; body < volumes.size(); ++body)
-    if (volumes[body].missed > share)
+    if (volumes[body].missed > unseen_part)
       {
-        add_cells(mesh, volumes[body].of_cells, volumes[body].missed, share, result);
+        add_cells(mesh, volumes[body].of_cells, volumes[body].missed, unseen_part, result);
         result.lines.push_back("the mesh does not resolve the surface of " + body_names[body] +
                                ": it misses " + percent(volumes[body].missed) + " of the volume");
       }

@@ -8,8 +8,19 @@
 
 namespace snug::app {
 namespace {
-/// The part of loads, of volumes and of pressures that the first mesh may miss.
-const double resolved_part = 0.05;
+/// The part of loads that the first mesh may miss: where loads jump, this error falls unevenly from
+/// mesh to mesh, and so it is made small beside the targets at once.
+double missed_loads(const scene::Scene &scene)
+{
+  const double least = 0.002;
+  double       part  = 0.05;
+  for (const auto &of_response : scene.accuracy.targets)
+    {
+      const auto target = accuracy::read_target(of_response.second);
+      part              = std::min(part, target.relative ? 0.25 * target.value : 0.01);
+    }
+  return std::max(part, least);
+}
 } // namespace
 
 /// A first mesh that has the loads and the surfaces of the scene, of which states and estimates see
@@ -28,7 +39,7 @@ void Adaptation<dim>::resolve_data()
         names.push_back(body.name);
       const auto found = made_of(scene, [&]() {
         return accuracy::unresolved_data(*mesh, build_load_cases(with, *mesh), names,
-                                         resolved_part);
+                                         missed_loads(scene));
       });
       add(found.cells, cells);
       if (cells != refined && fits(*mesh))

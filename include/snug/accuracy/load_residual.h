@@ -94,7 +94,7 @@ void add_cells(const mesh::BodyMesh<dim> &mesh,
 std::string percent(double part);
 
 /// The cells to refine until each load case misses at most the part @p share of each entry of its
-/// loads, and the true surfaces of bodies the same part of their volumes. Collective.
+/// loads, and the true surfaces of bodies 5 % of their volumes. Collective.
 template <int dim>
 Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
                            const std::vector<state::LoadCase<dim>> &loads,
