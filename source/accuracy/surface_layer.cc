@@ -106,9 +106,9 @@ SurfaceLayer<dim>::locals(const Face                 &face,
                   elasticity::value(shape, v),
                   change(delta),
                   change((delta * normal) * normal),
-                  {},
-                  {},
-                  {}};
+                       {},
+                       {},
+                       {}};
       if (is_supported(face))
         local.same = traction<dim>(fluxes[q], on_face.area);
       else

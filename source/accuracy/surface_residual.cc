@@ -262,11 +262,11 @@ public:
         const auto   area  = sampler.area(face);
         const double dA    = area.norm() * mesh.idealization().weight(sampler.centre(face));
         const auto   found = sampler(
-            face,
-            [&](const dealii::Tensor<1, dim> &x) {
+          face,
+          [&](const dealii::Tensor<1, dim> &x) {
             return (is_slave ? given.given(x) : 0.) - (is_smooth ? 0. : area * x / area.norm());
           },
-            at_nodes);
+          at_nodes);
         const double part = this->part(found, std::pow(area.norm(), 1. / (dim - 1)), dA);
         to.of_cells[face.cell] += part;
         to.to_refine[face.cell] += dA > small_face * contact_area ? part : 0.;

@@ -68,7 +68,7 @@ double area_of(const mesh::BodyMesh<dim> &mesh, const mesh::Surface<dim> &surfac
     faces.push_back(f);
   const faces::FaceShape<dim> shape(mesh.degree());
   const auto                  areas = faces::tributary_areas<dim>({surface, faces, shape},
-                                                 surface.gather(mesh.reference_positions()));
+                                                                  surface.gather(mesh.reference_positions()));
   double                      sum   = 0.;
   for (unsigned int node = 0; node < areas.size(); ++node)
     if (surface.masters(node).empty())

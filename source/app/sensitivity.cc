@@ -152,8 +152,8 @@ void Sensitivity<dim>::add_one_sided()
   const double        start  = problem.context.seconds();
   const unsigned long before = problem.context.work.f_mults;
   const auto          found  = sensitivity::combined_one_sided_gradients(
-              problem.load_cases(states, problem.shapes->start(), problem.scene.gradient), *problem.objective,
-              problem.combined_objective(states).factors);
+    problem.load_cases(states, problem.shapes->start(), problem.scene.gradient), *problem.objective,
+    problem.combined_objective(states).factors);
   io::Summary::GradientRow row; // each is half of the work
   row.f_mults = (problem.context.work.f_mults - before) / 2;
   row.seconds = (problem.context.seconds() - start) / 2;

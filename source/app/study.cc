@@ -281,9 +281,9 @@ void warn_of_unused_petsc_options(RunContext &context)
 void reserve_blas_buffer()
 {
   const std::size_t more_than_it_takes = std::size_t(256) << 20;
-  ::                operator delete(::operator new(more_than_it_takes));
-  PetscBLASInt      n   = 1, info;
-  double            one = 1.;
+  ::operator delete(::operator new(more_than_it_takes));
+  PetscBLASInt n   = 1, info;
+  double       one = 1.;
   LAPACKpotrf_("L", &n, &one, &n, &info);
 }
 } // namespace

@@ -17,9 +17,9 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair) : positions(pair.positi
     }
   master_faces = pair.sides.master;
   normals      = std::make_unique<SupportedNormals<dim>>(pair.surface, master_faces, pair.shape,
-                                                    positions, pair.held);
+                                                         positions, pair.held);
   projector    = std::make_unique<Projector<dim>>(pair.surface, master_faces, pair.shape, positions,
-                                               normals->normals());
+                                                  normals->normals());
   if (parameters.method == Method::mortar)
     {
       slave_faces   = pair.sides.slave;

@@ -47,7 +47,7 @@ public:
   ~DoubleTuple() { MPI_Type_free(&type); }
   DoubleTuple(const DoubleTuple &)            = delete;
   DoubleTuple &operator=(const DoubleTuple &) = delete;
-               operator MPI_Datatype() const { return type; }
+  operator MPI_Datatype() const { return type; }
 
 private:
   MPI_Datatype type;

@@ -231,7 +231,7 @@ void TotalFeti::find_soft_modes()
   run.out() << "soft modes: " << counts[0] << " of " << counts[1] << " subdomains, the softest "
             << largest << " times stiffer by its jumps" << std::endl;
   deflation          = std::make_unique<Deflation>(systems, layout, coarse.subdomains(),
-                                          parameters.coarse_ranks, forces);
+                                                   parameters.coarse_ranks, forces);
   deflation_outdated = true;
 }
 

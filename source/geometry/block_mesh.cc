@@ -95,9 +95,8 @@ bool is_consistent(const std::vector<dealii::CellData<dim>> &cells)
     for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
       edges.emplace(cell.vertices[Info::line_to_cell_vertices(e, 0)],
                     cell.vertices[Info::line_to_cell_vertices(e, 1)]);
-  return std::none_of(edges.begin(), edges.end(), [&](const auto &edge) {
-    return edges.count({edge.second, edge.first}) > 0;
-  });
+  return std::none_of(edges.begin(), edges.end(),
+                      [&](const auto &edge) { return edges.count({edge.second, edge.first}) > 0; });
 }
 
 /// Of the blocks; for dim = 2 and blocks in 3D, the quadrilaterals at their bottoms.

@@ -110,9 +110,10 @@ double to_number(const std::string &word, const unsigned long line)
 unsigned long to_whole(const std::string &word, const unsigned long line)
 {
   // stoul would take a sign and throw its own error on overflow; 18 digits always fit
-  const bool good = !word.empty() && word.size() < 19 &&
-                    std::all_of(word.begin(), word.end(),
-                                [](const unsigned char c) { return std::isdigit(c) != 0; });
+  const bool good =
+    !word.empty() && word.size() < 19 &&
+    std::all_of(
+      word.begin(), word.end(), [](const unsigned char c) { return std::isdigit(c) != 0; });
   if (!good)
     throw error_at_line(line, "'" + word + "' is no whole number");
   return std::stoul(word);

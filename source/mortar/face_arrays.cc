@@ -66,8 +66,8 @@ void add_offset_gradient(const typename mesh::Surface<dim>::Face &face,
   template FaceNodes<dim, faces::Differential<1>> node_arrays<dim>(                                              \
     const mesh::Surface<dim>::Field &, const mesh::Surface<dim>::Field &);                                       \
   template MortarFace<dim, double>                 mortar_face<dim>(const mesh::Surface<dim> &,                  \
-                                                    const faces::FaceShape<dim> &, unsigned int, \
-                                                    const FaceNodes<dim, double> &);             \
+                                                                    const faces::FaceShape<dim> &, unsigned int, \
+                                                                    const FaceNodes<dim, double> &);             \
   template MortarFace<dim, faces::Differential<1>> mortar_face<dim>(                                             \
     const mesh::Surface<dim> &, const faces::FaceShape<dim> &, unsigned int,                                     \
     const FaceNodes<dim, faces::Differential<1>> &);                                                             \

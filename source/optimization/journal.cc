@@ -199,9 +199,8 @@ Evaluation Journal::evaluate(const DesignProblem &problem, const std::vector<dou
   if (!is_known)
     {
       go_live(problem, false);
-      const auto value = recorded_live(
-        problem, x, [&] { return problem.evaluate(x); }, true);
-      last = x;
+      const auto value = recorded_live(problem, x, [&] { return problem.evaluate(x); }, true);
+      last             = x;
       return value;
     }
   last = x;

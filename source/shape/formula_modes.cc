@@ -60,8 +60,7 @@ dealii::Tensor<1, dim> FormulaFields<dim>::value(const unsigned int            i
 template <int dim>
 Modes<dim> formula_modes(const ShapedFace<dim> &face, const ShapeParameters &parameters)
 {
-  return modes_at<dim>(
-    face.positions(), [](unsigned int) { return true; }, parameters);
+  return modes_at<dim>(face.positions(), [](unsigned int) { return true; }, parameters);
 }
 
 template <int dim>

@@ -77,7 +77,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
     check_radii(mesh, model.body_names);
   everywhere(context.communicator(), [&]() { check_reference(*this); });
   held    = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
-                                                               model.load_cases.size(), positions);
+                                                                  model.load_cases.size(), positions);
   contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
                                                     surface.gather(positions),
                                                     held->directions(surface, positions));

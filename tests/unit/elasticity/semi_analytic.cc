@@ -109,7 +109,7 @@ TYPED_TEST(SemiAnalyticDerivatives, RefinedOnesAreExactForRigidMotions)
       const auto error  = [&](const bool refined) {
         return distance<dim>(this->differences(of, Differences::forward, refined, 1e-2, this->V,
                                                 motion),
-                             exact);
+                              exact);
       };
       const double size = norm<dim>(this->exact(of, this->V, this->u));
       EXPECT_LT(error(true), 1e-12 * size) << of.name();

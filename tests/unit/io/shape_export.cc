@@ -66,7 +66,7 @@ TEST(SurfaceExport, FlatFaceHasItsAreaAndPointsOut)
         {
           const auto surface = surface_of(mesh, face.first);
           const auto stl     = read_stl(
-                io::surface_text(surface, surface.gather(mesh.reference_positions()), face.first));
+            io::surface_text(surface, surface.gather(mesh.reference_positions()), face.first));
           EXPECT_EQ(stl.triangles, 2 * degree * degree * surface.faces().size());
           EXPECT_NEAR(stl.area, 1., 1e-12) << face.first;
           EXPECT_NEAR((stl.area_vector - face.second).norm(), 0., 1e-12) << face.first;

@@ -68,15 +68,15 @@ inline Vtu read_vtu(const std::string &text)
   for (auto at = text.find("<DataArray"); at != std::string::npos;
        at      = text.find("<DataArray", at + 1))
     {
-           const auto end       = text.find('>', at);
-           const auto array_tag = text.substr(at, end - at);
-           if (xml_attribute(array_tag, "type") != "Float32")
+      const auto end       = text.find('>', at);
+      const auto array_tag = text.substr(at, end - at);
+      if (xml_attribute(array_tag, "type") != "Float32")
         continue;
       const auto name       = xml_attribute(array_tag, "Name");
-           const auto components = xml_attribute(array_tag, "NumberOfComponents");
-           vtu.components[name]  = components.empty() ? 1 : std::stoul(components);
-           vtu.arrays[name] =
-             decode_vtu_array(text.substr(end + 1, text.find("</DataArray>", end) - end - 1));
+      const auto components = xml_attribute(array_tag, "NumberOfComponents");
+      vtu.components[name]  = components.empty() ? 1 : std::stoul(components);
+      vtu.arrays[name] =
+        decode_vtu_array(text.substr(end + 1, text.find("</DataArray>", end) - end - 1));
     }
   return vtu;
 }

@@ -43,7 +43,7 @@ GridText wall(const Vector                                               &axis,
     const double phi = 1.75 * uneven(u[0], n);
     const auto   rz  = section(uneven(u[1], n), u[2]);
     return Point<3>(Vector({3., -2., 1.}) + rz[0] * (std::cos(phi) * e[0] + std::sin(phi) * e[1]) +
-                    rz[1] * e[2]);
+                          rz[1] * e[2]);
   };
   return grid;
 }
@@ -201,14 +201,15 @@ TEST(CurvedSurfaces, SurfacesOfRevolutionAreRecognized)
                           Kind::cone, convex, [&](const Point<3> &x) {
                             return (radial(x)[0] - 1. - radial(x)[1] / 2.) * 2. / std::sqrt(5.);
                           });
-        expect_recognized(
-          wall(axis, 10, simplices,
-               [&](double v, double w) {
-                 const double t = 0.3 + 1.5 * v, r = 1. + depth(w);
-                 return std::array<double, 2>{{4. + r * std::sin(t), r * std::cos(t)}};
-               }),
-          Kind::torus, convex,
-          [&](const Point<3> &x) { return std::hypot(radial(x)[0] - 4., radial(x)[1]) - 1.; });
+        expect_recognized(wall(axis, 10, simplices,
+                               [&](double v, double w) {
+                                 const double t = 0.3 + 1.5 * v, r = 1. + depth(w);
+                                 return std::array<double, 2>{
+                                   {4. + r * std::sin(t), r * std::cos(t)}};
+                               }),
+                          Kind::torus, convex, [&](const Point<3> &x) {
+                            return std::hypot(radial(x)[0] - 4., radial(x)[1]) - 1.;
+                          });
       }
 }
 

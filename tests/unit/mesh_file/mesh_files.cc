@@ -233,7 +233,7 @@ TEST(MeshFiles, CurvedBoundariesThatMeetLeaveNoGaps)
             const unsigned int a = Info::line_to_cell_vertices(e, 0),
                                b = Info::line_to_cell_vertices(e, 1);
             const auto x         = geometry->position(
-                      {c, Info::unit_cell_vertex(a) +
+              {c, Info::unit_cell_vertex(a) +
                             (Info::unit_cell_vertex(b) - Info::unit_cell_vertex(a)) / 2.});
             const auto entry = middles.emplace(std::set<unsigned int>{cells[c][a], cells[c][b]}, x);
             EXPECT_NEAR(x.distance(entry.first->second), 0., 1e-14) << x;

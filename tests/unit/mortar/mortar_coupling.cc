@@ -246,7 +246,7 @@ void expect_derivatives(unsigned int degree, const MultiplierFunctions &function
   const auto integrals  = integrate<dim>(quadrature, faces.slave, faces.masters);
   const auto weights    = random_vector(exact.size());
   const auto gradient   = integrate_transpose<dim>(quadrature, faces.slave, faces.masters,
-                                                 by_integrals(weights, integrals, functions));
+                                                   by_integrals(weights, integrals, functions));
   Faces<dim> reverse    = faces;
   reverse.slave         = gradient.slave;
   reverse.masters       = gradient.masters;

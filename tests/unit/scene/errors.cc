@@ -296,27 +296,21 @@ TEST(Check, FindsNumbersThatAreNoneInScenesFromPrograms)
 {
   const double nan      = std::numeric_limits<double>::quiet_NaN();
   const auto   spoilers = {
-      +[](scene::Scene &s, double x) { s.bodies[0].mesh.corner[1] = x; },
-      +[](scene::Scene &s, double x) { s.bodies[0].mesh.size[1] = x; },
-      +[](scene::Scene &s, double x) { s.bodies[1].mesh.grading[0] = x; },
-      +[](scene::Scene &s, double x) { s.bodies[1].material.youngs_modulus = x; },
-      +[](scene::Scene &s, double x) { s.bodies[1].material.poissons_ratio = x; },
-      +[](scene::Scene &s, double x) { s.bodies[0].material.density = x; },
-      +[](scene::Scene &s, double x) {
-      s.gravity = {0., 0., x};
-    },
-      +[](scene::Scene &s, double x) {
-      s.bodies[0].loads.force["top"] = {0., x, 0.};
-    },
-      +[](scene::Scene &s, double x) {
-      s.bodies[0].loads.moment["top"] = {0., x, 0.};
-    },
-      +[](scene::Scene &s, double x) { s.shapes[0].bounds[1] = x; },
-      +[](scene::Scene &s, double x) { s.shapes[0].initial.assign(6, x); },
-      +[](scene::Scene &s, double x) { s.shapes[0].direction[2] = x; },
-      +[](scene::Scene &s, double x) { s.state_tolerance = x; },
-      +[](scene::Scene &s, double x) { s.gradient.step = x; },
-      +[](scene::Scene &s, double x) { s.optimization.design_tolerance = x; }};
+    +[](scene::Scene &s, double x) { s.bodies[0].mesh.corner[1] = x; },
+    +[](scene::Scene &s, double x) { s.bodies[0].mesh.size[1] = x; },
+    +[](scene::Scene &s, double x) { s.bodies[1].mesh.grading[0] = x; },
+    +[](scene::Scene &s, double x) { s.bodies[1].material.youngs_modulus = x; },
+    +[](scene::Scene &s, double x) { s.bodies[1].material.poissons_ratio = x; },
+    +[](scene::Scene &s, double x) { s.bodies[0].material.density = x; },
+    +[](scene::Scene &s, double x) { s.gravity = {0., 0., x}; },
+    +[](scene::Scene &s, double x) { s.bodies[0].loads.force["top"] = {0., x, 0.}; },
+    +[](scene::Scene &s, double x) { s.bodies[0].loads.moment["top"] = {0., x, 0.}; },
+    +[](scene::Scene &s, double x) { s.shapes[0].bounds[1] = x; },
+    +[](scene::Scene &s, double x) { s.shapes[0].initial.assign(6, x); },
+    +[](scene::Scene &s, double x) { s.shapes[0].direction[2] = x; },
+    +[](scene::Scene &s, double x) { s.state_tolerance = x; },
+    +[](scene::Scene &s, double x) { s.gradient.step = x; },
+    +[](scene::Scene &s, double x) { s.optimization.design_tolerance = x; }};
   const scene::Scene good = read_with({});
   EXPECT_NO_THROW(scene::check(good));
   unsigned int number = 0;

@@ -274,9 +274,8 @@ TEST(Patch, RejectsBadEntriesByName)
   expect("Face", "body.face", [](P &p) { p.face = "foundation"; });
   expect("Face", "body.face", [](P &p) { p.face = ""; });
   expect("Control points", "2 numbers", [](P &p) { p.control_points = {3}; });
-  expect("Control points", "at least one more than 'Degree'", [](P &p) {
-    p.control_points = {3, 2};
-  });
+  expect("Control points", "at least one more than 'Degree'",
+         [](P &p) { p.control_points = {3, 2}; });
   expect("Control points", "50", [](P &p) {
     p.basis          = "Bezier patch";
     p.control_points = {3, 51};

@@ -32,7 +32,7 @@ Answer answer(const TestScene<3> &scene)
   Problem<3> problem(scene);
   const auto state = problem.solve();
   Answer     result{state.energy, state.compliance,  state.strain_energy, state.contact_force,
-                {},           state.certificate, state.max_pressure};
+                    {},           state.certificate, state.max_pressure};
   // by slave position: the numbers of nodes depend on ranks
   const auto &surface = problem.solver.surface();
   const auto  x       = surface.gather(problem.mesh.reference_positions());
@@ -84,10 +84,10 @@ TEST(StateInvariance, PreconditionersAndPackages)
   auto                                    scene     = hertz_scene(1e-9);
   const auto                              reference = answer(scene);
   const std::vector<feti::FetiParameters> choices   = {
-      {Factorization::MUMPS, Preconditioner::Dirichlet, Scaling::stiffness},
-      {Factorization::CHOLMOD, Preconditioner::Dirichlet, Scaling::multiplicity},
-      {Factorization::CHOLMOD, Preconditioner::lumped, Scaling::stiffness},
-      {Factorization::CHOLMOD, Preconditioner::none, Scaling::stiffness}};
+    {Factorization::MUMPS, Preconditioner::Dirichlet, Scaling::stiffness},
+    {Factorization::CHOLMOD, Preconditioner::Dirichlet, Scaling::multiplicity},
+    {Factorization::CHOLMOD, Preconditioner::lumped, Scaling::stiffness},
+    {Factorization::CHOLMOD, Preconditioner::none, Scaling::stiffness}};
   for (const auto &choice : choices)
     {
       SCOPED_TRACE(to_text(choice.factorization) + " " + to_text(choice.preconditioner) + " " +
