@@ -25,8 +25,10 @@ void AccuracyParameters::declare(Entries &entries)
     "Contact faces", contact_faces, between(2., 100.),
     "A contact of fewer faces across is refined, whatever its estimated error, for targets "
     "that read pressures: measures of them and von Mises norms.");
-  entries.add("Verify", verify,
-              "Of a state: also solve the mesh with all cells refined, and compare.");
+  entries.add("Verify", verify, allowed("auto, true or false"),
+              "Whether a state with targets is also solved on the mesh with all cells refined, and "
+              "compared. If a target is missed there, that mesh is the next one. auto: where the "
+              "finer mesh has at most 10,000 unknowns.");
 }
 
 void AccuracyParameters::check(const SectionCheck &section) const
@@ -35,7 +37,7 @@ void AccuracyParameters::check(const SectionCheck &section) const
     section.require(good, "Target", to_text(targets), allowed);
   };
   require(targets.empty() || estimate != Estimate::none, "must be empty for 'Estimate' none");
-  section.require(!targets.empty() || !verify, "Verify", to_text(verify),
+  section.require(!targets.empty() || !verify.value_or(false), "Verify", to_text(verify),
                   "must be left out without 'Target'");
   for (const auto &[name, text] : targets)
     try

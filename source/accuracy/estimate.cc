@@ -2,6 +2,7 @@
 #include <snug/accuracy/gap_residual.h>
 #include <snug/accuracy/local_errors.h>
 #include <snug/accuracy/surface_layer.h>
+#include <snug/accuracy/surface_residual.h>
 #include <snug/base/errors.h>
 #include <snug/mesh/shared_nodes.h>
 #include <snug/sensitivity/methods.h>
@@ -18,7 +19,7 @@ namespace snug::accuracy {
 double ResponseEstimate::error() const
 {
   return std::max({std::abs(cells + contact), std::abs(cells) / 2., std::abs(contact) / 2.}) +
-         std::abs(reading);
+         std::abs(reading) + data;
 }
 
 namespace {
@@ -268,6 +269,23 @@ EnergyEstimate energy_estimate(const state::ContactState<dim> &state, const Prod
   return result;
 }
 
+namespace {
+/// Add parts of an error that is of the data, with a @p factor.
+void add_data(const std::vector<double> &of_cells,
+              const double               factor,
+              MPI_Comm                   comm,
+              ResponseEstimate          &to)
+{
+  double sum = 0.;
+  for (unsigned int cell = 0; cell < of_cells.size(); ++cell)
+    {
+      sum += of_cells[cell];
+      to.indicators[cell] += std::abs(factor * of_cells[cell]);
+    }
+  to.data += std::abs(factor * dealii::Utilities::MPI::sum(sum, comm));
+}
+} // namespace
+
 /// The adjoint of the energy is the state itself, with the opposite sign: no local problem of its
 /// own. Pressures of rows are of second order, which at degree 2 is less than displacements have:
 /// there products of errors are as large as what rows do more than pressures, which is left out,
@@ -308,8 +326,11 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
         std::max(result.adjoint_excess, products.excess(place[j], adjoints.norm(j)));
   if (responses.empty())
     return result;
-  const GapResidual<dim> gaps(solver, state);
-  const auto             layer = SurfaceLayer<dim>(solver, state).works(all);
+  const GapResidual<dim>     gaps(solver, state);
+  const auto                 layer = SurfaceLayer<dim>(solver, state).works(all);
+  const LoadResidual<dim>    loads(solver.mesh(), solver.model().load_cases[state.load_case],
+                                   state.positions, Sampling::measure);
+  std::vector<RoughPressure> rough;
   for (unsigned int j = 0; j < n; ++j)
     {
       const bool          is_geometry = !responses[j]->needs_solution();
@@ -327,7 +348,20 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
       if (is_linear && place[j] > 0)
         one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
       if (const auto read = responses[j]->measured(solver, gaps.pressures(all[0].pressures)))
-        (is_linear ? one.contact : one.reading) += *read - responses[j]->value(solver, state);
+        {
+          const double value = responses[j]->value(solver, state);
+          (is_linear ? one.contact : one.reading) += *read - value;
+          if (rough.empty())
+            rough = rough_pressures(solver, state);
+          for (const auto &of_pair : rough)
+            add_data(of_pair.of_cells, value, solver.mesh().communicator(), one);
+        }
+      // J depends on loads by the state and, where it has their work, by itself
+      if (!is_geometry)
+        add_data(loads.works(responses[j]->stationary()
+                               ? z.displacement
+                               : sum(z.displacement, s + z.loads, all[0].displacement)),
+                 1., solver.mesh().communicator(), one);
       result.estimates.responses.push_back(std::move(one));
     }
   return result;

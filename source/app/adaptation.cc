@@ -1,3 +1,4 @@
+#include <snug/accuracy/surface_residual.h>
 #include <snug/accuracy/transfer.h>
 #include <snug/accuracy/trust.h>
 #include <snug/app/adaptation.h>
@@ -34,6 +35,7 @@ Adaptation<dim>::Adaptation(RunContext         &context,
       tolerance =
         std::min(tolerance, accuracy::step_tolerance(accuracy::read_target(target.second).value,
                                                      false, least()));
+  resolve_data();
   // in two steps: the first adds to the cells
   auto mesh = matched_mesh(refined);
   solved    = stage(std::move(mesh), refined, tolerance);
@@ -64,6 +66,16 @@ scene::Scene Adaptation<dim>::adapted_scene() const
 }
 
 template <int dim>
+scene::Scene Adaptation<dim>::scene_with(const RefinedCells &cells) const
+{
+  auto       result = scene;
+  const auto given  = std::make_shared<const RefinedCells>(cells);
+  for (auto &body : result.bodies)
+    body.mesh.refined = given;
+  return result;
+}
+
+template <int dim>
 accuracy::Measured Adaptation<dim>::objective()
 {
   const auto combined = solved->problem->combined_objective(solved->states);
@@ -84,10 +96,8 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells
   const RunContext::Timer timer(context, "setup");
   for (unsigned int pass = 0;; ++pass)
     {
-      auto       with  = scene;
-      const auto given = std::make_shared<const RefinedCells>(cells);
-      for (auto &body : with.bodies)
-        body.mesh.refined = given;
+      const auto                  given = cells;
+      const auto                  with  = scene_with(cells);
       auto                        mesh  = build_mesh<dim>(with, context.communicator());
       const auto                  pairs = build_model(with, *mesh).pairs;
       const mesh::Surface<dim>    surface(*mesh, contact::boundaries_of(pairs));
@@ -98,9 +108,9 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells
                                         contact::coarse_faces(surface, shape, joined.pair,
                                                               surface.reference_positions()))),
             cells);
-      if (cells == *given || pass == most_passes)
+      if (cells == given || pass == most_passes)
         {
-          cells = *given;
+          cells = given;
           return mesh;
         }
     }
@@ -110,10 +120,7 @@ template <int dim>
 std::unique_ptr<typename Adaptation<dim>::Stage>
 Adaptation<dim>::stage(Mesh mesh, const RefinedCells &cells, const double tolerance)
 {
-  auto       result = std::make_unique<Stage>(Stage{scene});
-  const auto given  = std::make_shared<const RefinedCells>(cells);
-  for (auto &body : result->scene.bodies)
-    body.mesh.refined = given;
+  auto result                   = std::make_unique<Stage>(Stage{scene_with(cells)});
   result->scene.state_tolerance = tolerance;
   result->problem = std::make_unique<ShapeProblem<dim>>(context, result->scene, std::move(mesh));
   if (!at.empty())
@@ -262,11 +269,12 @@ bool Adaptation<dim>::reads_pressure() const
                      [](const auto &demand) { return demand.reads_pressure; });
 }
 
-/// Cells of contacts of too few faces, if a response reads their pressure, and of those all but
-/// closed. @return whether there are any. Collective.
+/// Cells of contacts of too few faces, if a response reads their pressure, of those all but closed,
+/// and of gaps that have more than these. @return whether there are any. Collective.
 template <int dim>
-bool Adaptation<dim>::add_doubtful(RefinedCells &cells) const
+bool Adaptation<dim>::add_doubtful(RefinedCells &cells)
 {
+  unresolved.clear();
   const auto &solver   = *solved->problem->solver;
   bool        doubtful = false;
   for (const auto &state : solved->states)
@@ -276,6 +284,11 @@ bool Adaptation<dim>::add_doubtful(RefinedCells &cells) const
                                  reads_pressure() ? scene.accuracy.contact_faces : 0.);
       doubtful = doubtful || !faces.empty();
       add(mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), cells);
+      auto       found  = accuracy::unresolved_gaps(solver, state, rough_part());
+      const auto before = cells.size();
+      add(found.cells, cells);
+      doubtful = doubtful || cells.size() > before;
+      std::move(found.lines.begin(), found.lines.end(), std::back_inserter(unresolved));
     }
   return doubtful;
 }
@@ -352,7 +365,11 @@ std::string Adaptation<dim>::reach(const double factor)
           for (unsigned int d = 0; d < demands.size(); ++d)
             summary.met = summary.met && is_met(d);
           if (summary.met && !is_rough())
-            return "";
+            {
+              for (const auto &line : unresolved)
+                context.out() << "warning: " << line << std::endl;
+              return "";
+            }
         }
       else if (n_doubtful > 1)
         add_marked_beside(cells);

@@ -99,44 +99,14 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
          (reads_pressure() && contact_faces(solved->states) < scene.accuracy.contact_faces
             ? " with too few faces across a contact"
             : "") +
-         "; " + advice;
-}
-
-/// What is left of the error of a mesh when all cells are refined is 4^-p of it.
-template <int dim>
-std::string Adaptation<dim>::verify()
-{
-  RefinedCells cells = refined;
-  add(mesh::all_cells(*solved->problem->mesh), cells);
-  auto mesh = matched_mesh(cells);
-  if (!fits(*mesh))
-    return "the finer mesh that verifies has " + std::to_string(unknowns(*mesh)) +
-           " unknowns; allow more 'Maximum unknowns', or leave out 'Verify'";
-  const auto   fine = solve_next(std::move(mesh), cells);
-  const double part = 1. - std::pow(4., -1. * scene.degree);
-  std::string  failure;
-  for (unsigned int d = 0; d < demands.size(); ++d)
-    {
-      const double value = fine->measured[d].value;
-      const double error = std::abs(value - solved->measured[d].value) / part;
-      const auto   text  = accuracy::text_of(demands[d].name, {solved->measured[d].value, error});
-      context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
-                    << std::endl;
-      summary.verified.push_back({demands[d].name, value, error});
-      if (error > demands[d].target.allowed(value))
-        failure = "the finer mesh says " + text + ": the target is missed; ask for less";
-    }
-  if (!failure.empty())
-    finer = cells;
-  return failure;
+         (unresolved.empty() ? "" : "; " + unresolved.front()) + "; " + advice;
 }
 
 #define SNUG_INSTANTIATE(dim)                                                    \
   template unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &); \
   template void          Adaptation<dim>::report(const Stage &);                 \
   template std::string   Adaptation<dim>::failure();                             \
-  template std::string   Adaptation<dim>::missed(const std::string &) const;     \
-  template std::string   Adaptation<dim>::verify();
+  template std::string   Adaptation<dim>::missed(const std::string &) const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -194,9 +194,7 @@ std::string run_adapted(RunContext &context, const scene::Scene &scene)
 {
   Adaptation<dim> adaptation(context, scene);
   io::remove_results(context, output_directories(scene));
-  auto complaint = adaptation.reach(1.);
-  if (complaint.empty() && scene.accuracy.verify)
-    complaint = adaptation.verify();
+  const auto   complaint = adaptation.settle();
   Results<dim> results(adaptation.problem());
   results.summary.task     = to_text(scene.task);
   results.summary.accuracy = adaptation.summary;

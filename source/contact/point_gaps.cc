@@ -92,6 +92,17 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
   return result;
 }
 
+template <int dim>
+double PointGaps<dim>::given(const dealii::Tensor<1, dim> &x) const
+{
+  const auto here   = dealii::Point<dim>(x);
+  double     result = offset ? offset->value(here) : 0.;
+  if (obstacle)
+    if (const auto d = obstacle->distance(here))
+      result += d->value;
+  return result;
+}
+
 template class PointGaps<2>;
 template class PointGaps<3>;
 } // namespace snug::contact

@@ -34,7 +34,6 @@ struct BodyMesh<dim>::Source
   dealii::FE_Q<dim>                                      fe;
   dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
   dealii::DoFHandler<dim>                                nodes;
-  geometry::CoarseCells<dim>                             coarse;
   std::vector<unsigned int>                              parts; ///< of the owned cells
   /// deal.II numbers nodes at vertices, on lines, faces and inside; ours are in tensor-product
   /// order
@@ -63,7 +62,7 @@ void BodyMesh<dim>::triangulate(const std::vector<geometry::BodyMeshParameters> 
   for (const auto &body : bodies)
     geometries.push_back(geometry::make_geometry<dim>(body));
   const CoarseMesh<dim> coarse(geometries);
-  source.coarse      = coarse.places;
+  places             = coarse.places;
   const auto by_size = cells_per_subdomain(dim, fe_degree, meaning);
   if (are_refined(bodies))
     {
@@ -113,7 +112,7 @@ void BodyMesh<dim>::collect_nodes(const Source &source)
             // nodes are scalar unknowns of FE_Q; bodies share none, so each has one body
             if (done[node])
               continue;
-            const auto point = source.coarse.point(cell->id(), source.fe.unit_support_point(i));
+            const auto point = places.point(cell->id(), source.fe.unit_support_point(i));
             done[node]       = true;
             node_body[node]  = body;
             logical[node]    = geometries[body]->logical(point);
@@ -166,7 +165,7 @@ void BodyMesh<dim>::collect_cells(const Source &source)
       {
         const unsigned int body = cell->material_id();
         mesh_cells.push_back({body, source.parts[mesh_cells.size()],
-                              geometries[body]->region(source.coarse.coarse_cell(cell->id())),
+                              geometries[body]->region(places.coarse_cell(cell->id())),
                               source.nodes_of(cell, relevant)});
         cell_ids.push_back(cell->id());
         for (const unsigned int f : cell->face_indices())
@@ -178,7 +177,7 @@ void BodyMesh<dim>::collect_cells(const Source &source)
                static_cast<unsigned int>(mesh_cells.size() - 1),
                f,
                oriented_face_nodes<dim>(mesh_cells.back().nodes, fe_degree, f),
-               geometries[body]->known_surface(source.coarse.coarse_cell(cell->id()), f),
+               geometries[body]->known_surface(places.coarse_cell(cell->id()), f),
                {}});
       }
   neighbours = owned_neighbours(source.triangulation);
@@ -201,7 +200,7 @@ void BodyMesh<dim>::collect_interior_faces(const Source &source)
         continue;
       const unsigned int body    = cell->material_id();
       other_cells[found->second] = {body, 0,
-                                    geometries[body]->region(source.coarse.coarse_cell(cell->id())),
+                                    geometries[body]->region(places.coarse_cell(cell->id())),
                                     source.nodes_of(cell, relevant)};
     }
 }
@@ -233,7 +232,7 @@ void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParamete
                 const unsigned int first = reference.size();
                 for (const unsigned int i : oriented_face_nodes<dim>(all, surface_degree, f))
                   {
-                    const auto point = source.coarse.point(cell->id(), lattice[i].point);
+                    const auto point = places.point(cell->id(), lattice[i].point);
                     face->samples.push_back(reference.size());
                     reference.push_back(geometry.position(point));
                     logical.push_back(geometry.logical(point));

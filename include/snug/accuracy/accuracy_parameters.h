@@ -3,6 +3,8 @@
 
 #include <snug/base/values.h>
 
+#include <optional>
+
 namespace snug {
 class Entries;
 class SectionCheck;
@@ -34,7 +36,8 @@ struct AccuracyParameters
   double       maximum_unknowns = 2e6;
   double       marking_share    = 0.7; ///< of the error, refined at once
   double       contact_faces    = 8.;  ///< across a contact, before estimates are trusted
-  bool         verify           = false;
+  /// states with targets on a finer mesh; none: where it is cheap
+  std::optional<bool> verify = {};
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;

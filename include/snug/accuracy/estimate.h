@@ -32,10 +32,13 @@ struct ResponseEstimate
   double cells   = 0.; ///< the sum over cells, less what lies beyond their faces, signed
   double contact = 0.; ///< the integrals, the sum over rows and the last difference, signed
   double reading = 0.; ///< the last difference, where it is not in contact
+  /// size of what the mesh misses of data: the work of LoadResidual on the adjoint and, of
+  /// pressures, RoughPressure
+  double data = 0.;
   /// Of this rank's cells: sizes of their parts in both.
   std::vector<double> indicators;
 
-  /// max(|cells + contact|, |cells|/2, |contact|/2) + |reading|: both may cancel by chance.
+  /// max(|cells + contact|, |cells|/2, |contact|/2) + |reading| + data: both may cancel by chance.
   double error() const;
 };
 

@@ -33,6 +33,10 @@ public:
   /// @return why they are not; empty: they are. Collective. @throws SolveError.
   std::string reach(double factor);
 
+  /// Refine until errors are at most the targets, and verify() where `Verify` asks for it, or by
+  /// default where that is cheap. @return why not; empty: they are. Collective. @throws SolveError.
+  std::string settle();
+
   /// Compare with the mesh on which all cells are refined. @return why the targets are not met
   /// there; empty: they are. Collective. @throws SolveError.
   std::string verify();
@@ -77,6 +81,9 @@ private:
   double                        began;          ///< to make it [s]
   unsigned int                  n_doubtful = 0; ///< meshes, the last ones, see add_doubtful()
   std::unique_ptr<Stage>        solved;
+  std::unique_ptr<Stage>        finer_stage;            ///< that of finer_cells()
+  bool                          finer_is_enough = true; ///< by the error that verify() has found
+  std::vector<std::string>      unresolved;             ///< gaps, in the words of the log
 
   static unsigned long   unknowns(const mesh::BodyMesh<dim> &mesh);
   static double          tolerance(const Stage &stage);
@@ -96,7 +103,11 @@ private:
   bool                   is_rough() const;
   bool                   fits(const mesh::BodyMesh<dim> &mesh) const;
   void                   add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
-  bool                   add_doubtful(RefinedCells &cells) const;
+  bool                   add_doubtful(RefinedCells &cells);
+  double                 rough_part() const;
+  scene::Scene           scene_with(const RefinedCells &cells) const;
+  void                   resolve_data();
+  bool                   is_to_be_verified() const;
   void                   add_marked(RefinedCells &cells) const;
   void                   add_marked_beside(RefinedCells &cells);
   std::string            failure();

@@ -34,6 +34,10 @@ public:
   /// @p slave there; nothing beyond the end of the master side.
   std::optional<PointGap<dim>> at(const dealii::Tensor<1, dim> &x, const Weights &slave) const;
 
+  /// The part of the gap at @p x that is given by formulas [length]: `Gap`, and the distance of an
+  /// obstacle, where there is one.
+  double given(const dealii::Tensor<1, dim> &x) const;
+
 private:
   using Normals = std::unique_ptr<SupportedNormals<dim>>;
 

@@ -1,7 +1,7 @@
 #ifndef snug_mesh_body_mesh_h
 #define snug_mesh_body_mesh_h
 
-#include <snug/geometry/body_geometry.h>
+#include <snug/geometry/coarse_cells.h>
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/interior_faces.h>
 #include <snug/mesh/partition.h>
@@ -134,6 +134,13 @@ public:
   /// cell with all its children.
   const dealii::CellId &cell_id(unsigned int cell) const { return cell_ids[cell]; }
 
+  /// The reference position of the body at coordinates @p unit of a cell of cells(), which meshes
+  /// interpolate between their nodes.
+  dealii::Point<dim> true_position(unsigned int cell, const dealii::Point<dim> &unit) const
+  {
+    return geometries[mesh_cells[cell].body]->position(places.point(cell_ids[cell], unit));
+  }
+
   /// Pairs of owned cells (a < b) that share a face or part of one.
   const CellPairs &cell_neighbours() const { return neighbours; }
 
@@ -144,6 +151,7 @@ private:
   unsigned int                                              fe_degree;
   Idealization                                              meaning;
   std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>> geometries;
+  geometry::CoarseCells<dim>                                places; ///< of the coarse cells
   // Owned and ghost nodes: a local index is the place of a node in this set.
   dealii::IndexSet          relevant;
   std::vector<unsigned int> first_node_of_rank; ///< n_ranks + 1

@@ -1,0 +1,105 @@
+#ifndef snug_accuracy_load_residual_h
+#define snug_accuracy_load_residual_h
+
+#include <snug/state/model.h>
+
+#include <deal.II/grid/cell_id.h>
+
+#include <functional>
+
+namespace snug::accuracy {
+/// How densely formulas are sampled, in parts of a face or cell per direction.
+enum class Sampling
+{
+  search, ///< as densely as features of a hundredth of a coarse face ask for
+  measure ///< 16 times as many points as the mesh has on a face
+};
+
+/// The number of parts per direction of a face at a level above its coarse face. Collective.
+template <int dim>
+std::function<unsigned int(unsigned int level)> samples_of_level(const mesh::BodyMesh<dim> &mesh,
+                                                                 Sampling sampling);
+
+/**
+ * The part of the loads that the quadrature of a mesh misses where pressures, tractions and body
+ * forces are formulas: of each face or cell the nodal forces [force]
+ *   r_a = sum_q w_q N_a(x_q) t(x_q) - f_a,
+ * f_a those of the mesh, the sum over the Gauss points of many parts of the face.
+ */
+template <int dim>
+class LoadResidual
+{
+public:
+  using Field = typename mesh::BodyMesh<dim>::Field;
+
+  /// The mesh must outlive this. Collective.
+  LoadResidual(const mesh::BodyMesh<dim>  &mesh,
+               const state::LoadCase<dim> &loads,
+               const Field                &positions,
+               Sampling                    sampling);
+
+  /// r . v of each cell of this rank for a field @p v at all local nodes [force length].
+  std::vector<double> works(const Field &v) const;
+
+  /// A loaded boundary, or the body forces of a body.
+  struct Entry
+  {
+    std::string         name;
+    double              missed;   ///< sum of |r_a| over the sum of |t| dA
+    std::vector<double> of_cells; ///< its parts in the cells of this rank
+  };
+  /// All of them, in the same order on all ranks. Collective.
+  std::vector<Entry> entries(const std::vector<std::string> &body_names) const;
+
+private:
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
+  using Key   = std::pair<unsigned int, unsigned int>; ///< body, boundary or no_boundary
+
+  static constexpr unsigned int no_boundary = static_cast<unsigned int>(-1);
+
+  struct Part
+  {
+    Key                       entry;
+    unsigned int              cell;
+    std::vector<unsigned int> nodes;  ///< local
+    Nodes                     forces; ///< r_a
+    double                    size;   ///< int |t| dA
+  };
+
+  const mesh::BodyMesh<dim> &mesh;
+  std::vector<Key>           keys; ///< ascending
+  std::vector<Part>          parts;
+
+  void add_faces(const state::LoadCase<dim> &loads, const Field &positions, Sampling sampling);
+  void add_cells(const state::LoadCase<dim> &loads, const Field &positions, Sampling sampling);
+};
+
+/// Formulas, of which one does not tell whether it is finer than the mesh, and what it misses.
+struct Unresolved
+{
+  std::vector<dealii::CellId> cells; ///< to be refined, the same on all ranks
+  std::vector<std::string>    lines; ///< that name what is missed
+};
+
+/// Add the cells to refine until an error of @p missed, with the parts @p of_cells of this rank's
+/// cells, is at most @p share. Collective.
+template <int dim>
+void add_cells(const mesh::BodyMesh<dim> &mesh,
+               const std::vector<double> &of_cells,
+               double                     missed,
+               double                     share,
+               Unresolved                &result);
+
+/// "12 %"
+std::string percent(double part);
+
+/// The cells to refine until each load case misses at most the part @p share of each entry of its
+/// loads, and the true surfaces of bodies 5 % of their volumes. Collective.
+template <int dim>
+Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
+                           const std::vector<state::LoadCase<dim>> &loads,
+                           const std::vector<std::string>          &body_names,
+                           double                                   share);
+} // namespace snug::accuracy
+
+#endif

@@ -1,0 +1,78 @@
+#include <snug/accuracy/surface_residual.h>
+#include <snug/app/adaptation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+namespace snug::app {
+namespace {
+/// The part of loads that the first mesh may miss: where loads jump, this error falls unevenly from
+/// mesh to mesh, and so it is made small beside the targets at once.
+double missed_loads(const scene::Scene &scene)
+{
+  const double least = 0.002;
+  double       part  = 0.05;
+  for (const auto &of_response : scene.accuracy.targets)
+    {
+      const auto target = accuracy::read_target(of_response.second);
+      part              = std::min(part, target.relative ? 0.25 * target.value : 0.01);
+    }
+  return std::max(part, least);
+}
+} // namespace
+
+/// A first mesh that has the loads and the surfaces of the scene, of which states and estimates see
+/// nothing where no Gauss point and no node is. Collective.
+template <int dim>
+void Adaptation<dim>::resolve_data()
+{
+  const RunContext::Timer timer(context, "setup");
+  while (true)
+    {
+      const auto               with  = scene_with(refined);
+      const auto               mesh  = build_mesh<dim>(with, context.communicator());
+      auto                     cells = refined;
+      std::vector<std::string> names;
+      for (const auto &body : scene.bodies)
+        names.push_back(body.name);
+      const auto found = made_of(scene, [&]() {
+        return accuracy::unresolved_data(*mesh, build_load_cases(with, *mesh), names,
+                                         missed_loads(scene));
+      });
+      add(found.cells, cells);
+      if (cells != refined && fits(*mesh))
+        {
+          refined = std::move(cells);
+          continue;
+        }
+      for (const auto &line : found.lines)
+        context.out() << "warning: " << line << std::endl;
+      return;
+    }
+}
+
+/// The part of pressures that gaps between nodes may change: of responses that are not made of
+/// pressures, they change little. Collective.
+template <int dim>
+double Adaptation<dim>::rough_part() const
+{
+  double                              least  = 0.1;
+  const auto                         &solver = *solved->problem->solver;
+  std::vector<response::PressureRows> none(solver.contact().pairs().size());
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    if (solved->responses[demands[d].place]->measured(solver, none))
+      least = std::min(least, 0.25 * demands[d].allowed(solved->measured[d]) /
+                                std::max(std::abs(solved->measured[d].value),
+                                         std::numeric_limits<double>::min()));
+  return least;
+}
+
+#define SNUG_INSTANTIATE(dim)                      \
+  template void   Adaptation<dim>::resolve_data(); \
+  template double Adaptation<dim>::rough_part() const;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::app

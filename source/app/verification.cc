@@ -1,0 +1,109 @@
+#include <snug/app/adaptation.h>
+#include <snug/base/errors.h>
+#include <snug/mesh/refined_cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace snug::app {
+namespace {
+/// Meshes of so many unknowns take about a second, whatever the meshes before took.
+constexpr double cheap_unknowns = 1e4;
+
+/// How often the mesh that has missed the targets is gone on with.
+constexpr unsigned int most_finer = 3;
+} // namespace
+
+/// What is left of the error of a mesh when all cells are refined is 4^-p of it.
+template <int dim>
+std::string Adaptation<dim>::verify()
+{
+  RefinedCells cells = refined;
+  add(mesh::all_cells(*solved->problem->mesh), cells);
+  auto mesh = matched_mesh(cells);
+  if (!fits(*mesh))
+    return "the finer mesh that verifies has " + std::to_string(unknowns(*mesh)) +
+           " unknowns; increase 'Maximum unknowns', or set 'Verify' to false";
+  std::unique_ptr<Stage> fine;
+  try
+    {
+      fine = solve_next(std::move(mesh), cells);
+    }
+  catch (const SolveError &error)
+    {
+      const std::string text =
+        std::string("the finer mesh that verifies cannot be solved: ") + error.what();
+      if (scene.accuracy.verify)
+        return text;
+      context.out() << text << std::endl;
+      return "";
+    }
+  const double rest = std::pow(4., -1. * scene.degree);
+  std::string  missed;
+  finer_is_enough = true;
+  summary.verified.clear();
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const double value = fine->measured[d].value;
+      const double error = std::abs(value - solved->measured[d].value) / (1. - rest);
+      const double most  = demands[d].target.allowed(value);
+      const auto   text  = accuracy::text_of(demands[d].name, {solved->measured[d].value, error});
+      if (error > most)
+        missed += (missed.empty() ? "" : ", ") + text;
+      else
+        context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
+                      << std::endl;
+      summary.verified.push_back({demands[d].name, value, error});
+      finer_is_enough = finer_is_enough && rest * error <= most;
+    }
+  if (missed.empty())
+    return "";
+  summary.met = false;
+  finer       = cells;
+  finer_stage = std::move(fine);
+  return "the finer mesh says " + missed + ": the target is missed; ask for less";
+}
+
+/// Without an entry, where it takes no longer than the meshes before.
+template <int dim>
+bool Adaptation<dim>::is_to_be_verified() const
+{
+  if (is_at_rest() || scene.accuracy.verify)
+    return !is_at_rest() && *scene.accuracy.verify;
+  double spent = cheap_unknowns;
+  for (const auto &mesh : summary.meshes)
+    spent = std::max(spent, 1. * mesh.dofs);
+  const double needed = (1 << dim) * unknowns(*solved->problem->mesh);
+  return needed <= std::min(spent, scene.accuracy.maximum_unknowns);
+}
+
+/// A mesh that verifies and says otherwise is the next one.
+template <int dim>
+std::string Adaptation<dim>::settle()
+{
+  std::string refused;
+  for (unsigned int n = 0;; ++n)
+    {
+      const auto why = reach(1.);
+      if (!why.empty())
+        return why;
+      if (!is_to_be_verified())
+        return finer_is_enough ? "" : refused;
+      refused = verify();
+      if (refused.empty() || !finer_stage || n == most_finer)
+        return refused;
+      context.out() << refused.substr(0, refused.find(':')) << ": the next mesh" << std::endl;
+      refined = finer;
+      solved  = std::move(finer_stage);
+    }
+}
+
+#define SNUG_INSTANTIATE(dim)                     \
+  template std::string Adaptation<dim>::verify(); \
+  template std::string Adaptation<dim>::settle(); \
+  template bool        Adaptation<dim>::is_to_be_verified() const;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::app
