@@ -16,12 +16,6 @@
 #include <cmath>
 
 namespace snug::accuracy {
-double ResponseEstimate::error() const
-{
-  return std::max({std::abs(cells + contact), std::abs(cells) / 2., std::abs(contact) / 2.}) +
-         std::abs(reading) + data;
-}
-
 namespace {
 /// The estimates have two digits at most.
 const double first_adjoint_tolerance = 1e-4;
@@ -176,23 +170,6 @@ LoadedDisplacement<dim> unloaded(const typename mesh::BodyMesh<dim>::Field &disp
   return {displacement, std::vector<double>(n_rows, 0.), 0.};
 }
 
-/// By the parts of the cells of this rank.
-ResponseEstimate response_estimate(const std::vector<double> &cells,
-                                   const std::vector<double> &contact,
-                                   MPI_Comm                   comm)
-{
-  ResponseEstimate result;
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    {
-      result.cells += cells[cell];
-      result.contact += contact[cell];
-      result.indicators.push_back(std::abs(cells[cell]) + std::abs(contact[cell]));
-    }
-  result.cells   = dealii::Utilities::MPI::sum(result.cells, comm);
-  result.contact = dealii::Utilities::MPI::sum(result.contact, comm);
-  return result;
-}
-
 /// Estimates by a state and adjoints as they are, and what the solver has left in the state and the
 /// adjoints over what it may leave.
 struct Attempt
@@ -269,23 +246,6 @@ EnergyEstimate energy_estimate(const state::ContactState<dim> &state, const Prod
   return result;
 }
 
-namespace {
-/// Add parts of an error that is of the data, with a @p factor.
-void add_data(const std::vector<double> &of_cells,
-              const double               factor,
-              MPI_Comm                   comm,
-              ResponseEstimate          &to)
-{
-  double sum = 0.;
-  for (unsigned int cell = 0; cell < of_cells.size(); ++cell)
-    {
-      sum += of_cells[cell];
-      to.indicators[cell] += std::abs(factor * of_cells[cell]);
-    }
-  to.data += std::abs(factor * dealii::Utilities::MPI::sum(sum, comm));
-}
-} // namespace
-
 /// The adjoint of the energy is the state itself, with the opposite sign: no local problem of its
 /// own. Pressures of rows are of second order, which at degree 2 is less than displacements have:
 /// there products of errors are as large as what rows do more than pressures, which is left out,
@@ -343,7 +303,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
                         s / 2. * (products.with_first(cell, 0) - layer[cell][0]));
       for (double &of_cell : contact)
         of_cell *= sign;
-      auto       one       = response_estimate(cells, contact, solver.mesh().communicator());
+      auto       one = ResponseEstimate::of_cells(cells, contact, solver.mesh().communicator());
       const bool is_linear = solver.mesh().degree() == 1;
       if (is_linear && place[j] > 0)
         one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
@@ -354,14 +314,14 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
           if (rough.empty())
             rough = rough_pressures(solver, state);
           for (const auto &of_pair : rough)
-            add_data(of_pair.of_cells, value, solver.mesh().communicator(), one);
+            one.add_data(of_pair.of_cells, value, solver.mesh().communicator());
         }
       // J depends on loads by the state and, where it has their work, by itself
       if (!is_geometry)
-        add_data(loads.works(responses[j]->stationary()
-                               ? z.displacement
-                               : sum(z.displacement, s + z.loads, all[0].displacement)),
-                 1., solver.mesh().communicator(), one);
+        one.add_data(loads.works(responses[j]->stationary()
+                                   ? z.displacement
+                                   : sum(z.displacement, s + z.loads, all[0].displacement)),
+                     1., solver.mesh().communicator());
       result.estimates.responses.push_back(std::move(one));
     }
   return result;

@@ -48,7 +48,6 @@ struct Demand
 private:
   bool                is_noise() const;
   std::string         too_small(const Measured &measured) const;
-  bool                is_noise() const;
   std::vector<double> parts() const;
 };
 } // namespace snug::accuracy

@@ -1,0 +1,269 @@
+#include <snug/base/errors.h>
+#include <snug/contact/contact.h>
+#include <snug/faces/nodal_normals.h>
+
+#include <algorithm>
+#include <map>
+
+namespace snug::contact {
+namespace {
+/// A side is finer if its faces are smaller by more than this part:
+/// equal meshes must be decided neither by round-off nor by a curvature
+/// that makes one side a few percent longer.
+const double finer_by = 0.1;
+
+/// Times, by size and by modulus together, that faces of mortar pairs are alike. Of sides that are
+/// more different the coarser one is the slave: its master must be able to follow its multipliers.
+/// Pressures of rings with 60 and 72 cells, the finer stiffer by 200, scatter by 90 % if it is the
+/// slave, and of equal moduli by 0.4 %, where a contact of few faces is better off with more nodes.
+const double alike = 1.5;
+
+/// Whether the master of a mortar pair is too coarse for its slave, by the size of its faces over
+/// that of the slave's and the ratio of their moduli, the stiffer over the softer.
+bool asks_too_much(const double size, const double contrast)
+{
+  return size > 1. / (1. - finer_by) && size * contrast > alike;
+}
+
+/// Of obstacles, the master side is empty.
+template <int dim>
+PairFaces sides_of(const mesh::Surface<dim> &surface, const Pair &pair)
+{
+  return {faces_of(surface, pair.slave),
+          pair.obstacle ? std::vector<unsigned int>() : faces_of(surface, pair.master)};
+}
+
+/// Size of the master's faces over that of the slave's.
+template <int dim>
+double relative_size(const mesh::Surface<dim>                 &surface,
+                     const typename mesh::Surface<dim>::Field &positions,
+                     const Pair                               &pair)
+{
+  const auto size = [&](const Side &side) {
+    return mean_face_size(surface, faces_of(surface, side), positions);
+  };
+  return size(pair.master) / size(pair.slave);
+}
+} // namespace
+
+template <int dim>
+Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
+                      const std::vector<Pair>          &pairs,
+                      unsigned int                      degree,
+                      const Field                      &positions,
+                      const faces::HeldDirections<dim> &held)
+  : surface(surface), shape(degree), joined(join_pairs(surface, shape, pairs, positions))
+{
+  choose_slaves(positions, held);
+  named.resize(pairs.size());
+  for (const JoinedPair &of : joined)
+    for (const auto &part : of.parts)
+      {
+        const Pair &pair = pairs[part.pair];
+        named[part.pair] = {pair.slave_name, pair.master_name, pair.obstacle, {}};
+        if (!pair.slave.has(part.slave))
+          std::swap(named[part.pair].slave_name, named[part.pair].master_name);
+      }
+  make_groups(positions, held);
+  // Of the pairs of one boundary of each side that a list of boundaries stands for, some may be
+  // too far apart to touch.
+  for (unsigned int p = joined.size(); p-- > 0;)
+    if (groups[p].rows->slaves().empty())
+      {
+        joined.erase(joined.begin() + p);
+        chosen.erase(chosen.begin() + p);
+        matching_of.erase(matching_of.begin() + p);
+        groups.erase(groups.begin() + p);
+      }
+  number_rows(positions, held);
+}
+
+/// Choose the slaves and the methods of the joined pairs. The choices are made once: a design that
+/// changes which side is finer must not exchange the sides, or the kind of the rows, when contact
+/// is paired anew.
+template <int dim>
+void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held)
+{
+  // Whether the sides of a pair of the scene are exchanged: in all joined pairs that it is part of,
+  // as its force is that on one side.
+  std::map<unsigned int, bool> exchanged;
+  for (JoinedPair &of : joined)
+    {
+      Pair      &pair         = of.pair;
+      bool       is_exchanged = false;
+      const auto known    = std::find_if(of.parts.begin(), of.parts.end(), [&](const auto &part) {
+        return exchanged.count(part.pair) > 0;
+      });
+      const auto exchange = [&]() {
+        of.exchange_sides();
+        is_exchanged = !is_exchanged;
+      };
+      if (known != of.parts.end() && exchanged[known->pair])
+        exchange();
+      const bool may_exchange =
+        pair.parameters.slave == Slave::finer && !pair.obstacle && known == of.parts.end();
+      if (may_exchange && relative_size(surface, positions, pair) < 1. - finer_by)
+        exchange();
+      matching_of.emplace_back();
+      chosen.push_back(pair);
+      if (!pair.obstacle)
+        matching_of.back() = matching<dim>(geometry(chosen.size() - 1, positions, held));
+      if (!pair.parameters.method)
+        pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
+      if (may_exchange && pair.parameters.method == Method::mortar &&
+          asks_too_much(relative_size(surface, positions, pair), pair.contrast))
+        exchange();
+      if (!pair.obstacle)
+        matching_of.back().finer = relative_size(surface, positions, pair);
+      pair.parameters.slave = Slave::first;
+      chosen.back()         = pair;
+      for (const auto &part : of.parts)
+        exchanged[part.pair] = is_exchanged;
+    }
+}
+
+template <int dim>
+PairGeometry<dim> Contact<dim>::geometry(const unsigned int                p,
+                                         const Field                      &positions,
+                                         const faces::HeldDirections<dim> &held,
+                                         std::vector<bool>                 taken) const
+{
+  taken.resize(surface.n_nodes(), false);
+  return {surface,   shape, chosen[p],       sides_of(surface, chosen[p]),
+          positions, held,  std::move(taken)};
+}
+
+template <int dim>
+void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim> &held)
+{
+  make_groups(positions, held);
+  number_rows(positions, held);
+}
+
+template <int dim>
+void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirections<dim> &held)
+{
+  row_places.clear();
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    for (const unsigned int slave : groups[p].rows->slaves())
+      // The number of a row is its place here, over all groups.
+      row_places.push_back({p, slave});
+  share_rows(positions, held);
+  check_named_pairs();
+  collect_shared_nodes();
+  measure_pairing(positions);
+}
+
+template <int dim>
+void Contact<dim>::make_groups(const Field &positions, const faces::HeldDirections<dim> &held)
+{
+  AssertDimension(held.size(), surface.n_nodes());
+  groups.clear();
+  for (unsigned int p = 0; p < chosen.size(); ++p)
+    groups.push_back(make_group(geometry(p, positions, held)));
+  auto taken = contested_nodes(positions);
+  for (unsigned int p = 0; p < chosen.size(); ++p)
+    if (!taken[p].empty())
+      groups[p] = make_group(geometry(p, positions, held, std::move(taken[p])));
+}
+
+/// Slave nodes of each group that have a row against the same surface in another group, whose side
+/// faces it better: two such rows would be nearly equal and W = B D^-1 B' singular. Empty: none.
+template <int dim>
+std::vector<std::vector<bool>> Contact<dim>::contested_nodes(const Field &positions) const
+{
+  struct Row
+  {
+    unsigned int group;
+    double       cosine; ///< between the normals of the group's side and of the row
+  };
+  std::map<std::pair<std::string, Boundary>, std::vector<unsigned int>> groups_of; // a surface
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    groups_of[{chosen[p].obstacle ? chosen[p].obstacle->name : "", joined[p].master_surface}]
+      .push_back(p);
+  std::vector<std::vector<bool>> taken(groups.size());
+  for (const auto &[against, of_surface] : groups_of)
+    {
+      if (of_surface.size() == 1)
+        continue;
+      std::map<unsigned int, std::vector<Row>> at_node;
+      for (const unsigned int p : of_surface)
+        {
+          const auto                    &slaves = groups[p].rows->slaves();
+          const auto                     faces  = faces_of(surface, chosen[p].slave);
+          const faces::NodalNormals<dim> normals(surface, faces, shape, positions);
+          const auto                     rows = groups[p].rows->rows(positions);
+          for (unsigned int i = 0; i < slaves.size(); ++i)
+            at_node[slaves[i]].push_back({p, normals.normals()[slaves[i]] * rows[i].normal});
+        }
+      for (const auto &[node, rows] : at_node)
+        {
+          auto best = rows.front();
+          for (const Row &row : rows)
+            if (row.cosine > best.cosine + 1e-9) // of equal ones the first
+              best = row;
+          for (const Row &row : rows)
+            if (row.group != best.group)
+              {
+                taken[row.group].resize(surface.n_nodes(), false);
+                taken[row.group][node] = true;
+              }
+        }
+    }
+  return taken;
+}
+
+template <int dim>
+void Contact<dim>::share_rows(const Field &positions, const faces::HeldDirections<dim> &held)
+{
+  for (NamedPair &pair : named)
+    pair.rows.clear();
+  unsigned int row = 0;
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    for (const PairShares &shares :
+         row_shares(joined[p], geometry(p, positions, held), *groups[p].rows))
+      {
+        double largest = 0.;
+        for (const auto &[pair, share] : shares)
+          {
+            named[pair].rows.emplace_back(row, share);
+            if (share > largest)
+              {
+                largest               = share;
+                row_places[row].named = pair;
+              }
+          }
+        ++row;
+      }
+}
+
+/// Replicated data: the same answer, and the same error, on all ranks.
+template <int dim>
+void Contact<dim>::check_named_pairs() const
+{
+  std::vector<bool> has_rows(named.size(), false);
+  for (unsigned int p = 0; p < groups.size(); ++p)
+    if (!groups[p].rows->slaves().empty())
+      for (const auto &part : joined[p].parts)
+        has_rows[part.pair] = true;
+  for (unsigned int pair = 0; pair < named.size(); ++pair)
+    if (!has_rows[pair])
+      throw InputError(
+        "contact pair '" + named[pair].name() +
+        "': no slave node lies opposite to the master within the search distance and angle");
+}
+
+#define SNUG_INSTANTIATE(dim)                                                           \
+  template Contact<dim>::Contact(const mesh::Surface<dim> &, const std::vector<Pair> &, \
+                                 unsigned int, const mesh::Surface<dim>::Field &,       \
+                                 const faces::HeldDirections<dim> &);                   \
+  template void              Contact<dim>::pair(const mesh::Surface<dim>::Field &,      \
+                                                const faces::HeldDirections<dim> &);    \
+  template PairGeometry<dim> Contact<dim>::geometry(unsigned int,                       \
+                                                    const mesh::Surface<dim>::Field &,  \
+                                                    const faces::HeldDirections<dim> &, \
+                                                    std::vector<bool>) const;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::contact
