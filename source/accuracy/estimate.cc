@@ -1,5 +1,6 @@
 #include <snug/accuracy/estimate.h>
 #include <snug/accuracy/gap_residual.h>
+#include <snug/accuracy/jumps.h>
 #include <snug/accuracy/local_errors.h>
 #include <snug/accuracy/surface_layer.h>
 #include <snug/accuracy/surface_residual.h>
@@ -40,11 +41,6 @@ double pressure(const double force, const double area)
   return area > 0. ? force / area : 0.;
 }
 
-double square(const double x)
-{
-  return x * x;
-}
-
 /// u + factor v
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> sum(std::vector<dealii::Tensor<1, dim>>        u,
@@ -54,31 +50,6 @@ std::vector<dealii::Tensor<1, dim>> sum(std::vector<dealii::Tensor<1, dim>>     
   for (unsigned int node = 0; node < u.size(); ++node)
     u[node] += factor * v[node];
   return u;
-}
-
-/// Of column @p j, how far the copies of each node are apart: the square root of the sum of the
-/// squares of the changes that make them continuous, which is the same on any ranks. Collective.
-template <int dim>
-typename mesh::BodyMesh<dim>::Field jump(const state::StateSolver<dim> &solver,
-                                         const feti::PrimalVectors     &torn,
-                                         const feti::PrimalVectors     &continuous,
-                                         const unsigned int             j)
-{
-  const auto         &mesh = solver.mesh();
-  std::vector<double> sums(static_cast<std::size_t>(dim) * mesh.n_local_nodes(), 0.);
-  for (unsigned int s = 0; s < torn.size(); ++s)
-    {
-      const auto &nodes = solver.tearing().subdomains[s].nodes;
-      for (unsigned int i = 0; i < torn[s].n_rows(); ++i)
-        sums[static_cast<std::size_t>(dim) * nodes[i / dim] + i % dim] +=
-          square(torn[s](i, j) - continuous[s](i, j));
-    }
-  mesh::sum_at_shared_nodes(mesh, dim, sums);
-  typename mesh::BodyMesh<dim>::Field result(mesh.n_local_nodes());
-  for (unsigned int i = 0; i < sums.size(); ++i)
-    result[i / dim][i % dim] = std::sqrt(sums[i]);
-  mesh.interpolate_hanging(result);
-  return mesh::owners_values(mesh, result);
 }
 
 template <int dim>
@@ -246,6 +217,37 @@ EnergyEstimate energy_estimate(const state::ContactState<dim> &state, const Prod
   return result;
 }
 
+/// Return a response's sums of the products of local errors, less what lies beyond the faces of the
+/// cells, per cell: with @p factor those of the adjoint, with @p half those of the state.
+template <int dim>
+std::vector<double> in_cells(const Products<dim>                    &products,
+                             const std::vector<std::vector<double>> &layer,
+                             const unsigned int                      place,
+                             const double                            factor,
+                             const double                            half)
+{
+  std::vector<double> result;
+  for (unsigned int cell = 0; cell < products.n_cells(); ++cell)
+    result.push_back(factor * (products.with_first(cell, place) - layer[cell][place]) +
+                     half * (products.with_first(cell, 0) - layer[cell][0]));
+  return result;
+}
+
+/// Add what the mesh does not resolve of the pressure that a response of this value reads. It is
+/// found once, as @p rough. Collective.
+template <int dim>
+void add_rough_pressures(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state,
+                         const double                    value,
+                         std::vector<RoughPressure>     &rough,
+                         ResponseEstimate               &one)
+{
+  if (rough.empty())
+    rough = rough_pressures(solver, state);
+  for (const auto &of_pair : rough)
+    one.add_data(of_pair.of_cells, value, solver.mesh().communicator());
+}
+
 /// The adjoint of the energy is the state itself, with the opposite sign: no local problem of its
 /// own. Pressures of rows are of second order, which at degree 2 is less than displacements have:
 /// there products of errors are as large as what rows do more than pressures, which is left out,
@@ -267,23 +269,19 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
     unloaded<dim>(jump(solver, state.u, continuous, 0), state.contact.size())};
   std::vector<unsigned int> place(n, 0); // in `all`
   for (unsigned int j = 0; j < n; ++j)
-    if (responses[j]->needs_solution())
-      derivatives[j] = responses[j]->field_derivative(solver, state);
-  for (unsigned int j = 0; j < n; ++j)
-    if (sensitivity::needs_solve(*responses[j]))
-      {
-        place[j] = all.size();
-        all.push_back(adjoints.of(j, derivatives[j], all[0]));
-        jumps.push_back(unloaded<dim>(adjoints.jump_of(j), state.contact.size()));
-      }
+    {
+      if (responses[j]->needs_solution())
+        derivatives[j] = responses[j]->field_derivative(solver, state);
+      if (!sensitivity::needs_solve(*responses[j]))
+        continue;
+      place[j] = all.size();
+      all.push_back(adjoints.of(j, derivatives[j], all[0]));
+      jumps.push_back(unloaded<dim>(adjoints.jump_of(j), state.contact.size()));
+    }
   const Products<dim> products(LocalErrors<dim>(solver, state), all, jumps,
                                solver.mesh().communicator());
   Attempt             result{{energy_estimate(state, products), {}}};
   result.excess = products.excess(0, std::sqrt(2. * state.strain_energy));
-  for (unsigned int j = 0; j < n; ++j)
-    if (place[j] > 0)
-      result.adjoint_excess =
-        std::max(result.adjoint_excess, products.excess(place[j], adjoints.norm(j)));
   if (responses.empty())
     return result;
   const GapResidual<dim>     gaps(solver, state);
@@ -293,17 +291,16 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
   std::vector<RoughPressure> rough;
   for (unsigned int j = 0; j < n; ++j)
     {
-      const bool          is_geometry = !responses[j]->needs_solution();
-      const double        sign        = is_geometry ? 0. : responses[j]->stationary() ? -1. : 1.;
-      const double        s           = derivatives[j].stiffness;
-      const auto         &z           = all[place[j]];
-      std::vector<double> cells, contact = gaps.integral(z.pressures);
-      for (unsigned int cell = 0; cell < products.n_cells(); ++cell)
-        cells.push_back(sign * (products.with_first(cell, place[j]) - layer[cell][place[j]]) +
-                        s / 2. * (products.with_first(cell, 0) - layer[cell][0]));
-      for (double &of_cell : contact)
-        of_cell *= sign;
-      auto       one = ResponseEstimate::of_cells(cells, contact, solver.mesh().communicator());
+      const bool   is_geometry = !responses[j]->needs_solution();
+      const double sign        = is_geometry ? 0. : responses[j]->stationary() ? -1. : 1.;
+      const double s           = derivatives[j].stiffness;
+      const auto  &z           = all[place[j]];
+      const auto   cells       = in_cells(products, layer, place[j], sign, s / 2.);
+      const auto   contact     = gaps.integral(z.pressures);
+      if (place[j] > 0)
+        result.adjoint_excess =
+          std::max(result.adjoint_excess, products.excess(place[j], adjoints.norm(j)));
+      auto one = ResponseEstimate::of_cells(cells, contact, sign, solver.mesh().communicator());
       const bool is_linear = solver.mesh().degree() == 1;
       if (is_linear && place[j] > 0)
         one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
@@ -311,10 +308,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
         {
           const double value = responses[j]->value(solver, state);
           (is_linear ? one.contact : one.reading) += *read - value;
-          if (rough.empty())
-            rough = rough_pressures(solver, state);
-          for (const auto &of_pair : rough)
-            one.add_data(of_pair.of_cells, value, solver.mesh().communicator());
+          add_rough_pressures(solver, state, value, rough, one);
         }
       // J depends on loads by the state and, where it has their work, by itself
       if (!is_geometry)

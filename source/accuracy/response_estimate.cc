@@ -14,14 +14,15 @@ double ResponseEstimate::error() const
 
 ResponseEstimate ResponseEstimate::of_cells(const std::vector<double> &cells,
                                             const std::vector<double> &contact,
+                                            const double               factor,
                                             MPI_Comm                   comm)
 {
   ResponseEstimate result;
   for (unsigned int cell = 0; cell < cells.size(); ++cell)
     {
       result.cells += cells[cell];
-      result.contact += contact[cell];
-      result.indicators.push_back(std::abs(cells[cell]) + std::abs(contact[cell]));
+      result.contact += factor * contact[cell];
+      result.indicators.push_back(std::abs(cells[cell]) + std::abs(factor * contact[cell]));
     }
   result.cells   = dealii::Utilities::MPI::sum(result.cells, comm);
   result.contact = dealii::Utilities::MPI::sum(result.contact, comm);

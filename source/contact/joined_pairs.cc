@@ -51,6 +51,18 @@ std::string sum_of(const std::vector<std::string> &names)
     result += (result.empty() ? "" : " + ") + name;
   return result;
 }
+/// Call the sides by the names of the pairs of the scene.
+void name_sides(const std::vector<Pair> &pairs, JoinedPair &joined)
+{
+  std::vector<std::string> slaves, masters;
+  for (const auto &part : joined.parts)
+    {
+      slaves.push_back(pairs[part.pair].slave_name);
+      masters.push_back(pairs[part.pair].master_name);
+    }
+  joined.pair.slave_name  = sum_of(slaves);
+  joined.pair.master_name = sum_of(masters);
+}
 } // namespace
 
 /// Sets of numbers that are united step by step; each is known by its smallest number.
@@ -200,10 +212,9 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
       JoinedPair &of             = place->second;
       if (is_new)
         {
-          of.pair          = pairs[part.pair];
-          of.pair.slave    = {};
-          of.pair.master   = {};
-          of.slave_surface = smooth.surface_of(part.slave);
+          of.pair       = pairs[part.pair];
+          of.pair.slave = of.pair.master = {};
+          of.slave_surface               = smooth.surface_of(part.slave);
           if (!of.pair.obstacle)
             of.master_surface = smooth.surface_of(part.master);
         }
@@ -215,14 +226,7 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
   std::vector<JoinedPair> result;
   for (auto &[first, of] : joined)
     {
-      std::vector<std::string> slaves, masters;
-      for (const auto &part : of.parts)
-        {
-          slaves.push_back(pairs[part.pair].slave_name);
-          masters.push_back(pairs[part.pair].master_name);
-        }
-      of.pair.slave_name  = sum_of(slaves);
-      of.pair.master_name = sum_of(masters);
+      name_sides(pairs, of);
       result.push_back(std::move(of));
     }
   return result;

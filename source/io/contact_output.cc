@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace snug::io {
 /// At the nodes of the surface, on all ranks. Not in the unnamed namespace, because gcc warns of
@@ -66,6 +67,17 @@ std::vector<state::ContactPoint> nodal_points(const Sources<dim>                
   return points;
 }
 
+/// Whether surface nodes have a row of a joined pair, by pair and node.
+template <int dim>
+std::vector<std::vector<bool>> candidates(const Sources<dim> &sources)
+{
+  std::vector<std::vector<bool>> result(sources.pairs.size(),
+                                        std::vector<bool>(sources.surface.n_nodes(), false));
+  for (const auto &row : sources.places)
+    result[row.pair][row.slave] = true;
+  return result;
+}
+
 /// A node on the edge of two pairs has a point in each, as each shows its own on its own faces.
 template <int dim>
 std::string faces_text(const Sources<dim>             &sources,
@@ -75,29 +87,24 @@ std::string faces_text(const Sources<dim>             &sources,
 {
   const auto                                   &pairs = sources.pairs;
   std::vector<std::vector<state::ContactPoint>> nodal;
-  std::vector<std::vector<bool>>                candidate(pairs.size());
+  const auto                                    candidate = candidates<dim>(sources);
   for (unsigned int p = 0; p < pairs.size(); ++p)
-    {
-      nodal.push_back(nodal_points<dim>(sources, p, state.contact));
-      candidate[p].assign(sources.surface.n_nodes(), false);
-    }
-  for (const auto &row : sources.places)
-    candidate[row.pair][row.slave] = true;
+    nodal.push_back(nodal_points<dim>(sources, p, state.contact));
   // values below have the order of these quantities
-  VtuGrid<dim - 1, dim>                                grid({{"pressure", 1},
-                                                             {"gap", 1},
-                                                             {"force", 1},
-                                                             {"area", 1},
-                                                             {"active", 1},
-                                                             {"weak", 1},
-                                                             {"candidate", 1},
-                                                             {"slave", 1},
-                                                             {"pair", 1},
-                                                             {"body", 1},
-                                                             {"displacement", dim},
-                                                             {"design_displacement", dim}},
-                                                            {});
-  std::map<std::pair<unsigned int, int>, unsigned int> number; // of a node of a pair
+  VtuGrid<dim - 1, dim>                                               grid({{"pressure", 1},
+                                                                            {"gap", 1},
+                                                                            {"force", 1},
+                                                                            {"area", 1},
+                                                                            {"active", 1},
+                                                                            {"weak", 1},
+                                                                            {"candidate", 1},
+                                                                            {"slave", 1},
+                                                                            {"pair", 1},
+                                                                            {"body", 1},
+                                                                            {"displacement", dim},
+                                                                            {"design_displacement", dim}},
+                                                                           {});
+  std::map<std::tuple<unsigned int, unsigned int, int>, unsigned int> number; // node, pairs
   for (const auto &face : sources.surface.faces())
     {
       const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
@@ -110,7 +117,7 @@ std::string faces_text(const Sources<dim>             &sources,
       std::vector<unsigned int> corners;
       for (const unsigned int node : face.nodes)
         {
-          const auto [place, is_new] = number.try_emplace({node, pair}, 0);
+          const auto [place, is_new] = number.try_emplace({node, p, pair}, 0);
           if (is_new)
             {
               // A master side may share its edge with a slave side.

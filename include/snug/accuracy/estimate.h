@@ -38,9 +38,12 @@ struct ResponseEstimate
   /// Of this rank's cells: sizes of their parts in both.
   std::vector<double> indicators;
 
-  /// Return the sums of the parts of this rank's cells. Collective.
-  static ResponseEstimate
-  of_cells(const std::vector<double> &cells, const std::vector<double> &contact, MPI_Comm comm);
+  /// Return the sums of the parts of this rank's cells, those of contact times @p factor.
+  /// Collective.
+  static ResponseEstimate of_cells(const std::vector<double> &cells,
+                                   const std::vector<double> &contact,
+                                   double                     factor,
+                                   MPI_Comm                   comm);
 
   /// Add the parts of an error that is of the data, times @p factor. Collective.
   void add_data(const std::vector<double> &of_cells, double factor, MPI_Comm comm);

@@ -64,8 +64,9 @@ TEST(Target, ReadsPartsAndNumbers)
 TEST(Demand, NamesATargetBelowTheRoundingOfItsResponse)
 {
   const auto why = [](const std::string &target, const double value) {
-    return accuracy::Demand{"tip", 0, 0, accuracy::read_target(target), false}.note({value, 1.},
-                                                                                    false);
+    return accuracy::Demand{"tip", 0, 0, accuracy::read_target(target), false, false}.note({value,
+                                                                                            1.},
+                                                                                           false);
   };
   EXPECT_EQ(why("1e-8 %", -3.), "");
   EXPECT_EQ(why("1e-12", 1e-6), "");

@@ -165,8 +165,9 @@ TEST(Contact, PairsOfTheSameFacesAreOneContact)
   for (const auto &named : contact.named_pairs())
     EXPECT_EQ(named.name(), "slave: master");
   // Other entries make another contact, whose rows would be the same: it is left without any.
-  exchanged.parameters.gap = "0.1";
-  EXPECT_THROW(Contact<2>(scene.surface, {pair, exchanged}, 1, scene.positions, scene.held),
+  Pair other           = pair;
+  other.parameters.gap = "0.1";
+  EXPECT_THROW(Contact<2>(scene.surface, {pair, other}, 1, scene.positions, scene.held),
                InputError);
 }
 

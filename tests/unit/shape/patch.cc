@@ -235,7 +235,9 @@ TEST(Patch, PointsOfTheBodyLieOnTheMovedFace)
               EXPECT_NEAR((point.on_body - at).norm(), 0., 1e-12) << point.index;
               ++n_found;
               if (x > 0. && x < 1.)
-                EXPECT_GT((point.position - at).norm(), 1e-3);
+                {
+                  EXPECT_GT((point.position - at).norm(), 1e-3);
+                }
             }
         }
       EXPECT_EQ(n_found, shape.basis == "Bezier patch" ? 5u : 1u);
