@@ -25,6 +25,8 @@ void check_sides(const Scene                             &scene,
   const auto check_side = [&](const std::vector<std::string> &faces) {
     for (const auto &face : faces)
       {
+        contact.require(!is_obstacle(scene, face), "Pairs", value,
+                        "'" + face + "' is an obstacle and must be a side by itself");
         require_face(scene, contact, "Pairs", value, face);
         contact.require(split_face(face).first == split_face(faces.front()).first, "Pairs", value,
                         "'" + faces.front() + "' and '" + face +
