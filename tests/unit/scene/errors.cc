@@ -147,8 +147,8 @@ TEST(Errors, BodiesAndBoundaries)
                 "paired twice"});
   expect_error({"Contact/Pairs", "punch.bottom + foundation.top: foundation.bottom", "one body"});
   expect_error({"Contact/Pairs", "punch.bottom + punch.bottom: foundation.top", "named once"});
-  expect_error({"Contact/Pairs", "punch.bottom + punch.top: foundation.top + punch.top",
-                "one body"});
+  expect_error(
+    {"Contact/Pairs", "punch.bottom + punch.top: foundation.top + punch.top", "one body"});
   expect_error({"Contact/Pairs", "punch.bottom + punch.top: punch.top", "with itself"});
   expect_error({"Shape/Face", "foundation.topp", "did you mean 'top'?"});
   expect_error({"Shape/Face", "block.top", "there is no body 'block'"});
