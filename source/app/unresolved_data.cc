@@ -60,7 +60,7 @@ double Adaptation<dim>::rough_part() const
 {
   double                              least  = 0.1;
   const auto                         &solver = *solved->problem->solver;
-  std::vector<response::PressureRows> none(solver.contact().pairs().size());
+  std::vector<response::PressureRows> none(solver.contact().named_pairs().size());
   for (unsigned int d = 0; d < demands.size(); ++d)
     if (solved->responses[demands[d].place]->measured(solver, none))
       least = std::min(least, 0.25 * demands[d].allowed(solved->measured[d]) /

@@ -74,7 +74,7 @@ private:
   void add_cells(const state::LoadCase<dim> &loads, const Field &positions, Sampling sampling);
 };
 
-/// Formulas, of which one does not tell whether it is finer than the mesh, and what it misses.
+/// Cells whose formulas are finer than the mesh, and what the mesh misses of these formulas.
 struct Unresolved
 {
   std::vector<dealii::CellId> cells; ///< to be refined, the same on all ranks
