@@ -1,3 +1,4 @@
+#include <snug/accuracy/sharp_edges.h>
 #include <snug/app/adaptation.h>
 #include <snug/base/errors.h>
 
@@ -102,11 +103,36 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
          (unresolved.empty() ? "" : "; " + unresolved.front()) + "; " + advice;
 }
 
+/// Targets of pressures that have no limit, though the errors on a mesh may be small beside its own
+/// values. @return why they cannot be met; empty: there are none. Collective.
+template <int dim>
+std::string Adaptation<dim>::unbounded_at_edge()
+{
+  const auto &solver = *solved->problem->solver;
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    {
+      const auto pairs = solved->responses[demands[d].place]->unbounded_at_edges(solver);
+      if (pairs.empty())
+        continue;
+      for (const auto &edge : accuracy::sharp_edges(solver, solved->states[demands[d].load_case]))
+        for (const auto &part : solver.contact().joined_pairs()[edge.pair].parts)
+          if (pairs[part.pair])
+            {
+              summary.met = false;
+              return "targets are not met: " +
+                     accuracy::text_of(demands[d].name, solved->measured[d]) + "; " + edge.text +
+                     ": round the edge, or ask for energies, forces and areas alone";
+            }
+    }
+  return "";
+}
+
 #define SNUG_INSTANTIATE(dim)                                                    \
   template unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &); \
   template void          Adaptation<dim>::report(const Stage &);                 \
   template std::string   Adaptation<dim>::failure();                             \
-  template std::string   Adaptation<dim>::missed(const std::string &) const;
+  template std::string   Adaptation<dim>::missed(const std::string &) const;     \
+  template std::string   Adaptation<dim>::unbounded_at_edge();
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -19,6 +19,8 @@ constexpr unsigned int most_finer = 3;
 template <int dim>
 std::string Adaptation<dim>::verify()
 {
+  if (const auto unbounded = unbounded_at_edge(); !unbounded.empty())
+    return unbounded;
   RefinedCells cells = refined;
   add(mesh::all_cells(*solved->problem->mesh), cells);
   auto mesh = matched_mesh(cells);
@@ -89,7 +91,10 @@ std::string Adaptation<dim>::settle()
       if (!why.empty())
         return why;
       if (!is_to_be_verified())
-        return finer_is_enough ? "" : refused;
+        {
+          const auto unbounded = unbounded_at_edge();
+          return !unbounded.empty() ? unbounded : finer_is_enough ? "" : refused;
+        }
       refused = verify();
       if (refused.empty() || !finer_stage || n == most_finer)
         return refused;

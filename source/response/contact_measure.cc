@@ -8,6 +8,10 @@ namespace {
 /// bodies of revolution with degree 2.
 const double smallest_area = 1e-10;
 
+/// The largest power of p ~ r^-0.226, the pressure beside a right-angled edge on a body of the same
+/// material, that has an integral.
+const double integrable_power = 4.4;
+
 /// Rows and their shares.
 using Counted = std::vector<std::pair<unsigned int, double>>;
 
@@ -30,8 +34,9 @@ class ContactMeasure : public Response<dim>
 public:
   ContactMeasure(const ResponseParameters       &parameters,
                  const Measure                  &measure,
-                 const std::vector<std::string> &entries)
-    : pair(parameters.pair), measure(measure), read(entries)
+                 const std::vector<std::string> &entries,
+                 const double                    power)
+    : pair(parameters.pair), measure(measure), read(entries), power(power)
   {}
 
   std::vector<std::string> entries() const override
@@ -43,6 +48,11 @@ public:
   }
 
   bool reads_pressure() const override { return true; }
+
+  std::vector<bool> unbounded_at_edges(const state::StateSolver<dim> &solver) const override
+  {
+    return power > integrable_power ? chosen_pairs(solver, pair) : std::vector<bool>();
+  }
 
   /// Throws where there is no such pair.
   void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair); }
@@ -115,6 +125,7 @@ private:
   const std::string              pair;
   const Measure                  measure;
   const std::vector<std::string> read;
+  const double                   power; ///< of the pressure, of which the integral is taken
 };
 } // namespace
 
@@ -148,17 +159,22 @@ std::vector<double> row_shares(const state::StateSolver<dim> &solver, const std:
 template <int dim>
 std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &parameters,
                                                const Measure                  &measure,
-                                               const std::vector<std::string> &entries)
+                                               const std::vector<std::string> &entries,
+                                               const double                    power)
 {
-  return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries);
+  return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries, power);
 }
 
 template std::vector<bool>   chosen_pairs(const state::StateSolver<2> &, const std::string &);
 template std::vector<bool>   chosen_pairs(const state::StateSolver<3> &, const std::string &);
 template std::vector<double> row_shares(const state::StateSolver<2> &, const std::string &);
-template std::unique_ptr<Response<2>>
-contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);
+template std::unique_ptr<Response<2>> contact_measure(const ResponseParameters &,
+                                                      const Measure &,
+                                                      const std::vector<std::string> &,
+                                                      double);
 template std::vector<double> row_shares(const state::StateSolver<3> &, const std::string &);
-template std::unique_ptr<Response<3>>
-contact_measure(const ResponseParameters &, const Measure &, const std::vector<std::string> &);
+template std::unique_ptr<Response<3>> contact_measure(const ResponseParameters &,
+                                                      const Measure &,
+                                                      const std::vector<std::string> &,
+                                                      double);
 } // namespace snug::response

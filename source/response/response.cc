@@ -59,18 +59,18 @@ ChoiceTable<MakeResponse<dim>> contact_responses()
           {"pressure norm", "p-norm of the contact pressure [force/length^2 length^(2/p)]",
            [](const Parameters &parameters) {
              const double p = parameters.exponent;
-             return contact_measure<dim>(parameters,
-                                         [p](const auto &rows) { return pressure_norm(rows, p); },
-                                         {"Exponent"});
+             return contact_measure<dim>(
+               parameters, [p](const auto &rows) { return pressure_norm(rows, p); }, {"Exponent"},
+               p);
            }},
           {"peak pressure",
            "p-norm of the contact pressure, each point weighing as much as the "
            "force it carries [force/length^2]; below the largest pressure",
            [](const Parameters &parameters) {
              const double p = parameters.exponent;
-             return contact_measure<dim>(parameters,
-                                         [p](const auto &rows) { return peak_pressure(rows, p); },
-                                         {"Exponent"});
+             return contact_measure<dim>(
+               parameters, [p](const auto &rows) { return peak_pressure(rows, p); }, {"Exponent"},
+               p + 1.);
            }},
           {"pressure variance",
            "mean square of the contact pressure less its mean over the slave "

@@ -12,6 +12,7 @@ import pathlib
 import sys
 import tempfile
 
+from corner_blocks import check_corner
 from cut_blocks import Block, halves, on_face, run, sphere, thirds, whole
 
 PRESSURE = 100.
@@ -186,90 +187,6 @@ def cases(every):
     return result
 
 
-CORNER = """
-set Task = state
-set Dimension = {dim}
-set Element degree = {degree}
-set Bodies = block{bodies}
-set Obstacles = {obstacles}
-subsection Body block
-  set Mesh = file
-  set Mesh file = block.inp
-  set Young's modulus = 1000
-  set Supports = {rollers}
-  set Pressure = top: 100, right: 50
-end
-{more}
-subsection Contact
-  set Pairs = {pairs}
-  set Method = {method}
-end
-subsection Solver
-  set Relative tolerance = 1e-11
-end
-"""
-
-
-def check_corner(snug, dim, degree, method, master, ranks):
-    """A block in a corner, pressed by 100 from above and by 50 from its side: the nodes on the
-    edge of both faces have a row for each wall, with the area on its own faces."""
-    rollers = "front: y" if dim == 3 else ""
-    block = Block([0.] * dim, [1.] * dim, [4, *[3] * (dim - 2), 4])
-    ell = Block([-0.5, *[0.] * (dim - 2), -0.5], [1.] * dim, [6, *[3] * (dim - 2), 6],
-                keep=lambda x: x[0] < 0. or x[-1] < 0.)
-    runs = []
-    pairs = {"obstacle": ["block.bottom: floor, block.left: wall",
-                          "block.left: wall, block.bottom: floor"],
-             "body": ["block.bottom: ell.floor, block.left: ell.wall",
-                      "block.left + block.bottom: ell.wall + ell.floor"]}[master]
-    with tempfile.TemporaryDirectory() as directory:
-        folder = pathlib.Path(directory)
-        (folder / "block.inp").write_text(block.text(lambda side, x: side)[0])
-        (folder / "ell.inp").write_text(ell.text(
-            lambda side, x: "floor" if side == "top" and abs(x[-1]) < 1e-9
-            else "wall" if side == "right" and abs(x[0]) < 1e-9 else side)[0])
-        more = {"body": f"""
-subsection Body ell
-  set Mesh = file
-  set Mesh file = ell.inp
-  set Young's modulus = 1000
-  set Supports = bottom: {"xyz"[:dim]}{", " + rollers if rollers else ""}
-end
-""", "obstacle": f"""
-subsection Obstacle floor
-end
-subsection Obstacle wall
-  set Normal = {"1, 0" if dim == 2 else "1, 0, 0"}
-end
-"""}[master]
-        for of in pairs:
-            runs.append(run(snug, directory, CORNER.format(
-                dim=dim, degree=degree, method=method, rollers=rollers, pairs=of, more=more,
-                bodies=", ell" if master == "body" else "",
-                obstacles="floor, wall" if master == "obstacle" else ""), ranks))
-    errors = []
-    for summary, rows in runs:
-        force = summary["state"]["contact_force"]
-        for d, wanted in ((0, 50.), (dim - 1, 100.)):
-            if abs(abs(force[d]) - wanted) > 1e-7:
-                errors.append(f"force {force}")
-        if master == "obstacle":
-            errors += [f"pressure {row['pressure']} at {row['x']}" for row in rows
-                       if min(abs(row["pressure"] - p) for p in (50., 100.)) > 1e-6]
-    key = {"floor": 100., "wall": 50.}
-    for name, wanted in key.items():
-        for pair in runs[0][0]["state"]["pairs"]:
-            if name in pair["name"] and abs(max(map(abs, pair["force"])) - wanted) > 1e-7:
-                errors.append(f"force of {pair['name']}: {pair['force']}")
-    # Rows that a list adds, of a face along a wall, carry nothing.
-    pressures = [sorted(row["pressure"] for row in rows if row["pressure"] > 1e-6)
-                 for summary, rows in runs]
-    if len(pressures[0]) != len(pressures[1]) or any(
-            abs(a - b) > 1e-6 * max(pressures[0]) for a, b in zip(*pressures)):
-        errors.append(f"pressures {pressures[0][:3]} and {pressures[1][:3]}")
-    return errors
-
-
 GRADIENT = """
 set Task = sensitivity
 set Dimension = {dim}
@@ -351,6 +268,45 @@ def check_gradient(snug, dim, method, ranks):
     return errors
 
 
+TARGET = """
+subsection Accuracy
+  set Target = peak pressure: 2 %, contact area: 3 %, contact force: 0.1
+end
+"""
+
+
+def check_target(snug, master, ranks):
+    """A curved punch, cut through the peak of its pressure, on the mesh that targets ask for: the
+    meshes and the values are those of the uncut one."""
+    punch = Block([0., 1.], [1., 2.], [8, 4], lift=sphere(2., 0.5))
+    below = Block([-0.5, 0.], [1.5, 1.], [16, 8])
+    case = {"dim": 2, "degree": 1, "method": "mortar", "model": "plane strain", "master": master,
+            "named": "pairs"}
+    runs = []
+    for slave, of_master in ((whole("s"), whole("m")), (halves("s", 0.5), halves("m", 0.5))):
+        with tempfile.TemporaryDirectory() as directory:
+            text, slaves = punch.text(on_face("bottom", slave))
+            (pathlib.Path(directory) / "punch.inp").write_text(text)
+            text, masters = below.text(on_face("top", of_master))
+            (pathlib.Path(directory) / "foundation.inp").write_text(text)
+            pairs = names_of(case, slaves, masters)
+            if master == "obstacle":
+                pairs = [("punch." + s, "floor") for s in slaves]
+            scene = scene_of(case, ", ".join(f"{s}: {m}" for s, m in pairs), TARGET).replace(
+                f"top: {PRESSURE}", "top: 20")
+            runs.append(run(snug, directory, scene, ranks)[0]["accuracy"]["meshes"])
+    uncut, cut = runs
+    errors = []
+    sizes = [[mesh["dofs"] for mesh in meshes] for meshes in runs]
+    if sizes[0] != sizes[1]:
+        errors.append(f"meshes of {sizes[1]} instead of {sizes[0]} unknowns")
+    for name, wanted in uncut[-1]["responses"].items():
+        value = cut[-1]["responses"][name]["value"]
+        if not abs(value - wanted["value"]) <= 1e-5 * abs(wanted["value"]):
+            errors.append(f"{name}: {value} instead of {wanted['value']}")
+    return errors
+
+
 def main(snug, *more):
     every = next((m for m in more if m in ("all", "crowned")), "")
     ranks = max([int(m) for m in more if m.isdigit()] + [1])
@@ -362,6 +318,9 @@ def main(snug, *more):
     for corner in corners if every else corners[1::4]:
         checks.append(("corner " + " ".join(map(str, corner)),
                        lambda corner=corner: check_corner(snug, *corner, ranks)))
+    for master in ("body", "obstacle") if every else ("body",):
+        checks.append((f"target {master}",
+                       lambda master=master: check_target(snug, master, ranks)))
     for dim, method in ((2, "nodal"), (2, "mortar"), (3, "mortar")) if every else ((2, "nodal"),):
         checks.append((f"gradient {dim}D {method}",
                        lambda dim=dim, method=method: check_gradient(snug, dim, method, ranks)))

@@ -114,6 +114,7 @@ private:
   std::string            noted();
   std::string            go_on(RefinedCells &cells);
   std::string            missed(const std::string &advice) const;
+  std::string            unbounded_at_edge();
 };
 } // namespace snug::app
 

@@ -84,11 +84,13 @@ using Measure = std::function<Measured(const PressureRows &)>;
  * of all pairs; see pressure_measures.h for what there is. Rows that
  * cannot carry a force, or have no area, do not count.
  * @param entries  those that the measure reads, besides the pair.
+ * @param power    of the pressure, the highest that the measure has an integral of.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &parameters,
                                                const Measure                  &measure,
-                                               const std::vector<std::string> &entries = {});
+                                               const std::vector<std::string> &entries = {},
+                                               double                          power   = 1.);
 /// @}
 } // namespace snug::response
 

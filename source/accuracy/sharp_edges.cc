@@ -1,0 +1,198 @@
+#include <snug/accuracy/sharp_edges.h>
+#include <snug/contact/pair_geometry.h>
+#include <snug/faces/nodal_normals.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace snug::accuracy {
+namespace {
+/// Cosines of the angles between the normals of two faces.
+constexpr double smooth_cosine = 0.8, right_angle_cosine = 0.05;
+/// A pressure that is larger than this part of the mean.
+constexpr double far_above = 1.3;
+/// A slave node is opposite to a master's edge that is closer than this part of its faces.
+constexpr double opposite = 0.6;
+
+/// A face beside a side, at a node that they share.
+template <int dim>
+struct FaceBeside
+{
+  unsigned int           node;            ///< of the surface
+  dealii::Tensor<1, dim> normal, inwards; ///< unit; from the node to the middle of the face
+
+  template <typename Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & node;
+    archive & normal;
+    archive & inwards;
+  }
+};
+
+template <int dim>
+class EdgeFinder
+{
+public:
+  EdgeFinder(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state)
+    : solver(solver)
+    , surface(solver.surface())
+    , shape(solver.mesh().degree())
+    , local(state.positions)
+    , x(surface.gather(state.positions))
+  {}
+
+  /// The nodes of the sharp edges of a side, ascending. @p is_mirrored: what it meets is rigid.
+  std::vector<unsigned int> nodes(const contact::Side &side, const bool is_mirrored) const
+  {
+    const faces::NodalNormals<dim> normals(surface, contact::faces_of(surface, side), shape, x);
+    std::vector<unsigned int>      result;
+    for (const auto &of_rank :
+         dealii::Utilities::MPI::all_gather(solver.mesh().communicator(), faces_beside(side)))
+      for (const auto &face : of_rank)
+        {
+          const auto  &own    = normals.normals()[face.node];
+          const double cosine = own * face.normal;
+          if (cosine < smooth_cosine && !(is_mirrored && cosine < right_angle_cosine) &&
+              own * face.inwards < 0.) // else the edge is a concave one
+            result.push_back(face.node);
+        }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  const typename mesh::Surface<dim>::Field &positions() const { return x; }
+
+private:
+  const state::StateSolver<dim>             &solver;
+  const mesh::Surface<dim>                  &surface;
+  const faces::FaceShape<dim>                shape;
+  const typename mesh::BodyMesh<dim>::Field &local;
+  const typename mesh::Surface<dim>::Field   x;
+
+  /// Of this rank.
+  std::vector<FaceBeside<dim>> faces_beside(const contact::Side &side) const
+  {
+    const auto       &mesh = solver.mesh();
+    std::vector<bool> is_on_side(surface.n_nodes(), false);
+    for (const unsigned int face : contact::faces_of(surface, side))
+      for (const unsigned int node : surface.faces()[face].nodes)
+        is_on_side[node] = true;
+    std::vector<FaceBeside<dim>> result;
+    for (const auto &face : mesh.boundary_faces())
+      if (face.body == side.body() && !contact::is_on(face, side))
+        {
+          const auto normal = normal_of(face);
+          if (goes_on(face, normal))
+            continue;
+          dealii::Tensor<1, dim> middle;
+          for (const unsigned int node : face.nodes)
+            middle += local[node] / (1. * face.nodes.size());
+          for (const unsigned int node : face.nodes)
+            if (const unsigned int found = surface.find(mesh.global_node(node));
+                found < surface.n_nodes() && is_on_side[found])
+              result.push_back({found, normal, middle - local[node]});
+        }
+    return result;
+  }
+
+  dealii::Tensor<1, dim> normal_of(const typename mesh::BodyMesh<dim>::Face &face) const
+  {
+    const unsigned int           p = solver.mesh().degree(), n = face.nodes.size();
+    const dealii::Tensor<1, dim> t1 = local[face.nodes[p]] - local[face.nodes[0]];
+    dealii::Tensor<1, dim>       normal;
+    if constexpr (dim == 2)
+      normal = dealii::Point<dim>(t1[1], -t1[0]);
+    else
+      normal = dealii::cross_product_3d(t1, local[face.nodes[n - p - 1]] - local[face.nodes[0]]);
+    return normal / normal.norm();
+  }
+
+  /// A face on a plane of symmetry or on the axis, beyond which the body goes on.
+  bool goes_on(const typename mesh::BodyMesh<dim>::Face &face,
+               const dealii::Tensor<1, dim>             &normal) const
+  {
+    const auto &supports = solver.model().supports;
+    return (solver.mesh().idealization().is_axisymmetric() && normal[0] < -0.9) ||
+           std::any_of(supports.begin(), supports.end(), [&](const auto &support) {
+             return support.body == face.body && support.boundary == face.boundary &&
+                    (support.component == dim || std::abs(normal[support.component]) > 0.9);
+           });
+  }
+};
+
+/// Rows of a joined pair, and their pressures.
+template <int dim>
+struct PairRows
+{
+  std::vector<unsigned int> rows;
+  double                    mean = 0.; ///< pressure
+};
+
+template <int dim>
+PairRows<dim> rows_of(const unsigned int              pair,
+                      const state::StateSolver<dim>  &solver,
+                      const state::ContactState<dim> &state)
+{
+  PairRows<dim> result;
+  double        force = 0., area = 0.;
+  const auto   &places = solver.contact().places();
+  for (unsigned int i = 0; i < places.size(); ++i)
+    if (const auto &point = state.contact[i]; places[i].pair == pair && point.active)
+      {
+        result.rows.push_back(i);
+        force += point.force;
+        area += point.area;
+      }
+  result.mean = area > 0. ? force / area : 0.;
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
+                                   const state::ContactState<dim> &state)
+{
+  const EdgeFinder<dim>  finder(solver, state);
+  const auto            &x      = finder.positions();
+  const auto             sizes  = contact::node_face_sizes(solver.surface(), x);
+  const auto            &joined = solver.contact().joined_pairs();
+  std::vector<SharpEdge> result;
+  for (unsigned int p = 0; p < joined.size(); ++p)
+    {
+      const auto &pair        = joined[p].pair;
+      const auto  of          = rows_of(p, solver, state);
+      const auto  slave_nodes = finder.nodes(pair.slave, pair.obstacle.has_value());
+      const std::vector<unsigned int> master_nodes =
+        pair.obstacle ? std::vector<unsigned int>() : finder.nodes(pair.master, false);
+      std::optional<SharpEdge> found;
+      double                   pressure = far_above * of.mean;
+      for (const unsigned int row : of.rows)
+        if (state.contact[row].pressure > pressure)
+          {
+            const unsigned int node = solver.contact().places()[row].slave;
+            const bool of_slave = std::binary_search(slave_nodes.begin(), slave_nodes.end(), node);
+            const bool of_master =
+              std::any_of(master_nodes.begin(), master_nodes.end(), [&](const unsigned int other) {
+                return (x[node] - x[other]).norm() <= opposite * sizes[node];
+              });
+            if (of_slave == of_master) // both: they end together, as one body would
+              continue;
+            pressure = state.contact[row].pressure;
+            found    = SharpEdge{p, "the pressure of '" + pair.name() + "' at a sharp edge of " +
+                                   (of_slave ? pair.slave_name : pair.master_name) +
+                                   " grows without limit as cells get smaller"};
+          }
+      if (found)
+        result.push_back(std::move(*found));
+    }
+  return result;
+}
+
+template std::vector<SharpEdge> sharp_edges(const state::StateSolver<2> &,
+                                            const state::ContactState<2> &);
+template std::vector<SharpEdge> sharp_edges(const state::StateSolver<3> &,
+                                            const state::ContactState<3> &);
+} // namespace snug::accuracy

@@ -1,0 +1,91 @@
+#include <snug/accuracy/sharp_edges.h>
+
+#include <gtest/gtest.h>
+
+#include "solved_scene.h"
+
+using namespace snug;
+using namespace snug::test;
+
+namespace {
+/// A block of width 1 pressed on a wider one, more on its right. Forces and edges are those of the
+/// whole block, of which a plane of symmetry may hold the left side.
+const std::string punch_scene = R"(
+set Dimension = 2
+set Bodies = punch, base
+set Obstacles = floor
+subsection Body punch
+  set Box corner = 0, 1
+  set Box cells = 8, 8
+  set Young's modulus = 1000
+  set Supports = top: x
+  set Pressure = top: 1 + x
+end
+subsection Body base
+  set Box corner = -1, 0
+  set Box size = 3, 1
+  set Box cells = 24, 8
+  set Young's modulus = 1000
+  set Supports = bottom: xy
+end
+subsection Obstacle floor
+  set Point = 0, 1
+  set Normal = 0, 1
+end
+subsection Contact
+  set Pairs = punch.bottom: base.top
+  set Slave = first
+end
+)";
+
+std::vector<std::string> edges(const std::vector<std::string> &sets = {})
+{
+  const SolvedScene<2>     scene(punch_scene, sets);
+  std::vector<std::string> result;
+  for (const auto &edge : accuracy::sharp_edges(scene.solver, scene.state))
+    result.push_back(edge.text);
+  return result;
+}
+
+const std::vector<std::string> of_punch = {"the pressure of 'punch.bottom: base.top' at a sharp "
+                                           "edge of punch.bottom grows without limit as cells get "
+                                           "smaller"};
+} // namespace
+
+/// The pressure beside a right-angled punch on a plane is unbounded.
+TEST(SharpEdges, APunchHasThem)
+{
+  EXPECT_EQ(edges(), of_punch);
+}
+
+TEST(SharpEdges, OfAMasterAsWell)
+{
+  const auto found = edges({"Contact/Pairs=base.top: punch.bottom"});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found.front().find("edge of punch.bottom"), std::string::npos) << found.front();
+}
+
+/// Its left side on a plane of symmetry, and the pressure largest there: no edge, and the pressure
+/// of the other one is below the mean.
+TEST(SharpEdges, NotOnAPlaneOfSymmetry)
+{
+  const std::vector<std::string> left = {"Body punch/Supports=left: x", "Body base/Box corner=0, 0",
+                                         "Body base/Box size=2, 1", "Body base/Supports=bottom: xy",
+                                         "Body punch/Pressure=top: exp(-8*x)"};
+  EXPECT_TRUE(edges(left).empty());
+}
+
+/// A plane obstacle is a plane of symmetry, across which a right angle is a straight surface: the
+/// pressure is linear, and twice the mean or 1.3 times it at the edge.
+TEST(SharpEdges, NotOfARightAngleOnAnObstacle)
+{
+  EXPECT_TRUE(edges({"Contact/Pairs=punch.bottom: floor", "Bodies=punch"}).empty());
+}
+
+/// Bodies that end together are as one.
+TEST(SharpEdges, NotWhereBothEnd)
+{
+  EXPECT_TRUE(
+    edges({"Body base/Box corner=0, 0", "Body base/Box size=1, 1", "Body base/Box cells=8, 8"})
+      .empty());
+}
