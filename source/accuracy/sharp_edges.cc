@@ -5,7 +5,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace snug::accuracy {
 namespace {
@@ -13,8 +12,9 @@ namespace {
 constexpr double smooth_cosine = 0.8, right_angle_cosine = 0.05;
 /// A pressure that is larger than this part of the mean.
 constexpr double far_above = 1.3;
-/// A slave node is opposite to a master's edge that is closer than this part of its faces.
-constexpr double opposite = 0.6;
+/// A slave node is at an edge that is closer than this part of its faces: its tributary area may go
+/// on beyond a master's edge, and its pressure be less than that of its neighbour.
+constexpr double near_edge = 1.6;
 
 /// A face beside a side, at a node that they share.
 template <int dim>
@@ -44,7 +44,7 @@ public:
     , x(surface.gather(state.positions))
   {}
 
-  /// The nodes of the sharp edges of a side, ascending. @p is_mirrored: what it meets is rigid.
+  /// The nodes of the sharp edges of a side. @p is_mirrored: what it meets is rigid.
   std::vector<unsigned int> nodes(const contact::Side &side, const bool is_mirrored) const
   {
     const faces::NodalNormals<dim> normals(surface, contact::faces_of(surface, side), shape, x);
@@ -59,7 +59,6 @@ public:
               own * face.inwards < 0.) // else the edge is a concave one
             result.push_back(face.node);
         }
-    std::sort(result.begin(), result.end());
     return result;
   }
 
@@ -167,26 +166,32 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
       const auto  slave_nodes = finder.nodes(pair.slave, pair.obstacle.has_value());
       const std::vector<unsigned int> master_nodes =
         pair.obstacle ? std::vector<unsigned int>() : finder.nodes(pair.master, false);
-      std::optional<SharpEdge> found;
-      double                   pressure = far_above * of.mean;
+      std::vector<unsigned int> at_slave_edge, at_master_edge;
+      double                    largest  = far_above * of.mean;
+      bool                      of_slave = false;
       for (const unsigned int row : of.rows)
-        if (state.contact[row].pressure > pressure)
-          {
-            const unsigned int node = solver.contact().places()[row].slave;
-            const bool of_slave = std::binary_search(slave_nodes.begin(), slave_nodes.end(), node);
-            const bool of_master =
-              std::any_of(master_nodes.begin(), master_nodes.end(), [&](const unsigned int other) {
-                return (x[node] - x[other]).norm() <= opposite * sizes[node];
-              });
-            if (of_slave == of_master) // both: they end together, as one body would
-              continue;
-            pressure = state.contact[row].pressure;
-            found    = SharpEdge{p, "the pressure of '" + pair.name() + "' at a sharp edge of " +
-                                   (of_slave ? pair.slave_name : pair.master_name) +
-                                   " grows without limit as cells get smaller"};
-          }
-      if (found)
-        result.push_back(std::move(*found));
+        {
+          const unsigned int node       = solver.contact().places()[row].slave;
+          const auto         is_at_edge = [&](const std::vector<unsigned int> &edge) {
+            return std::any_of(edge.begin(), edge.end(), [&](const unsigned int other) {
+              return (x[node] - x[other]).norm() <= near_edge * sizes[node];
+            });
+          };
+          const bool at_slave = is_at_edge(slave_nodes), at_master = is_at_edge(master_nodes);
+          if (at_slave == at_master) // both: they end together, as one body would
+            continue;
+          (at_slave ? at_slave_edge : at_master_edge).push_back(row);
+          if (state.contact[row].pressure > largest)
+            {
+              largest  = state.contact[row].pressure;
+              of_slave = at_slave;
+            }
+        }
+      if (largest > far_above * of.mean)
+        result.push_back({p, of_slave ? at_slave_edge : at_master_edge,
+                          "the pressure of '" + pair.name() + "' at a sharp edge of " +
+                            (of_slave ? pair.slave_name : pair.master_name) +
+                            " grows without limit as cells get smaller"});
     }
   return result;
 }

@@ -7,8 +7,9 @@ namespace snug::accuracy {
 /// A sharp edge of one side of a pair under pressure.
 struct SharpEdge
 {
-  unsigned int pair; ///< of Contact::joined_pairs()
-  std::string  text; ///< which edge, and that its pressure has no limit
+  unsigned int              pair; ///< of Contact::joined_pairs()
+  std::vector<unsigned int> rows; ///< contact rows at sharp edges of this side, ascending
+  std::string               text; ///< which edge, and that its pressure has no limit
 };
 
 /**
