@@ -8,12 +8,13 @@
 
 namespace snug::accuracy {
 namespace {
-/// Cosines of the angles between the normals of two faces.
+/// Cosines of the angles between the normals of two faces: above the first one the edge between
+/// them is none, below the second one its interior angle is at most a right one.
 constexpr double smooth_cosine = 0.8, right_angle_cosine = 0.05;
-/// A pressure that is larger than this part of the mean.
+/// Pressures above this multiple of the mean are far above it.
 constexpr double far_above = 1.3;
-/// A slave node is at an edge that is closer than this part of its faces: its tributary area may go
-/// on beyond a master's edge, and its pressure be less than that of its neighbour.
+/// A slave node is at an edge that is closer than this multiple of its face size: its tributary
+/// area may go on beyond a master's edge, and its pressure be less than that of its neighbour.
 constexpr double near_edge = 1.6;
 
 /// A face beside a side, at a node that they share.
@@ -32,6 +33,7 @@ struct FaceBeside
   }
 };
 
+/// Finds the edges of contact sides at the positions of a state.
 template <int dim>
 class EdgeFinder
 {
@@ -44,7 +46,8 @@ public:
     , x(surface.gather(state.positions))
   {}
 
-  /// The nodes of the sharp edges of a side. @p is_mirrored: what it meets is rigid.
+  /// The surface nodes of the sharp edges of a side; @p is_mirrored by an obstacle, as by a plane
+  /// of symmetry. Collective.
   std::vector<unsigned int> nodes(const contact::Side &side, const bool is_mirrored) const
   {
     const faces::NodalNormals<dim> normals(surface, contact::faces_of(surface, side), shape, x);
@@ -71,7 +74,7 @@ private:
   const typename mesh::BodyMesh<dim>::Field &local;
   const typename mesh::Surface<dim>::Field   x;
 
-  /// Of this rank.
+  /// Those of this rank.
   std::vector<FaceBeside<dim>> faces_beside(const contact::Side &side) const
   {
     const auto       &mesh = solver.mesh();
@@ -122,12 +125,12 @@ private:
   }
 };
 
-/// Rows of a joined pair, and their pressures.
+/// The active rows of a joined pair.
 template <int dim>
 struct PairRows
 {
   std::vector<unsigned int> rows;
-  double                    mean = 0.; ///< pressure
+  double                    mean = 0.; ///< of their pressure
 };
 
 template <int dim>

@@ -76,7 +76,7 @@ void add_facets(const Subject<dim> &subject, std::vector<Advice> &advice)
   advice.push_back({"facets", text.str(), 1., height / closed});
 }
 
-/// Of each pair once, whatever the load case.
+/// Sharp edges under pressure, of each joined pair once, whatever the load case.
 template <int dim>
 void add_corners(const Subject<dim> &subject, std::vector<Advice> &advice)
 {

@@ -8,8 +8,8 @@ namespace {
 /// bodies of revolution with degree 2.
 const double smallest_area = 1e-10;
 
-/// The largest power of p ~ r^-0.226, the pressure beside a right-angled edge on a body of the same
-/// material, that has an integral.
+/// Larger powers of p ~ r^-0.226, the pressure beside a right-angled edge on a body of the same
+/// material, have no integral.
 const double integrable_power = 4.4;
 
 /// Rows and their shares.
@@ -49,10 +49,7 @@ public:
 
   bool reads_pressure() const override { return true; }
 
-  std::vector<bool> unbounded_at_edges(const state::StateSolver<dim> &solver) const override
-  {
-    return power > integrable_power ? chosen_pairs(solver, pair) : std::vector<bool>();
-  }
+  bool unbounded_at_edges() const override { return power > integrable_power; }
 
   /// Throws where there is no such pair.
   void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair); }
@@ -125,7 +122,7 @@ private:
   const std::string              pair;
   const Measure                  measure;
   const std::vector<std::string> read;
-  const double                   power; ///< of the pressure, of which the integral is taken
+  const double                   power; ///< the highest of the pressure under an integral
 };
 } // namespace
 

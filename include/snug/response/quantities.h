@@ -84,7 +84,7 @@ using Measure = std::function<Measured(const PressureRows &)>;
  * of all pairs; see pressure_measures.h for what there is. Rows that
  * cannot carry a force, or have no area, do not count.
  * @param entries  those that the measure reads, besides the pair.
- * @param power    of the pressure, the highest that the measure has an integral of.
+ * @param power    the highest power of the pressure under an integral of the measure.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &parameters,

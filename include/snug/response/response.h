@@ -79,12 +79,9 @@ public:
   /// Whether J depends on how the contact pressure is distributed, and not on its resultants alone.
   virtual bool reads_pressure() const { return false; }
 
-  /// The pairs of the scene (Contact::named_pairs()) that a sharp edge of leaves J without a limit
-  /// as cells get smaller; empty: none.
-  virtual std::vector<bool> unbounded_at_edges(const state::StateSolver<dim> & /*solver*/) const
-  {
-    return {};
-  }
+  /// Whether J has no limit as cells get smaller where a sharp edge presses, see
+  /// accuracy::sharp_edges().
+  virtual bool unbounded_at_edges() const { return false; }
 
   /// Throw an InputError unless the scene has what is measured.
   /// Collective.
