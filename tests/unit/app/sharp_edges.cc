@@ -85,7 +85,7 @@ TEST(SharpEdges, NotOnAPlaneOfSymmetry)
 {
   std::vector<std::string> round = {"Body base/Supports=bottom: xy, left: x",
                                     "Body punch/Supports=left: x",
-                                    "Body punch/Pressure=top: 1",
+                                    "Body punch/Pressure=top: 1 + x",
                                     "Body base/Box corner=0, 0",
                                     "Body base/Box size=2, 1",
                                     "Body punch/Curved faces=bottom: -(x^2)/2"};
