@@ -11,11 +11,11 @@ namespace {
 /// Cosines of the angles between the normals of two faces: above the first one the edge between
 /// them is none, below the second one its interior angle is at most a right one.
 constexpr double smooth_cosine = 0.8, right_angle_cosine = 0.05;
-/// Pressures above this multiple of the mean are far above it.
-constexpr double far_above = 1.3;
-/// A slave node is at an edge that is closer than this multiple of its face size: its tributary
-/// area may go on beyond a master's edge, and its pressure be less than that of its neighbour.
-constexpr double near_edge = 1.6;
+/// An edge presses if its pressure is above this multiple of the mean: of a mesh that is too coarse
+/// to see that it grows, and in which rows at a master's edge have areas that go on beyond it.
+constexpr double pressing = 0.5;
+/// A slave node is at an edge that has a node closer than this multiple of its face size.
+constexpr double near_edge = 0.6;
 
 /// A face beside a side, at a node that they share.
 template <int dim>
@@ -170,7 +170,7 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
       const std::vector<unsigned int> master_nodes =
         pair.obstacle ? std::vector<unsigned int>() : finder.nodes(pair.master, false);
       std::vector<unsigned int> at_slave_edge, at_master_edge;
-      double                    largest  = far_above * of.mean;
+      double                    largest  = pressing * of.mean;
       bool                      of_slave = false;
       for (const unsigned int row : of.rows)
         {
@@ -190,7 +190,7 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
               of_slave = at_slave;
             }
         }
-      if (largest > far_above * of.mean)
+      if (largest > pressing * of.mean)
         result.push_back({p, of_slave ? at_slave_edge : at_master_edge,
                           "the pressure of '" + pair.name() + "' at a sharp edge of " +
                             (of_slave ? pair.slave_name : pair.master_name) +

@@ -13,7 +13,7 @@ struct SharpEdge
 };
 
 /**
- * Sharp edges of contact sides where the pressure is far above the mean of its pair. The pressure
+ * Sharp edges of contact sides where the pressure is above half the mean of its pair. The pressure
  * of the true bodies is unbounded there: beside an edge of interior angle alpha it is
  * p ~ r^-s, s > 0, if the other body is elastic and goes on (s = 0.226 for alpha = 90 degrees and
  * equal materials), or if it is an obstacle and alpha > 90 degrees; an obstacle acts as a plane of
