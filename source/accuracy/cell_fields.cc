@@ -17,8 +17,10 @@ template <int dim>
 typename CellFields<dim>::Nodes CellFields<dim>::at_cell(const unsigned int cell,
                                                          const Field       &field) const
 {
-  Nodes result;
-  for (const unsigned int node : solver.mesh().known_cell(cell).nodes)
+  const auto &nodes = solver.mesh().known_cell(cell).nodes;
+  Nodes       result;
+  result.reserve(nodes.size());
+  for (const unsigned int node : nodes)
     result.push_back(field[node]);
   return result;
 }

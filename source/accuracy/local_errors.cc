@@ -61,11 +61,15 @@ LocalErrors<dim>::points(const std::vector<dealii::Point<dim>> &at) const
   return result;
 }
 
+/// A byte for each number.
 template <int dim>
-std::vector<unsigned char> LocalErrors<dim>::placing(const mesh::InteriorFace<dim> &face)
+std::uint64_t LocalErrors<dim>::placing(const mesh::InteriorFace<dim> &face)
 {
-  std::vector<unsigned char> result = {face.face, face.child, face.origin};
-  result.insert(result.end(), face.axes.begin(), face.axes.end());
+  std::uint64_t result = face.face;
+  for (const unsigned char number : {face.child, face.origin})
+    result = 256 * result + number;
+  for (const unsigned char axis : face.axes)
+    result = 256 * result + axis;
   return result;
 }
 

@@ -10,7 +10,9 @@ dealii::Tensor<2, dim> jacobian(const mesh::LagrangePoint<dim>            &shape
   AssertDimension(X.size(), shape.gradient.size());
   dealii::Tensor<2, dim> J;
   for (unsigned int a = 0; a < X.size(); ++a)
-    J += outer_product(X[a], shape.gradient[a]);
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        J[c][d] += X[a][c] * shape.gradient[a][d];
   return J;
 }
 
@@ -22,6 +24,23 @@ dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
   dealii::Tensor<1, dim> result;
   for (unsigned int a = 0; a < u.size(); ++a)
     result += shape.value[a] * u[a];
+  return result;
+}
+
+/// du/dx = du/d xi J^-1, and u_r / r in axisymmetric models.
+template <int dim>
+dealii::Tensor<2, 3> gradient(const mesh::LagrangePoint<dim>            &shape,
+                              const std::vector<dealii::Tensor<1, dim>> &X,
+                              const std::vector<dealii::Tensor<1, dim>> &u,
+                              const mesh::Idealization                  &idealization)
+{
+  const auto           in_plane = jacobian(shape, u) * invert(jacobian(shape, X));
+  dealii::Tensor<2, 3> result;
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int d = 0; d < dim; ++d)
+      result[c][d] = in_plane[c][d];
+  if (idealization.is_axisymmetric())
+    result[2][2] = value(shape, u)[0] / value(shape, X)[0];
   return result;
 }
 
@@ -100,6 +119,10 @@ void CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source, Nodes &f) 
                                            const std::vector<dealii::Tensor<1, dim>> &); \
   template dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim> &,                \
                                         const std::vector<dealii::Tensor<1, dim>> &);    \
+  template dealii::Tensor<2, 3>   gradient(const mesh::LagrangePoint<dim> &,             \
+                                           const std::vector<dealii::Tensor<1, dim>> &,  \
+                                           const std::vector<dealii::Tensor<1, dim>> &,  \
+                                           const mesh::Idealization &);                  \
   template struct CellPoint<dim>;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -141,17 +141,25 @@ Element<dim>::stresses(const Nodes                                 &X,
                        const Nodes                                 &u,
                        const std::vector<mesh::LagrangePoint<dim>> &shapes) const
 {
+  std::vector<dealii::SymmetricTensor<2, 3>> result;
+  result.reserve(shapes.size());
+  if (formulation == Formulation::standard)
+    {
+      for (const auto &shape : shapes)
+        result.push_back(cauchy_stress(material, strain(idealization, material,
+                                                        gradient(shape, X, u, idealization))));
+      return result;
+    }
   // The points of a projection, and those that receive what it makes.
-  auto points =
-    formulation == Formulation::standard ? std::vector<CellPoint<dim>>() : gauss_points(X);
-  const unsigned int first = points.size();
+  auto               points = gauss_points(X);
+  const unsigned int first  = points.size();
+  points.reserve(first + shapes.size());
   for (const auto &shape : shapes)
     {
       points.emplace_back(shape, X, idealization);
       points.back().dV = 0.;
     }
-  const auto                                 states = point_states(points, material, u);
-  std::vector<dealii::SymmetricTensor<2, 3>> result;
+  const auto states = point_states(points, material, u);
   for (unsigned int q = first; q < states.size(); ++q)
     result.push_back(states[q].stress);
   return result;

@@ -125,14 +125,16 @@ LocalError<dim>::LocalError(const LocalSpace<dim> &space,
 {
   for (unsigned int q = 0; q < space.quadrature.size(); ++q)
     {
-      const auto          &shape = space.quadrature[q];
-      const CellPoint<dim> point(shape, X, space.idealization);
-      const auto           inverse = invert(jacobian(shape, X));
-      std::vector<Value>   values;
+      const auto  &shape   = space.quadrature[q];
+      const auto   J       = jacobian(shape, X);
+      const auto   inverse = invert(J);
+      const auto   x       = value(shape, X);
+      const double hoop    = space.idealization.is_axisymmetric() ? 1. / x[0] : 0.;
+      at.emplace_back();
+      at.back().reserve(space.functions.size());
       for (const auto &f : space.at_quadrature[q])
-        values.push_back({f.gradient * inverse, f.value * point.inverse_radius});
-      at.push_back(values);
-      dV.push_back(point.dV);
+        at.back().push_back({f.gradient * inverse, f.value * hoop});
+      dV.push_back(shape.weight * determinant(J) * space.idealization.weight(x));
     }
   find_basis();
   const auto         A = matrix();
@@ -147,7 +149,7 @@ LocalError<dim>::LocalError(const LocalSpace<dim> &space,
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)
             sum += u[c] * v[d] * A[(dim * i + c) * size + dim * j + d];
-        factor(k, l) = factor(l, k) = sum;
+        factor(k, l) = sum; // Cholesky reads the lower half
       }
   factor.set_property(dealii::LAPACKSupport::symmetric);
   factor.compute_cholesky_factorization();
@@ -175,6 +177,7 @@ bool LocalError<dim>::fits(const LocalSpace<dim> &of_space,
 template <int dim>
 void LocalError<dim>::find_basis()
 {
+  basis.reserve(space.size());
   for (unsigned int i = 0; i < space.functions.size(); ++i)
     {
       std::vector<dealii::Tensor<1, dim>> of_function;
@@ -192,30 +195,44 @@ void LocalError<dim>::find_basis()
     }
 }
 
-/// a(e, v), row by row, below the diagonal of functions.
+/// a(e, v), row by row, below the diagonal of functions. Of the functions f_i and f_j times unit
+/// vectors c and d it is the integral of lambda f_i,c f_j,d + mu f_i,d f_j,c, plus mu f_i,e f_j,e
+/// where c = d; divergences have hoop strains as well.
 template <int dim>
 std::vector<double> LocalError<dim>::matrix(const double lambda, const double mu) const
 {
   const unsigned int  n = space.functions.size(), size = space.size();
   std::vector<double> A(size * size, 0.);
-  for (unsigned int q = 0; q < at.size(); ++q)
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j <= i; ++j)
-        {
-          const auto  &u = at[q][i], &v = at[q][j];
-          const double product = mu * (u.gradient * v.gradient);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+      {
+        double gradients[dim][dim] = {}, divergences[dim][dim];
+        for (unsigned int q = 0; q < at.size(); ++q)
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
+              gradients[c][d] += dV[q] * at[q][i].gradient[c] * at[q][j].gradient[d];
+        std::copy(&gradients[0][0], &gradients[0][0] + dim * dim, &divergences[0][0]);
+        double hoops = 0.;
+        for (unsigned int q = 0; space.idealization.is_axisymmetric() && q < at.size(); ++q)
+          {
+            const auto &u = at[q][i], &v = at[q][j];
+            for (unsigned int d = 0; d < dim; ++d)
               {
-                double value =
-                  mu * u.gradient[d] * v.gradient[c] + lambda * u.divergence(c) * v.divergence(d);
-                if (c == d)
-                  value += product;
-                if (c == 0 && d == 0)
-                  value += 2. * mu * u.hoop * v.hoop;
-                A[(dim * i + c) * size + dim * j + d] += dV[q] * value;
+                divergences[0][d] += dV[q] * u.hoop * v.gradient[d];
+                divergences[d][0] += dV[q] * u.gradient[d] * v.hoop;
               }
-        }
+            hoops += dV[q] * u.hoop * v.hoop;
+          }
+        divergences[0][0] += hoops;
+        double product = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          product += gradients[c][c];
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            A[(dim * i + c) * size + dim * j + d] =
+              lambda * divergences[c][d] + mu * gradients[d][c] + (c == d ? mu * product : 0.) +
+              (c == 0 && d == 0 ? 2. * mu * hoops : 0.);
+      }
   return A;
 }
 

@@ -27,7 +27,16 @@ public:
     : shape(shape), nodes(nodes), p(p)
   {}
 
-  DistanceExpansion<dim> expand(const dealii::Point<dim - 1> &xi)
+  /// phi alone.
+  double at(const typename FaceShape<dim>::Values &values) const
+  {
+    dealii::Tensor<1, dim> offset;
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      offset += values.value[k] * (nodes[k] - p);
+    return 0.5 * offset.norm_square();
+  }
+
+  DistanceExpansion<dim> expand(const dealii::Point<dim - 1> &xi) const
   {
     DistanceExpansion<dim>                      result;
     const auto                                  values = shape.at(xi);
@@ -125,20 +134,12 @@ template <int dim>
 std::vector<dealii::Point<dim - 1>> starting_points(const FaceShape<dim> &shape,
                                                     DistanceToFace<dim>  &distance)
 {
-  const int                           n    = 2 * shape.degree() + 1;
-  const int                           rows = dim == 2 ? 1 : n;
-  std::vector<dealii::Point<dim - 1>> points;
-  std::vector<double>                 phi;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < n; ++i)
-      {
-        // In 2D both are the same coordinate, which has to end as that of i.
-        dealii::Point<dim - 1> xi;
-        xi[dim - 2] = j / (n - 1.);
-        xi[0]       = i / (n - 1.);
-        points.push_back(xi);
-        phi.push_back(distance.expand(xi).phi);
-      }
+  const int           n    = 2 * shape.degree() + 1;
+  const int           rows = dim == 2 ? 1 : n;
+  std::vector<double> phi;
+  phi.reserve(n * rows);
+  for (const auto &values : shape.grid())
+    phi.push_back(distance.at(values));
   std::vector<dealii::Point<dim - 1>> starts;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < n; ++i)
@@ -149,7 +150,7 @@ std::vector<dealii::Point<dim - 1>> starting_points(const FaceShape<dim> &shape,
           for (int a = std::max(0, i - 1); a <= std::min(n - 1, i + 1); ++a)
             least = least && phi[a + n * b] >= phi[i + n * j];
         if (least)
-          starts.push_back(points[i + n * j]);
+          starts.push_back(shape.grid()[i + n * j].point);
       }
   return starts;
 }

@@ -6,6 +6,7 @@
 #include <snug/elasticity/local_error.h>
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -57,10 +58,10 @@ private:
   std::vector<elasticity::LocalSpace<dim>> spaces;      ///< per body
   std::array<FaceShapes, 2 * dim>          face_points; ///< of the reference cell
   /// of the neighbours of interior faces, by how they lie to each other
-  std::map<std::vector<unsigned char>, FaceShapes> beyond;
-  std::vector<elasticity::HeldFaces<dim>>          held; ///< per cell of this rank
+  std::map<std::uint64_t, FaceShapes>     beyond;
+  std::vector<elasticity::HeldFaces<dim>> held; ///< per cell of this rank
 
-  static std::vector<unsigned char> placing(const mesh::InteriorFace<dim> &face);
+  static std::uint64_t placing(const mesh::InteriorFace<dim> &face);
 
   FaceShapes points(const std::vector<dealii::Point<dim>> &at) const;
   dealii::Tensor<1, dim>

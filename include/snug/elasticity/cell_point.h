@@ -20,6 +20,13 @@ template <int dim>
 dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
                              const std::vector<dealii::Tensor<1, dim>> &u);
 
+/// CellPoint::gradient() of @p u by itself, at a fraction of the cost.
+template <int dim>
+dealii::Tensor<2, 3> gradient(const mesh::LagrangePoint<dim>            &shape,
+                              const std::vector<dealii::Tensor<1, dim>> &X,
+                              const std::vector<dealii::Tensor<1, dim>> &u,
+                              const mesh::Idealization                  &idealization);
+
 /**
  * A point of a cell with nodes X: g_a = J^-T dN_a/d xi.
  *

@@ -32,6 +32,8 @@ public:
       samples_at_nodes.push_back(samples_at(node.point));
     for (const auto &sample : mesh::lagrange_nodes<dim - 1>(mesh::surface_degree))
       nodes_at_samples.push_back(at(sample.point));
+    for (const auto &point : mesh::lagrange_nodes<dim - 1>(2 * degree))
+      grid_values.push_back(at(point.point));
   }
 
   unsigned int n_nodes() const { return nodes.size(); }
@@ -44,6 +46,9 @@ public:
 
   /// Values at node @p k.
   const Values &at_node(unsigned int k) const { return nodes[k]; }
+
+  /// Values on an even grid of 2p + 1 points per direction, the first one fastest.
+  const std::vector<Values> &grid() const { return grid_values; }
 
   /// @name The functions of a face's samples, which describe its true surface
   /// @{
@@ -60,7 +65,7 @@ public:
 
 private:
   unsigned int        p;
-  std::vector<Values> nodes, samples_at_nodes, nodes_at_samples;
+  std::vector<Values> nodes, samples_at_nodes, nodes_at_samples, grid_values;
 };
 
 /// The points and functions that describe the true surface of a face: its
