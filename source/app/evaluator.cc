@@ -4,20 +4,9 @@
 #include <cmath>
 
 namespace snug::app {
-namespace {
-template <int dim>
-std::vector<double> bound_widths(const shape::Shapes<dim> &shapes)
-{
-  std::vector<double> widths = shapes.upper_bounds();
-  for (unsigned int i = 0; i < widths.size(); ++i)
-    widths[i] -= shapes.lower_bounds()[i];
-  return widths;
-}
-} // namespace
-
 template <int dim>
 Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem)
-  : problem(problem), starts(bound_widths(*problem.shapes))
+  : problem(problem), starts(problem.shapes->first_steps())
 {
   for (const auto &[name, limit] : problem.scene.optimization.constraints)
     constraints.push_back(make_constraint(name, limit));
@@ -92,6 +81,8 @@ void Evaluator<dim>::differentiate(const Design &at, optimization::Evaluation &e
   auto parameters = problem.scene.gradient;
   if (parameters.method == sensitivity::Method::energy) // not for every constraint
     parameters.method.reset();
+  if (is_predicted())
+    parameters.method = sensitivity::Method::direct;
   gradients = sensitivity::combined_gradients(problem.load_cases(states, design, parameters),
                                               *problem.objective,
                                               problem.combined_objective(states).factors, measured);
@@ -103,6 +94,8 @@ void Evaluator<dim>::differentiate(const Design &at, optimization::Evaluation &e
       for (double &entry : evaluation.jacobian.back())
         entry *= constraints[i].sign();
     }
+  if (is_predicted())
+    evaluation.linearization = linearized_contact();
   evaluation.f_mults += gradients.f_mults;
   evaluation.seconds = problem.context.seconds();
 }
@@ -133,6 +126,7 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
   result.lower         = problem.shapes->lower_bounds();
   result.upper         = problem.shapes->upper_bounds();
   result.start         = start;
+  result.lengths       = problem.shapes->first_steps();
   result.evaluate      = [this](const Design &x) { return evaluate(x); };
   result.differentiate = [this](const Design &x, optimization::Evaluation &evaluation) {
     differentiate(x, evaluation);
@@ -141,6 +135,11 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
   result.remember = [this](const std::string &bytes) {
     return starts.read(bytes, problem.solver->gluing().layout().n_owned(), problem.n_load_cases());
   };
+  if (is_predicted())
+    result.predict = [this](const optimization::Evaluation &at, const std::vector<double> &dx) {
+      return predicted(at, dx);
+    };
+  result.predicts_objective = is_predicted() && measures_contact(*problem.objective);
   for (const Constraint &constraint : constraints)
     {
       result.constraint_scales.push_back(std::abs(constraint.target));

@@ -83,6 +83,11 @@ void Search<dim>::report(const Iteration &iteration, const unsigned int before)
                 << " for the objective: " << of_objective.reason << std::endl;
           results.add_first(evaluator.states, of_objective.shape);
         }
+      if (problem.scene.optimization.algorithm == optimization::Algorithm::SLSQP)
+        out << "steps: at first no node moves by more than half the edge of a cell"
+            << (evaluator.is_predicted() ? "; contact pressures are predicted by their derivatives"
+                                         : "")
+            << std::endl;
       out << io::log_header() << std::endl;
     }
   io::HistoryLine line;

@@ -66,17 +66,29 @@ ShapeProblem<dim>::solve(const Design &design, const std::vector<qp::WarmStart> 
 template <int dim>
 optimization::Combined ShapeProblem<dim>::combined_objective(const States &states)
 {
-  std::vector<double> values, weights;
-  double              largest = 0.;
+  std::vector<double> values;
   for (const auto &state : states)
-    {
-      values.push_back(objective->value(*solver, state));
-      weights.push_back(scene.load_cases.empty() ? 1. : scene.load_cases[state.load_case].weight);
-      largest = std::max(largest, std::abs(weights.back() * values.back()));
-    }
+    values.push_back(objective->value(*solver, state));
   if (objective_scale == 0.)
-    objective_scale = largest;
+    for (unsigned int c = 0; c < values.size(); ++c)
+      objective_scale = std::max(objective_scale, std::abs(weight(c) * values[c]));
+  return combined(values);
+}
+
+template <int dim>
+optimization::Combined ShapeProblem<dim>::combined(const std::vector<double> &values) const
+{
+  std::vector<double> weights;
+  for (unsigned int c = 0; c < values.size(); ++c)
+    weights.push_back(weight(c));
   return optimization::combined(scene.optimization.combine, values, weights, objective_scale);
+}
+
+/// Of a load case in the objective.
+template <int dim>
+double ShapeProblem<dim>::weight(const unsigned int load_case) const
+{
+  return scene.load_cases.empty() ? 1. : scene.load_cases[load_case].weight;
 }
 
 template <int dim>

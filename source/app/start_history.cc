@@ -11,7 +11,7 @@ namespace {
 /// Designs remembered. More do not make the extrapolation better where variables are as many.
 constexpr std::size_t most = 8;
 
-/// Error of the forces, as the part of the bounds' widths that changes them as much.
+/// Error of the forces, as the part of the units that changes them as much.
 constexpr double error_of_forces = 1e-6;
 
 void append(std::string &bytes, const double *values, const std::size_t n)
@@ -20,11 +20,7 @@ void append(std::string &bytes, const double *values, const std::size_t n)
 }
 } // namespace
 
-StartHistory::StartHistory(std::vector<double> the_widths) : widths(std::move(the_widths))
-{
-  // a variable held by its bounds
-  std::replace(widths.begin(), widths.end(), 0., 1.);
-}
+StartHistory::StartHistory(std::vector<double> the_units) : units(std::move(the_units)) {}
 
 void StartHistory::add(const std::vector<double> &design, std::vector<qp::MultiVector> forces)
 {
@@ -39,7 +35,7 @@ void StartHistory::add(const std::vector<double> &design, std::vector<qp::MultiV
 
 std::vector<double> StartHistory::coefficients(const std::vector<double> &design) const
 {
-  const auto          n = widths.size(), m = entries.size();
+  const auto          n = units.size(), m = entries.size();
   std::vector<double> c(m, 0.);
   // columns x_j - x
   dealii::FullMatrix<double> offsets(n, m);
@@ -48,7 +44,7 @@ std::vector<double> StartHistory::coefficients(const std::vector<double> &design
     {
       for (std::size_t i = 0; i < n; ++i)
         {
-          offsets(i, j) = (entries[j].design[i] - design[i]) / widths[i];
+          offsets(i, j) = (entries[j].design[i] - design[i]) / units[i];
           distance[j] += offsets(i, j) * offsets(i, j);
         }
       weight[j] += distance[j];
@@ -119,14 +115,14 @@ bool StartHistory::read(const std::string &bytes,
                         const unsigned int n_cases)
 {
   entries.clear();
-  const std::size_t of_entry = (widths.size() + std::size_t(n_cases) * n_owned) * sizeof(double);
+  const std::size_t of_entry = (units.size() + std::size_t(n_cases) * n_owned) * sizeof(double);
   if (of_entry == 0 || bytes.size() % of_entry != 0 || bytes.size() / of_entry > most)
     return bytes.empty();
   for (const char *from = bytes.data(); from != bytes.data() + bytes.size();)
     {
-      Entry entry{std::vector<double>(widths.size()), {}};
-      std::memcpy(entry.design.data(), from, widths.size() * sizeof(double));
-      from += widths.size() * sizeof(double);
+      Entry entry{std::vector<double>(units.size()), {}};
+      std::memcpy(entry.design.data(), from, units.size() * sizeof(double));
+      from += units.size() * sizeof(double);
       for (unsigned int i = 0; i < n_cases; ++i)
         {
           entry.forces.emplace_back(n_owned);

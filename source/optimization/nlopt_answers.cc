@@ -7,8 +7,7 @@
 
 namespace snug::optimization {
 namespace {
-/// NLopt may repeat a question for ever. More than SLSQP's six line
-/// searches of at most eleven designs before it gives up by itself.
+/// NLopt may repeat a question for ever.
 constexpr unsigned int max_idle_questions = 100;
 
 /// An algorithm that takes more evaluations than this for a gain crawls: of the objective by
@@ -31,16 +30,9 @@ void NloptAnswers::begin_run()
 {
   end            = End::round_off;
   idle_questions = 0;
+  milestone      = progress.iterate();
+  reached        = problem.n_evaluations();
 }
-
-void NloptAnswers::end_run()
-{
-  guarded([this] { ended(); });
-}
-
-void NloptAnswers::ended() {}
-
-void NloptAnswers::asking(const std::vector<double> &, bool) {}
 
 void NloptAnswers::attach(nlopt::opt &optimizer)
 {
@@ -62,13 +54,15 @@ void NloptAnswers::attach(nlopt::opt &optimizer)
 double NloptAnswers::objective(const double *values, double *gradient)
 {
   const std::vector<double> y(values, values + n_variables);
-  asking(y, gradient != nullptr);
-  const unsigned int before = problem.n_evaluations();
-  const auto         point  = values_at(y, gradient != nullptr);
-  idle_questions            = problem.n_evaluations() > before ? 0 : idle_questions + 1;
+  const unsigned int        before = problem.n_evaluations();
+  const auto                point  = values_at(y, gradient != nullptr);
+  idle_questions                   = problem.n_evaluations() > before ? 0 : idle_questions + 1;
   if (idle_questions > max_idle_questions)
     stop(End::round_off);
-  asked(y, point, gradient != nullptr);
+  if (progress.is_better(*point, *progress.iterate()) &&
+      progress.accept(point, true) == End::gradient)
+    stop(End::gradient);
+  watch();
   if (gradient != nullptr)
     {
       const auto g = problem.gradient(*point);
@@ -168,64 +162,8 @@ void NloptAnswers::call_constraints(unsigned int,
   self.guarded([&] { self.constraints(relation, values, y, jacobian); });
 }
 
-void SlsqpAnswers::begin_run()
-{
-  NloptAnswers::begin_run();
-  full_step.reset();
-  last_design.clear();
-  last_was_full = false;
-}
-
-void SlsqpAnswers::ended()
-{
-  // If that was right after a full step, it had accepted it.
-  if (full_step)
-    accept(full_step, true);
-}
-
-void SlsqpAnswers::asking(const std::vector<double> &y, const bool with_gradient)
-{
-  if (with_gradient && y != last_design && full_step)
-    accept(full_step, true);
-  full_step.reset();
-}
-
-void SlsqpAnswers::asked(const std::vector<double> &y,
-                         const Progress::Point     &point,
-                         const bool                 with_gradient)
-{
-  if (with_gradient && y == last_design && !last_was_full)
-    accept(point, false);
-  else if (with_gradient)
-    full_step = point;
-  last_design   = y;
-  last_was_full = with_gradient;
-}
-
-void SlsqpAnswers::accept(const Progress::Point &point, const bool full)
-{
-  const End reached = progress.accept(point, full);
-  if (reached != End::none)
-    stop(reached);
-}
-
-void BetterDesigns::begin_run()
-{
-  NloptAnswers::begin_run();
-  milestone = progress.iterate();
-  reached   = problem.n_evaluations();
-}
-
-void BetterDesigns::asked(const std::vector<double> &, const Progress::Point &point, bool)
-{
-  if (progress.is_better(*point, *progress.iterate()) &&
-      progress.accept(point, true) == End::gradient)
-    stop(End::gradient);
-  watch();
-}
-
 /// End a run that crawls. AUGLAG's inner search is of quasi-Newton type.
-void BetterDesigns::watch()
+void NloptAnswers::watch()
 {
   if (parameters.algorithm == Algorithm::AUGLAG)
     return;

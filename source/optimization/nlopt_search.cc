@@ -1,6 +1,7 @@
 #include <snug/base/entries.h>
 #include <snug/base/narrow.h>
 #include <snug/optimization/nlopt_answers.h>
+#include <snug/optimization/trust_region.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,46 +11,39 @@
 
 namespace snug::optimization {
 namespace {
-constexpr unsigned int max_failures         = 5;
-constexpr unsigned int max_round_off_starts = 5;
+constexpr unsigned int max_failures = 5;
 
-/// Of the bound widths: out of a design at which a constraint has no gradient.
-constexpr double first_step = 1e-3;
+/// Of the lengths: out of a design at which a constraint has no gradient.
+constexpr double first_step = 1e-2;
 
 /// A projected gradient above this is no solution, whatever NLopt's tests say.
-constexpr double steep = 1e-2;
+constexpr double steep = 1e-3;
 
 /**
- * Its runs, and what leads from one to the next, in variables scaled by
- * their bound widths and with objective and constraints scaled to order one
- * (ScaledProblem).
+ * A search, in variables scaled by their lengths and with objective and constraints scaled to
+ * order one (ScaledProblem).
  *
- * SLSQP ends at an accepted design x that meets the constraints to the
- * constraint tolerance when its projected gradient is at most
+ * With SLSQP it is one TrustRegion. It ends at an accepted design x that meets the
+ * constraints to the constraint tolerance when its projected gradient is at most
  * gradient_tolerance or, since the accepted design before, the objective
  * changed by at most objective_tolerance |f(x)| or every variable by at
- * most design_tolerance of its bound width; if the line search shortened
- * that step, the next one must agree. NLopt has its
- * own tests, but they also report success at designs that violate the
- * constraints, so they are switched off. The other algorithms do not tell
- * their iterations: each design that is better than all before counts as
+ * most design_tolerance of its bound width; if the trust region cut
+ * that step short, the next one must agree.
+ *
+ * NLopt runs the other algorithms on the problem itself. They
+ * do not tell their iterations: each design that is better than all before counts as
  * accepted, NLopt's tests end the search with the same tolerances, and a
  * design that violates the constraints is no success. They are of first order:
  * where they crawl, or end at a design with a large projected gradient, SLSQP goes on.
- *
  * NLopt has no value for "this design cannot be solved" (NaN, infinity and
  * penalties all mislead it). Such a design ends NLopt's run; a new one
  * begins at the last accepted design, its moves limited to half the move
  * that failed, and is re-centred as long as it ends at such a limit. After
- * five failures in a row without a gain the search ends. When NLopt ends by round-off, it is
- * begun again as long as that gains anything; where it ends so at a design that violates the
- * constraints, as in a kink beyond a hump of one of them, though it has met some that do not,
- * the best of these is begun from as after a failure.
+ * five failures in a row without a gain the search ends.
  *
  * Where a constraint that holds the start has no gradient there, as that
- * of the volume of a symmetric body, NLopt would not leave it: its models
- * of that constraint allow no step, or any. The search then begins a small
- * step of steepest descent away.
+ * of the volume of a symmetric body, no model of it leads away: it allows no step, or any. The
+ * search then begins with a small step of steepest descent.
  *
  * Sources: Kraft, A software package for sequential quadratic programming,
  * DFVLR-FB 88-28 (1988); Svanberg, SIAM J. Optim. 12 (2002) for MMA and
@@ -66,7 +60,6 @@ public:
   OptimizationResult run();
 
 private:
-  void       use(Algorithm algorithm);
   nlopt::opt make_optimizer() const;
   void       step_off_blind_start();
 
@@ -75,7 +68,7 @@ private:
   void descend();
   void ask_nlopt();
   bool begins_again();
-  bool steps_back(const std::string &why);
+  bool steps_back();
   bool is_at_move_limit() const;
 
   Algorithm                     algorithm;
@@ -83,11 +76,13 @@ private:
   const Hooks                  &hooks;
   ScaledProblem                 problem;
   Progress                      progress;
-  std::unique_ptr<NloptAnswers> answers;
+  std::unique_ptr<NloptAnswers> answers; ///< null: SLSQP
 
-  std::vector<double> centre; ///< moves are limited to centre +- reach
+  End                 end = End::none; ///< of the last run
+  std::string         failure;         ///< and what its last design without a value lacked
+  std::vector<double> centre;          ///< moves are limited to centre +- reach
   double              reach    = std::numeric_limits<double>::max();
-  unsigned int        failures = 0, round_off_starts = 0;
+  unsigned int        failures = 0;
 };
 
 Search::Search(const DesignProblem          &design_problem,
@@ -109,16 +104,8 @@ Search::Search(const DesignProblem          &design_problem,
     throw InputError("the number of equality constraints, " + std::to_string(n_equal) +
                      ", must not exceed the number of design variables, " +
                      std::to_string(centre.size()));
-  use(algorithm);
-}
-
-void Search::use(const Algorithm the_algorithm)
-{
-  algorithm = the_algorithm;
-  if (algorithm == Algorithm::SLSQP)
-    answers = std::make_unique<SlsqpAnswers>(problem, progress, parameters);
-  else
-    answers = std::make_unique<BetterDesigns>(problem, progress, parameters);
+  if (algorithm != Algorithm::SLSQP)
+    answers = std::make_unique<NloptAnswers>(problem, progress, parameters);
 }
 
 OptimizationResult Search::run()
@@ -145,9 +132,9 @@ OptimizationResult Search::run()
 /// the constraint is an equality, that start may be the only design that meets it.
 OptimizationResult Search::result()
 {
-  auto result      = progress.finish(answers->end, answers->failure);
+  auto result      = progress.finish(end, failure);
   result.algorithm = algorithm;
-  if (!problem.is_blind(*problem.start()) || result.projected_gradient <= steep)
+  if (!problem.is_blind(*problem.start()) || problem.projected_gradient(*problem.start()) <= steep)
     return result;
   double move = 0.;
   for (const double y : problem.scaled(result.x))
@@ -187,12 +174,13 @@ void Search::step_off_blind_start()
 
 nlopt::opt Search::make_optimizer() const
 {
-  const auto n = narrow<unsigned int>(centre.size());
-  if (algorithm == Algorithm::SLSQP)
-    return nlopt::opt(nlopt::LD_SLSQP, n);
+  const auto n               = narrow<unsigned int>(centre.size());
   const auto with_tolerances = [&](nlopt::opt optimizer, double part) {
+    std::vector<double> smallest;
+    for (unsigned int i = 0; i < n; ++i)
+      smallest.push_back(part * parameters.design_tolerance * problem.bound_width(i));
     optimizer.set_ftol_rel(part * parameters.objective_tolerance);
-    optimizer.set_xtol_abs(part * parameters.design_tolerance);
+    optimizer.set_xtol_abs(smallest);
     return optimizer;
   };
   if (algorithm == Algorithm::MMA)
@@ -204,20 +192,28 @@ nlopt::opt Search::make_optimizer() const
   return optimizer;
 }
 
-/// One run of NLopt from the iterate; the answers say how it ended.
+/// One run from the iterate.
 void Search::descend()
 {
   progress.begin_run();
+  if (!answers)
+    {
+      TrustRegion steps(problem, progress, parameters, hooks);
+      end     = steps.run();
+      failure = steps.failure;
+      return;
+    }
   answers->begin_run();
   try
     {
       ask_nlopt();
-      answers->end_run();
     }
   catch (const nlopt::forced_stop &)
     {}
   if (answers->error)
     std::rethrow_exception(answers->error);
+  end     = answers->end;
+  failure = answers->failure;
 }
 
 void Search::ask_nlopt()
@@ -239,11 +235,9 @@ void Search::ask_nlopt()
     {
       const auto  why   = optimizer.optimize(y, f);
       const auto &found = *progress.iterate();
-      // The multipliers of AUGLAG are as good as its constraint tolerance.
-      const bool is_steep = problem.projected_gradient(found) > steep &&
-                            (algorithm != Algorithm::AUGLAG || progress.n_iterations() == 0);
-      const bool is_end = progress.is_feasible(found) && !is_steep;
-      if (algorithm != Algorithm::SLSQP && is_end)
+      // the multipliers of AUGLAG are as good as its constraint tolerance
+      if (progress.is_feasible(found) &&
+          problem.projected_gradient(found) <= std::max(steep, parameters.constraint_tolerance))
         answers->end = why == nlopt::FTOL_REACHED   ? End::objective
                        : why == nlopt::XTOL_REACHED ? End::design
                                                     : End::round_off;
@@ -259,13 +253,15 @@ void Search::ask_nlopt()
     }
 }
 
-/// Whether another run of NLopt should follow; prepares it.
+/// Whether another run should follow; prepares it.
 bool Search::begins_again()
 {
-  switch (answers->end)
+  if (!answers)
+    return false;
+  switch (end)
     {
       case End::no_value:
-        return steps_back("design without a value (" + answers->failure + ")");
+        return steps_back();
       case End::objective:
       case End::design:
         if (!is_at_move_limit())
@@ -273,25 +269,11 @@ bool Search::begins_again()
         centre = progress.iterate()->y;
         return true;
       case End::round_off:
-        if (algorithm != Algorithm::SLSQP)
-          {
-            if (hooks.log)
-              hooks.log(to_text(algorithm) + " makes no progress: SLSQP goes on from iteration " +
-                        std::to_string(progress.n_iterations()));
-            centre = progress.iterate()->y;
-            use(Algorithm::SLSQP);
-            return true;
-          }
-        if (progress.return_to_feasible(answers->failed_design))
-          return steps_back("stuck at a design that violates a constraint");
-        if (!progress.has_gained() || round_off_starts == max_round_off_starts)
-          return false;
-        ++round_off_starts;
-        centre = progress.iterate()->y;
         if (hooks.log)
-          hooks.log("stopped by round-off, begun again from "
-                    "iteration " +
+          hooks.log(to_text(algorithm) + " makes no progress: SLSQP goes on from iteration " +
                     std::to_string(progress.n_iterations()));
+        algorithm = Algorithm::SLSQP;
+        answers.reset();
         return true;
       case End::none:
       case End::gradient:
@@ -302,9 +284,8 @@ bool Search::begins_again()
   return false;
 }
 
-/// Limit the moves to half the one that led to a design without a value. Back from a design that
-/// violates the constraints, where many steps may have led, to less.
-bool Search::steps_back(const std::string &why)
+/// Limit the moves to half the one that led to a design without a value.
+bool Search::steps_back()
 {
   // a run that has gained is worth as many more
   if (progress.has_gained())
@@ -316,10 +297,11 @@ bool Search::steps_back(const std::string &why)
   double move = 0.;
   for (unsigned int i = 0; i < centre.size(); ++i)
     move = std::max(move, std::abs(answers->failed_design[i] - centre[i]));
-  reach = answers->end == End::no_value ? move / 2. : std::min(reach, move) / 8.;
+  reach = move / 2.;
   std::ostringstream line;
-  line << why << ": restart " << failures << " of " << max_failures << " from iteration "
-       << progress.n_iterations() << ", moves limited to " << reach << " of the bound widths";
+  line << "design without a value (" << failure << "): restart " << failures << " of "
+       << max_failures << " from iteration " << progress.n_iterations() << ", moves limited to "
+       << reach << " of the first steps";
   if (hooks.log)
     hooks.log(line.str());
   return true;

@@ -14,7 +14,7 @@ static Names names(End)
           {"design tolerance"},
           {"maximum evaluations"},
           {"round-off"},
-          {"restarts exhausted"},
+          {"designs without a value"},
           {"interrupted"}};
 }
 
@@ -75,7 +75,8 @@ End Progress::accept(const Point &point, const bool full)
   const double df = std::abs(f - previous->evaluation.objective);
   double       dy = 0.;
   for (unsigned int i = 0; i < last->y.size(); ++i)
-    dy = std::max(dy, std::abs(last->y[i] - previous->y[i]));
+    if (const double width = problem.bound_width(i); width > 0.)
+      dy = std::max(dy, std::abs(last->y[i] - previous->y[i]) / width);
 
   const bool by_objective = df <= parameters.objective_tolerance * std::abs(f);
   const bool by_design    = dy <= parameters.design_tolerance;
@@ -86,15 +87,6 @@ End Progress::accept(const Point &point, const bool full)
   if (!is_enough)
     return End::none;
   return is_stuck ? End::round_off : by_objective ? End::objective : End::design;
-}
-
-bool Progress::return_to_feasible(std::vector<double> &left)
-{
-  if (is_feasible(*last) || !is_feasible(*best))
-    return false;
-  left = last->y;
-  accept(best, true);
-  return true;
 }
 
 void Progress::report() const

@@ -1,3 +1,4 @@
+#include <snug/optimization/dense_vectors.h>
 #include <snug/optimization/projected_gradient.h>
 
 #include <deal.II/base/exceptions.h>
@@ -8,20 +9,6 @@
 namespace snug::optimization {
 namespace {
 using Rows = std::vector<std::vector<double>>;
-
-double dot(const std::vector<double> &a, const std::vector<double> &b)
-{
-  double sum = 0.;
-  for (unsigned int i = 0; i < a.size(); ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
-
-void add(std::vector<double> &a, double factor, const std::vector<double> &b)
-{
-  for (unsigned int i = 0; i < a.size(); ++i)
-    a[i] += factor * b[i];
-}
 
 std::vector<double> restricted(const std::vector<double> &v, const std::vector<bool> &used)
 {
@@ -139,23 +126,30 @@ std::vector<double> minimize_pieces(const std::vector<double>             &g,
 }
 } // namespace
 
-double projected_gradient_norm(const std::vector<double>      &g,
-                               std::vector<ConstraintGradient> constraint_gradients,
-                               const std::vector<BoundState>  &at_bounds)
+ProjectedGradient projected_gradient(const std::vector<double>      &g,
+                                     std::vector<ConstraintGradient> constraint_gradients,
+                                     const std::vector<BoundState>  &at_bounds)
 {
   AssertDimension(g.size(), at_bounds.size());
+  ProjectedGradient         result{0., std::vector<double>(constraint_gradients.size(), 0.)};
+  std::vector<unsigned int> numbers(constraint_gradients.size());
+  std::iota(numbers.begin(), numbers.end(), 0U);
   for (;;)
     {
-      double      smallest = 0.;
-      const auto  mu       = minimize_pieces(g, constraint_gradients, at_bounds, smallest);
-      std::size_t worst    = constraint_gradients.size();
+      const auto  mu    = minimize_pieces(g, constraint_gradients, at_bounds, result.norm);
+      std::size_t worst = constraint_gradients.size();
       for (unsigned int j = 0; j < constraint_gradients.size(); ++j)
         if (constraint_gradients[j].pushes && mu[j] < 0. &&
             (worst == constraint_gradients.size() || mu[j] < mu[worst]))
           worst = j;
       if (worst == constraint_gradients.size())
-        return smallest;
+        {
+          for (unsigned int j = 0; j < numbers.size(); ++j)
+            result.multipliers[numbers[j]] = mu[j];
+          return result;
+        }
       constraint_gradients.erase(constraint_gradients.begin() + worst);
+      numbers.erase(numbers.begin() + worst);
     }
 }
 } // namespace snug::optimization

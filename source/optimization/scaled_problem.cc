@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/optimization/projected_gradient.h>
+#include <snug/optimization/dense_vectors.h>
 #include <snug/optimization/scaled_problem.h>
 
 #include <deal.II/base/exceptions.h>
@@ -10,7 +10,7 @@
 
 namespace snug::optimization {
 namespace {
-/// More than the designs of one line search (at most 11).
+/// More than the designs of a line search of MMA or L-BFGS.
 constexpr unsigned int n_remembered = 32;
 
 /// A variable closer to a bound, relative to its width, is at it.
@@ -19,12 +19,8 @@ constexpr double at_bound = 1e-8;
 /// An inequality with less left, relative to its scale, is active.
 constexpr double at_limit = 1e-6;
 
-/// A constraint that changes by less between the bounds, relative to its
-/// scale, has no gradient: what is there is round-off, or as good as that.
-constexpr double no_slope = 1e-8;
-
-/// Designs closer than this, relative to the widths, are one design: in
-/// vain, SLSQP likes to ask for many that differ in their last bits.
+/// Designs closer than this, relative to the lengths, are one design: in
+/// vain, NLopt likes to ask for many that differ in their last bits.
 constexpr double resolution = 1e-13;
 
 bool is_same(const std::vector<double> &a, const std::vector<double> &b)
@@ -33,14 +29,6 @@ bool is_same(const std::vector<double> &a, const std::vector<double> &b)
     if (!(std::abs(a[i] - b[i]) <= resolution))
       return false;
   return true;
-}
-
-double norm(const std::vector<double> &v)
-{
-  double sum = 0.;
-  for (const double entry : v)
-    sum += entry * entry;
-  return std::sqrt(sum);
 }
 
 bool all_finite(const std::vector<double> &v)
@@ -93,7 +81,9 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
     {
       const double lower = problem.lower[i], upper = problem.upper[i];
       x_start.push_back(std::clamp(problem.start[i], lower, upper));
-      width.push_back(upper > lower ? upper - lower : 1.);
+      const double widest = upper > lower ? upper - lower : 1.;
+      width.push_back(problem.lengths.empty() ? widest / 10.
+                                              : std::min(widest, problem.lengths[i]));
       y_lower.push_back((lower - x_start[i]) / width[i]);
       y_upper.push_back((upper - x_start[i]) / width[i]);
     }
@@ -115,7 +105,12 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
 void ScaledProblem::scale_constraints(const Point &start)
 {
   const auto slopes = jacobian(start); // with scales 1
-  scales            = problem.constraint_scales;
+  if (problem.constraint_scales.empty())
+    {
+      scales.assign(slopes.size(), 1.);
+      return;
+    }
+  scales = problem.constraint_scales;
   for (unsigned int j = 0; j < scales.size(); ++j)
     {
       const double slope = norm(slopes[j]);
@@ -245,7 +240,37 @@ bool ScaledProblem::is_blind(const Point &point) const
   return false;
 }
 
-double ScaledProblem::projected_gradient(const Point &point) const
+ScaledProblem::Prediction ScaledProblem::predicted(const Point               &at,
+                                                   const std::vector<double> &d) const
+{
+  const auto         &known = differentiated(at);
+  std::vector<double> dx;
+  for (unsigned int i = 0; i < width.size(); ++i)
+    dx.push_back(width[i] * d[i]);
+  Evaluation expected;
+  if (problem.predict && !known.linearization.empty())
+    expected = problem.predict(known, dx);
+  else
+    {
+      expected = known;
+      expected.objective += dot(known.gradient, dx);
+      for (unsigned int j = 0; j < known.constraints.size(); ++j)
+        expected.constraints[j] += dot(known.jacobian[j], dx);
+    }
+  Prediction result{expected.objective / scale, std::move(expected.gradient), constraints(expected),
+                    std::move(expected.jacobian)};
+  for (unsigned int i = 0; i < width.size(); ++i)
+    {
+      result.gradient[i] *= width[i] / scale;
+      for (unsigned int j = 0; j < result.jacobian.size(); ++j)
+        result.jacobian[j][i] *= width[i] / scales[j];
+    }
+  return result;
+}
+
+/// The numbers of the constraints that it has multipliers of are @p active.
+ProjectedGradient ScaledProblem::projected(const Point               &point,
+                                           std::vector<unsigned int> &active) const
 {
   std::vector<BoundState> at_bounds(width.size(), BoundState::inside);
   for (unsigned int i = 0; i < width.size(); ++i)
@@ -257,16 +282,32 @@ double ScaledProblem::projected_gradient(const Point &point) const
                        : below        ? BoundState::at_lower
                                       : BoundState::at_upper;
     }
-  const auto   g    = gradient(point);
-  const double size = std::max(norm(g), start_gradient_norm);
-  if (size == 0.)
-    return 0.;
   const auto                      A = jacobian(point);
   std::vector<ConstraintGradient> constraint_gradients;
   for (unsigned int j = 0; j < A.size(); ++j)
     // a direction made of round-off would take its part of the gradient
     if (is_active(point, j) && norm(A[j]) > no_slope)
-      constraint_gradients.push_back({A[j], constraint_relations[j] == Relation::at_most});
-  return projected_gradient_norm(g, constraint_gradients, at_bounds) / size;
+      {
+        constraint_gradients.push_back({A[j], constraint_relations[j] == Relation::at_most});
+        active.push_back(j);
+      }
+  return optimization::projected_gradient(gradient(point), constraint_gradients, at_bounds);
+}
+
+double ScaledProblem::projected_gradient(const Point &point) const
+{
+  const double              size = std::max(norm(gradient(point)), start_gradient_norm);
+  std::vector<unsigned int> active;
+  return size == 0. ? 0. : projected(point, active).norm / size;
+}
+
+std::vector<double> ScaledProblem::multipliers(const Point &point) const
+{
+  std::vector<unsigned int> active;
+  const auto                found = projected(point, active);
+  std::vector<double>       result(constraint_relations.size(), 0.);
+  for (unsigned int k = 0; k < active.size(); ++k)
+    result[active[k]] = found.multipliers[k];
+  return result;
 }
 } // namespace snug::optimization

@@ -15,15 +15,14 @@ const double integrable_power = 4.4;
 /// Rows and their shares.
 using Counted = std::vector<std::pair<unsigned int, double>>;
 
-/// The given rows of a state, in the order of @p rows.
 template <int dim>
-PressureRows pressure_rows(const Counted &rows, const state::ContactState<dim> &state)
+PressureRows all_rows(const state::ContactState<dim> &state)
 {
   PressureRows result;
-  for (const auto &[i, share] : rows)
+  for (const auto &point : state.contact)
     {
-      result.force.push_back(share * state.contact[i].force);
-      result.area.push_back(share * state.contact[i].area);
+      result.force.push_back(point.force);
+      result.area.push_back(point.area);
     }
   return result;
 }
@@ -57,7 +56,7 @@ public:
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
-    return measure(pressure_rows(counted_rows(solver, state), state)).value;
+    return measured_of(solver, all_rows(state)).value;
   }
 
   std::optional<double> measured(const state::StateSolver<dim>   &solver,
@@ -76,45 +75,63 @@ public:
     return measure(rows).value;
   }
 
+  std::optional<Measured> of_contact(const state::StateSolver<dim> &solver,
+                                     const PressureRows            &rows) const override
+  {
+    return measured_of(solver, rows);
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    const auto rows     = counted_rows(solver, state);
-    const auto measured = measure(pressure_rows(rows, state));
     // J(p, A(X)): the areas are functions of the positions at fixed forces.
-    std::vector<double> by_area(state.contact.size(), 0.);
-    Partials<dim>       result;
-    // Rows that do not count have no influence.
-    result.forces.assign(state.contact.size(), 0.);
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      {
-        const auto &[row, share] = rows[i];
-        result.forces[row]       = share * measured.by_force[i];
-        by_area[row]             = share * measured.by_area[i];
-      }
+    const auto    measured = measured_of(solver, all_rows(state));
+    Partials<dim> result;
+    result.forces = measured.by_force;
     result.positions.resize(solver.mesh().n_points());
     // The gradient at the surface nodes is replicated: each rank adds those of its own nodes.
     solver.surface().add_owned(
-      solver.contact().area_gradient(solver.surface().gather(state.positions), by_area),
+      solver.contact().area_gradient(solver.surface().gather(state.positions), measured.by_area),
       result.positions);
     return result;
   }
 
 private:
-  Counted counted_rows(const state::StateSolver<dim>  &solver,
-                       const state::ContactState<dim> &state) const
+  /// Rows that do not count have no influence. Contact points are replicated: no communication.
+  Measured measured_of(const state::StateSolver<dim> &solver, const PressureRows &all) const
   {
-    // Contact points are replicated: no communication, and the same rows on all ranks.
+    const auto   rows = counted_rows(solver, all.area);
+    PressureRows counted;
+    for (const auto &[i, share] : rows)
+      {
+        counted.force.push_back(share * all.force[i]);
+        counted.area.push_back(share * all.area[i]);
+      }
+    const auto of_counted = measure(counted);
+    Measured   result{of_counted.value, std::vector<double>(all.force.size(), 0.),
+                    std::vector<double>(all.force.size(), 0.)};
+    for (unsigned int k = 0; k < rows.size(); ++k)
+      {
+        const auto &[i, share] = rows[k];
+        result.by_force[i]     = share * of_counted.by_force[k];
+        result.by_area[i]      = share * of_counted.by_area[k];
+      }
+    return result;
+  }
+
+  Counted counted_rows(const state::StateSolver<dim> &solver,
+                       const std::vector<double>     &areas) const
+  {
     const auto shares  = row_shares(solver, pair);
     double     largest = 0.;
     for (unsigned int i = 0; i < shares.size(); ++i)
       if (shares[i] != 0.)
-        largest = std::max(largest, state.contact[i].area);
+        largest = std::max(largest, areas[i]);
     Counted result;
     for (unsigned int i = 0; i < shares.size(); ++i)
       // Scale 0: supports hold the row entirely, it has no multiplier.
       if (shares[i] != 0. && solver.gluing().contact_scales()[i] != 0. &&
-          state.contact[i].area > smallest_area * largest)
+          areas[i] > smallest_area * largest)
         result.emplace_back(i, shares[i]);
     return result;
   }

@@ -51,6 +51,8 @@ Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
         result.of_response[places[i]] = of_case.of_response[1 + i];
       for (auto &field : of_case.displacement)
         result.displacement.push_back(std::move(field));
+      for (auto &forces : of_case.forces)
+        result.forces.push_back(std::move(forces));
       result.f_mults += of_case.f_mults;
       result.numeric_factorizations += of_case.numeric_factorizations;
       result.seconds += of_case.seconds;

@@ -37,6 +37,8 @@ Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
           }
       if (!of_group.displacement.empty())
         result.displacement = of_group.displacement;
+      if (!of_group.forces.empty())
+        result.forces = of_group.forces;
     }
   return result;
 }

@@ -173,6 +173,15 @@ Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
     }
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
     result.displacement.push_back(state::nodal_values(problem.solver, derivatives.primal, j));
+  const auto &gluing = problem.solver.gluing();
+  const auto &scales = gluing.contact_scales();
+  for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
+    {
+      auto forces = gluing.gather_contact(derivatives.dual.column(j));
+      for (unsigned int i = 0; i < forces.size(); ++i)
+        forces[i] = scales[i] == 0. ? 0. : forces[i] / scales[i];
+      result.forces.push_back(std::move(forces));
+    }
   return result;
 }
 

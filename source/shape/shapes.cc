@@ -2,7 +2,11 @@
 #include <snug/shape/entries.h>
 #include <snug/shape/shapes.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace snug::shape {
 namespace {
@@ -36,8 +40,37 @@ Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
       const unsigned int first = lower.size();
       Links              links = make_links(*basis, one);
       add_variables(one, links.n_variables());
-      parts.push_back({one.name, first, std::move(basis), std::move(links)});
+      parts.push_back({one.name, first, one.modes.empty(), std::move(basis), std::move(links)});
     }
+}
+
+template <int dim>
+std::vector<double> Shapes<dim>::first_steps() const
+{
+  const auto         &x = mesh.reference_positions();
+  std::vector<double> moved(n_variables(), 0.); // over the cell, by a unit change
+  for (unsigned int j = 0; j < moved.size(); ++j)
+    {
+      const auto move = this->column(j);
+      for (const auto &cell : mesh.cells())
+        {
+          const double edge =
+            (x[cell.nodes.back()] - x[cell.nodes.front()]).norm() / std::sqrt(dim);
+          for (const unsigned int node : cell.nodes)
+            moved[j] = std::max(moved[j], move[node].norm() / edge);
+        }
+    }
+  dealii::Utilities::MPI::max(moved, mesh.communicator(), moved);
+  for (const Part &part : parts)
+    if (part.alike && part.links.n_variables() > 0)
+      {
+        const auto begin = moved.begin() + part.first, end = begin + part.links.n_variables();
+        std::fill(begin, end, *std::max_element(begin, end));
+      }
+  std::vector<double> steps;
+  for (const double one : moved)
+    steps.push_back(one > 0. ? 0.5 / one : std::numeric_limits<double>::max());
+  return steps;
 }
 
 template <int dim>

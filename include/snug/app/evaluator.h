@@ -59,6 +59,12 @@ public:
   sensitivity::Gradients<dim> gradients;
   /// @}
 
+  /// Whether a design's contact forces and areas are used as linear functions of the variables, see
+  /// predicted(): if the objective or a constraint depends on the state by these alone, and
+  /// `Gradient/Method` is direct or auto, there with at most most_predicted variables.
+  bool                          is_predicted() const;
+  static constexpr unsigned int most_predicted = 60;
+
 private:
   struct Constraint
   {
@@ -78,6 +84,11 @@ private:
   std::vector<sensitivity::Measured<dim>> measured; ///< of the constraints
   StartHistory                            starts;
   States                                  of_first;
+
+  bool                     measures_contact(const response::Response<dim> &response) const;
+  std::vector<double>      linearized_contact() const;
+  optimization::Evaluation predicted(const optimization::Evaluation &at,
+                                     const std::vector<double>      &dx) const;
 };
 } // namespace snug::app
 

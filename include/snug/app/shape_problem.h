@@ -45,6 +45,10 @@ public:
   /// 'worst' is that of the first states combined. Collective.
   optimization::Combined combined_objective(const States &states);
 
+  /// The objective combined of its values in all load cases, once combined_objective() knows the
+  /// scale of 'worst'.
+  optimization::Combined combined(const std::vector<double> &values) const;
+
   /// The response called @p name. Collective. @throws InputError if the
   /// scene has nothing it could measure.
   std::unique_ptr<response::Response<dim>> make_response(const std::string &name) const;
@@ -71,6 +75,8 @@ public:
 
 private:
   double objective_scale = 0.; ///< 0: not known yet
+
+  double weight(unsigned int load_case) const;
 };
 } // namespace snug::app
 

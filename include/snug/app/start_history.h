@@ -14,7 +14,7 @@ namespace snug::app {
  * @f[ \lambda(x) \approx \sum_j c_j \lambda(x_j), \quad \sum_j c_j = 1, @f]
  * with the c of least
  * @f$ |x - \sum_j c_j x_j|^2 + \sum_j c_j^2 (|x_j - x|^2 + \tau)^2 @f$,
- * lengths as parts of the bounds' widths: the first term is what a linear
+ * in units of each variable: the first term is what a linear
  * model misses, the second bounds its curvature, so that far designs count
  * little, and what solutions are known to, @f$\tau = 10^{-6}@f$. One design is a warm start from
  * it, two a secant.
@@ -22,8 +22,8 @@ namespace snug::app {
 class StartHistory
 {
 public:
-  /// @p widths of the variables' bounds.
-  explicit StartHistory(std::vector<double> widths);
+  /// @p units of the variables, changes of equal effect.
+  explicit StartHistory(std::vector<double> units);
 
   /// Per load case, of this rank's rows; none without earlier designs, then
   /// the start is cold.
@@ -51,7 +51,7 @@ private:
 
   std::vector<double> coefficients(const std::vector<double> &design) const;
 
-  std::vector<double> widths;
+  std::vector<double> units;
   std::deque<Entry>   entries; ///< the newest last
 };
 } // namespace snug::app

@@ -13,6 +13,8 @@ struct Evaluation
   std::vector<double>              gradient;    ///< n; empty: not known
   std::vector<double>              constraints; ///< m values c(x)
   std::vector<std::vector<double>> jacobian;    ///< m rows of n; empty with the gradient
+  /// what predict() of the problem needs at this design; empty: nothing
+  std::vector<double> linearization;
   /// @name For the history; no optimizer looks at them
   /// @{
   unsigned int  active_contacts       = 0;
@@ -49,6 +51,16 @@ struct DesignProblem
   /// |c| is measured relative to these, or to its slope where that is far
   /// steeper, see ScaledProblem; 0: to its slope
   std::vector<double> constraint_scales;
+  /// of each variable, the change that a first step may make; empty: a tenth of the bounds' widths
+  std::vector<double> lengths;
+  /**
+   * What is expected at x + dx, with derivatives, by the linearization that differentiate() has
+   * left in the Evaluation at x, which is @p at: as where a response is a known function of
+   * quantities that are nearly linear. None: linear functions. Not collective.
+   */
+  std::function<Evaluation(const Evaluation &at, const std::vector<double> &dx)> predict;
+  /// predict() has the curvature of the objective; else it is learnt from gradients.
+  bool predicts_objective = false;
 };
 } // namespace snug::optimization
 

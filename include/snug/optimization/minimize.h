@@ -77,8 +77,8 @@ struct OptimizationResult
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
   /// "interrupted", "a constraint without a gradient at the first design..."
-  /// (where the search came back to it) or "restarts exhausted (...)" with what the last design
-  /// without a value lacked
+  /// (where the search came back to it) or "designs without a value (...)" with what the last
+  /// design without a value lacked
   std::string stop_reason;
   /// Stopped by a tolerance at a design that meets the constraints, or by
   /// round-off where the projected gradient is at most the square root of

@@ -23,8 +23,8 @@ enum class Algorithm
 };
 inline Names names(Algorithm)
 {
-  return {{"SLSQP",
-           "sequential quadratic programming (Kraft) of the NLopt library, for all constraints"},
+  return {{"SLSQP", "sequential quadratic programming (Kraft) of the NLopt library in a trust "
+                    "region, for all constraints"},
           {"MMA", "method of moving asymptotes (Svanberg) of NLopt, for inequalities"},
           {"CCSAQ", "its relative with separable quadratic models, for inequalities"},
           {"AUGLAG", "augmented Lagrangian of NLopt around its L-BFGS, for all constraints"}};

@@ -34,10 +34,6 @@ public:
    */
   End accept(const Point &point, bool full);
 
-  /// Where the last accepted design violates the constraints, and the best one does not, accept
-  /// that. @return whether it was so; @p left is the y that was left.
-  bool return_to_feasible(std::vector<double> &left);
-
   /// Call the hook with the last accepted design.
   void report() const;
 
@@ -58,7 +54,7 @@ public:
   /// The result of a search that ended by @p end: the best design, or the
   /// last one if a tolerance ended it (an earlier one may be lower only by
   /// using up the constraints' tolerance). A best design that was never
-  /// accepted, as one of a line search cut short, is accepted now, so that
+  /// accepted, as where evaluations run out, is accepted now, so that
   /// the result is one of the designs reported. @p failure says why the
   /// design of End::no_value has none.
   OptimizationResult finish(End end, const std::string &failure);

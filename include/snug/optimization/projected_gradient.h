@@ -20,6 +20,13 @@ struct ConstraintGradient
   bool                pushes; ///< an inequality: its multiplier is >= 0
 };
 
+/// What projected_gradient() finds.
+struct ProjectedGradient
+{
+  double              norm;
+  std::vector<double> multipliers; ///< mu of each constraint; 0: left out
+};
+
 /**
  * The smallest norm over mu of the projected gradient of the Lagrangian,
  * @f[ \min_\mu \| P(g + A^T \mu) \|_2, @f]
@@ -36,9 +43,9 @@ struct ConstraintGradient
  * @param[in] forces rows of A, n entries; they may be linearly dependent.
  * @param[in] places n entries.
  */
-double projected_gradient_norm(const std::vector<double>      &g,
-                               std::vector<ConstraintGradient> constraint_gradients,
-                               const std::vector<BoundState>  &at_bounds);
+ProjectedGradient projected_gradient(const std::vector<double>      &g,
+                                     std::vector<ConstraintGradient> constraint_gradients,
+                                     const std::vector<BoundState>  &at_bounds);
 } // namespace snug::optimization
 
 #endif

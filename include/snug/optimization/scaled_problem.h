@@ -2,6 +2,7 @@
 #define snug_optimization_scaled_problem_h
 
 #include <snug/optimization/design_problem.h>
+#include <snug/optimization/projected_gradient.h>
 
 #include <deque>
 #include <memory>
@@ -13,7 +14,9 @@ namespace snug::optimization {
  *
  * | symbol | meaning                                                 |
  * |--------|---------------------------------------------------------|
- * | w_i    | bound width of variable i; 1 if its bounds are equal    |
+ * | w_i    | length of variable i, at most the width of its bounds;  |
+ * |        | a tenth of that if the problem gives none; 1 if its     |
+ * |        | bounds are equal                                        |
  * | y      | (x - start) / w, so that y = 0 is exactly the start     |
  * | F      | objective_scale(): abs(f(start)), but not further than a|
  * |        | factor 100 from norm(w df/dx(start)), so that the first |
@@ -31,7 +34,7 @@ public:
   struct Point
   {
     std::vector<double> y, x;
-    /// Gains its gradients when they are asked for: line searches need none at most designs.
+    /// gains its gradients when they are asked for: rejected designs need none.
     mutable Evaluation evaluation;
     double             violation = 0.; ///< max |c_j| / s_j, of c_j+ for inequalities
   };
@@ -43,8 +46,8 @@ public:
    */
   explicit ScaledProblem(const DesignProblem &problem);
 
-  /// The values at @p y. Designs asked for lately, up to 1e-13 of the bound
-  /// widths, are not evaluated again: their point is returned.
+  /// The values at @p y. Designs asked for lately, up to 1e-13 of the
+  /// lengths, are not evaluated again: their point is returned.
   /// @throws SolveError if one is not finite; what evaluate() throws.
   std::shared_ptr<const Point> at(const std::vector<double> &y);
 
@@ -67,12 +70,18 @@ public:
   /// c_j / s_j.
   std::vector<double> constraints(const Evaluation &evaluation) const;
 
+  /// A constraint that changes by less in a change by the lengths, relative to its scale, has no
+  /// gradient: what is there is round-off, or as good as that.
+  static constexpr double no_slope = 1e-8;
+
   /// Whether a constraint that holds the design has no gradient there, but
   /// round-off: then no first-order method knows where it leads.
   bool is_blind(const Point &point) const;
 
   /// As defined at Iteration.
   double projected_gradient(const Point &point) const;
+  /// The mu of it, 0 for constraints that are not active; of f / F and c_j / s_j.
+  std::vector<double> multipliers(const Point &point) const;
 
   /// Of each constraint.
   const std::vector<Relation>        &relations() const { return constraint_relations; }
@@ -80,6 +89,22 @@ public:
   const std::vector<double>          &upper() const { return y_upper; }
   double                              objective_scale() const { return scale; }
   const std::shared_ptr<const Point> &start() const { return start_point; }
+  /// Number of variables.
+  unsigned int size() const { return static_cast<unsigned int>(width.size()); }
+  /// The width of the bounds of variable @p i in its lengths.
+  double bound_width(unsigned int i) const { return y_upper[i] - y_lower[i]; }
+
+  /// What is expected of the functions that the optimizer sees, with their derivatives.
+  struct Prediction
+  {
+    double                           objective = 0.;
+    std::vector<double>              gradient, constraints;
+    std::vector<std::vector<double>> jacobian;
+  };
+  /// That at y + @p d, with y of @p at.
+  Prediction predicted(const Point &at, const std::vector<double> &d) const;
+  bool       predicts_objective() const { return problem.predicts_objective; }
+
   /// Calls of the problem's evaluate(), also those that threw.
   unsigned int n_evaluations() const { return evaluations; }
 
@@ -90,6 +115,7 @@ private:
   std::shared_ptr<const Point> remembered(const std::shared_ptr<Point> &point);
   void                         scale_constraints(const Point &start);
   bool                         is_active(const Point &point, unsigned int j) const;
+  ProjectedGradient projected(const Point &point, std::vector<unsigned int> &active) const;
 
   const DesignProblem                     &problem;
   std::vector<double>                      x_start, width, y_lower, y_upper;

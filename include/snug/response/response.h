@@ -102,6 +102,14 @@ public:
     return {};
   }
 
+  /// J and its derivatives as a function of the forces and areas of all contact rows; nothing: it
+  /// depends on more. Not collective.
+  virtual std::optional<Measured> of_contact(const state::StateSolver<dim> & /*solver*/,
+                                             const PressureRows & /*rows*/) const
+  {
+    return {};
+  }
+
   /// J. Collective.
   virtual double value(const state::StateSolver<dim>  &solver,
                        const state::ContactState<dim> &state) const = 0;

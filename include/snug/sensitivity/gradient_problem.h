@@ -45,10 +45,13 @@ struct Gradients
 {
   std::vector<Gradient<dim>> of_response;
   /// u'_j at the local nodes, if the method has it
-  std::vector<typename mesh::BodyMesh<dim>::Field> displacement           = {};
-  unsigned long                                    f_mults                = 0;
-  unsigned long                                    numeric_factorizations = 0;
-  double                                           seconds                = 0.; ///< wall
+  std::vector<typename mesh::BodyMesh<dim>::Field> displacement = {};
+  /// of the contact forces, per variable and contact row, if the method is direct; equal on all
+  /// ranks [force / variable]
+  std::vector<std::vector<double>> forces                 = {};
+  unsigned long                    f_mults                = 0;
+  unsigned long                    numeric_factorizations = 0;
+  double                           seconds                = 0.; ///< wall
 };
 } // namespace snug::sensitivity
 

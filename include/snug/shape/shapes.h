@@ -51,6 +51,13 @@ public:
   const std::vector<double> &start() const { return initial; }
   /// @}
 
+  /**
+   * Of each variable, the change that a first step of a search may make: it moves no node by more
+   * than half of the mean edge of a cell of the reference mesh that has the node. Equal for all
+   * variables of a shape, but for formula modes, which may be of any kind and size. Collective.
+   */
+  std::vector<double> first_steps() const;
+
   /// Return the control points of a design, shape by shape.
   std::vector<MovedPoint<dim>> control_points(const std::vector<double> &alpha) const;
 
@@ -59,6 +66,7 @@ private:
   {
     std::string                 name;
     unsigned int                first; ///< its first variable
+    bool                        alike; ///< variables are of one kind: no formula modes
     std::unique_ptr<Shape<dim>> basis;
     Links                       links;
   };

@@ -240,7 +240,7 @@ TEST(Journal, DesignsThatAgreeToTheToleranceAreReplayed)
         for (const auto &record : parse_journal(before, second.settings.fingerprint, "").records)
           {
             auto x = record.x;
-            x[0] += distance * std::max(std::abs(x[0]), std::abs(x[1])) * (n == 0 ? 0. : 1.);
+            x[0] -= distance * std::max(std::abs(x[0]), std::abs(x[1])) * (n == 0 ? 0. : 1.);
             Evaluation found = record.evaluation;
             try
               {

@@ -137,6 +137,16 @@ with_hole(snug::optimization::DesignProblem problem, double from, double to)
   return problem;
 }
 
+/// Of the normal distribution.
+inline std::vector<double> random_vector(std::mt19937 &random, const unsigned int n)
+{
+  std::normal_distribution<double> normal;
+  std::vector<double>              v(n);
+  for (double &entry : v)
+    entry = normal(random);
+  return v;
+}
+
 inline double distance(const std::vector<double> &a, const std::vector<double> &b)
 {
   double largest = 0.;

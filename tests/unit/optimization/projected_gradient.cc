@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "problems.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -9,15 +11,6 @@
 using namespace snug::optimization;
 
 namespace {
-std::vector<double> random_vector(std::mt19937 &random, const unsigned int n)
-{
-  std::normal_distribution<double> normal;
-  std::vector<double>              v(n);
-  for (double &entry : v)
-    entry = normal(random);
-  return v;
-}
-
 double projected_norm(const std::vector<double> &r, const std::vector<BoundState> &at_bounds)
 {
   double sum = 0.;
@@ -26,6 +19,12 @@ double projected_norm(const std::vector<double> &r, const std::vector<BoundState
         (at_bounds[i] == BoundState::at_upper && r[i] > 0.))
       sum += r[i] * r[i];
   return std::sqrt(sum);
+}
+double norm_of(const std::vector<double>             &g,
+               const std::vector<ConstraintGradient> &constraint_gradients,
+               const std::vector<BoundState>         &at_bounds)
+{
+  return projected_gradient(g, constraint_gradients, at_bounds).norm;
 }
 } // namespace
 
@@ -45,14 +44,12 @@ TEST(ProjectedGradient, IsZeroAtAPointOfKarushKuhnAndTucker)
                                    : BoundState::inside;
       g[i]              = 3. * row_0[i] - 2. * row_1[i] + (i == 9 ? 11. : sign * std::abs(g[i]));
     }
-  EXPECT_NEAR(projected_gradient_norm(g, {{row_0, false}, {row_1, false}}, at_bounds), 0., 1e-13);
+  EXPECT_NEAR(norm_of(g, {{row_0, false}, {row_1, false}}, at_bounds), 0., 1e-13);
   // a dependent row changes nothing
-  EXPECT_NEAR(projected_gradient_norm(g, {{row_0, false}, {row_1, false}, {row_0, false}},
-                                      at_bounds),
-              0., 1e-13);
+  EXPECT_NEAR(norm_of(g, {{row_0, false}, {row_1, false}, {row_0, false}}, at_bounds), 0., 1e-13);
   // a bound multiplier of the wrong sign does
   g[2] -= 50. * std::abs(g[2]) + 50.;
-  EXPECT_GT(projected_gradient_norm(g, {{row_0, false}, {row_1, false}}, at_bounds), 1.);
+  EXPECT_GT(norm_of(g, {{row_0, false}, {row_1, false}}, at_bounds), 1.);
 }
 
 TEST(ProjectedGradient, IsTheMinimumOverTheMultiplier)
@@ -74,7 +71,7 @@ TEST(ProjectedGradient, IsTheMinimumOverTheMultiplier)
             r[i] += mu * a[i];
           scanned = std::min(scanned, projected_norm(r, at_bounds));
         }
-      const double computed = projected_gradient_norm(g, {{a, false}}, at_bounds);
+      const double computed = norm_of(g, {{a, false}}, at_bounds);
       EXPECT_LE(computed, scanned + 1e-12);
       // the scan is off by half a step of 1e-3 at most
       EXPECT_NEAR(computed, scanned, 4e-3);
@@ -93,18 +90,14 @@ TEST(ProjectedGradient, InequalitiesOnlyPush)
       along[i]   = 2. * a[i];
     }
   // the descent -g leads out of c <= 0, or into it
-  EXPECT_NEAR(projected_gradient_norm(against, {{a, true}}, at_bounds), 0., 1e-14);
-  EXPECT_DOUBLE_EQ(projected_gradient_norm(along, {{a, true}}, at_bounds),
-                   projected_gradient_norm(along, {}, at_bounds));
-  EXPECT_NEAR(projected_gradient_norm(along, {{a, false}}, at_bounds), 0., 1e-14);
+  EXPECT_NEAR(norm_of(against, {{a, true}}, at_bounds), 0., 1e-14);
+  EXPECT_DOUBLE_EQ(norm_of(along, {{a, true}}, at_bounds), norm_of(along, {}, at_bounds));
+  EXPECT_NEAR(norm_of(along, {{a, false}}, at_bounds), 0., 1e-14);
 }
 
 TEST(ProjectedGradient, WithoutConstraintsOrBoundsIsTheNorm)
 {
-  EXPECT_DOUBLE_EQ(projected_gradient_norm({3., -4.}, {}, {BoundState::inside, BoundState::inside}),
-                   5.);
-  EXPECT_DOUBLE_EQ(projected_gradient_norm({3., -4.}, {},
-                                           {BoundState::at_lower, BoundState::at_upper}),
-                   0.);
-  EXPECT_DOUBLE_EQ(projected_gradient_norm({}, {}, {}), 0.);
+  EXPECT_DOUBLE_EQ(norm_of({3., -4.}, {}, {BoundState::inside, BoundState::inside}), 5.);
+  EXPECT_DOUBLE_EQ(norm_of({3., -4.}, {}, {BoundState::at_lower, BoundState::at_upper}), 0.);
+  EXPECT_DOUBLE_EQ(norm_of({}, {}, {}), 0.);
 }

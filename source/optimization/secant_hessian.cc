@@ -1,0 +1,67 @@
+#include <snug/optimization/dense_vectors.h>
+#include <snug/optimization/secant_hessian.h>
+
+namespace snug::optimization {
+namespace {
+/// A change of gradient counts as it is if its curvature is at least this part of that of B.
+constexpr double least_part = 0.2;
+
+/// What is left at least of B by one step that saw less curvature.
+constexpr double least_left = 0.6;
+} // namespace
+
+void SecantHessian::guess(const double curvature)
+{
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      rows[i].assign(rows.size(), 0.);
+      rows[i][i] = curvature;
+    }
+  measured = false;
+}
+
+void SecantHessian::raise(const std::vector<double> &d, const double curvature)
+{
+  const double dd = dot(d, d), missing = curvature - dot(d, times(d)) / dd;
+  if (missing > 0.)
+    add(missing / dd, d);
+}
+
+void SecantHessian::update(const std::vector<double> &s, const std::vector<double> &y)
+{
+  const double ys = dot(y, s);
+  if (!measured && ys > 0.)
+    guess(norm(y) / norm(s));
+  else if (const double seen = ys / dot(s, times(s)); seen < 1.)
+    for (auto &row : rows)
+      for (double &entry : row)
+        entry *= std::max(seen, least_left);
+  measured          = true;
+  const auto   Bs   = times(s);
+  const double sBs  = dot(s, Bs);
+  const double part = ys >= least_part * sBs ? 1. : (1. - least_part) * sBs / (sBs - ys);
+  auto         r    = Bs;
+  for (unsigned int i = 0; i < r.size(); ++i)
+    r[i] += part * (y[i] - Bs[i]);
+  const double rs = dot(r, s);
+  if (!(rs > 0.) || !(sBs > 0.))
+    return;
+  add(1. / rs, r);
+  add(-1. / sBs, Bs);
+}
+
+std::vector<double> SecantHessian::times(const std::vector<double> &d) const
+{
+  std::vector<double> result;
+  for (const auto &row : rows)
+    result.push_back(dot(row, d));
+  return result;
+}
+
+/// B += factor v v'.
+void SecantHessian::add(const double factor, const std::vector<double> &v)
+{
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    optimization::add(rows[i], factor * v[i], v);
+}
+} // namespace snug::optimization

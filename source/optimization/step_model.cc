@@ -1,0 +1,256 @@
+#include <snug/base/narrow.h>
+#include <snug/optimization/dense_vectors.h>
+#include <snug/optimization/projected_gradient.h>
+#include <snug/optimization/step_model.h>
+
+#include <limits>
+#include <nlopt.hpp>
+
+namespace snug::optimization {
+namespace {
+using Vector = std::vector<double>;
+
+/// Constraints that are predicted to be violated by less, relative to their scales, are met.
+constexpr double is_met = 1e-9;
+
+/// NLopt's tolerances are for steps that are longer than this part of the unit.
+constexpr double well_scaled = 1e-2;
+
+/// A variable of a step closer to the end of its box, relative to the radius, is there.
+constexpr double at_end = 1e-6;
+
+/// An inequality with less left, relative to its scale, is active.
+constexpr double is_active = 1e-6;
+
+/// Of a constraint: the value, or for an inequality what is above 0.
+double excess(const Relation relation, const double value)
+{
+  return relation == Relation::equal ? value : std::max(0., value);
+}
+
+/// What NLopt asks about a model, in steps z = d / unit and functions whose slopes are 1.
+struct Questions
+{
+  const StepModel             &model;
+  const std::vector<Relation> &relations;
+  double                       unit, scale, value; ///< objectives are (f - value) / scale
+  Vector                       slopes;             ///< of the constraints at z = 0
+  Vector                       allowed;            ///< violations
+
+  const ScaledProblem::Prediction &at(const double *z) const
+  {
+    Vector d(z, z + model.size());
+    for (double &entry : d)
+      entry *= unit;
+    return model(d);
+  }
+
+  static double objective(unsigned int n, const double *z, double *gradient, void *data)
+  {
+    const auto &self      = *static_cast<Questions *>(data);
+    const auto &predicted = self.at(z);
+    if (gradient != nullptr)
+      for (unsigned int i = 0; i < n; ++i)
+        gradient[i] = predicted.gradient[i] * self.unit / self.scale;
+    return (predicted.objective - self.value) / self.scale;
+  }
+
+  template <Relation relation>
+  static void constraints(unsigned int,
+                          double       *values,
+                          unsigned int  n,
+                          const double *z,
+                          double       *jacobian,
+                          void         *data)
+  {
+    const auto &self      = *static_cast<Questions *>(data);
+    const auto &predicted = self.at(z);
+    for (unsigned int j = 0; j < self.relations.size(); ++j)
+      if (self.relations[j] == relation)
+        {
+          *values++ = (predicted.constraints[j] - self.allowed[j]) / self.slopes[j];
+          if (jacobian != nullptr)
+            for (unsigned int i = 0; i < n; ++i)
+              *jacobian++ = predicted.jacobian[j][i] * self.unit / self.slopes[j];
+        }
+  }
+
+  /// Half the sum of the squares of violations.
+  static double violation(unsigned int n, const double *z, double *gradient, void *data)
+  {
+    const auto &self      = *static_cast<Questions *>(data);
+    const auto &predicted = self.at(z);
+    double      sum       = 0.;
+    if (gradient != nullptr)
+      std::fill(gradient, gradient + n, 0.);
+    for (unsigned int j = 0; j < self.relations.size(); ++j)
+      {
+        const double v = excess(self.relations[j], predicted.constraints[j]) / self.slopes[j];
+        sum += v * v / 2.;
+        if (gradient != nullptr)
+          for (unsigned int i = 0; i < n; ++i)
+            gradient[i] += v * predicted.jacobian[j][i] * self.unit / self.slopes[j];
+      }
+    return sum;
+  }
+};
+
+/// SLSQP in a box, for a thousand questions at most.
+nlopt::opt optimizer(const Vector &lower, const Vector &upper)
+{
+  nlopt::opt result(nlopt::LD_SLSQP, narrow<unsigned int>(lower.size()));
+  result.set_lower_bounds(lower);
+  result.set_upper_bounds(upper);
+  result.set_ftol_rel(1e-12);
+  result.set_maxeval(1000);
+  return result;
+}
+
+/// From @p z to the least there is, or as far as NLopt comes.
+void minimize(nlopt::opt &optimizer, Vector &z)
+{
+  double f = 0.;
+  try
+    {
+      optimizer.optimize(z, f);
+    }
+  catch (const std::runtime_error &)
+    {
+      // round-off, or constraints without a solution
+    }
+}
+} // namespace
+
+StepModel::StepModel(const ScaledProblem        &the_problem,
+                     const ScaledProblem::Point &the_point,
+                     const SecantHessian        &the_hessian)
+  : problem(the_problem), at(the_point), hessian(the_hessian)
+{}
+
+const ScaledProblem::Prediction &StepModel::operator()(const Vector &d) const
+{
+  if (d != last)
+    {
+      predicted     = problem.predicted(at, d);
+      const auto Bd = hessian.times(d);
+      predicted.objective += dot(d, Bd) / 2.;
+      add(predicted.gradient, 1., Bd);
+      last = d;
+    }
+  return predicted;
+}
+
+double StepModel::violation(const Vector &constraints, const Vector &weights) const
+{
+  double sum = 0.;
+  for (unsigned int j = 0; j < constraints.size(); ++j)
+    sum += weights[j] * std::abs(excess(problem.relations()[j], constraints[j]));
+  return sum;
+}
+
+void StepModel::box(const double radius, Vector &lower, Vector &upper) const
+{
+  for (unsigned int i = 0; i < size(); ++i)
+    {
+      lower.push_back(std::max(-radius, problem.lower()[i] - at.y[i]));
+      upper.push_back(std::min(radius, problem.upper()[i] - at.y[i]));
+    }
+}
+
+Vector StepModel::least(const double radius) const
+{
+  Vector d(size(), 0.);
+  for (double unit = radius; unit > 1e-9 * radius;)
+    {
+      d                   = least_from(d, radius, unit);
+      const double length = largest(d);
+      if (length > well_scaled * unit)
+        break;
+      unit *= std::max(10. * length / unit, well_scaled);
+    }
+  return d;
+}
+
+/// From @p d on.
+Vector StepModel::least_from(const Vector &d, const double radius, const double unit) const
+{
+  const auto &relations = problem.relations();
+  Vector      lower, upper, z(d);
+  box(radius, lower, upper);
+  for (auto *v : {&lower, &upper, &z})
+    for (double &entry : *v)
+      entry /= unit;
+  const auto here = (*this)(Vector(size(), 0.));
+  Questions  questions{*this,
+                      relations,
+                      unit,
+                      std::max(norm(here.gradient) * unit, std::numeric_limits<double>::min()),
+                      here.objective,
+                       {},
+                      Vector(relations.size(), 0.)};
+  for (const auto &row : here.jacobian)
+    questions.slopes.push_back(std::max(norm(row), ScaledProblem::no_slope) * unit);
+
+  auto       best    = optimizer(lower, upper);
+  const auto n_equal = std::count(relations.begin(), relations.end(), Relation::equal);
+  const auto n_other = static_cast<std::ptrdiff_t>(relations.size()) - n_equal;
+  best.set_ftol_abs(1e-14);
+  best.set_xtol_abs(1e-9);
+  best.set_min_objective(&Questions::objective, &questions);
+  if (n_equal > 0)
+    best.add_equality_mconstraint(&Questions::constraints<Relation::equal>, &questions,
+                                  Vector(n_equal, 1e-12));
+  if (n_other > 0)
+    best.add_inequality_mconstraint(&Questions::constraints<Relation::at_most>, &questions,
+                                    Vector(n_other, 1e-12));
+  minimize(best, z);
+  const auto violations = [&] {
+    const auto &there  = questions.at(z.data());
+    Vector      result = there.constraints;
+    for (unsigned int j = 0; j < relations.size(); ++j)
+      result[j] = excess(relations[j], result[j]);
+    return result;
+  };
+  if (largest(violations()) > is_met)
+    {
+      z.assign(size(), 0.);
+      auto nearest = optimizer(lower, upper);
+      nearest.set_min_objective(&Questions::violation, &questions);
+      minimize(nearest, z);
+      questions.allowed = violations();
+      for (double &allowed : questions.allowed)
+        if (std::abs(allowed) <= is_met)
+          allowed = 0.;
+      minimize(best, z);
+    }
+  for (unsigned int i = 0; i < size(); ++i)
+    z[i] = std::clamp(z[i], lower[i], upper[i]) * unit;
+  return z;
+}
+
+Vector StepModel::multipliers(const Vector &d, const double radius) const
+{
+  const auto &relations = problem.relations();
+  const auto  there     = (*this)(d);
+  Vector      lower, upper;
+  box(radius, lower, upper);
+  std::vector<BoundState> states;
+  for (unsigned int i = 0; i < size(); ++i)
+    states.push_back(d[i] <= lower[i] + at_end * radius   ? BoundState::at_lower
+                     : d[i] >= upper[i] - at_end * radius ? BoundState::at_upper
+                                                          : BoundState::inside);
+  std::vector<ConstraintGradient> active;
+  std::vector<unsigned int>       numbers;
+  for (unsigned int j = 0; j < relations.size(); ++j)
+    if (relations[j] == Relation::equal || there.constraints[j] > -is_active)
+      {
+        active.push_back({there.jacobian[j], relations[j] == Relation::at_most});
+        numbers.push_back(j);
+      }
+  const auto projected = projected_gradient(there.gradient, active, states);
+  Vector     result(relations.size(), 0.);
+  for (unsigned int k = 0; k < numbers.size(); ++k)
+    result[numbers[k]] = projected.multipliers[k];
+  return result;
+}
+} // namespace snug::optimization

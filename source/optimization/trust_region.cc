@@ -1,0 +1,182 @@
+#include <snug/base/errors.h>
+#include <snug/optimization/dense_vectors.h>
+#include <snug/optimization/trust_region.h>
+
+#include <sstream>
+
+namespace snug::optimization {
+namespace {
+/// Parts of the predicted gain: for a step to be accepted, to be trusted less, and more.
+constexpr double accepted = 1e-4, poor = 0.25, good = 0.75;
+
+/// What good steps make of the radius.
+constexpr double growth = 3.;
+
+/// Of the longest step that may be predicted to gain: nothing but rounding.
+constexpr double no_gain = 1e-15;
+
+/// Steps below this part of the first one are rounding.
+constexpr double smallest_radius = 1e-10;
+
+/// Designs without a value and without a gain in between.
+constexpr unsigned int max_failures = 5;
+
+/// Weights of constraints over their multipliers, and the least that is left of one.
+constexpr double above_multiplier = 1.5, forgetting = 0.5, least_weight = 1e-6;
+} // namespace
+
+TrustRegion::TrustRegion(ScaledProblem                &the_problem,
+                         Progress                     &the_progress,
+                         const OptimizationParameters &the_parameters,
+                         const Hooks                  &the_hooks)
+  : problem(the_problem)
+  , progress(the_progress)
+  , parameters(the_parameters)
+  , hooks(the_hooks)
+  , hessian(problem.size())
+  , weights(problem.relations().size(), least_weight)
+{}
+
+End TrustRegion::run()
+{
+  while (radius > smallest_radius)
+    {
+      const auto at = progress.iterate();
+      const auto g  = problem.gradient(*at);
+      if (!hessian.is_measured())
+        hessian.guess(norm(g) * problem.projected_gradient(*at) / radius);
+      const StepModel model(problem, *at, hessian);
+      auto            trial = proposed(model);
+      if (!(trial.predicted > no_gain * std::abs(trial.objective)))
+        {
+          if (!hessian.is_measured())
+            return End::round_off;
+          hessian.guess(0.);
+          continue;
+        }
+      if (!problem.is_known(trial.y) && problem.n_evaluations() >= parameters.maximum_evaluations)
+        return End::evaluations;
+      if (!evaluated(trial))
+        {
+          if (++n_failures > max_failures)
+            return End::no_value;
+        }
+      else if (const End end =
+                 trial.actual < accepted * trial.predicted ? refuse(trial) : accept(model, trial);
+               end != End::none)
+        return end;
+    }
+  return failure.empty() ? End::round_off : End::no_value;
+}
+
+/// The step that the model takes to be best, and what the merit falls by.
+TrustRegion::Trial TrustRegion::proposed(const StepModel &model)
+{
+  Trial       trial;
+  const auto &at     = *progress.iterate();
+  trial.d            = model.least(radius);
+  const auto there   = model(trial.d);
+  const auto here    = problem.constraints(at.evaluation);
+  const auto largest = model.multipliers(trial.d, radius);
+  for (unsigned int j = 0; j < weights.size(); ++j)
+    weights[j] =
+      std::max({above_multiplier * std::abs(largest[j]), forgetting * weights[j], least_weight});
+  trial.objective     = at.evaluation.objective / problem.objective_scale();
+  trial.violation     = model.violation(here, weights);
+  const double gained = trial.violation - model.violation(there.constraints, weights);
+  trial.predicted     = trial.objective - there.objective + gained;
+  trial.slope         = gained - dot(problem.gradient(at), trial.d);
+  for (unsigned int i = 0; i < trial.d.size(); ++i)
+    trial.y.push_back(std::clamp(at.y[i] + trial.d[i], problem.lower()[i], problem.upper()[i]));
+  return trial;
+}
+
+/// Evaluate the design of a step. @return false if it has no value.
+bool TrustRegion::evaluated(Trial &trial)
+{
+  try
+    {
+      trial.point = problem.at(trial.y);
+    }
+  catch (const SolveError &no_value)
+    {
+      failure = no_value.what();
+      radius  = largest(trial.d) / 4.;
+      failed  = true;
+      if (progress.has_gained())
+        n_failures = 0;
+      progress.begin_run();
+      if (hooks.log)
+        {
+          std::ostringstream line;
+          line << "design without a value (" << failure << "): the next step from iteration "
+               << progress.n_iterations() << " is a quarter as long";
+          hooks.log(line.str());
+        }
+      return false;
+    }
+  progress.consider(trial.point);
+  const auto &evaluation = trial.point->evaluation;
+  double      violation  = 0.;
+  const auto  values     = problem.constraints(evaluation);
+  for (unsigned int j = 0; j < values.size(); ++j)
+    violation += weights[j] * (problem.relations()[j] == Relation::equal ? std::abs(values[j])
+                                                                         : std::max(0., values[j]));
+  trial.actual = trial.objective - evaluation.objective / problem.objective_scale() +
+                 trial.violation - violation;
+  return true;
+}
+
+/// Where even the prediction gains less than the tolerance, as beside a kink, nothing is left.
+End TrustRegion::refuse(const Trial &trial)
+{
+  if (progress.is_feasible(*progress.iterate()) &&
+      trial.predicted <= parameters.objective_tolerance * std::abs(trial.objective))
+    return End::objective;
+  const double left = trial.slope - trial.actual; // by the curvature along d
+  radius            = largest(trial.d) *
+           (trial.slope > 0. && left > 0. ? std::clamp(trial.slope / (2. * left), 0.1, 0.5) : 0.25);
+  failure.clear();
+  if (hessian.is_measured())
+    hessian.raise(trial.d, 2. * left / dot(trial.d, trial.d));
+  return End::none;
+}
+
+End TrustRegion::accept(const StepModel &model, const Trial &trial)
+{
+  const auto   at   = progress.iterate();
+  const double part = trial.actual / trial.predicted, length = largest(trial.d);
+  const bool   is_at_end = length > 0.99 * radius;
+  const bool   may_grow  = !failed;
+  failed                 = false;
+  if (!problem.predicts_objective())
+    learn(model, trial);
+  if (part < poor)
+    radius = std::max(radius / 4., length / 2.);
+  else if (may_grow && part > good && length > 0.8 * radius)
+    radius *= growth;
+  // a small change says nothing where the step was cut short, or much more was predicted
+  const End end = progress.accept(trial.point, !is_at_end && part > poor);
+  // steps may be small because longer ones have no value
+  return end != End::none && end != End::gradient && is_at_end && !failure.empty() ? End::no_value
+                                                                                   : end;
+}
+
+/// What the gradient of the Lagrangian has changed by beyond the prediction.
+void TrustRegion::learn(const StepModel &model, const Trial &trial)
+{
+  const auto mu        = problem.multipliers(*trial.point);
+  const auto predicted = model(trial.d);
+  const auto Bd        = hessian.times(trial.d);
+  auto       y         = problem.gradient(*trial.point);
+  add(y, -1., predicted.gradient);
+  add(y, 1., Bd); // which the model has added
+  const auto jacobian = problem.jacobian(*trial.point);
+  for (unsigned int j = 0; j < mu.size(); ++j)
+    {
+      add(y, mu[j], jacobian[j]);
+      add(y, -mu[j], predicted.jacobian[j]);
+    }
+  hessian.update(trial.d, y);
+}
+} // namespace snug::optimization
