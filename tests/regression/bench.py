@@ -14,7 +14,7 @@ EXPECTED = {"whole": (["seconds", "cpu", "MB", "setup", "solve"], 2),
             "hard": (["linear_f_mults", "f_mults"], 4),
             "ranks": (["f_mults", "MB_solve"], 6),
             "gradient": (["cold_states"], 8),
-            "optimization": (["evaluations", "f_mults"], 2)}
+            "optimization": (["evaluations", "f_mults"], 8)}
 
 
 def is_fitted(scaling, ranks):
