@@ -39,6 +39,10 @@ TrustRegion::TrustRegion(ScaledProblem                &the_problem,
 
 End TrustRegion::run()
 {
+  const auto &first = *progress.iterate();
+  if (progress.is_feasible(first) &&
+      problem.projected_gradient(first) <= parameters.gradient_tolerance)
+    return End::gradient;
   while (radius > smallest_radius)
     {
       const auto at = progress.iterate();
