@@ -180,6 +180,9 @@ Vector StepModel::least_from(const Vector &d, const double radius, const double 
   for (auto *v : {&lower, &upper, &z})
     for (double &entry : *v)
       entry /= unit;
+  // NLopt throws if rounding puts the first step outside of the box.
+  for (unsigned int i = 0; i < size(); ++i)
+    z[i] = std::clamp(z[i], lower[i], upper[i]);
   const auto here = (*this)(Vector(size(), 0.));
   Questions  questions{*this,
                       relations,
