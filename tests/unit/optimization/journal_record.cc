@@ -21,6 +21,7 @@ TEST(JournalRecord, IsReadBackBitForBit)
   value.evaluation.gradient              = {1e300, -1e-300, 0.1, 3.};
   value.evaluation.constraints           = {1e-17, nan};
   value.evaluation.jacobian              = {{1., 2., 3., 4.}, {0.1, 0.2, 0.3, 0.4}};
+  value.evaluation.linearization         = {denormal, -0.3, 7.};
   value.evaluation.active_contacts       = 17;
   value.evaluation.f_mults               = 123456789012ul;
   value.evaluation.seconds               = 1. / 3.;
@@ -38,6 +39,7 @@ TEST(JournalRecord, IsReadBackBitForBit)
   const auto &read = contents.records[0];
   EXPECT_TRUE(same_bits(read.x, value.x));
   EXPECT_EQ(read.n_ranks, 12);
+  EXPECT_TRUE(same_bits(read.evaluation.linearization, value.evaluation.linearization));
   EXPECT_EQ(read.evaluation.active_contacts, 17u);
   EXPECT_EQ(read.evaluation.f_mults, 123456789012ul);
   EXPECT_EQ(read.evaluation.seconds, 1. / 3.);

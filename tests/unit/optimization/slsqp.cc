@@ -275,3 +275,24 @@ TEST(Slsqp, RejectsMoreEqualitiesThanVariablesInOneLine)
         }
     }
 }
+
+/// Where no bound is active, the width of the bounds decides nothing.
+TEST(Slsqp, TakesTheSamePathWhateverTheBounds)
+{
+  std::vector<std::vector<double>> paths[2];
+  for (const unsigned int wide : {0, 1})
+    {
+      auto problem    = rosenbrock_on_circle();
+      problem.lengths = {0.1, 0.1};
+      if (wide == 1)
+        problem.lower = {-100., -200.}, problem.upper = {300., 100.};
+      Hooks hooks;
+      hooks.on_iteration = [&](const Iteration &it) { paths[wide].push_back(it.x); };
+      OptimizationParameters parameters;
+      parameters.design_tolerance = 1e-15; // relative to the width
+      EXPECT_TRUE(minimize(problem, parameters, hooks).success);
+    }
+  ASSERT_EQ(paths[0].size(), paths[1].size());
+  for (unsigned int k = 0; k < paths[0].size(); ++k)
+    EXPECT_LT(distance(paths[0][k], paths[1][k]), 1e-9) << k;
+}

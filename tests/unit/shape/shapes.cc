@@ -49,6 +49,37 @@ std::string complaint(const Spoil &spoil)
   return "";
 }
 
+/// The largest move of a node of a cell by a unit change of variable @p j, over the edge 1/4.
+double move_over_edge(const shape::Shapes<2> &shapes, const unsigned int j)
+{
+  double largest = 0.;
+  for (const auto &move : shapes.column(j))
+    largest = std::max(largest, move.norm() / 0.25);
+  return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
+}
+
+TEST(Shapes, FirstStepsMoveNodesByHalfACellEdge)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, two_squares(), 1);
+  Parameters              modes;
+  modes.name   = "modes";
+  modes.basis  = "formula modes";
+  modes.face   = "upper.bottom";
+  modes.modes  = {{"0", "1e3*x"}, {"0", "x*(1-x)"}};
+  modes.bounds = {-1., 1.};
+  const shape::Shapes<2> shapes(mesh, two_names, {patch("roof", "lower.top", 4), modes});
+  const auto             steps = shapes.first_steps();
+  ASSERT_EQ(steps.size(), 6u);
+  // a patch has one step, of the control point that moves nodes most: those at the ends
+  EXPECT_NEAR(steps[0] * move_over_edge(shapes, 0), 0.5, 1e-12);
+  EXPECT_LT(steps[1] * move_over_edge(shapes, 1), 0.4);
+  for (unsigned int j = 1; j < 4; ++j)
+    EXPECT_EQ(steps[j], steps[0]);
+  // each mode has its own
+  for (unsigned int j = 4; j < 6; ++j)
+    EXPECT_NEAR(steps[j] * move_over_edge(shapes, j), 0.5, 1e-12) << j;
+}
+
 TEST(Shapes, AddUpAndKeepTheirVariablesApart)
 {
   const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, two_squares(), 1);
