@@ -84,8 +84,8 @@ void Search<dim>::report(const Iteration &iteration, const unsigned int before)
           results.add_first(evaluator.states, of_objective.shape);
         }
       if (problem.scene.optimization.algorithm == optimization::Algorithm::SLSQP)
-        out << "steps: at first no node moves by more than half the edge of a cell"
-            << (evaluator.is_predicted() ? "; contact pressures are predicted by their derivatives"
+        out << "initial trust region: nodes move by at most half the edge of a cell"
+            << (evaluator.is_predicted() ? "; contact pressures are predicted from derivatives"
                                          : "")
             << std::endl;
       out << io::log_header() << std::endl;

@@ -79,7 +79,7 @@ private:
   std::unique_ptr<NloptAnswers> answers; ///< null: SLSQP
 
   End                 end = End::none; ///< of the last run
-  std::string         failure;         ///< and what its last design without a value lacked
+  std::string         failure;         ///< and the message of its last failed evaluation
   std::vector<double> centre;          ///< moves are limited to centre +- reach
   double              reach    = std::numeric_limits<double>::max();
   unsigned int        failures = 0;
@@ -284,7 +284,7 @@ bool Search::begins_again()
   return false;
 }
 
-/// Limit the moves to half the one that led to a design without a value.
+/// Limit the moves to half the move to the design whose evaluation failed.
 bool Search::steps_back()
 {
   // a run that has gained is worth as many more
@@ -299,9 +299,9 @@ bool Search::steps_back()
     move = std::max(move, std::abs(answers->failed_design[i] - centre[i]));
   reach = move / 2.;
   std::ostringstream line;
-  line << "design without a value (" << failure << "): restart " << failures << " of "
-       << max_failures << " from iteration " << progress.n_iterations() << ", moves limited to "
-       << reach << " of the first steps";
+  line << "evaluation failed (" << failure << "): restart " << failures << " of " << max_failures
+       << " from iteration " << progress.n_iterations() << ", moves limited to " << reach
+       << " of the first steps";
   if (hooks.log)
     hooks.log(line.str());
   return true;

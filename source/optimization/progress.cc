@@ -14,7 +14,7 @@ static Names names(End)
           {"design tolerance"},
           {"maximum evaluations"},
           {"round-off"},
-          {"designs without a value"},
+          {"failed evaluations"},
           {"interrupted"}};
 }
 

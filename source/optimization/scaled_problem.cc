@@ -13,7 +13,7 @@ namespace {
 /// More than the designs of a line search of MMA or L-BFGS.
 constexpr unsigned int n_remembered = 32;
 
-/// A variable closer to a bound, relative to its width, is at it.
+/// A variable closer to a bound, relative to its length, is at the bound.
 constexpr double at_bound = 1e-8;
 
 /// An inequality with less left, relative to its scale, is active.
@@ -81,11 +81,11 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
     {
       const double lower = problem.lower[i], upper = problem.upper[i];
       x_start.push_back(std::clamp(problem.start[i], lower, upper));
-      const double widest = upper > lower ? upper - lower : 1.;
-      width.push_back(problem.lengths.empty() ? widest / 10.
-                                              : std::min(widest, problem.lengths[i]));
-      y_lower.push_back((lower - x_start[i]) / width[i]);
-      y_upper.push_back((upper - x_start[i]) / width[i]);
+      const double width = upper > lower ? upper - lower : 1.;
+      lengths.push_back(problem.lengths.empty() ? width / 10.
+                                                : std::min(width, problem.lengths[i]));
+      y_lower.push_back((lower - x_start[i]) / lengths[i]);
+      y_upper.push_back((upper - x_start[i]) / lengths[i]);
     }
   const auto start = evaluated(std::vector<double>(x_start.size(), 0.));
   scale_constraints(*start);
@@ -129,7 +129,7 @@ std::vector<double> ScaledProblem::design(const std::vector<double> &y) const
     else if (y[i] >= y_upper[i])
       x[i] = problem.upper[i];
     else
-      x[i] = std::clamp(x_start[i] + width[i] * y[i], problem.lower[i], problem.upper[i]);
+      x[i] = std::clamp(x_start[i] + lengths[i] * y[i], problem.lower[i], problem.upper[i]);
   return x;
 }
 
@@ -137,7 +137,7 @@ std::vector<double> ScaledProblem::scaled(const std::vector<double> &x) const
 {
   std::vector<double> y(x.size());
   for (unsigned int i = 0; i < x.size(); ++i)
-    y[i] = (x[i] - x_start[i]) / width[i];
+    y[i] = (x[i] - x_start[i]) / lengths[i];
   return y;
 }
 
@@ -188,8 +188,8 @@ ScaledProblem::remembered(const std::shared_ptr<Point> &point)
     constraint_relations.resize(c.size(), Relation::equal);
   AssertDimension(constraint_relations.size(), c.size());
   for (unsigned int j = 0; j < c.size(); ++j)
-    point->violation = std::max(point->violation,
-                                constraint_relations[j] == Relation::equal ? std::abs(c[j]) : c[j]);
+    point->violation =
+      std::max(point->violation, optimization::violation(constraint_relations[j], c[j]));
   recent.push_front(point);
   if (recent.size() > n_remembered)
     recent.pop_back();
@@ -199,9 +199,9 @@ ScaledProblem::remembered(const std::shared_ptr<Point> &point)
 std::vector<double> ScaledProblem::gradient(const Point &point) const
 {
   const auto         &evaluation = differentiated(point);
-  std::vector<double> result(width.size());
-  for (unsigned int i = 0; i < width.size(); ++i)
-    result[i] = width[i] * evaluation.gradient[i] / scale;
+  std::vector<double> result(lengths.size());
+  for (unsigned int i = 0; i < lengths.size(); ++i)
+    result[i] = lengths[i] * evaluation.gradient[i] / scale;
   return result;
 }
 
@@ -209,8 +209,8 @@ std::vector<std::vector<double>> ScaledProblem::jacobian(const Point &point) con
 {
   auto result = differentiated(point).jacobian;
   for (unsigned int j = 0; j < result.size(); ++j)
-    for (unsigned int i = 0; i < width.size(); ++i)
-      result[j][i] *= width[i] / (scales.empty() ? 1. : scales[j]);
+    for (unsigned int i = 0; i < lengths.size(); ++i)
+      result[j][i] *= lengths[i] / (scales.empty() ? 1. : scales[j]);
   return result;
 }
 
@@ -224,18 +224,18 @@ std::vector<double> ScaledProblem::constraints(const Evaluation &evaluation) con
   return result;
 }
 
-/// Whether a constraint holds the design at @p point.
-bool ScaledProblem::is_active(const Point &point, const unsigned int j) const
+/// Return whether constraint @p j with the value @p c / s_j restricts the design.
+bool ScaledProblem::is_active(const unsigned int j, const double c) const
 {
-  return constraint_relations[j] == Relation::equal ||
-         constraints(point.evaluation)[j] >= -at_limit;
+  return constraint_relations[j] == Relation::equal || c >= -at_limit;
 }
 
 bool ScaledProblem::is_blind(const Point &point) const
 {
   const auto A = jacobian(point);
+  const auto c = constraints(point.evaluation);
   for (unsigned int j = 0; j < A.size(); ++j)
-    if (is_active(point, j) && norm(A[j]) <= no_slope)
+    if (is_active(j, c[j]) && norm(A[j]) <= no_slope)
       return true;
   return false;
 }
@@ -245,8 +245,8 @@ ScaledProblem::Prediction ScaledProblem::predicted(const Point               &at
 {
   const auto         &known = differentiated(at);
   std::vector<double> dx;
-  for (unsigned int i = 0; i < width.size(); ++i)
-    dx.push_back(width[i] * d[i]);
+  for (unsigned int i = 0; i < lengths.size(); ++i)
+    dx.push_back(lengths[i] * d[i]);
   Evaluation expected;
   if (problem.predict && !known.linearization.empty())
     expected = problem.predict(known, dx);
@@ -259,21 +259,38 @@ ScaledProblem::Prediction ScaledProblem::predicted(const Point               &at
     }
   Prediction result{expected.objective / scale, std::move(expected.gradient), constraints(expected),
                     std::move(expected.jacobian)};
-  for (unsigned int i = 0; i < width.size(); ++i)
+  for (unsigned int i = 0; i < lengths.size(); ++i)
     {
-      result.gradient[i] *= width[i] / scale;
+      result.gradient[i] *= lengths[i] / scale;
       for (unsigned int j = 0; j < result.jacobian.size(); ++j)
-        result.jacobian[j][i] *= width[i] / scales[j];
+        result.jacobian[j][i] *= lengths[i] / scales[j];
     }
   return result;
 }
 
-/// The numbers of the constraints that it has multipliers of are @p active.
-ProjectedGradient ScaledProblem::projected(const Point               &point,
-                                           std::vector<unsigned int> &active) const
+ProjectedGradient ScaledProblem::projected(const Prediction              &at,
+                                           const std::vector<BoundState> &at_bounds) const
 {
-  std::vector<BoundState> at_bounds(width.size(), BoundState::inside);
-  for (unsigned int i = 0; i < width.size(); ++i)
+  std::vector<ConstraintGradient> active;
+  std::vector<unsigned int>       numbers;
+  for (unsigned int j = 0; j < at.jacobian.size(); ++j)
+    // a direction made of round-off would take its part of the gradient
+    if (is_active(j, at.constraints[j]) && norm(at.jacobian[j]) > no_slope)
+      {
+        active.push_back({at.jacobian[j], constraint_relations[j] == Relation::at_most});
+        numbers.push_back(j);
+      }
+  const auto        found = optimization::projected_gradient(at.gradient, active, at_bounds);
+  ProjectedGradient result{found.norm, std::vector<double>(constraint_relations.size(), 0.)};
+  for (unsigned int k = 0; k < numbers.size(); ++k)
+    result.multipliers[numbers[k]] = found.multipliers[k];
+  return result;
+}
+
+ProjectedGradient ScaledProblem::projected(const Point &point) const
+{
+  std::vector<BoundState> at_bounds(lengths.size(), BoundState::inside);
+  for (unsigned int i = 0; i < lengths.size(); ++i)
     {
       const bool below = point.y[i] <= y_lower[i] + at_bound;
       const bool above = point.y[i] >= y_upper[i] - at_bound;
@@ -282,32 +299,19 @@ ProjectedGradient ScaledProblem::projected(const Point               &point,
                        : below        ? BoundState::at_lower
                                       : BoundState::at_upper;
     }
-  const auto                      A = jacobian(point);
-  std::vector<ConstraintGradient> constraint_gradients;
-  for (unsigned int j = 0; j < A.size(); ++j)
-    // a direction made of round-off would take its part of the gradient
-    if (is_active(point, j) && norm(A[j]) > no_slope)
-      {
-        constraint_gradients.push_back({A[j], constraint_relations[j] == Relation::at_most});
-        active.push_back(j);
-      }
-  return optimization::projected_gradient(gradient(point), constraint_gradients, at_bounds);
+  return projected({point.evaluation.objective / scale, gradient(point),
+                    constraints(point.evaluation), jacobian(point)},
+                   at_bounds);
 }
 
 double ScaledProblem::projected_gradient(const Point &point) const
 {
-  const double              size = std::max(norm(gradient(point)), start_gradient_norm);
-  std::vector<unsigned int> active;
-  return size == 0. ? 0. : projected(point, active).norm / size;
+  const double size = std::max(norm(gradient(point)), start_gradient_norm);
+  return size == 0. ? 0. : projected(point).norm / size;
 }
 
 std::vector<double> ScaledProblem::multipliers(const Point &point) const
 {
-  std::vector<unsigned int> active;
-  const auto                found = projected(point, active);
-  std::vector<double>       result(constraint_relations.size(), 0.);
-  for (unsigned int k = 0; k < active.size(); ++k)
-    result[active[k]] = found.multipliers[k];
-  return result;
+  return projected(point).multipliers;
 }
 } // namespace snug::optimization

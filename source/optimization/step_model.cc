@@ -1,6 +1,5 @@
 #include <snug/base/narrow.h>
 #include <snug/optimization/dense_vectors.h>
-#include <snug/optimization/projected_gradient.h>
 #include <snug/optimization/step_model.h>
 
 #include <limits>
@@ -19,21 +18,12 @@ constexpr double well_scaled = 1e-2;
 /// A variable of a step closer to the end of its box, relative to the radius, is there.
 constexpr double at_end = 1e-6;
 
-/// An inequality with less left, relative to its scale, is active.
-constexpr double is_active = 1e-6;
-
-/// Of a constraint: the value, or for an inequality what is above 0.
-double excess(const Relation relation, const double value)
-{
-  return relation == Relation::equal ? value : std::max(0., value);
-}
-
-/// What NLopt asks about a model, in steps z = d / unit and functions whose slopes are 1.
-struct Questions
+/// The callbacks of NLopt for a model, in steps z = d / unit and functions whose slopes are 1.
+struct Subproblem
 {
   const StepModel             &model;
   const std::vector<Relation> &relations;
-  double                       unit, scale, value; ///< objectives are (f - value) / scale
+  double                       unit, scale, value; ///< the objective is (f - value) / scale
   Vector                       slopes;             ///< of the constraints at z = 0
   Vector                       allowed;            ///< violations
 
@@ -47,7 +37,7 @@ struct Questions
 
   static double objective(unsigned int n, const double *z, double *gradient, void *data)
   {
-    const auto &self      = *static_cast<Questions *>(data);
+    const auto &self      = *static_cast<Subproblem *>(data);
     const auto &predicted = self.at(z);
     if (gradient != nullptr)
       for (unsigned int i = 0; i < n; ++i)
@@ -63,7 +53,7 @@ struct Questions
                           double       *jacobian,
                           void         *data)
   {
-    const auto &self      = *static_cast<Questions *>(data);
+    const auto &self      = *static_cast<Subproblem *>(data);
     const auto &predicted = self.at(z);
     for (unsigned int j = 0; j < self.relations.size(); ++j)
       if (self.relations[j] == relation)
@@ -76,16 +66,17 @@ struct Questions
   }
 
   /// Half the sum of the squares of violations.
-  static double violation(unsigned int n, const double *z, double *gradient, void *data)
+  static double squared_violation(unsigned int n, const double *z, double *gradient, void *data)
   {
-    const auto &self      = *static_cast<Questions *>(data);
+    const auto &self      = *static_cast<Subproblem *>(data);
     const auto &predicted = self.at(z);
     double      sum       = 0.;
     if (gradient != nullptr)
       std::fill(gradient, gradient + n, 0.);
     for (unsigned int j = 0; j < self.relations.size(); ++j)
       {
-        const double v = excess(self.relations[j], predicted.constraints[j]) / self.slopes[j];
+        const double v =
+          optimization::violation(self.relations[j], predicted.constraints[j]) / self.slopes[j];
         sum += v * v / 2.;
         if (gradient != nullptr)
           for (unsigned int i = 0; i < n; ++i)
@@ -95,7 +86,7 @@ struct Questions
   }
 };
 
-/// SLSQP in a box, for a thousand questions at most.
+/// Return SLSQP in a box, with at most a thousand evaluations of the model.
 nlopt::opt optimizer(const Vector &lower, const Vector &upper)
 {
   nlopt::opt result(nlopt::LD_SLSQP, narrow<unsigned int>(lower.size()));
@@ -106,7 +97,7 @@ nlopt::opt optimizer(const Vector &lower, const Vector &upper)
   return result;
 }
 
-/// From @p z to the least there is, or as far as NLopt comes.
+/// Minimize from @p z, as far as NLopt comes.
 void minimize(nlopt::opt &optimizer, Vector &z)
 {
   double f = 0.;
@@ -140,14 +131,6 @@ const ScaledProblem::Prediction &StepModel::operator()(const Vector &d) const
   return predicted;
 }
 
-double StepModel::violation(const Vector &constraints, const Vector &weights) const
-{
-  double sum = 0.;
-  for (unsigned int j = 0; j < constraints.size(); ++j)
-    sum += weights[j] * std::abs(excess(problem.relations()[j], constraints[j]));
-  return sum;
-}
-
 void StepModel::box(const double radius, Vector &lower, Vector &upper) const
 {
   for (unsigned int i = 0; i < size(); ++i)
@@ -157,12 +140,12 @@ void StepModel::box(const double radius, Vector &lower, Vector &upper) const
     }
 }
 
-Vector StepModel::least(const double radius) const
+Vector StepModel::minimizer(const double radius) const
 {
   Vector d(size(), 0.);
   for (double unit = radius; unit > 1e-9 * radius;)
     {
-      d                   = least_from(d, radius, unit);
+      d                   = minimize_from(d, radius, unit);
       const double length = largest(d);
       if (length > well_scaled * unit)
         break;
@@ -171,8 +154,8 @@ Vector StepModel::least(const double radius) const
   return d;
 }
 
-/// From @p d on.
-Vector StepModel::least_from(const Vector &d, const double radius, const double unit) const
+/// Minimize from @p d on, in steps d / unit.
+Vector StepModel::minimize_from(const Vector &d, const double radius, const double unit) const
 {
   const auto &relations = problem.relations();
   Vector      lower, upper, z(d);
@@ -184,44 +167,44 @@ Vector StepModel::least_from(const Vector &d, const double radius, const double 
   for (unsigned int i = 0; i < size(); ++i)
     z[i] = std::clamp(z[i], lower[i], upper[i]);
   const auto here = (*this)(Vector(size(), 0.));
-  Questions  questions{*this,
-                      relations,
-                      unit,
-                      std::max(norm(here.gradient) * unit, std::numeric_limits<double>::min()),
-                      here.objective,
-                       {},
-                      Vector(relations.size(), 0.)};
+  Subproblem subproblem{*this,
+                        relations,
+                        unit,
+                        std::max(norm(here.gradient) * unit, std::numeric_limits<double>::min()),
+                        here.objective,
+                        {},
+                        Vector(relations.size(), 0.)};
   for (const auto &row : here.jacobian)
-    questions.slopes.push_back(std::max(norm(row), ScaledProblem::no_slope) * unit);
+    subproblem.slopes.push_back(std::max(norm(row), ScaledProblem::no_slope) * unit);
 
   auto       best    = optimizer(lower, upper);
   const auto n_equal = std::count(relations.begin(), relations.end(), Relation::equal);
   const auto n_other = static_cast<std::ptrdiff_t>(relations.size()) - n_equal;
   best.set_ftol_abs(1e-14);
   best.set_xtol_abs(1e-9);
-  best.set_min_objective(&Questions::objective, &questions);
+  best.set_min_objective(&Subproblem::objective, &subproblem);
   if (n_equal > 0)
-    best.add_equality_mconstraint(&Questions::constraints<Relation::equal>, &questions,
+    best.add_equality_mconstraint(&Subproblem::constraints<Relation::equal>, &subproblem,
                                   Vector(n_equal, 1e-12));
   if (n_other > 0)
-    best.add_inequality_mconstraint(&Questions::constraints<Relation::at_most>, &questions,
+    best.add_inequality_mconstraint(&Subproblem::constraints<Relation::at_most>, &subproblem,
                                     Vector(n_other, 1e-12));
   minimize(best, z);
   const auto violations = [&] {
-    const auto &there  = questions.at(z.data());
+    const auto &there  = subproblem.at(z.data());
     Vector      result = there.constraints;
     for (unsigned int j = 0; j < relations.size(); ++j)
-      result[j] = excess(relations[j], result[j]);
+      result[j] = violation(relations[j], result[j]);
     return result;
   };
   if (largest(violations()) > is_met)
     {
       z.assign(size(), 0.);
       auto nearest = optimizer(lower, upper);
-      nearest.set_min_objective(&Questions::violation, &questions);
+      nearest.set_min_objective(&Subproblem::squared_violation, &subproblem);
       minimize(nearest, z);
-      questions.allowed = violations();
-      for (double &allowed : questions.allowed)
+      subproblem.allowed = violations();
+      for (double &allowed : subproblem.allowed)
         if (std::abs(allowed) <= is_met)
           allowed = 0.;
       minimize(best, z);
@@ -233,27 +216,14 @@ Vector StepModel::least_from(const Vector &d, const double radius, const double 
 
 Vector StepModel::multipliers(const Vector &d, const double radius) const
 {
-  const auto &relations = problem.relations();
-  const auto  there     = (*this)(d);
-  Vector      lower, upper;
+  const auto there = (*this)(d);
+  Vector     lower, upper;
   box(radius, lower, upper);
   std::vector<BoundState> states;
   for (unsigned int i = 0; i < size(); ++i)
     states.push_back(d[i] <= lower[i] + at_end * radius   ? BoundState::at_lower
                      : d[i] >= upper[i] - at_end * radius ? BoundState::at_upper
                                                           : BoundState::inside);
-  std::vector<ConstraintGradient> active;
-  std::vector<unsigned int>       numbers;
-  for (unsigned int j = 0; j < relations.size(); ++j)
-    if (relations[j] == Relation::equal || there.constraints[j] > -is_active)
-      {
-        active.push_back({there.jacobian[j], relations[j] == Relation::at_most});
-        numbers.push_back(j);
-      }
-  const auto projected = projected_gradient(there.gradient, active, states);
-  Vector     result(relations.size(), 0.);
-  for (unsigned int k = 0; k < numbers.size(); ++k)
-    result[numbers[k]] = projected.multipliers[k];
-  return result;
+  return problem.projected(there, states).multipliers;
 }
 } // namespace snug::optimization

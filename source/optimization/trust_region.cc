@@ -6,22 +6,23 @@
 
 namespace snug::optimization {
 namespace {
-/// Parts of the predicted gain: for a step to be accepted, to be trusted less, and more.
+/// Limits of rho: a design is accepted, the radius shrinks, the radius grows.
 constexpr double accepted = 1e-4, poor = 0.25, good = 0.75;
 
-/// What good steps make of the radius.
+/// Factor of the radius after a good step.
 constexpr double growth = 3.;
 
-/// Of the longest step that may be predicted to gain: nothing but rounding.
+/// A predicted gain below this part of the objective is rounding.
 constexpr double no_gain = 1e-15;
 
-/// Steps below this part of the first one are rounding.
+/// A step below this part of the first one is rounding.
 constexpr double smallest_radius = 1e-10;
 
-/// Designs without a value and without a gain in between.
+/// Number of failed evaluations without a gain in between after which the search ends.
 constexpr unsigned int max_failures = 5;
 
-/// Weights of constraints over their multipliers, and the least that is left of one.
+/// Weight of a constraint over its multiplier, the part of a weight that remains in a step, and the
+/// minimum weight.
 constexpr double above_multiplier = 1.5, forgetting = 0.5, least_weight = 1e-6;
 } // namespace
 
@@ -66,33 +67,42 @@ End TrustRegion::run()
             return End::no_value;
         }
       else if (const End end =
-                 trial.actual < accepted * trial.predicted ? refuse(trial) : accept(model, trial);
+                 trial.actual < accepted * trial.predicted ? reject(trial) : accept(model, trial);
                end != End::none)
         return end;
     }
   return failure.empty() ? End::round_off : End::no_value;
 }
 
-/// The step that the model takes to be best, and what the merit falls by.
+/// Return the minimizer of the model with the decrease of the merit that it predicts.
 TrustRegion::Trial TrustRegion::proposed(const StepModel &model)
 {
   Trial       trial;
-  const auto &at     = *progress.iterate();
-  trial.d            = model.least(radius);
-  const auto there   = model(trial.d);
-  const auto here    = problem.constraints(at.evaluation);
-  const auto largest = model.multipliers(trial.d, radius);
+  const auto &at   = *progress.iterate();
+  trial.d          = model.minimizer(radius);
+  const auto there = model(trial.d);
+  const auto here  = problem.constraints(at.evaluation);
+  const auto mu    = model.multipliers(trial.d, radius);
   for (unsigned int j = 0; j < weights.size(); ++j)
     weights[j] =
-      std::max({above_multiplier * std::abs(largest[j]), forgetting * weights[j], least_weight});
+      std::max({above_multiplier * std::abs(mu[j]), forgetting * weights[j], least_weight});
   trial.objective     = at.evaluation.objective / problem.objective_scale();
-  trial.violation     = model.violation(here, weights);
-  const double gained = trial.violation - model.violation(there.constraints, weights);
+  trial.violation     = weighted_violation(here);
+  const double gained = trial.violation - weighted_violation(there.constraints);
   trial.predicted     = trial.objective - there.objective + gained;
   trial.slope         = gained - dot(problem.gradient(at), trial.d);
   for (unsigned int i = 0; i < trial.d.size(); ++i)
     trial.y.push_back(std::clamp(at.y[i] + trial.d[i], problem.lower()[i], problem.upper()[i]));
   return trial;
+}
+
+/// Return sum_j nu_j |c_j|, with c_j^+ for inequalities.
+double TrustRegion::weighted_violation(const std::vector<double> &constraints) const
+{
+  double sum = 0.;
+  for (unsigned int j = 0; j < constraints.size(); ++j)
+    sum += weights[j] * violation(problem.relations()[j], constraints[j]);
+  return sum;
 }
 
 /// Evaluate the design of a step. @return false if it has no value.
@@ -113,26 +123,21 @@ bool TrustRegion::evaluated(Trial &trial)
       if (hooks.log)
         {
           std::ostringstream line;
-          line << "design without a value (" << failure << "): the next step from iteration "
-               << progress.n_iterations() << " is a quarter as long";
+          line << "evaluation failed (" << failure << "): reducing the step from iteration "
+               << progress.n_iterations() << " to a quarter";
           hooks.log(line.str());
         }
       return false;
     }
   progress.consider(trial.point);
   const auto &evaluation = trial.point->evaluation;
-  double      violation  = 0.;
-  const auto  values     = problem.constraints(evaluation);
-  for (unsigned int j = 0; j < values.size(); ++j)
-    violation += weights[j] * (problem.relations()[j] == Relation::equal ? std::abs(values[j])
-                                                                         : std::max(0., values[j]));
-  trial.actual = trial.objective - evaluation.objective / problem.objective_scale() +
-                 trial.violation - violation;
+  trial.actual           = trial.objective - evaluation.objective / problem.objective_scale() +
+                 trial.violation - weighted_violation(problem.constraints(evaluation));
   return true;
 }
 
-/// Where even the prediction gains less than the tolerance, as beside a kink, nothing is left.
-End TrustRegion::refuse(const Trial &trial)
+/// The search ends if even the predicted gain is below the tolerance, as beside a kink.
+End TrustRegion::reject(const Trial &trial)
 {
   if (progress.is_feasible(*progress.iterate()) &&
       trial.predicted <= parameters.objective_tolerance * std::abs(trial.objective))
@@ -148,7 +153,6 @@ End TrustRegion::refuse(const Trial &trial)
 
 End TrustRegion::accept(const StepModel &model, const Trial &trial)
 {
-  const auto   at   = progress.iterate();
   const double part = trial.actual / trial.predicted, length = largest(trial.d);
   const bool   is_at_end = length > 0.99 * radius;
   const bool   may_grow  = !failed;
@@ -159,14 +163,15 @@ End TrustRegion::accept(const StepModel &model, const Trial &trial)
     radius = std::max(radius / 4., length / 2.);
   else if (may_grow && part > good && length > 0.8 * radius)
     radius *= growth;
-  // a small change says nothing where the step was cut short, or much more was predicted
+  // A small change is no convergence if the box cut the step, or if a much larger gain was
+  // predicted.
   const End end = progress.accept(trial.point, !is_at_end && part > poor);
-  // steps may be small because longer ones have no value
+  // The step may be small only because the evaluation of a longer step failed.
   return end != End::none && end != End::gradient && is_at_end && !failure.empty() ? End::no_value
                                                                                    : end;
 }
 
-/// What the gradient of the Lagrangian has changed by beyond the prediction.
+/// Update B by the change of the gradient of the Lagrangian that the prediction has not.
 void TrustRegion::learn(const StepModel &model, const Trial &trial)
 {
   const auto mu        = problem.multipliers(*trial.point);

@@ -1,6 +1,8 @@
 #ifndef snug_optimization_design_problem_h
 #define snug_optimization_design_problem_h
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,6 +32,12 @@ enum class Relation
   equal,  ///< c(x) = 0
   at_most ///< c(x) <= 0
 };
+
+/// Return by how much a constraint is violated: |c| of an equality, max(0, c) of an inequality.
+inline double violation(const Relation relation, const double c)
+{
+  return relation == Relation::equal ? std::abs(c) : std::max(0., c);
+}
 
 /// min f(x), c_j(x) = 0 or c_j(x) <= 0, lower <= x <= upper. Vectors only.
 struct DesignProblem

@@ -12,8 +12,9 @@ namespace snug::optimization {
 /**
  * A design the optimizer has accepted; number 0 is the start.
  *
- * Both measures are free of units. With bound widths w, constraint scales
- * s, the scaled gradients g_i = w_i df/dx_i and A_ji = w_i dc_j/dx_i / s_j,
+ * Both measures are free of units. With the lengths w of the variables and the scales s of the
+ * constraints (ScaledProblem), the scaled gradients g_i = w_i df/dx_i and A_ji = w_i dc_j/dx_i /
+ * s_j,
  * @f[ \text{violation} = \max_j |c_j| / s_j
  *     \;(c_j^+ \text{ for inequalities}), \qquad
  *     \text{projected gradient} = \min_\mu \|P(g + A^T\mu)\|_2 \,/\,
@@ -21,7 +22,7 @@ namespace snug::optimization {
  * where A holds equalities and active inequalities (c_j / s_j above -1e-6),
  * those with mu_j >= 0, and P keeps the entries of variables between their
  * bounds, of those at a lower bound only the negative and of those at an
- * upper bound only the positive ones (a variable within 1e-8 of its width
+ * upper bound only the positive ones (a variable within 1e-8 of its length
  * is at its bound). It is zero exactly at the points of Karush, Kuhn and
  * Tucker.
  */
@@ -77,8 +78,8 @@ struct OptimizationResult
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
   /// "interrupted", "a constraint without a gradient at the first design..."
-  /// (where the search came back to it) or "designs without a value (...)" with what the last
-  /// design without a value lacked
+  /// (where the search came back to it) or "failed evaluations (...)" with the message of the
+  /// last one
   std::string stop_reason;
   /// Stopped by a tolerance at a design that meets the constraints, or by
   /// round-off where the projected gradient is at most the square root of

@@ -90,7 +90,7 @@ public:
   double                              objective_scale() const { return scale; }
   const std::shared_ptr<const Point> &start() const { return start_point; }
   /// Number of variables.
-  unsigned int size() const { return static_cast<unsigned int>(width.size()); }
+  unsigned int size() const { return static_cast<unsigned int>(lengths.size()); }
   /// The width of the bounds of variable @p i in its lengths.
   double bound_width(unsigned int i) const { return y_upper[i] - y_lower[i]; }
 
@@ -105,6 +105,11 @@ public:
   Prediction predicted(const Point &at, const std::vector<double> &d) const;
   bool       predicts_objective() const { return problem.predicts_objective; }
 
+  /// Return the projected gradient, not divided by any norm, and the multipliers of all
+  /// constraints, 0 of those that are not active, where @p at_bounds says which variables may move
+  /// where.
+  ProjectedGradient projected(const Prediction &at, const std::vector<BoundState> &at_bounds) const;
+
   /// Calls of the problem's evaluate(), also those that threw.
   unsigned int n_evaluations() const { return evaluations; }
 
@@ -114,11 +119,11 @@ private:
   std::shared_ptr<Point>       evaluated(const std::vector<double> &y);
   std::shared_ptr<const Point> remembered(const std::shared_ptr<Point> &point);
   void                         scale_constraints(const Point &start);
-  bool                         is_active(const Point &point, unsigned int j) const;
-  ProjectedGradient projected(const Point &point, std::vector<unsigned int> &active) const;
+  bool                         is_active(unsigned int j, double c) const;
+  ProjectedGradient            projected(const Point &point) const;
 
   const DesignProblem                     &problem;
-  std::vector<double>                      x_start, width, y_lower, y_upper;
+  std::vector<double>                      x_start, lengths, y_lower, y_upper;
   std::vector<double>                      scales;
   std::vector<Relation>                    constraint_relations;
   double                                   scale               = 1.;

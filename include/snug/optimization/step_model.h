@@ -6,8 +6,8 @@
 
 namespace snug::optimization {
 /**
- * What is expected of a problem at y + d: the prediction of ScaledProblem with 1/2 d'Bd added to
- * the objective. Refers to its arguments.
+ * This class models a problem at y + d: the prediction of ScaledProblem with 1/2 d'Bd added to
+ * the objective. It keeps references to its arguments.
  */
 class StepModel
 {
@@ -19,23 +19,20 @@ public:
   /// Objective, constraints and their derivatives at @p d.
   const ScaledProblem::Prediction &operator()(const std::vector<double> &d) const;
 
-  /// sum_j weights_j |c_j|, of c_j+ for inequalities.
-  double violation(const std::vector<double> &constraints,
-                   const std::vector<double> &weights) const;
-
   /**
-   * The step with the least objective among those with |d_i| <= radius that stay between the
-   * bounds and meet the predicted constraints, or violate each no more than the step that
-   * violates them least, in the sum of squares relative to their slopes. Found by NLopt's SLSQP
-   * from 0; if it fails, what it came to.
+   * Return the step with the minimum objective among the steps with |d_i| <= radius that stay
+   * between the bounds and meet the predicted constraints. If no step meets them, each constraint
+   * may be violated by as much as in the step that minimizes the sum of the squared violations,
+   * relative to the slopes of the constraints. NLopt's SLSQP computes the step from d = 0; if SLSQP
+   * fails, the last step is returned.
    */
-  std::vector<double> least(double radius) const;
+  std::vector<double> minimizer(double radius) const;
 
-  /// Multipliers of the constraints at the step @p d, made least squares of what is left of the
-  /// gradient inside of the box of least().
+  /// Return the multipliers of the constraints at the step @p d, which minimize the norm of the
+  /// projected gradient in the box of minimizer().
   std::vector<double> multipliers(const std::vector<double> &d, double radius) const;
 
-  /// Variables of the step.
+  /// Return the number of variables.
   unsigned int size() const { return static_cast<unsigned int>(at.y.size()); }
 
 private:
@@ -45,7 +42,7 @@ private:
   mutable std::vector<double>       last; ///< step of the last prediction; empty: none
   mutable ScaledProblem::Prediction predicted;
 
-  std::vector<double> least_from(const std::vector<double> &d, double radius, double unit) const;
+  std::vector<double> minimize_from(const std::vector<double> &d, double radius, double unit) const;
   void box(double radius, std::vector<double> &lower, std::vector<double> &upper) const;
 };
 } // namespace snug::optimization

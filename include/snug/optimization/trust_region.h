@@ -6,10 +6,11 @@
 
 namespace snug::optimization {
 /**
- * Sequential quadratic programming in a trust region, from the iterate of a Progress on. A step d
- * minimizes a StepModel with |d_i| <= R, where R = 1 at first, in the lengths of the variables. The
- * merit is f + sum_j nu_j |c_j| (c_j^+ for inequalities), where nu_j is 1.5 times the multiplier of
- * the model and at least half of what it was; rho is its decrease over the predicted one.
+ * This class does sequential quadratic programming in a trust region, from the iterate of a
+ * Progress on. A step d minimizes a StepModel with |d_i| <= R, where R = 1 at first, in the lengths
+ * of the variables. The merit is f + sum_j nu_j |c_j| (c_j^+ for inequalities), where nu_j is 1.5
+ * times the multiplier of the model and at least half of what it was; rho is its decrease over the
+ * predicted one.
  *
  * - rho < 1e-4: the design is rejected; R becomes 0.1 to 0.5 |d|_inf, at the minimum of the
  * parabola through both values and the slope, and B gains the curvature measured along d.
@@ -29,36 +30,38 @@ namespace snug::optimization {
 class TrustRegion
 {
 public:
-  /// Keeps references to the first four.
+  /// Keep references to all arguments.
   TrustRegion(ScaledProblem                &problem,
               Progress                     &progress,
               const OptimizationParameters &parameters,
               const Hooks                  &hooks);
 
-  /// @return why the search ended. What evaluate() and hooks throw but for SolveErrors passes
-  /// through.
+  /// Run the search. @return why it ended. Exceptions of evaluate() and of hooks other than
+  /// SolveErrors of evaluate() pass through.
   End run();
 
-  /// Of End::no_value: what the last design without a value lacked. Empty if the last step that was
-  /// refused had one.
+  /// The message of the last failed evaluation, for End::no_value. It is empty if the last rejected
+  /// design has a value.
   std::string failure;
 
 private:
-  /// A step from the iterate and what the merit falls by.
+  /// A step from the iterate and its decrease of the merit.
   struct Trial
   {
     std::vector<double> d, y;
     double              objective = 0., violation = 0.; ///< parts of the merit at the iterate
     double              predicted = 0., actual = 0.;
-    double              slope = 0.; ///< predicted by the linear objective
+    double              slope = 0.; ///< decrease that the linear objective predicts
     Progress::Point     point = nullptr;
   };
 
   Trial proposed(const StepModel &model);
   bool  evaluated(Trial &trial);
-  End   refuse(const Trial &trial);
+  End   reject(const Trial &trial);
   End   accept(const StepModel &model, const Trial &trial);
   void  learn(const StepModel &model, const Trial &trial);
+
+  double weighted_violation(const std::vector<double> &constraints) const;
 
   ScaledProblem                &problem;
   Progress                     &progress;
@@ -67,8 +70,8 @@ private:
   SecantHessian                 hessian;
   std::vector<double>           weights; ///< nu
   double                        radius     = 1.;
-  unsigned int                  n_failures = 0;     ///< designs without a value since a gain
-  bool                          failed     = false; ///< a step from the iterate has no value
+  unsigned int                  n_failures = 0;     ///< evaluations since a gain
+  bool                          failed     = false; ///< an evaluation from the iterate on
 };
 } // namespace snug::optimization
 

@@ -23,7 +23,7 @@ TEST(SlsqpFailures, StepsBackFromTangledDesignsAndArrives)
   EXPECT_TRUE(result.success) << result.stop_reason;
   EXPECT_LT(distance(result.x, exact), design_accuracy);
   ASSERT_FALSE(log.empty());
-  EXPECT_NE(log[0].find("is a quarter as long"), std::string::npos) << log[0];
+  EXPECT_NE(log[0].find("to a quarter"), std::string::npos) << log[0];
   EXPECT_NE(log[0].find("cell 5 of body punch"), std::string::npos);
 }
 
@@ -48,7 +48,7 @@ TEST(SlsqpFailures, StopsAtTheBestDesignIfTheMinimumIsTangled)
         };
       const auto result = minimize(problem, tight());
       EXPECT_FALSE(result.success);
-      EXPECT_EQ(result.stop_reason.rfind("designs without a value (", 0), 0u);
+      EXPECT_EQ(result.stop_reason.rfind("failed evaluations (", 0), 0u);
       EXPECT_EQ(result.stop_reason.find("is tangled") == std::string::npos, as_nan)
         << result.stop_reason;
       // beside the hole, on the circle

@@ -49,7 +49,7 @@ TEST(StepModel, FindsTheLeastOfAQuadraticWithAnEqualityAndBounds)
           hessian.raise(axis, 0.01 * knapsack.d[i] / problem.objective_scale());
         }
       const StepModel model(problem, start, hessian);
-      const auto      d = model.least(100.);
+      const auto      d = model.minimizer(100.);
       Vector          x;
       for (const double entry : d)
         x.push_back(0.5 + 0.1 * entry);
@@ -66,16 +66,14 @@ TEST(StepModel, StaysInTheBoxAndMeetsWhatCanBeMet)
   const auto      easy = linear(0., 1.5);
   ScaledProblem   problem(easy);
   const StepModel model(problem, *problem.start(), none);
-  EXPECT_LT(distance(model.least(10.), {0.5, -0.5}), 1e-8);
-  EXPECT_LT(distance(model.least(0.25), {0.25, -0.25}), 1e-8);
+  EXPECT_LT(distance(model.minimizer(10.), {0.5, -0.5}), 1e-8);
+  EXPECT_LT(distance(model.minimizer(0.25), {0.25, -0.25}), 1e-8);
 
   // x + y = 1 is out of reach of steps of 0.2: as close as they come
   const auto      far = linear(1., 5.);
   ScaledProblem   other(far);
   const StepModel model_of_far(other, *other.start(), none);
-  EXPECT_LT(distance(model_of_far.least(0.2), {0.2, 0.2}), 1e-6);
-  EXPECT_NEAR(model_of_far.violation({0.6, -3.}, {2., 7.}), 1.2, 1e-14);
-  EXPECT_NEAR(model_of_far.violation({-0.6, 3.}, {2., 7.}), 22.2, 1e-14);
+  EXPECT_LT(distance(model_of_far.minimizer(0.2), {0.2, 0.2}), 1e-6);
 }
 
 TEST(StepModel, MultipliersBalanceTheGradientInsideOfTheBox)
@@ -86,7 +84,7 @@ TEST(StepModel, MultipliersBalanceTheGradientInsideOfTheBox)
   const StepModel     model(problem, *problem.start(), none);
   // (-1, 1) + mu (1, 1) + nu (1, -2) = 0
   const double F  = problem.objective_scale();
-  const auto   mu = model.multipliers(model.least(10.), 10.);
+  const auto   mu = model.multipliers(model.minimizer(10.), 10.);
   ASSERT_EQ(mu.size(), 2u);
   EXPECT_NEAR(F * mu[0], 1. / 3., 1e-6);
   EXPECT_NEAR(F * mu[1], 2. / 3., 1e-6);
