@@ -22,7 +22,7 @@ namespace snug::app {
 class StartHistory
 {
 public:
-  /// @p units of the variables, changes of equal effect.
+  /// @p units of the variables: changes of equal effect, positive.
   explicit StartHistory(std::vector<double> units);
 
   /// Per load case, of this rank's rows; none without earlier designs, then
