@@ -231,7 +231,9 @@ Counts count_in(const scene::Scene &scene, const unsigned int ranks)
       for (const auto &[name, nodes] : of.boundary_nodes)
         nodes_of_face[body.name + "." + name] = nodes;
       cells.push_back(of.cells);
-      each.push_back(of.has_layers ? by_size.compact : by_size.other);
+      each.push_back(
+        (of.has_layers ? by_size.compact : by_size.other) *
+        (scene::is_nearly_incompressible(scene, body) ? mesh::larger_subdomains(dim) : 1.));
       result.cells += of.cells;
       result.nodes += of.nodes;
       result.coarse_cells += of.coarse_cells;

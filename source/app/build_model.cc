@@ -101,9 +101,12 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
 template <int dim>
 std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &scene, MPI_Comm communicator)
 {
+  auto tearing = scene.tearing;
+  for (const auto &body : scene.bodies)
+    tearing.nearly_incompressible.push_back(scene::is_nearly_incompressible(scene, body));
   return made_of(scene, [&]() {
     return std::make_unique<mesh::BodyMesh<dim>>(communicator, mesh_parameters(scene), scene.degree,
-                                                 idealization(scene), scene.tearing);
+                                                 idealization(scene), tearing);
   });
 }
 

@@ -47,6 +47,11 @@ CellsPerSubdomain cells_per_subdomain(const unsigned int  dim,
                   : CellsPerSubdomain{cells(12.), cells(14.)};
 }
 
+double larger_subdomains(const unsigned int dim)
+{
+  return dim == 3 ? 8. : 1.;
+}
+
 /// Parts are halved until every rank can have one; slabs may be empty, so the numbers are counted
 /// rather than computed. Collective.
 template <int dim>
@@ -64,6 +69,10 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
       cells_each.push_back(makes_cubes(set, parameters.method) ? by_size.compact : by_size.other);
     else
       cells_each.push_back(std::max(1., double(n_cells) / parameters.subdomains));
+  if (parameters.subdomains == 0)
+    for (unsigned int body = 0; body < parameters.nearly_incompressible.size(); ++body)
+      if (parameters.nearly_incompressible[body])
+        cells_each[body] *= larger_subdomains(dim);
   const unsigned long least =
     parameters.at_least_ranks
       ? std::min<unsigned long>(n_cells, dealii::Utilities::MPI::n_mpi_processes(communicator))

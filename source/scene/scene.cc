@@ -123,6 +123,19 @@ materials_of(const Scene &scene, const Body &body, const std::vector<std::string
   return result;
 }
 
+bool is_nearly_incompressible(const Scene &scene, const Body &body)
+{
+  if (body.formulation != elasticity::Formulation::B_bar)
+    return false;
+  std::vector<std::string> regions = {""};
+  for (const auto &[region, material] : body.materials)
+    regions.push_back(region);
+  const auto materials = materials_of(scene, body, regions);
+  return std::any_of(materials.begin(), materials.end(), [](const elasticity::Material &material) {
+    return material.poissons_ratio >= 0.499;
+  });
+}
+
 std::vector<std::string> boundary_names(const Body &body, const unsigned int dimension)
 {
   return dimension == 2 ? boundary_names_in<2>(body.mesh) : boundary_names_in<3>(body.mesh);

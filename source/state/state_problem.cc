@@ -164,11 +164,23 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
   return result;
 }
 
+/// Matrices, rows and loads of a geometry.
 template <int dim>
 void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool> &moved)
 {
   const RunContext::Timer timer(context, "assembly");
-  const auto              tractions = resultants.tractions(positions);
+  std::vector<double>     jacobians;
+  everywhere(context.communicator(), [&]() { jacobians = checked_jacobians(positions, moved); });
+  // what throws from here on leaves matrices of no geometry
+  geometry.positions.clear();
+  loaded_case.reset();
+  scaled_jacobians = jacobians;
+  jacobians.push_back(1.); // of a rank without cells
+  geometry.least_scaled_jacobian =
+    dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
+                                context.communicator());
+  geometry.rows        = rows(positions);
+  const auto tractions = resultants.tractions(positions);
   loads.resize(model.load_cases.size());
   const auto assemble_subdomain = [&](const unsigned int s) {
     auto &system = systems[s];
@@ -190,30 +202,18 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
     for (unsigned int s = 0; s < systems.size(); ++s)
       assemble_subdomain(s);
   });
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    gluing->fill_B(s, geometry.rows, systems[s].B);
 }
 
-/// Matrices, rows and factorizations of a geometry, and all loads.
 template <int dim>
 void StateProblem<dim>::set_geometry(const Field &positions)
 {
-  const auto          moved = moved_subdomains(positions);
-  std::vector<double> jacobians;
-  everywhere(context.communicator(), [&]() { jacobians = checked_jacobians(positions, moved); });
-  const int any_moved = std::find(moved.begin(), moved.end(), true) != moved.end();
+  const auto moved     = moved_subdomains(positions);
+  const int  any_moved = std::find(moved.begin(), moved.end(), true) != moved.end();
   if (dealii::Utilities::MPI::max(any_moved, context.communicator()) == 0)
     return;
-  // what throws from here on leaves matrices of no geometry
-  geometry.positions.clear();
-  loaded_case.reset();
-  scaled_jacobians = jacobians;
-  jacobians.push_back(1.); // of a rank without cells
-  geometry.least_scaled_jacobian =
-    dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
-                                context.communicator());
-  geometry.rows = rows(positions);
   assemble(positions, moved);
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    gluing->fill_B(s, geometry.rows, systems[s].B);
   feti->update(moved);
   geometry.positions = positions;
 }

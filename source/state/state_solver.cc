@@ -105,10 +105,8 @@ ContactState<dim> StateSolver<dim>::solve(const Field         &positions,
   state.pairing               = n_pairings;
   state.tolerance             = tolerance;
   state.least_scaled_jacobian = geometry.least_scaled_jacobian;
-  {
-    const RunContext::Timer timer(context(), "solve");
-    solve_to_certificate(start, state);
-  }
+  const RunContext::Timer timer(context(), "solve");
+  solve_to_certificate(start, state);
   recover_contact_results(*this, geometry.rows, state);
   return state;
 }

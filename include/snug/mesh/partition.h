@@ -24,6 +24,8 @@ struct TearingParameters
   std::string  method     = "auto"; ///< a name of partition_table()
   /// as many as ranks, where there are cells enough; not an entry
   bool at_least_ranks = true;
+  /// bodies of which subdomains by size are larger, see larger_subdomains(); not an entry
+  std::vector<bool> nearly_incompressible;
 
   void declare(Entries &entries);
 };

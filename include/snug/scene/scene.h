@@ -164,6 +164,10 @@ std::string text_of_materials(const std::map<std::string, std::string> &material
 std::vector<elasticity::Material>
 materials_of(const Scene &scene, const Body &body, const std::vector<std::string> &regions);
 
+/// Whether a material of the body has a Poisson's ratio of 0.499 or more, and B-bar keeps its
+/// elements from locking.
+bool is_nearly_incompressible(const Scene &scene, const Body &body);
+
 /// Names of a body's boundaries, e.g. left, right, bottom, top.
 /// @throws InputError if the body has no mesh (entries without section).
 std::vector<std::string> boundary_names(const Body &body, unsigned int dimension);

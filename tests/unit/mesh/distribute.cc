@@ -189,6 +189,19 @@ TEST(Distribute, ThereAreAsManyPartsAsRanks)
   EXPECT_GE(mesh::tear(mesh).n_global, n_ranks());
 }
 
+TEST(Distribute, SubdomainsBySizeAreLargerWhereBodiesAreNearlyIncompressible)
+{
+  std::vector<geometry::BodyMeshParameters> bodies(2);
+  for (auto &body : bodies)
+    body.cells = {10, 10, 10};
+  bodies[1].corner = {2., 2., 2.};
+  mesh::TearingParameters tearing;
+  tearing.at_least_ranks        = false;
+  tearing.nearly_incompressible = {false, true};
+  const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, bodies, 1, mesh::Idealization::natural(3), tearing);
+  EXPECT_EQ(mesh::tear(mesh).n_global, 8U + 1U);
+}
+
 TEST(Distribute, RanksMayBeWithoutCells)
 {
   const std::vector<geometry::BodyMeshParameters> cube(1);

@@ -101,6 +101,24 @@ TEST(ReadScene, SubdomainsAreANumberOrChosen)
   EXPECT_EQ(read_with({entry + "12", entry + "auto"}).tearing.subdomains, 0U);
 }
 
+TEST(ReadScene, BodiesAreNearlyIncompressibleByTheirMaterialsAndBBar)
+{
+  const auto is_so = [](const std::vector<std::string> &overrides) {
+    const auto scene = read_with(overrides);
+    return scene::is_nearly_incompressible(scene, scene.bodies[0]);
+  };
+  const std::string b_bar = "Body punch/Formulation=B-bar", ratio = "Body punch/Poisson's ratio=";
+  EXPECT_FALSE(is_so({ratio + "0.4999"}));
+  EXPECT_FALSE(is_so({b_bar, ratio + "0.49"}));
+  EXPECT_TRUE(is_so({b_bar, ratio + "0.499"}));
+  auto scene = read_with({b_bar});
+  scene.materials.resize(1);
+  scene.materials[0].name                    = "rubber";
+  scene.materials[0].material.poissons_ratio = 0.4999;
+  scene.bodies[0].materials["coat"]          = "rubber";
+  EXPECT_TRUE(scene::is_nearly_incompressible(scene, scene.bodies[0]));
+}
+
 TEST(ReadScene, LaterStatementsOfAFileWinAndLineEndsDoNotMatter)
 {
   std::string text = scene_text() + "SET  Output   directory =  a b \nEnd";
