@@ -6,31 +6,33 @@
 
 namespace snug::feti {
 namespace {
-/// Of motions W on each other, that is rounding.
+/// Pivots of the Gram matrix of the motions W, scaled to unit diagonal, below which motions are
+/// taken as linearly dependent: such pivots are rounding error.
 const double dependence = 1e-8;
 } // namespace
 
-/// The matrix is replicated: every rank factorizes it, and solving needs no communication.
+/// Every rank has the whole matrix. Only a factorization by a team communicates in solve().
 CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
 {
   CsrMatrix matrix   = space.pattern();
   matrix.values      = space.gram_values(free);
   const auto motions = space.hardly_seen_motions(matrix);
-  // Orthonormal, as both factors are.
+  // The columns of N and W are orthonormal, because those of both factors are.
   N         = times(space.body_modes(), motions.unseen);
   W         = times(space.body_modes(), motions.weak);
   auto held = N;
   held.append(W);
-  // The same way out as fixing nodes for K; only the unknowns of one subdomain per body become
-  // coupled.
+  // Regularize the matrix as fixing nodes regularize K. This couples only the coarse unknowns of
+  // one subdomain per body.
   fix_kernel(matrix, space.representatives(), rows_of(held, space.representatives()));
   A = space.factors().factorize(matrix, "the coarse problem G G'");
   if (W.n_columns() == 0)
     return;
-  // By way of the rows: the small numbers G_M' W are rounding in the values of G_M G_M'.
+  // Compute G_M G_M' W from the rows, because the small numbers G_M' W are lost in the rounding of
+  // the values of G_M G_M'.
   const auto image = [&]() { return space.multiply(space.transpose_multiply(W, &free), &free); };
-  // W - A^-1 G_M G_M' W and N span all that (I - A^-1 G_M G_M') x can be: steps along W and with
-  // A^-1 by turns end, but for rounding, at once.
+  // W - A^-1 G_M G_M' W and N span all vectors (I - A^-1 G_M G_M') x. Alternating steps along W and
+  // with A^-1 are therefore exact after the first steps, except for rounding.
   qp::MultiVector solved(W.n_rows(), W.n_columns());
   A->solve(image(), solved);
   W.add(-1., solved);
@@ -44,9 +46,10 @@ qp::MultiVector CoarseProblem::solve(const qp::MultiVector &c, const unsigned in
     return times(W, transpose_times(W, c));
   qp::MultiVector alpha(c.n_rows(), c.n_columns());
   A->solve(c, alpha);
-  // Solutions differ by the kernel N; without it they are those of the pseudo-inverse if c is in
-  // the range of G_M G_M'. Other c, of loads that M cannot hold, lose a combination of N_f: the
-  // result is then only good to find out that they are not balanced.
+  // Solutions differ by the kernel N. Without their part in N they are those of the pseudo-inverse
+  // if c is in the range of G_M G_M'. For another c, of loads that M cannot hold, the solution
+  // lacks a combination of N_f. Such a result serves only to find out that the loads are not
+  // balanced.
   alpha.add(-1., kernel_part(alpha));
   return alpha;
 }

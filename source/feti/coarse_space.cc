@@ -13,11 +13,12 @@ namespace snug::feti {
 namespace {
 using Columns = qp::PackedColumns;
 
-/// Relative to the mean of diag A: eigenvalues of Z'AZ below are rounding of those of others, of
-/// motions that the rows do not see.
+/// Eigenvalues of Z'AZ below this part of the mean of diag A are rounding errors of other
+/// eigenvalues. Their motions are not resisted by any row.
 const double kernel_cut = 1e-13;
 
-/// Those below, of motions that the rows hardly see, would take too many digits from A^-1.
+/// Eigenvalues of Z'AZ below this part of the mean of diag A belong to hardly resisted motions,
+/// which would cost A^-1 too many digits.
 const double weak_cut = 1e-5;
 } // namespace
 
@@ -32,8 +33,8 @@ CoarseSpace::CoarseSpace(const RowLayout      &the_layout,
                 nullptr,
                 coarse_team(layout.communicator(), n_kernel(), FactorOf::coarse, n_ranks))
 {
-  // Entries are sorted by subdomain within a row: those of one subdomain make one block of G, the
-  // n_modes numbers G(s, row) = R_s' B_s(row, :)'.
+  // The entries of a row are sorted by subdomain. The entries of one subdomain in one row make one
+  // block of G, the n_modes numbers G(s, row) = R_s' B_s(row, :)'.
   const auto &start    = layout.entry_start();
   const auto &unknowns = layout.entry_unknowns();
   block_start.assign(1, 0);
@@ -47,8 +48,8 @@ CoarseSpace::CoarseSpace(const RowLayout      &the_layout,
         }
       block_start.push_back(narrow<unsigned int>(block_subdomain.size()));
     }
-  // A body's first subdomain stands for it: Z_s is regular, so that its n_modes coarse unknowns
-  // tell all rigid motions of the body apart.
+  // The first subdomain of a body represents the body. Z_s is regular, so that the n_modes coarse
+  // unknowns of the subdomain distinguish all rigid motions of the body.
   const auto n_bodies = narrow<unsigned int>(table.body_names.size());
   for (unsigned int body = 0; body < n_bodies; ++body)
     {
@@ -60,13 +61,13 @@ CoarseSpace::CoarseSpace(const RowLayout      &the_layout,
   build_pattern();
 }
 
-/// The pattern is that of all rows. Faces have fewer entries that are not zero, but one pattern
-/// lets all of them share a symbolic factorization.
+/// The pattern is that of all rows. Faces have fewer nonzero entries, but a common pattern lets all
+/// faces share a symbolic factorization.
 void CoarseSpace::build_pattern()
 {
   const unsigned int m = table.n_modes, n_subdomains = narrow<unsigned int>(table.body.size());
   std::set<Coupling> couplings, bounded_couplings;
-  // Also subdomains without rows have their place on the diagonal.
+  // Subdomains without rows also need their diagonal block.
   for (unsigned int s = 0; s < n_subdomains; ++s)
     couplings.emplace(s, s);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
@@ -75,11 +76,13 @@ void CoarseSpace::build_pattern()
         {
           const Coupling pair(block_subdomain[a], block_subdomain[b]);
           couplings.insert(pair);
-          // Contact rows come and go with the set: only the places they reach are summed per face.
+          // Contact rows change with the active set, so only their entries are summed for each
+          // face.
           if (layout.bounded()[row])
             bounded_couplings.insert(pair);
         }
-  // N_f (N_f'N_f)^-1 N_f' couples the representatives of all bodies: a kernel may move several.
+  // N_f (N_f'N_f)^-1 N_f' couples the representatives of all bodies, because a motion of the kernel
+  // may move several bodies.
   for (const unsigned int i : representative)
     for (const unsigned int j : representative)
       couplings.emplace(i / m, j / m);
@@ -96,14 +99,14 @@ void CoarseSpace::build_pattern()
         bounded_places.push_back(gram.position(pair.first * m + i, pair.second * m + j));
 }
 
-/// values += g g' of the column g of G that belongs to @p row, in the places of the pattern.
+/// Add g g' of the column g of G of @p row to @p values, which are in the pattern's order.
 void CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
 {
   const unsigned int m = table.n_modes;
   for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
     for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
       {
-        // the m rows of a block row have the same pattern
+        // The m rows of a block row have the same pattern.
         const unsigned int first  = block_subdomain[a] * m;
         const unsigned int length = gram.row_start()[first + 1] - gram.row_start()[first];
         double            *to     = &values[gram.position(first, block_subdomain[b] * m)];
@@ -122,7 +125,7 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   for (std::size_t e = 0; e < block_of_entry.size(); ++e)
     for (unsigned int i = 0; i < m; ++i)
       blocks[block_of_entry[e] * m + i] += G_entries[e * stride + i];
-  // The part of the equality rows is the same for every face of a design.
+  // The contribution of the equality rows is the same for all faces of a design.
   equality_gram.assign(gram.values.size(), 0.);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (!layout.bounded()[row])
@@ -130,8 +133,8 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   sum_over_ranks(equality_gram, layout.communicator());
 
   const auto n_bodies = narrow<unsigned int>(table.body_names.size());
-  // Subdomains hold orthonormal R of their own; Z_s says what combination of them moves the body as
-  // a whole. Each rank fills in its subdomains; adding zeros is exact.
+  // Each subdomain has its own orthonormal R. Z_s combines the columns of R to motions of the whole
+  // body. Each rank fills in its subdomains, and the sum over ranks adds zeros, which is exact.
   modes = qp::MultiVector(n_kernel(), n_bodies * m);
   for (unsigned int s = 0; s < Z.size(); ++s)
     for (unsigned int i = 0; i < m; ++i)
@@ -139,7 +142,7 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
         modes((table.first + s) * m + i, table.body[table.first + s] * m + j) = Z[s](i, j);
   MPI_Allreduce(MPI_IN_PLACE, modes.column(0), modes.n_rows() * modes.n_columns(), MPI_DOUBLE,
                 MPI_SUM, layout.communicator());
-  // Z (Z'Z)^{-1/2}: orthonormal, and each body keeps its own columns
+  // Z (Z'Z)^{-1/2} is orthonormal, and each body keeps its own columns.
   const qp::MultiVector            products = transpose_times(modes, modes);
   const unsigned int               n        = products.n_columns();
   dealii::LAPACKFullMatrix<double> square(n);
@@ -147,7 +150,7 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
     for (unsigned int i = 0; i < n; ++i)
       square(i, j) = products(i, j);
   square.compute_svd();
-  // V S V' has the root V S^{-1/2} V', a product of V S^{-1/4} with itself.
+  // V S V' has the inverse root V S^{-1/2} V', a product of V S^{-1/4} with its transpose.
   qp::MultiVector root(n, n);
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int i = 0; i < n; ++i)
@@ -158,8 +161,8 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
 CoarseSpace::HardlySeen CoarseSpace::hardly_seen_motions(const CsrMatrix &A) const
 {
   // A is assembled from the rows of M only. A motion without strain and without relative motion at
-  // the gluing moves each body rigidly, so its kernel lies in the span of the body modes and the
-  // dense problem has at most 6 unknowns per body, however many subdomains there are.
+  // the gluing moves each body rigidly. The kernel of A therefore lies in the span of the body
+  // modes, and the dense problem has at most 6 unknowns per body for any number of subdomains.
   qp::MultiVector AZ(A.n_rows(), modes.n_columns());
   A.multiply_add(1., modes, AZ);
   const auto         H      = transpose_times(modes, AZ);
@@ -167,13 +170,13 @@ CoarseSpace::HardlySeen CoarseSpace::hardly_seen_motions(const CsrMatrix &A) con
   const auto         Y      = qp::null_space(H, weak_cut * mean);
   const auto         values = transpose_times(Y, times(H, Y));
   const unsigned int n      = Y.n_columns();
-  unsigned int       seen   = 0; // singular values descend
+  unsigned int       seen   = 0; // singular values are in descending order
   while (seen < n && values(seen, seen) > kernel_cut * mean)
     ++seen;
   return {Y.columns_from(seen, n - seen), Y.columns_from(0, seen)};
 }
 
-/// Each rank adds its owned rows; the sum over ranks makes coarse vectors equal on all of them.
+/// Each rank adds the products of its owned rows. The sum makes coarse vectors equal on all ranks.
 qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet *free) const
 {
   const unsigned int m = table.n_modes;
@@ -205,7 +208,7 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet
   return c;
 }
 
-/// No communication: alpha is on all ranks, and a rank has the columns of G of its own rows.
+/// No communication is needed: alpha is on all ranks, and G is needed on owned rows only.
 qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
                                                 const qp::RowSet      *free) const
 {
@@ -242,7 +245,7 @@ std::vector<double> CoarseSpace::gram_values(const qp::RowSet &free) const
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (layout.bounded()[row] && free[row])
       add_row(row, contact);
-  // Only the places that contact rows reach are sent: few of the pattern in large models.
+  // Send only the entries of contact rows, because they are few in large models.
   std::vector<double> packed;
   for (const std::size_t place : bounded_places)
     packed.push_back(contact[place]);
@@ -253,7 +256,7 @@ std::vector<double> CoarseSpace::gram_values(const qp::RowSet &free) const
   return values;
 }
 
-/// Of all rows: a scale, which need not be that of a face.
+/// The norm is that of all rows, because it serves as a scale, which need not be that of a face.
 double CoarseSpace::norm() const
 {
   double square = 0.;

@@ -9,8 +9,8 @@ namespace snug::feti {
 namespace {
 using Columns = qp::PackedColumns;
 
-/// A step of both: different odd multipliers, and high bits brought down, as products only carry
-/// upwards.
+/// Add a word to both hashes. They multiply by different odd numbers. The shifts bring high bits
+/// down, because a product moves information to higher bits only.
 void mix(Fingerprint &hashes, const std::uint64_t word)
 {
   hashes[0] = (hashes[0] ^ word) * 0x9e3779b97f4a7c15u;
@@ -127,7 +127,7 @@ void CsrMatrix::multiply_add(double factor, const qp::MultiVector &x, qp::MultiV
       }
 }
 
-/// Row i of A is column i of A', so that A' is never made.
+/// Row i of A is column i of A', so A' is never assembled.
 void CsrMatrix::transpose_multiply_add(double                 factor,
                                        const qp::MultiVector &x,
                                        qp::MultiVector       &y) const

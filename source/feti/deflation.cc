@@ -11,11 +11,12 @@
 
 namespace snug::feti {
 namespace {
-/// Relative to the diagonal of E, for vectors that others span.
+/// Shift of the diagonal of E, relative to the diagonal. It makes E definite if some vectors lie in
+/// the span of the others.
 const double shift = 1e-12;
 
-/// Add B' of the columns of @p C, rows of which are local, to @p y on the
-/// numbering of B.
+/// Add B' times the columns of @p local to @p y. Rows of @p local are local rows, rows of @p y are
+/// the unknowns as numbered in @p B.
 void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &local, qp::MultiVector &y)
 {
   for (unsigned int k = 0; k < y.n_columns(); ++k)
@@ -29,7 +30,7 @@ void sum(qp::MultiVector &x, MPI_Comm comm)
                 MPI_SUM, comm);
 }
 
-/// Rows of a <- a + x
+/// Add the rows of @p x to the rows @p numbers of @p a.
 void add_to_rows(const std::vector<unsigned int> &numbers,
                  const qp::MultiVector           &x,
                  qp::MultiVector                 &a)
@@ -57,13 +58,13 @@ Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
   unsigned int   mine = 0;
   for (const RowForces &of_subdomain : raw)
     mine += of_subdomain.values.n_columns();
-  // Ids in the order of the subdomains, which is that of the ranks.
+  // Ids are in the order of the subdomains, which is the order of the ranks.
   MPI_Scan(&mine, &first_id, 1, MPI_UNSIGNED, MPI_SUM, comm);
   first_id -= mine;
   n_global = dealii::Utilities::MPI::sum(mine, comm);
   team     = coarse_team(comm, n_global, FactorOf::soft_modes, coarse_ranks);
 
-  // Of each row the number of subdomains, and the lowest of them.
+  // Per row: the number of its subdomains, and the lowest of these subdomains.
   qp::MultiVector owned(layout.n_owned(), 2);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (!layout.bounded()[row])
@@ -92,7 +93,7 @@ Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
       wanted_by[t - table.first].insert(message.first);
 }
 
-/// Those of the subdomains of all patches of this rank.
+/// Gather the rows of the subdomains in all patches of this rank.
 Deflation::Numbers Deflation::gather_rows() const
 {
   const unsigned int                          m = table.n_modes;
@@ -138,7 +139,7 @@ Deflation::Numbers Deflation::gather_rows() const
   return result;
 }
 
-/// C of the subdomains of this rank, with ids that ascend.
+/// Return the columns of C for the subdomains of this rank, with ascending ids.
 Deflation::Numbers Deflation::balanced_vectors() const
 {
   const auto                                  rows = gather_rows();
@@ -164,7 +165,7 @@ Deflation::Numbers Deflation::balanced_vectors() const
           unsigned int        j = 0;
           for (unsigned int i = 0; i < patch.n_rows(); ++i)
             {
-              // both ascend
+              // the rows of both are ascending
               while (j < of_subdomain.rows.size() && of_subdomain.rows[j] < patch.begin(i)->row)
                 ++j;
               if (j < of_subdomain.rows.size() && of_subdomain.rows[j] == patch.begin(i)->row)
@@ -187,7 +188,7 @@ Deflation::Numbers Deflation::balanced_vectors() const
             }
         }
     }
-  // Messages come rank by rank, and ids ascend with the ranks.
+  // Messages are sorted by rank, and ids ascend with the ranks.
   Numbers result;
   for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
     for (auto p = message.second.begin(); p != message.second.end();)
@@ -200,7 +201,7 @@ Deflation::Numbers Deflation::balanced_vectors() const
   return result;
 }
 
-/// Keeps what @p vectors have of subdomain s of this rank. @return B'C
+/// Store the parts of @p vectors that belong to subdomain s of this rank. @return B'C
 qp::MultiVector Deflation::take(const unsigned int s, const std::vector<double> &vectors)
 {
   Part &part = parts[s];
@@ -236,8 +237,8 @@ void Deflation::build_pattern()
   for (const Coupling &coupling : unite(couplings, layout.communicator()))
     rows[coupling.first].push_back(coupling.second);
   E = CsrMatrix::from_rows(rows, n_global);
-  // CHOLMOD whatever the package of the stiffness: like the coarse problem it is solved on every
-  // rank, or by a team of them.
+  // Use CHOLMOD whatever the package of the stiffness is, as for the coarse problem, because the
+  // problem is replicated. A team factorizes by MUMPS instead.
   factor =
     std::make_unique<SparseFactor>(E, FactorOf::soft_modes, Factorization::CHOLMOD, nullptr, team);
 }
@@ -274,17 +275,17 @@ void Deflation::update(const std::vector<std::unique_ptr<GeneralizedInverse>> &i
     }
   sum_over_ranks(E.values, layout.communicator());
   scale_E();
-  // The shift makes solutions as large as 1 / shift, and is there to.
+  // Disable the check for large solutions, because the shift permits solutions of size 1/shift.
   factor->factorize(E, "the coarse problem of the soft modes",
                     std::numeric_limits<double>::infinity());
 }
 
-/// To unit diagonal, with the shift.
+/// Scale E to unit diagonal and add the shift.
 void Deflation::scale_E()
 {
   scale.assign(n_global, 1.);
   for (unsigned int i = 0; i < n_global; ++i)
-    // zero is what equilibrium has left nothing of
+    // the diagonal is zero for a vector that balance() has set to zero
     if (const double diagonal = E.diagonal(i); diagonal > 0.)
       scale[i] = 1. / std::sqrt(diagonal);
   for (unsigned int i = 0; i < n_global; ++i)
@@ -294,8 +295,9 @@ void Deflation::scale_E()
     E.values[E.position(i, i)] = 1. + shift;
 }
 
-/// What the shift leaves of C'r no later direction could take away, as all are F-orthogonal to C:
-/// one step of refinement, of which the residual is shift y.
+/// The shift leaves a part of C'r, which no later direction could remove, because all directions
+/// are F-orthogonal to C. One step of iterative refinement removes this part; its residual is shift
+/// y.
 qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
 {
   qp::MultiVector scaled = b, y(n_global, b.n_columns()), left = y;
@@ -313,7 +315,7 @@ qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
   return y;
 }
 
-/// C y
+/// Return C y.
 qp::MultiVector Deflation::multiply(const qp::MultiVector &y) const
 {
   qp::MultiVector local(layout.n_local(), y.n_columns());

@@ -10,22 +10,24 @@
 
 namespace snug::feti {
 namespace {
-/// Rigid loads below this part of all loads, before they cancel, are round-off.
+/// Rigid loads below this part of all loads, taken before they cancel, are rounding errors.
 const double balance_tolerance = 1e-10;
 
-/// So are parts of a row's wrench below this part of it: the moment of round faces, say.
+/// A row's wrench in free motions is rounding error below this part of the row's whole wrench. An
+/// example is the moment of forces on round faces.
 const double wrench_cut = 1e-10;
 
-/// Squares of a body's share in a free motion below which it is at rest.
+/// A body is at rest in a free motion if the square of its share in the motion is below this value.
 const double rest_cut = 1e-6;
 
-/// Columns Z'g_i of @p rows, then what they have in @p values, on all ranks in rank order.
+/// Return the columns Z'g_i of @p rows, each followed by the row's numbers in @p values, on all
+/// ranks and in the order of the ranks.
 qp::MultiVector row_columns(const CoarseSpace     &coarse,
                             const RowLayout       &layout,
                             const qp::RowSet      &rows,
                             const qp::MultiVector &values)
 {
-  // Row i of G'Z is the wrench, in body mode coordinates, that a unit force of contact i exerts.
+  // Row i of G'Z is the wrench of a unit force of contact i, in coordinates of the body modes.
   auto all = coarse.transpose_multiply(coarse.body_modes(), nullptr);
   all.append(values);
   std::vector<double> mine;
@@ -39,28 +41,29 @@ qp::MultiVector row_columns(const CoarseSpace     &coarse,
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, layout.communicator());
   for (int r = 0; r < n_ranks; ++r)
     starts[r + 1] = starts[r] + counts[r];
-  // Columns are contiguous in memory: the gathered numbers are the matrix already.
+  // Columns are contiguous in memory, so the gathered numbers are the matrix.
   qp::MultiVector columns(all.n_columns(), starts.back() / all.n_columns());
   MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, columns.column(0), counts.data(), starts.data(),
                  MPI_DOUBLE, layout.communicator());
   return columns;
 }
 
-/// Orthonormal basis of the body motions that no row of @p rows sees, equality rows and some of
-/// contact.
+/// Return an orthonormal basis of the body motions that no row of @p rows resists. @p rows holds
+/// the equality rows and some contact rows.
 qp::MultiVector motions_unseen_by(const CoarseSpace &coarse, const qp::RowSet &rows)
 {
-  // Gluing is among these rows, but sees no motion that moves each body rigidly.
+  // Gluing rows are among these rows, but resist no motion that moves each body rigidly.
   CsrMatrix A = coarse.pattern();
   A.values    = coarse.gram_values(rows);
   return coarse.hardly_seen_motions(A).unseen;
 }
 
-/// "translation (0 0 1), rotation (0 0 0)": one body's motion of any length.
+/// Return a text such as "translation (0 0 1), rotation (0 0 0)" for the motion of one body. The
+/// length of @p motion has no effect.
 std::string describe_motion(const std::vector<double> &motion)
 {
   const auto m = narrow<unsigned int>(motion.size());
-  // Space, plane section, axisymmetric section.
+  // The models in this order: space, plane section, axisymmetric section.
   const unsigned int n_translations = m == 6 ? 3 : (m == 3 ? 2 : 1);
   double             square         = 0.;
   for (const double part : motion)
@@ -69,7 +72,8 @@ std::string describe_motion(const std::vector<double> &motion)
   text.precision(2);
   for (unsigned int i = 0; i < m; ++i)
     {
-      // In orthonormal modes of the body: directions mean something, amounts of rotations do not.
+      // The parts are coordinates of orthonormal modes of the body. Directions are meaningful, but
+      // amounts of rotations are not.
       const double part = motion[i] / std::sqrt(square);
       text << (i == 0                ? "translation ("
                : i == n_translations ? "), rotation ("
@@ -80,8 +84,8 @@ std::string describe_motion(const std::vector<double> &motion)
   return text.str();
 }
 
-/// "body punch escapes: translation (0 0 1), rotation (0 0 0)" of the body
-/// that moves most under @p motion in body mode coordinates.
+/// Return a text such as "body punch escapes: translation (0 0 1), rotation (0 0 0)" for the body
+/// that moves most under @p motion, which is in coordinates of the body modes.
 std::string describe_escape(const qp::MultiVector &motion, const SubdomainTable &table)
 {
   const unsigned int  m = table.n_modes;
@@ -93,9 +97,9 @@ std::string describe_escape(const qp::MultiVector &motion, const SubdomainTable 
          describe_motion({motion.column(0) + body * m, motion.column(0) + (body + 1) * m});
 }
 
-/// The motions that span the range of the projector @p P of one body, "; "
-/// between them; empty if it is at rest. Steps of a Cholesky factorization
-/// with pivots: a body that may move along an axis alone gets that axis.
+/// Return the motions that span the range of the projector @p P of one body, separated by "; ". The
+/// text is empty if the body is at rest. The motions are the steps of a Cholesky factorization with
+/// pivots, so that a body that may move along one axis only gets this axis.
 std::string describe_range(qp::MultiVector P)
 {
   const unsigned int m = P.n_rows();
@@ -104,7 +108,7 @@ std::string describe_range(qp::MultiVector P)
     {
       unsigned int pivot = 0;
       for (unsigned int i = 1; i < m; ++i)
-        // Of equal ones the first, whatever rounding makes of them.
+        // Among equal pivots take the first, independently of rounding.
         if (P(i, i) > 1.001 * P(pivot, pivot))
           pivot = i;
       if (P(pivot, pivot) <= rest_cut)
@@ -119,14 +123,14 @@ std::string describe_range(qp::MultiVector P)
 }
 } // namespace
 
-/// Is there lambda with G lambda = e, lambda_I >= 0? The multipliers of equality rows are free, so
-/// only the motions Z Y that no equality row sees matter: Y'Z'G_I lambda_I = Y'Z'e. All ranks hold
-/// the same numbers and solve the same small problem, so that all come to the same answer.
+/// Check whether some lambda satisfies G lambda = e, lambda_I >= 0. Multipliers of equality rows
+/// have no bounds, so only the motions Z Y that no equality row resists matter: Y'Z'G_I lambda_I =
+/// Y'Z'e. All ranks solve the same small problem with the same numbers and get the same result.
 void TotalFeti::check_equilibrium() const
 {
   const RunContext::Timer timer(run, "solve");
   const auto              free = motions_unseen_by(coarse, qp::complement(layout.bounded()));
-  // Supports hold all bodies: every load can be balanced.
+  // Supports hold all bodies, so every load can be balanced.
   if (free.n_columns() == 0)
     return;
   const auto columns = row_columns(coarse, layout, layout.bounded(), qp::MultiVector(n_owned(), 0));
@@ -141,14 +145,15 @@ void TotalFeti::check_equilibrium() const
   for (unsigned int i = 0; i < balance.residual.n_rows(); ++i)
     residual = std::max(residual, std::abs(balance.residual(i)));
   // The residual is the load that no contact resists, hence also the direction of the escape. Loads
-  // of one body may cancel: rounding is of the size they have before.
+  // of one body may cancel, so rounding errors are relative to the loads before they cancel.
   if (residual > balance_tolerance * gross_load)
     throw SolveError("no equilibrium: " +
                      describe_escape(times(free, balance.residual), coarse.subdomains()));
 }
 
-/// In coordinates y of the motions N = Z Y that the loaded rows do not see, R'N y = N'R'u: the
-/// shortest y that keeps the other contacts open, or closed as far as they are, w_i <= max(w_i, 0).
+/// y = N'R'u are the coordinates of u in the motions N = Z Y that the loaded rows do not resist.
+/// Replace y by the shortest y that keeps the other contacts open, or closed as far as they are:
+/// w_i <= max(w_i, 0), with the w_i before the motion on the right.
 void TotalFeti::settle(const qp::RowSet &loaded, PrimalVectors &u, qp::MultiVector &alpha) const
 {
   const auto Y = motions_unseen_by(coarse, loaded);
@@ -174,7 +179,8 @@ void TotalFeti::settle(const qp::RowSet &loaded, PrimalVectors &u, qp::MultiVect
         }
     }
   auto y = qp::shortest(A, b);
-  // Long ways between contacts take digits from it: the least that mends what they still overlap.
+  // Large motions between contacts cost y some digits. Add the shortest correction that removes the
+  // remaining overlap.
   b.add(-1., transpose_times(A, y));
   y.add(1., qp::shortest(A, b));
   y.add(-1., before);

@@ -15,8 +15,8 @@ FactorPool::FactorPool(const FactorOf              the_use,
   , team(std::move(the_team))
 {}
 
-/// The deleter of the pointer puts the factor back. It holds the items by a shared pointer of its
-/// own, so that a face may outlive the pool.
+/// The deleter of the returned pointer puts the factor back. It holds the items by a shared pointer
+/// of its own, so that a face may outlive the pool.
 std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
                                                           const std::string &what) const
 {
@@ -42,7 +42,7 @@ std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
       factor            = std::move(chosen->factor);
       spare.erase(chosen);
     }
-  // What is not among the used ones by then has failed.
+  // A factor that is not among the used factors when it is put back has failed.
   const auto put_back = [home = items, key](const SparseFactor *used) {
     const bool is_whole = home->used.erase(key) > 0;
     home->spare[key.first].push_back(

@@ -10,8 +10,9 @@ const qp::RowSet &TotalFeti::FetiFreeSet::rows() const
   return free;
 }
 
-/// Made when first asked for: faces of SMALSE-M, say, precondition only and project on another
-/// face. As it is collective, all ranks have to ask at the same time.
+/// Assemble the coarse problem when it is first needed. For example, the faces of SMALSE-M only
+/// precondition, and the projection belongs to another face. The assembly is collective, so all
+/// ranks must call this function at the same time.
 const CoarseProblem &TotalFeti::FetiFreeSet::coarse_problem() const
 {
   if (!problem)
@@ -34,14 +35,15 @@ qp::MultiVector TotalFeti::FetiFreeSet::amplitudes(const qp::MultiVector &x) con
 {
   qp::MultiVector rest = x, alpha(feti.coarse.n_kernel(), x.n_columns());
   subtract_rigid_part(rest, alpha);
-  // Of long chains of subdomains the motion at the ends is a sum of many: rounding that the first
-  // pass leaves, 1000 epsilon of x after 200 subdomains, would count as a residual.
+  // Repeat the subtraction: in long chains of subdomains the motion at the ends is a sum of many
+  // parts. Otherwise the rounding error that the first pass leaves, 1000 epsilon of x after 200
+  // subdomains, would count as a residual.
   subtract_rigid_part(rest, alpha);
   return alpha;
 }
 
-/// alpha += (G_M G_M')^+ G_M x, x -= G_M' of it: what solutions with few digits leave of the part
-/// is found from x itself.
+/// Add a = (G_M G_M')^+ G_M x to alpha and subtract G_M' a from x, in steps. Each step computes its
+/// part from the present x, so it also removes what inaccurate earlier solutions left.
 void TotalFeti::FetiFreeSet::subtract_rigid_part(qp::MultiVector &x, qp::MultiVector &alpha) const
 {
   restrict(x);
@@ -76,18 +78,18 @@ void TotalFeti::FetiFreeSet::minimize_over_deflated(qp::MultiVector &lambda,
 qp::MultiVector TotalFeti::FetiFreeSet::precondition(const qp::MultiVector &r) const
 {
   qp::MultiVector z = r;
-  // Decided by the parameter: a rank without subdomains has no Schur complements in any case.
+  // Test the parameter too, because a rank without subdomains never has Schur complements.
   if (feti.schur.empty() && feti.parameters.preconditioner == Preconditioner::none)
     {
       restrict(z);
       return z;
     }
   feti.run.work.preconditioner_applications += r.n_columns();
-  // dependent contact rows show on the rank that owns them alone
+  // Only the owner of linearly dependent contact rows detects them.
   if (!gram)
     everywhere(feti.run.communicator(),
                [&]() { gram = std::make_unique<RowGram::Factor>(feti.gram, free); });
-  // M^-1 = W_M^-1 (B D^-1 S D^-1 B') W_M^-1: for orthonormal rows and D = I, W_M is the identity.
+  // M^-1 = W_M^-1 (B D^-1 S D^-1 B') W_M^-1. W_M is the identity for orthonormal rows and D = I.
   gram->solve(z);
   feti.precondition(z);
   gram->solve(z);
@@ -103,20 +105,20 @@ std::vector<double> TotalFeti::FetiFreeSet::make_feasible(qp::MultiVector       
   for (unsigned int step = 0; step < coarse_problem().n_steps(); ++step)
     {
       feti.run.work.coarse_solves += x.n_columns();
-      // The least change of x, in the Euclidean norm, that balances e as far as M can.
+      // Add the minimum change of x, in the Euclidean norm, that balances e as far as M can.
       x.add(1., feti.coarse.transpose_multiply(coarse_problem().solve(missing, step), &free));
       missing = e;
       missing.add(-1., feti.coarse.multiply(x, &free));
     }
-  // Not over the ranks: coarse vectors are equal on all of them.
+  // Compute the norms without a sum over ranks, because coarse vectors are equal on all ranks.
   return qp::norms(missing, MPI_COMM_SELF);
 }
 
 std::vector<double> TotalFeti::FetiFreeSet::gap_closing_rates(const qp::MultiVector &e) const
 {
   const qp::MultiVector rates =
-    // N N'e is the part of the load that M does not hold, taken as a motion: G' of it is the rate
-    // at which each row closes. N'G_M = 0, so that the forces that rows of M have do not enter.
+    // N N'e is the part of the load that M does not hold, taken as a motion. G' N N'e are the rates
+    // at which the rows close. N'G_M = 0, so the forces of rows of M do not contribute.
     feti.coarse.transpose_multiply(coarse_problem().kernel_part(e), nullptr);
   return std::vector<double>(rates.column(0), rates.column(0) + rates.n_rows());
 }

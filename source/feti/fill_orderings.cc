@@ -10,8 +10,8 @@
 
 namespace snug::feti {
 namespace {
-/// Whether rows fall into groups that are all coupled with each other, and with no others: then
-/// no order fills in.
+/// Return whether the rows form groups, with every row coupled to all rows of its group and to no
+/// other row. Then no order causes fill-in.
 bool is_of_full_blocks(const CsrPattern &pattern)
 {
   const auto columns = pattern.columns.begin();

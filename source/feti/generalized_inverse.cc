@@ -8,10 +8,11 @@
 
 namespace snug::feti {
 namespace {
-/// Of entries of orthonormal modes: what congruent subdomains differ by is far below.
+/// Unit to which entries of orthonormal modes are rounded. The differences between congruent
+/// subdomains are far smaller.
 const double step_of_modes = 0x1p-26;
 
-/// K with zeros where fixing unknowns that it does not couple are coupled.
+/// Return K with explicit zeros at pairs of fixing unknowns that K does not couple.
 CsrMatrix with_coupled(const CsrMatrix &K, const std::vector<unsigned int> &fixing_dofs)
 {
   CsrPattern          pattern;
@@ -49,13 +50,13 @@ CsrMatrix with_coupled(const CsrMatrix &K, const std::vector<unsigned int> &fixi
   return {std::make_shared<const CsrPattern>(std::move(pattern)), std::move(values)};
 }
 
-/// R, orthonormal, at the unknowns that fix it, rounded.
+/// Return the rows of the orthonormal R at the fixing unknowns, rounded.
 qp::MultiVector rounded_rows(const qp::MultiVector &R, const std::vector<unsigned int> &dofs)
 {
   qp::MultiVector rows = rows_of(R, dofs);
   for (unsigned int j = 0; j < rows.n_columns(); ++j)
     for (unsigned int i = 0; i < rows.n_rows(); ++i)
-      // + 0 makes -0 the 0 of others
+      // Adding 0 turns -0 into +0, because their bits differ.
       rows(i, j) = std::round(rows(i, j) / step_of_modes) * step_of_modes + 0.;
   return rows;
 }
@@ -66,16 +67,17 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
   const auto n = rows.n_rows(), r = rows.n_columns();
   if (r == 0)
     return;
-  // The mean of diag A is of the size of A: a much smaller rho loses digits of A^+, a much larger
-  // one worsens the condition number. Neither changes A A^+ A = A. A is zero, and any rho will do,
-  // where no row is left: bodies in one piece that nothing holds or touches.
+  // Take rho of the size of A: a much smaller rho loses digits of A^+, and a much larger one
+  // worsens the condition number. Neither changes A A^+ A = A. If A is zero, any rho is valid: this
+  // occurs where no row is left, for bodies in one piece that nothing holds or touches.
   const double                     mean = A.mean_diagonal(), rho = mean > 0. ? mean : 1.;
   dealii::LAPACKFullMatrix<double> N_f(n, r), N_f_transposed(r, n), gram(r, r), Q(n, n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < r; ++j)
       N_f(i, j) = N_f_transposed(j, i) = rows(i, j);
-  // N_f'N_f is regular only if no motion leaves the fixing nodes in place: in space, three or more
-  // of them not on one line. Nodes close to each other make it, and A, ill conditioned.
+  // N_f'N_f is regular only if every rigid motion moves a fixing node: in space, three or more
+  // nodes that are not on one line. Fixing nodes close to each other make N_f'N_f and A ill
+  // conditioned.
   N_f.Tmmult(gram, N_f);
   gram.set_property(dealii::LAPACKSupport::symmetric);
   gram.compute_cholesky_factorization();
@@ -96,7 +98,7 @@ void GeneralizedInverse::factorize(const std::string &what)
 
 void GeneralizedInverse::apply(const qp::MultiVector &b, qp::MultiVector &x) const
 {
-  // Most subdomains carry no load.
+  // Skip the solve for zero loads: most subdomains carry no load.
   const bool is_zero = std::all_of(b.column(0), b.column(b.n_columns()),
                                    [](const double value) { return value == 0.; });
   if (is_zero)

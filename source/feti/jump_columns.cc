@@ -12,14 +12,14 @@ namespace snug::feti {
 namespace {
 using Unknown = std::pair<unsigned int, unsigned int>; // subdomain, dof
 
-/// Equality rows and unknowns of this rank, in groups that no row joins.
+/// Equality rows and unknowns of this rank, in groups such that no row couples two groups.
 struct Groups
 {
   std::vector<Unknown>                   unknowns; ///< ascending
-  std::vector<std::vector<unsigned int>> entries;  ///< gathered ones of each unknown
+  std::vector<std::vector<unsigned int>> entries;  ///< gathered entries of each unknown
   std::vector<std::vector<unsigned int>> members;  ///< unknowns of each group, ascending
   std::vector<unsigned int>              row_of_entry;
-  std::size_t                            stride; ///< of the numbers of an entry
+  std::size_t stride; ///< distance between the numbers of consecutive entries
 };
 
 Groups groups_of(const RowLayout &layout, const std::size_t stride)
@@ -55,7 +55,7 @@ Groups groups_of(const RowLayout &layout, const std::size_t stride)
         const unsigned int row = groups.row_of_entry[e];
         if (unknown_of_row[row] == none)
           unknown_of_row[row] = i;
-        // The root is the first of its group.
+        // The root is the first member of its group.
         const unsigned int a = find(unknown_of_row[row]), b = find(i);
         root[std::max(a, b)] = std::min(a, b);
       }
@@ -71,7 +71,7 @@ Groups groups_of(const RowLayout &layout, const std::size_t stride)
   return groups;
 }
 
-/// W^-1 B D^-1 e_i: of groups, which do not meet in W, one column serves an unknown of each.
+/// Return W^-1 B D^-1 e_i. W couples no two groups, so a column serves one unknown of each group.
 qp::MultiVector row_forces_of(const RowLayout           &layout,
                               const RowGram             &gram,
                               const Groups              &groups,
@@ -89,8 +89,9 @@ qp::MultiVector row_forces_of(const RowLayout           &layout,
   return X;
 }
 
-/// Columns of this rank's groups for the ranks of their subdomains: subdomain, unknown, numbers of
-/// forces and copies, (row, value) and (subdomain, unknown, value) of these.
+/// Return the columns of this rank's groups as messages to the ranks of their subdomains. Each
+/// column is: subdomain, unknown, numbers of forces and copies, (row, value) of the forces and
+/// (subdomain, unknown, value) of the copies.
 std::map<unsigned int, std::vector<double>> messages(const RowLayout           &layout,
                                                      const Groups              &groups,
                                                      const std::vector<double> &entries,
@@ -113,7 +114,7 @@ std::map<unsigned int, std::vector<double>> messages(const RowLayout           &
                 rows.push_back(groups.row_of_entry[e]);
                 sum += entries[e * stride] * X(groups.row_of_entry[e], k) * entries[e * stride + 1];
               }
-            // B_D' B e_i = D^-1 B' W^-1 B e_i, where X has W^-1 B D^-1 e_i
+            // B_D' B e_i = D^-1 B' W^-1 B e_i, where X holds W^-1 B D^-1 e_i
             const double D = 1. / entries[groups.entries[members[k]][0] * stride + 1];
             copies.insert(copies.end(), {double(groups.unknowns[other].first),
                                          double(groups.unknowns[other].second), D * sum});
@@ -130,7 +131,7 @@ std::map<unsigned int, std::vector<double>> messages(const RowLayout           &
   return out;
 }
 
-/// Unknowns ascending: messages come rank by rank.
+/// Sort the columns by unknown, because messages arrive rank by rank.
 JumpColumns sorted(JumpColumns columns)
 {
   std::vector<unsigned int> order(columns.dofs.size());
@@ -155,13 +156,14 @@ SubdomainRanks::SubdomainRanks(const unsigned int first, MPI_Comm comm)
 
 unsigned int SubdomainRanks::operator()(const unsigned int subdomain) const
 {
-  // A rank without subdomains has the first id of the next one: the last of equals has it.
+  // A rank without subdomains has the same first id as the next rank. The last rank with this id
+  // therefore holds the subdomain.
   return narrow<unsigned int>(
     std::upper_bound(first_of_rank.begin(), first_of_rank.end(), subdomain) -
     first_of_rank.begin() - 1);
 }
 
-/// The owner of the rows of a group has all of it; subdomains are told their columns.
+/// The owner of a group's rows has all its data and sends the columns to the subdomains' ranks.
 std::vector<JumpColumns> jump_columns(const RowLayout           &layout,
                                       const RowGram             &gram,
                                       const std::vector<double> &entries,

@@ -5,8 +5,8 @@
 
 namespace snug::feti {
 namespace {
-/// Squares of singular values of R on the boundary, relative to the longest
-/// column of its Gram matrix, below which a rigid motion leaves the boundary at rest.
+/// A rigid motion leaves the boundary at rest if the squared singular value of R on the boundary is
+/// below this value, relative to the longest column of the Gram matrix.
 const double rank_cut = 1e-12;
 } // namespace
 
@@ -45,9 +45,9 @@ void LocalSchur::choose_boundary(bool with_fixing_dofs)
       position = n_b;
 }
 
-/// Whether no rigid motion leaves b at rest. The number of its unknowns
-/// does not tell: contact rows along one axis leave the others free, and
-/// two nodes a rotation; K_ii would be singular.
+/// Return whether every rigid motion moves b. Otherwise K_ii would be singular. The number of
+/// unknowns in b does not decide this: contact rows along one axis leave the other directions free,
+/// and two nodes leave a rotation free.
 bool LocalSchur::boundary_holds() const
 {
   qp::MultiVector R_b(n_b, system.R.n_columns());
@@ -55,7 +55,7 @@ bool LocalSchur::boundary_holds() const
     for (unsigned int i = 0; i < system.n_dofs(); ++i)
       if (position_b[i] < n_b)
         R_b(position_b[i], mode) = system.R(i, mode);
-  // 6 x 6 at most; the singular vectors of R_b itself would be a matrix of all of b.
+  // The Gram matrix is at most 6 x 6. The singular vectors of R_b would have as many rows as b.
   const auto gram    = transpose_times(R_b, R_b);
   const auto lengths = norms(gram, MPI_COMM_SELF);
   const auto longest = *std::max_element(lengths.begin(), lengths.end());
@@ -86,7 +86,7 @@ CsrMatrix LocalSchur::extract(const bool rows_on_boundary, const bool columns_on
         }
       pattern.row_start.push_back(narrow<PetscInt>(pattern.columns.size()));
     }
-  // what is kept takes no more room than it needs
+  // Both arrays are kept, so release their unused memory.
   pattern.columns.shrink_to_fit();
   values.shrink_to_fit();
   return {std::make_shared<const CsrPattern>(std::move(pattern)), std::move(values)};

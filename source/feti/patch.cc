@@ -7,14 +7,16 @@
 
 namespace snug::feti {
 namespace {
-/// Relative to the diagonal of G_L G_L': takes nothing from what G_L sees, and makes definite what
-/// it does not, as hinges between parts of a patch.
+/// Shift relative to the maximum diagonal entry of G_L G_L'. It does not affect motions that G_L
+/// resists. It makes the matrix definite for motions that G_L does not resist, as hinges between
+/// parts of a patch.
 const double shift = 1e-10;
 
-/// Part of a vector below which what equilibrium leaves of it is rounding.
+/// A vector is set to zero if equilibrium leaves less than this part: the rest is rounding error.
 const double rounding = 1e-6;
 
-/// Parts of |G c| over |G_L| |c| that the shift leaves in one pass are below this part of them.
+/// Each pass multiplies a component of G_L c by shift / (s + shift), where s is the eigenvalue of
+/// G_L G_L' of this component, relative to the maximum diagonal entry.
 const unsigned int balancing_passes = 3;
 
 double norm(const std::vector<double> &c)
@@ -70,7 +72,7 @@ void Patch::factorize()
 {
   for (unsigned int i = 0; i < n_rows(); ++i)
     for (const Touch *a = begin(i); a != end(i); ++a)
-      // LAPACK reads the lower triangle
+      // LAPACK reads the lower triangle only
       for (const Touch *b = begin(i); b <= a; ++b)
         for (unsigned int k = 0; k < n_modes; ++k)
           for (unsigned int l = 0; l < n_modes; ++l)

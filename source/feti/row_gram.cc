@@ -6,7 +6,7 @@
 
 namespace snug::feti {
 namespace {
-/// Rows with contact, or coupled to one by a chain of shared unknowns.
+/// Flag the contact rows, and the rows coupled to a contact row by a chain of shared unknowns.
 std::vector<bool> coupled_to_contact(const qp::RowSet                             &bounded,
                                      const std::vector<std::vector<unsigned int>> &rows_of_unknown,
                                      const std::vector<std::vector<unsigned int>> &unknowns_of_row)
@@ -45,8 +45,8 @@ RowGram::RowGram(const RowLayout &layout)
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     for (unsigned int e = start[row]; e < start[row + 1]; ++e)
       {
-        // Unknowns are numbered as rows meet them. Rows that share one have one owner (RowLayout),
-        // so W is block diagonal over ranks, and each rank factorizes its own part.
+        // Unknowns are numbered in the order of the rows. Rows that share an unknown have one owner
+        // (RowLayout), so W is block diagonal over ranks, and each rank factorizes its own part.
         const auto found = index.emplace(unknowns[e], unsigned(index.size())).first;
         if (found->second == entries_of_unknown.size())
           {
@@ -58,8 +58,8 @@ RowGram::RowGram(const RowLayout &layout)
         unknowns_of_row[row].push_back(found->second);
         row_of_entry.push_back(row);
       }
-  // A dropped contact row changes W_M^-1 on all rows that its block couples. Only those blocks have
-  // to be factorized again when the set changes; gluing rows elsewhere keep theirs.
+  // A contact row that leaves M changes W_M^-1 on all rows that its block couples. Only these
+  // blocks must be factorized again when the set changes. Gluing rows elsewhere keep their factor.
   const auto coupled = coupled_to_contact(layout.bounded(), rows_of_unknown, unknowns_of_row);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     {
@@ -95,7 +95,7 @@ void RowGram::update(const std::vector<double> &entries, unsigned int stride)
           const auto i = place[row_of_entry[a]];
           const auto j = place[row_of_entry[b]];
           auto      &A = (i.first ? contact : fixed).matrix;
-          // B_ia B_jb / D of the unknown that both entries share, the numbers being B and 1/D.
+          // Add B_ia B_jb / D of the unknown that both entries share. Entries hold B and 1/D.
           A.values[A.position(i.second, j.second)] += entries[std::size_t(a) * stride] *
                                                       entries[std::size_t(b) * stride] *
                                                       entries[std::size_t(a) * stride + 1];
@@ -105,7 +105,7 @@ void RowGram::update(const std::vector<double> &entries, unsigned int stride)
     fixed_factor = factors.factorize(fixed.matrix, "B D^-1 B' of the gluing rows");
 }
 
-/// x <- A^-1 x on the rows of the group; the others are not touched.
+/// Set x <- A^-1 x on the rows of the group. The other rows are not changed.
 void RowGram::Group::solve(const SparseFactor &factor, qp::MultiVector &x) const
 {
   qp::MultiVector b(narrow<unsigned int>(rows.size()), x.n_columns()), y = b;
@@ -130,8 +130,8 @@ RowGram::Factor::Factor(const RowGram &the_gram, const qp::RowSet &the_free)
       {
         const unsigned int j = matrix.columns()[p];
         if (!free[rows[i]] || !free[rows[j]])
-          // Rows off M become those of the identity: the pattern, and with it the symbolic
-          // factorization, serves all sets.
+          // Replace rows outside M by those of the identity, so that the pattern and its symbolic
+          // factorization serve all sets.
           matrix.values[p] = i == j ? 1. : 0.;
       }
   W = gram.factors.factorize(matrix, "B D^-1 B' of the contact rows (are two contact rows the "
@@ -142,10 +142,10 @@ void RowGram::Factor::solve(qp::MultiVector &x) const
 {
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     for (unsigned int row = 0; row < x.n_rows(); ++row)
-      // A right-hand side off M would come back through the identity rows unchanged.
+      // Rows outside M are set to zero, because the identity rows would return them unchanged.
       if (!free[row])
         x(row, k) = 0.;
-  // Equality rows are in M always, so that the factor of the fixed group serves every face.
+  // Equality rows are always in M, so the factor of the fixed group serves all faces.
   if (gram.fixed_factor)
     gram.fixed.solve(*gram.fixed_factor, x);
   if (W)

@@ -8,7 +8,7 @@ namespace snug::feti {
 namespace {
 using petsc::check;
 
-/// A forest whose leaves 0..n-1 hang on the given global rows.
+/// Return a star forest whose leaves 0..n-1 are connected to the given global rows.
 petsc::StarForest star_forest(MPI_Comm                         comm,
                               unsigned int                     n_owned,
                               const std::vector<unsigned int> &first_row_of_rank,
@@ -17,8 +17,8 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
   std::vector<PetscSFNode> remote(rows.size());
   for (unsigned int leaf = 0; leaf < rows.size(); ++leaf)
     {
-      // The last rank that begins at or before the row; ranks without rows begin where the next one
-      // does.
+      // Find the last rank that begins at or before the row. A rank without rows begins where the
+      // next rank begins.
       const auto rank = narrow<PetscInt>(
         std::upper_bound(first_row_of_rank.begin(), first_row_of_rank.end(), rows[leaf]) -
         first_row_of_rank.begin() - 1);
@@ -27,7 +27,7 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
     }
   petsc::StarForest forest;
   check(PetscSFCreate(comm, forest.put()));
-  // Gathered entries come in the order of the ranks, not in that of the arrival of messages.
+  // Gathered entries are in the order of the ranks, not in the order in which messages arrive.
   check(PetscSFSetRankOrder(forest, PETSC_TRUE));
   check(PetscSFSetGraph(forest, n_owned, narrow<PetscInt>(rows.size()), nullptr, PETSC_OWN_POINTER,
                         remote.data(), PETSC_COPY_VALUES));
@@ -35,7 +35,7 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
   return forest;
 }
 
-/// k doubles as one MPI type; freed with the object.
+/// An MPI type of k doubles, freed with the object.
 class DoubleTuple
 {
 public:
@@ -53,7 +53,7 @@ private:
   MPI_Datatype type;
 };
 
-/// Row by row, as the star forest sends the k numbers of a row as one item.
+/// Return x row by row, because the star forest sends the k numbers of a row as one item.
 std::vector<double> interleave(const qp::MultiVector &x)
 {
   const unsigned int  k = x.n_columns();
@@ -91,7 +91,8 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   first_owned = first[rank];
 
   std::vector<unsigned int> entry_rows;
-  // As doubles, which hold such integers exactly, so that one gather serves places and values.
+  // Store the places as doubles, which hold these integers exactly, so that one gather function
+  // serves places and values.
   std::vector<double> entry_places; // subdomain, dof
   for (unsigned int s = 0; s < entries.size(); ++s)
     for (const Entry &entry : entries[s])
@@ -106,7 +107,7 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   row_forest   = star_forest(comm, n, first, local_rows);
   entry_forest = star_forest(comm, n, first, entry_rows);
 
-  // The number of entries that a row has on all ranks.
+  // Degree of a row: the number of entries that the row has on all ranks.
   const PetscInt *degree;
   check(PetscSFComputeDegreeBegin(entry_forest, &degree));
   check(PetscSFComputeDegreeEnd(entry_forest, &degree));
@@ -117,8 +118,8 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   order.resize(start.back());
   std::iota(order.begin(), order.end(), 0);
   for (unsigned int row = 0; row < n; ++row)
-    // By subdomain and unknown: sums over the entries of a row then do not depend on which rank has
-    // which subdomain.
+    // Sort by subdomain and unknown. Sums over the entries of a row then do not depend on the
+    // distribution of subdomains over ranks.
     std::sort(order.begin() + start[row], order.begin() + start[row + 1],
               [&](unsigned int a, unsigned int b) {
                 return std::make_pair(places[2 * a], places[2 * a + 1]) <
@@ -128,7 +129,7 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
     unknowns.emplace_back(places[2 * entry], places[2 * entry + 1]);
 }
 
-/// A row that this rank does not touch gives the number of another one.
+/// For a row that this rank does not touch, the result is another row's position or n_local().
 unsigned int RowLayout::local_row(unsigned int global_row) const
 {
   return narrow<unsigned int>(std::lower_bound(local_rows.begin(), local_rows.end(), global_row) -
@@ -148,7 +149,7 @@ qp::MultiVector RowLayout::to_local(const qp::MultiVector &owned) const
 
 qp::MultiVector RowLayout::to_owned(const qp::MultiVector &local) const
 {
-  // PETSc sums only plain numbers: one column at a time
+  // PETSc sums single numbers only, so the columns are sent one at a time.
   qp::MultiVector owned(n_owned(), local.n_columns());
   for (unsigned int j = 0; j < local.n_columns(); ++j)
     {

@@ -14,25 +14,26 @@
 
 namespace snug::feti {
 namespace {
-/// The c of mu > c. Uniform boxes have none above 2.5; with 5 instead of 4 linear solves take 1 to
-/// 2 F-mults more, with 7 another 4.
+/// The bound c of mu > c. Uniform boxes have no mode above 2.5. Measured: with 5 instead of 4
+/// linear solves take 1 to 2 F-mults more, with 7 another 4.
 const double cut = 4.;
 
-/// More of a subdomain are left to PCPG: their vectors would cost more than the iterations.
+/// Maximum number of modes per subdomain. PCPG finds the others, whose vectors would cost more than
+/// the iterations they save.
 const unsigned int most_modes = 24;
 
-/// Columns of a step of the Krylov space.
+/// Number of columns in each step of the Krylov space.
 const unsigned int block = 8;
 
-/// Steps at least: a first one with half of the cut tells that there is no mode.
+/// Minimum number of steps, unless most_modes modes are found or the Krylov space is exhausted.
 const unsigned int usual_steps = 3;
 
-/// Parts of a column of the Krylov space that depend on the others are below this.
+/// Pivots below this value mark columns of the Krylov space as linearly dependent on the others.
 const double dependence = 1e-8;
 
 using Entries = std::vector<JumpStiffness>;
 
-/// A of one subdomain on its boundary unknowns.
+/// The matrix A of one subdomain on its boundary unknowns.
 class JumpEnergy
 {
 public:
@@ -55,7 +56,7 @@ public:
       neighbours.push_back({position[entry.i], position[entry.j], entry.value});
   }
 
-  /// A x
+  /// Return A x.
   qp::MultiVector operator()(const qp::MultiVector &x) const
   {
     qp::MultiVector jump(x.n_rows(), x.n_columns()), result = jump;
@@ -73,11 +74,12 @@ public:
     return result;
   }
 
-  /// y with B_s' B_D y = P_s'y = A x. Where supports couple the unknowns of a
-  /// node, P_s is taken as its diagonal.
+  /// Return y with B_s' B_D y = P_s'y = A x. In the part of the neighbours, P_s is approximated by
+  /// its diagonal where supports couple the unknowns of a node.
   qp::MultiVector forces(const qp::MultiVector &x) const
   {
-    // below, an unknown that is all of its node's stiffness causes no jump
+    // An unknown with a diagonal entry of P_s below this value carries the whole stiffness of its
+    // node and causes no jump.
     const double    least = 1e-12;
     qp::MultiVector jump(x.n_rows(), x.n_columns()), others = jump;
     for (unsigned int k = 0; k < x.n_columns(); ++k)
@@ -98,10 +100,10 @@ public:
 private:
   const LocalSchur   &schur;
   Entries             own, neighbours;
-  std::vector<double> diagonal; ///< of P_s
+  std::vector<double> diagonal; ///< diagonal of P_s
 };
 
-/// The transpose of on_boundary(): zero at the other unknowns.
+/// Apply the transpose of on_boundary(): the other unknowns are zero.
 qp::MultiVector
 from_boundary(const qp::MultiVector &x, const LocalSchur &schur, const unsigned int n)
 {
@@ -114,7 +116,7 @@ from_boundary(const qp::MultiVector &x, const LocalSchur &schur, const unsigned 
   return result;
 }
 
-/// Eigenpairs of a symmetric matrix, largest first.
+/// Eigenpairs of a symmetric matrix, in descending order of the eigenvalues.
 struct Eigenpairs
 {
   std::vector<double> values;
@@ -128,7 +130,7 @@ Eigenpairs eigenpairs(const qp::MultiVector &H)
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int i = 0; i < n; ++i)
       matrix(i, j) = 0.5 * (H(i, j) + H(j, i));
-  // semidefinite: singular values are eigenvalues
+  // the matrix is semidefinite, so its singular values are its eigenvalues
   matrix.compute_svd();
   Eigenpairs result{{}, qp::MultiVector(n, n)};
   for (unsigned int j = 0; j < n; ++j)
@@ -155,8 +157,8 @@ qp::MultiVector independent(const qp::MultiVector &gram)
 /// Subdomains s and t.
 using Pair = std::pair<unsigned int, unsigned int>;
 
-/// By neighbour: its unknown j, the unknown i of this subdomain and P_ji of every column that
-/// reaches it.
+/// Return, for each neighbour, the triples (j, i, P_ji) of all columns that have an entry there. j
+/// is an unknown of the neighbour, i one of this subdomain.
 std::map<unsigned int, std::vector<double>> of_neighbours(const JumpColumns &columns,
                                                           const unsigned int subdomain)
 {
@@ -171,7 +173,7 @@ std::map<unsigned int, std::vector<double>> of_neighbours(const JumpColumns &col
   return result;
 }
 
-/// Of a message of parts (s, t, size, numbers).
+/// Call @p use for each part (s, t, size, numbers) of a message.
 template <typename Use>
 void for_each_part(const std::vector<double> &message, const Use &use)
 {
@@ -185,7 +187,7 @@ void for_each_part(const std::vector<double> &message, const Use &use)
     }
 }
 
-/// (i, i', P_ji K_jj' P_j'i') of all pairs of (j, i, P_ji) in @p list that K couples.
+/// Return (i, i', P_ji K_jj' P_j'i') for all pairs of (j, i, P_ji) in @p list that K couples.
 std::vector<double> products_with(const CsrMatrix &K, const std::vector<double> &list)
 {
   std::vector<std::array<double, 3>> reached;
@@ -209,8 +211,8 @@ std::vector<double> products_with(const CsrMatrix &K, const std::vector<double> 
 }
 } // namespace
 
-/// Each subdomain t knows K_t and, from its own columns, who is at its unknowns, but what s causes
-/// there stands in the columns of s: s asks with these, t answers.
+/// Subdomain t has K_t, but the jumps that s causes at its unknowns are in the columns of s.
+/// Therefore s sends these columns to t, and t returns the products with K_t.
 std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> &systems,
                                              const std::vector<JumpColumns>     &columns,
                                              const unsigned int                  first,
@@ -232,7 +234,7 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
       out.insert(out.end(), {double(st.first), double(st.second), double(answer.size())});
       out.insert(out.end(), answer.begin(), answer.end());
     });
-  // The sum over neighbours in their global order, whatever ranks they are on.
+  // Sum over neighbours in their global order, independently of the ranks that hold them.
   std::map<Pair, std::vector<double>> parts;
   for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, answers))
     for_each_part(message.second,
@@ -254,8 +256,8 @@ SoftModes soft_modes(const SubdomainSystem    &system,
 {
   const JumpEnergy   A(schur, columns, neighbours, subdomain);
   const unsigned int n = system.n_dofs(), n_b = schur.n_boundary();
-  // Rigid motions have no energy, their mu is infinite; the natural coarse space takes care of
-  // them. The others are those that are A-orthogonal to them, for which K^+ A is defined.
+  // Rigid motions have no energy, and their mu is infinite. The natural coarse space covers them.
+  // The other motions are A-orthogonal to the rigid motions, and K^+ A is defined for them.
   const auto R = on_boundary(system.R, schur), AR = A(R);
   const auto C = independent(transpose_times(R, AR));
   const auto N = times(R, C), AN = times(AR, C); // N'AN = I
@@ -270,13 +272,13 @@ SoftModes soft_modes(const SubdomainSystem    &system,
   qp::MultiVector AV = A(V), U;
   for (unsigned int step = 1; basis.n_columns() + block <= n_b; ++step)
     {
-      // V <- K^+ A V, so that S V is the A V of before.
+      // V <- K^+ A V, so that S V is A V of the previous V.
       qp::MultiVector x(n, AV.n_columns());
       inverse.apply(from_boundary(AV, schur, n), x);
       V                  = on_boundary(x, schur);
       qp::MultiVector SV = AV;
       off_rigid(V);
-      // twice, or rounding would leave parts along the first, largest ones
+      // Orthogonalize twice, because rounding leaves parts along the first, largest vectors.
       for (unsigned int sweep = 0; sweep < 2 && basis.n_columns() > 0; ++sweep)
         {
           const auto parts = transpose_times(S_basis, V);

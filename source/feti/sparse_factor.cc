@@ -24,7 +24,7 @@ std::string prefix_of(const FactorOf of)
   return to_text(of) + "_";
 }
 
-/// What PETSc calls the package, or that of its options.
+/// Return PETSc's name of the package, or the package of its options.
 std::string package_name(const std::string &prefix, const Factorization package)
 {
   return petsc::option(prefix, package_option,
@@ -48,10 +48,10 @@ throw_no_factorization(const std::string &prefix, const std::string &package, co
                    package_option + " and -" + prefix + kind_option + " must name others");
 }
 
-/// CHOLMOD asks OpenMP for four threads whatever OMP_NUM_THREADS says;
-/// starting them takes as long as factorizing a subdomain, and ranks
-/// are what runs in parallel here. Parallel regions nested in none are
-/// serial. Looked up by name: CHOLMOD brings its runtime if it has one.
+/// Keep CHOLMOD to one thread. It requests four OpenMP threads whatever OMP_NUM_THREADS is.
+/// Starting them takes as long as factorizing a subdomain, and the parallelism here is that of the
+/// ranks. With no active level allowed, parallel regions are serial. The function is looked up by
+/// name, because CHOLMOD loads an OpenMP runtime only if it was built with one.
 void keep_to_one_thread()
 {
   using Function = void(int);
@@ -71,7 +71,7 @@ petsc::Matrix copy_of_all(const CsrMatrix &A)
 {
   const auto    n = narrow<PetscInt>(A.n_rows());
   petsc::Matrix wrapped, copy;
-  // PETSc wraps arrays that it may write to, but only reads these.
+  // PETSc's wrapper accepts only arrays that it may write to, but PETSc only reads these.
   petsc::check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n,
                                          const_cast<PetscInt *>(A.row_start().data()),
                                          const_cast<PetscInt *>(A.columns().data()),
@@ -80,7 +80,7 @@ petsc::Matrix copy_of_all(const CsrMatrix &A)
   return copy;
 }
 
-/// The rows of this rank, one of the team.
+/// Return the rows of this rank, which is one of the team.
 petsc::Matrix copy_of_own(const CsrMatrix &A, const Team &team)
 {
   const auto n                = narrow<PetscInt>(A.n_rows());
@@ -108,7 +108,7 @@ void check_factor_options(const Factorization package)
       const auto   of           = static_cast<FactorOf>(use);
       const bool   is_stiffness = of == FactorOf::kplus || of == FactorOf::dirichlet;
       SparseFactor factor(one, of, is_stiffness ? package : Factorization::CHOLMOD);
-      factor.factorize(one, "the matrix 1"); // SuperLU's factors cannot be destroyed before
+      factor.factorize(one, "the matrix 1"); // a factor of SuperLU cannot be destroyed before
     }
 }
 
@@ -133,13 +133,13 @@ SparseFactor::SparseFactor(const CsrMatrix            &pattern,
   petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, solution.put()));
 }
 
-/// As PETSc has it. A copy, as the arrays of @p A may be gone before the factor: packages that
-/// refine their solutions keep the matrix.
+/// Return A as a PETSc matrix. It is a copy, because the arrays of @p A may be destroyed before the
+/// factor: packages that refine their solutions keep the matrix.
 petsc::Matrix SparseFactor::petsc_copy(const CsrMatrix &A) const
 {
   auto copy = team ? copy_of_own(A, *team) : copy_of_all(A);
   petsc::check(MatSetOption(copy, MAT_SYMMETRIC, PETSC_TRUE));
-  // MUMPS takes its mode for positive definite matrices from this flag.
+  // This flag selects the mode of MUMPS for positive definite matrices.
   petsc::check(MatSetOption(copy, MAT_SPD, PETSC_TRUE));
   return copy;
 }
@@ -150,17 +150,17 @@ void SparseFactor::analyse(const CsrMatrix &pattern)
   std::optional<petsc::DefaultOption> methods, silence;
   if (package == MATSOLVERCHOLMOD)
     {
-      // Without an order given its default takes AMD when it looks good enough; trying METIS as
-      // well costs symbolic time once and saves 20 to 27 % of the fill.
+      // Without a given order, CHOLMOD's default accepts AMD if it looks good enough. Trying METIS
+      // as well costs symbolic time once and saves 20 to 27 % of the fill.
       methods.emplace(prefix, "mat_cholmod_nmethods", orderings ? "1" : "3");
-      // It would print a warning of its own before the one line of factorize().
+      // Otherwise CHOLMOD would print a warning of its own before the one line of factorize().
       silence.emplace(prefix, "mat_cholmod_print", "0");
     }
   const auto matrix = petsc_copy(pattern);
   petsc::check(MatSetOptionsPrefixFactor(matrix, prefix.c_str()));
   const auto error = MatGetFactor(matrix, package.c_str(),
                                   is_lu ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY, factor.put());
-  // Some versions of PETSc return no factor and no error where a package has no such factorization.
+  // Some versions of PETSc return neither a factor nor an error for an unavailable factorization.
   if (error == PETSC_ERR_MISSING_FACTOR || (error == 0 && factor == nullptr))
     throw_no_factorization(prefix, package, is_lu);
   petsc::check(error);
@@ -171,7 +171,7 @@ void SparseFactor::analyse(const CsrMatrix &pattern)
                      : MatCholeskyFactorSymbolic(factor, matrix, order, &info));
 }
 
-/// Of rows and columns; none where the package finds its own.
+/// Return the order of rows and columns, which is empty if the package finds its own order.
 petsc::IndexSet SparseFactor::elimination_order(Mat matrix, const CsrPattern &pattern) const
 {
   petsc::IndexSet order;
@@ -183,7 +183,8 @@ petsc::IndexSet SparseFactor::elimination_order(Mat matrix, const CsrPattern &pa
   petsc::check(
     MatFactorGetPreferredOrdering(factor, is_lu ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY, &preferred));
   const bool finds_own = preferred == nullptr || std::string(preferred) == MATORDERINGEXTERNAL;
-  // PETSc's own LU takes no order that separates rows of one pattern, which PETSc sees to.
+  // PETSc's own LU needs an order that keeps rows of equal pattern together. MatGetOrdering()
+  // provides it, so the preferred order is requested by name.
   const auto wanted = petsc::option(prefix, order_option, is_lu && !finds_own ? preferred : "");
   if (!wanted.empty())
     {
@@ -204,11 +205,11 @@ void SparseFactor::factorize(const CsrMatrix   &A,
                              const std::string &what,
                              const double       singular_size)
 {
-  if (n == 0) // CHOLMOD takes no empty matrix
+  if (n == 0) // CHOLMOD does not accept empty matrices
     return;
   if (std::isnormal(A.diagonal(0)))
-    // The exponent of one entry is enough: any power of two of about the right size will do, and to
-    // divide by it is exact.
+    // The exponent of one entry suffices: any power of two of about the right size is a valid unit,
+    // and dividing by it is exact.
     unit = std::ldexp(1., std::ilogb(A.diagonal(0)));
   if (!team)
     factorize_values(A, what);
@@ -223,7 +224,7 @@ void SparseFactor::factorize(const CsrMatrix   &A,
 
 void SparseFactor::factorize_values(const CsrMatrix &A, const std::string &what)
 {
-  if (has_failed) // MUMPS does nothing more after an error
+  if (has_failed) // MUMPS does not continue after an error
     analyse(A);
   has_failed           = true;
   const auto    matrix = petsc_copy(A);
@@ -235,7 +236,7 @@ void SparseFactor::factorize_values(const CsrMatrix &A, const std::string &what)
   if (error == PETSC_ERR_MAT_CH_ZRPVT)
     throw_not_definite(what);
   petsc::check(error);
-  // MUMPS returns no error for what it keeps here
+  // MUMPS returns no error for failures that MatFactorGetError() reports.
   MatFactorError kept;
   petsc::check(MatFactorGetError(factor, &kept));
   if (kept == MAT_FACTOR_OUTMEMORY)
@@ -250,14 +251,14 @@ void SparseFactor::check(const CsrMatrix   &A,
   double          largest = 0.;
   for (unsigned int i = 0; i < A.n_rows(); ++i)
     {
-      // Right-hand sides of the size of the diagonal make x of order one, whatever the units.
+      // Right-hand sides of the size of the diagonal make x of order one in any units.
       b(i)    = A.diagonal(i) * (1. + i % 3);
       largest = std::max(largest, std::abs(b(i)));
     }
   solve(b, x);
   qp::MultiVector residual = b;
   A.multiply_add(-1., x, residual);
-  double error = 0., size = 0., energy = 0.; // energy: b' A^-1 b
+  double error = 0., size = 0., energy = 0.; // energy = b' A^-1 b
   for (unsigned int i = 0; i < A.n_rows(); ++i)
     {
       error = std::max(error, std::abs(residual(i)));
@@ -265,16 +266,16 @@ void SparseFactor::check(const CsrMatrix   &A,
       energy += b(i) * x(i);
       if (!std::isfinite(x(i)))
         error = INFINITY;
-      // LDL' of an indefinite matrix works; its diagonal often tells
+      // LDL' of an indefinite matrix does not fail, but its diagonal is often not positive.
       if (b(i) <= 0.)
         energy = -INFINITY;
     }
-  // backward error of a Cholesky solve is near 1e-15 |A| |x|
+  // The backward error of a Cholesky solve is near 1e-15 |A| |x|.
   if (!(error <= 1e-8 * std::max(largest, largest * size)))
     throw SolveError("the factorization of " + what +
                      " is inaccurate or the matrix holds NaN: look for "
                      "degenerate cells and extreme material constants");
-  // b is the diagonal, about
+  // A solution should be of order one, because b is one to three times the diagonal.
   if (!(energy > 0. && size < singular_size))
     throw_not_definite(what);
 }
@@ -288,7 +289,7 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
     solve_in_team(b, x);
   else if (k == 1)
     {
-      // One column is solved in place of the vectors' arrays, without making dense matrices.
+      // Solve one column in place in the arrays of the vectors, without creating dense matrices.
       petsc::check(VecPlaceArray(right_hand_side, b.column(0)));
       petsc::check(VecPlaceArray(solution, x.column(0)));
       petsc::check(MatSolve(factor, right_hand_side, solution));
@@ -308,7 +309,7 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
     }
 }
 
-/// All columns are on all ranks; each member gives and takes its rows.
+/// All columns are on all ranks. Each member uses its rows of b and computes its rows of x.
 void SparseFactor::solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) const
 {
   const auto          rows = team->range(b.n_rows());
@@ -339,7 +340,7 @@ void SparseFactor::solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) c
 std::shared_ptr<const Team>
 coarse_team(MPI_Comm all, const unsigned int n_rows, const FactorOf of, const unsigned int wanted)
 {
-  // MUMPS takes one and a half to two times as long as CHOLMOD does on one rank.
+  // Measured: MUMPS takes 1.5 to 2 times as long as CHOLMOD on one rank.
   const unsigned int alone_limit = 20000, rows_of_member = 6000, least = 4;
   const unsigned int n_ranks   = dealii::Utilities::MPI::n_mpi_processes(all);
   const bool         by_itself = n_rows <= alone_limit || n_ranks < least;

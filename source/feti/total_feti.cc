@@ -8,22 +8,22 @@
 
 namespace snug::feti {
 namespace {
-/// What messages of failed factorizations call the matrix.
+/// Return the name of the matrix in messages of failed factorizations.
 std::string name_of_subdomain(const SubdomainTable &table, unsigned int id)
 {
   return "the stiffness of subdomain " + std::to_string(id) + " of body " +
          table.body_names[table.body[id]];
 }
 
-/// 1/D of entries that have it second.
+/// Set 1/D to one. It is the second number of each entry.
 void set_compliances_to_one(std::vector<double> &entries, const unsigned int width)
 {
   for (std::size_t e = 1; e < entries.size(); e += width)
     entries[e] = 1.;
 }
 
-/// y += B x
-/// Of one subdomain: y has the local rows of the rank, x the subdomain's unknowns.
+/// Add B x to y for one subdomain. y has the local rows of the rank, x the unknowns of the
+/// subdomain.
 void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
 {
   for (unsigned int j = 0; j < x.n_columns(); ++j)
@@ -35,7 +35,7 @@ void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::Mul
     }
 }
 
-/// y += B' x
+/// Add B' x to y.
 void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
 {
   for (unsigned int j = 0; j < x.n_columns(); ++j)
@@ -80,13 +80,13 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
   knows_soft_modes = !dealii::Utilities::MPI::logical_or(slender, run.communicator());
 }
 
-/// Factorizations may fail on one rank only: everywhere() turns that into an error of all, or the
-/// others would wait in the next collective call.
+/// A factorization may fail on one rank only. everywhere() turns this failure into an error on all
+/// ranks, because otherwise the other ranks would wait in the next collective call.
 void TotalFeti::update(const std::vector<bool> &changed)
 {
   everywhere(run.communicator(), [&]() {
     const RunContext::Timer timer(run, "factorization");
-    // First all of them: what others still hold could not serve.
+    // Release all factors first, because a factor in use cannot serve another matrix.
     for (unsigned int s = 0; s < systems.size(); ++s)
       if (changed[s])
         inverses[s]->release();
@@ -113,21 +113,21 @@ void TotalFeti::update_preconditioner()
       if (outdated[s])
         schur[s]->factorize(name_of_subdomain(coarse.subdomains(), coarse.subdomains().first + s));
   });
-  // Also where only other subdomains have changed: a patch reaches over to them.
+  // Always update the deflation, because patches reach over to changed subdomains of other ranks.
   deflation_outdated = true;
   outdated.assign(systems.size(), false);
   weight_rows();
 }
 
-/// d = B K^+ f - g and e = R'f. Costs a solve with each subdomain, but no F-mult; the matrices
-/// stay, so that load cases share them.
+/// Compute d = B K^+ f - g and e = R'f. This costs a solve with each subdomain, but no F-mult. The
+/// matrices do not change, so load cases share them.
 void TotalFeti::set_loads(const qp::MultiVector &g)
 {
   gap = g;
   expected.assign(n_owned(), 1);
   rigid_load = rigid_part(loads());
   gross_load = gross_rigid_part(loads())[0];
-  // First, as bodies that nothing holds may be what the preconditioner would fail at.
+  // Check the equilibrium first, because the preconditioner may fail for bodies that nothing holds.
   check_equilibrium();
   update_preconditioner();
   update_deflation();
@@ -136,7 +136,7 @@ void TotalFeti::set_loads(const qp::MultiVector &g)
   dual_load.add(-1., gap);
 }
 
-/// Brings B, 1/D and B R of each entry to the owner of its row.
+/// Send B, 1/D and B R of each entry to the owner of its row.
 std::vector<double> TotalFeti::gather_entries() const
 {
   std::vector<double> values;
@@ -151,7 +151,7 @@ std::vector<double> TotalFeti::gather_entries() const
   return layout.gather_entries(entry_width(), values);
 }
 
-/// For G, W and the estimate of F_ii.
+/// Update G, W and the estimate of F_ii.
 void TotalFeti::gather_rows()
 {
   const bool                   scaled = parameters.scaling == Scaling::stiffness;
@@ -166,12 +166,12 @@ void TotalFeti::gather_rows()
     for (unsigned int e = start[row]; e < start[row + 1]; ++e)
       {
         const double *entry = &gathered[std::size_t(e) * width];
-        // With diag K also where the scaling is by multiplicity: it is to be a compliance.
+        // Use diag K also for scaling by multiplicity, because F_diagonal must be a compliance.
         F_diagonal[row] += entry[0] * entry[0] * entry[1];
       }
   if (!scaled)
     set_compliances_to_one(gathered, width);
-  // The numbers of G begin after B and 1/D; a rank that owns no rows has none at all.
+  // The numbers of G follow B and 1/D. A rank that owns no rows has no numbers.
   coarse.update(std::vector<double>(gathered.begin() + std::min<std::size_t>(2, gathered.size()),
                                     gathered.end()),
                 width, Z);
@@ -188,7 +188,7 @@ void TotalFeti::weight_rows()
       weighted_B[s]        = systems[s].B;
       for (BEntry &entry : weighted_B[s])
         {
-          // B D^-1 on the unknowns of the Schur complement, numbered as those are.
+          // B D^-1 is numbered by the unknowns of the Schur complement.
           if (scaled)
             entry.value *= 1. / systems[s].K.diagonal(entry.dof);
           entry.dof = position[entry.dof];
@@ -210,7 +210,7 @@ void TotalFeti::find_soft_modes()
   const auto neighbours = stiffness_of_neighbours(systems, columns, first, run.communicator());
   std::vector<RowForces> forces;
   double                 largest = 0.;
-  // vectors, and subdomains that have some
+  // Number of vectors, and number of subdomains with at least one.
   std::vector<unsigned int> counts(2, 0);
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
@@ -235,7 +235,7 @@ void TotalFeti::find_soft_modes()
   deflation_outdated = true;
 }
 
-/// Costs K^+ of as many columns per subdomain as its patch has soft modes, but no F-mult.
+/// The update costs one K^+ per subdomain and soft mode of its patch, but no F-mult.
 void TotalFeti::update_deflation()
 {
   if (!deflation || !deflation_outdated)
@@ -245,18 +245,18 @@ void TotalFeti::update_deflation()
   deflation_outdated = false;
 }
 
-/// F x = B K^+ B' x. K^+ is one of many generalized inverses: F differs from that of another one by
-/// some G'X + X'G, which P F P does not see.
+/// Return F x = B K^+ B' x. K^+ is one of many generalized inverses. The F of another one differs
+/// by some G'X + X'G, which vanishes in P F P.
 qp::MultiVector TotalFeti::apply(const qp::MultiVector &x) const
 {
-  // A block of k columns counts k, though it is one pass over the factors.
+  // A block of k columns counts as k F-mults, though it is one pass over the factors.
   run.work.f_mults += x.n_columns();
   return multiply_B(apply_inverse(multiply_Bt(x)));
 }
 
 qp::MultiVector TotalFeti::multiply_B(const PrimalVectors &v) const
 {
-  // A rank without subdomains does not know the number of columns.
+  // A rank without subdomains has no vectors and takes the number of columns from other ranks.
   unsigned int k = v.empty() ? 0 : v.front().n_columns();
   MPI_Allreduce(MPI_IN_PLACE, &k, 1, MPI_UNSIGNED, MPI_MAX, run.communicator());
   qp::MultiVector local(layout.n_local(), k);
@@ -277,7 +277,7 @@ PrimalVectors TotalFeti::multiply_Bt(const qp::MultiVector &lambda) const
   return v;
 }
 
-/// Without communication: each subdomain is solved on its rank.
+/// No communication is needed: each subdomain is solved on its rank.
 PrimalVectors TotalFeti::apply_inverse(const PrimalVectors &right_hand_side) const
 {
   PrimalVectors x;
@@ -310,8 +310,8 @@ PrimalVectors TotalFeti::recover(PrimalVectors          b,
                                  const qp::MultiVector &lambda,
                                  const qp::MultiVector &alpha) const
 {
-  // K^+ (b - B' lambda) solves the subdomain's equations only if e = G lambda; what is not balanced
-  // goes, by K_rho, into the fixing nodes.
+  // K^+ (b - B' lambda) solves the equations of a subdomain only if e = G lambda. With K_rho, an
+  // unbalanced rest loads the fixing nodes.
   const PrimalVectors forces = multiply_Bt(lambda);
   for (unsigned int s = 0; s < systems.size(); ++s)
     b[s].add(-1., forces[s]);
@@ -320,7 +320,7 @@ PrimalVectors TotalFeti::recover(PrimalVectors          b,
   return u;
 }
 
-/// u += R alpha
+/// Add R alpha to u.
 void TotalFeti::add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const
 {
   const unsigned int m = coarse.subdomains().n_modes;
@@ -345,8 +345,8 @@ PrimalVectors TotalFeti::loads() const
   return f;
 }
 
-/// The largest over subdomains, as the forces that glue them are of the size of their own loads
-/// even where those of the body cancel.
+/// Take the maximum over subdomains, because the gluing forces of a subdomain are of the size of
+/// its own loads, even where the loads of the body cancel.
 std::vector<double> TotalFeti::gross_rigid_part(const PrimalVectors &b) const
 {
   unsigned int k = b.empty() ? 0 : b.front().n_columns();
@@ -370,7 +370,7 @@ std::vector<double> TotalFeti::gross_rigid_part(const PrimalVectors &b) const
   return largest;
 }
 
-/// x <- B D^-1 S D^-1 B' x, without the W^-1 on both sides, which belong to a face.
+/// Set x <- B D^-1 S D^-1 B' x, without the factors W^-1 on both sides, which belong to a face.
 void TotalFeti::precondition(qp::MultiVector &x) const
 {
   const qp::MultiVector local = layout.to_local(x);

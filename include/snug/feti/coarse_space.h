@@ -12,29 +12,30 @@ namespace snug::feti {
 /// Body and rank of every subdomain, equal on all ranks.
 struct SubdomainTable
 {
-  unsigned int              n_modes = 0; ///< rigid modes of each
-  unsigned int              first   = 0; ///< global id of this rank's first
-  std::vector<unsigned int> body;        ///< per global subdomain
+  unsigned int              n_modes = 0; ///< number of rigid modes of each subdomain
+  unsigned int              first   = 0; ///< global id of the first subdomain of this rank
+  std::vector<unsigned int> body;        ///< body of each global subdomain
   std::vector<std::string>  body_names;
 };
 
 /**
- * The natural coarse space @f$G = R^T B^T@f$ (n_kernel x n), stored by
- * columns with the rows of B this rank owns, and what all its faces
- * share: the pattern of G G', the part of the equality rows, the rigid
- * modes of the bodies in coarse coordinates.
+ * The natural coarse space @f$G = R^T B^T@f$ (n_kernel x n). It is stored by columns, one for each
+ * row of B that this rank owns. This class also holds the data that all faces share: the pattern of
+ * G G', the contribution of the equality rows to G G', and the rigid modes of the bodies in coarse
+ * coordinates.
  */
 class CoarseSpace
 {
 public:
-  /// Patterns for @p layout. Factorized by @p n_ranks, see coarse_team(). Collective.
+  /// Build the patterns for @p layout. The coarse problem is factorized by @p n_ranks ranks, see
+  /// coarse_team(). Collective.
   CoarseSpace(const RowLayout &layout, const SubdomainTable &table, unsigned int n_ranks);
 
   /**
-   * New numbers. Collective.
-   * @param[in] G_entries per gathered entry of B (RowLayout), n_modes
-   *   products B_entry * R(unknown, :), @p stride numbers apart.
-   * @param[in] Z of this rank's subdomains.
+   * Set the values of G and the body modes. Collective.
+   * @param[in] G_entries holds, for each gathered entry of B (RowLayout), the n_modes products
+   *   B_entry * R(unknown, :). The products of consecutive entries begin @p stride numbers apart.
+   * @param[in] Z of the subdomains of this rank.
    */
   void update(const std::vector<double>          &G_entries,
               unsigned int                        stride,
@@ -42,40 +43,44 @@ public:
 
   unsigned int n_kernel() const { return narrow<unsigned int>(table.body.size()) * table.n_modes; }
 
-  /// G_M x summed over ranks (n_kernel x k); M = all rows if null.
+  /// Return G_M x summed over ranks (n_kernel x k). M is the set of all rows if @p free is null.
+  /// Collective.
   qp::MultiVector multiply(const qp::MultiVector &x, const qp::RowSet *free) const;
 
-  /// G_M' alpha on the owned rows; zero off M.
+  /// Return G_M' alpha on the owned rows. It is zero on rows outside M.
   qp::MultiVector transpose_multiply(const qp::MultiVector &alpha, const qp::RowSet *free) const;
 
-  /// Values of G_M G_M' in the pattern of pattern(). Collective.
+  /// Return the values of G_M G_M' in the pattern of pattern(). Collective.
   std::vector<double> gram_values(const qp::RowSet &free) const;
 
-  /// Pattern of G G' with the representatives of all bodies coupled.
+  /// Return a matrix with the pattern of G G', in which the representatives of all bodies are
+  /// coupled.
   const CsrMatrix &pattern() const { return gram; }
 
-  /// Where faces find their factorization.
+  /// Return the pool from which faces take their factorizations.
   const FactorPool &factors() const { return factor_pool; }
 
-  /// Orthonormal body modes in coarse coordinates, n_kernel x n_bodies
-  /// n_modes; equal on all ranks.
+  /// Return the orthonormal body modes in coarse coordinates, n_kernel x (n_bodies n_modes). They
+  /// are equal on all ranks.
   const qp::MultiVector &body_modes() const { return modes; }
 
-  /// Orthonormal motions of the bodies, in coordinates of body_modes().
+  /// Orthonormal motions of the bodies that the rows M of A = G_M G_M' do not resist or hardly
+  /// resist, in coordinates of body_modes().
   struct HardlySeen
   {
-    qp::MultiVector unseen; ///< by the rows M of A = G_M G_M'
-    qp::MultiVector weak;   ///< hardly seen, as across normals that are nearly parallel
+    qp::MultiVector unseen; ///< motions without resistance by any row of M
+    qp::MultiVector weak;   ///< weakly resisted, as by nearly parallel normals
   };
 
+  /// Return the bases of both kinds of motions for the matrix @p A = G_M G_M'.
   HardlySeen hardly_seen_motions(const CsrMatrix &A) const;
 
-  /// Coarse coordinates of one representative subdomain per body.
+  /// Return the coarse coordinates of one representative subdomain per body.
   const std::vector<unsigned int> &representatives() const { return representative; }
 
   const SubdomainTable &subdomains() const { return table; }
 
-  /// Frobenius norm of G. Collective.
+  /// Return the Frobenius norm of G. Collective.
   double norm() const;
 
 private:
@@ -83,12 +88,12 @@ private:
 
   const RowLayout          &layout;
   SubdomainTable            table;
-  std::vector<unsigned int> block_start;     ///< per owned row
-  std::vector<unsigned int> block_subdomain; ///< of each block
-  std::vector<unsigned int> block_of_entry;  ///< of gathered entries
-  std::vector<double>       blocks;          ///< n_modes per block of G
+  std::vector<unsigned int> block_start;     ///< first block of each owned row
+  std::vector<unsigned int> block_subdomain; ///< subdomain of each block
+  std::vector<unsigned int> block_of_entry;  ///< block of each gathered entry
+  std::vector<double>       blocks;          ///< n_modes numbers per block of G
   CsrMatrix                 gram;
-  std::vector<std::size_t>  bounded_places; ///< in gram of contact rows
+  std::vector<std::size_t>  bounded_places; ///< positions in gram to which contact rows contribute
   std::vector<double>       equality_gram;
   FactorPool                factor_pool;
   qp::MultiVector           modes;
@@ -98,28 +103,30 @@ private:
 };
 
 /**
- * G_M G_M' of one face, factorized, with its kernel N and the motions W
- * that its rows hardly see, scaled to W' G_M G_M' W = I:
- * A = G_M G_M' + rho V_f (V_f' V_f)^{-1} V_f' on the representatives f,
- * where V spans both.
+ * This class holds the factorized coarse problem G_M G_M' of one face, its kernel N and the motions
+ * W. The rows of M hardly resist the motions W, which are scaled to W' G_M G_M' W = I. The
+ * factorized matrix is
+ * A = G_M G_M' + rho V_f (V_f' V_f)^{-1} V_f'
+ * on the representatives f, where the columns of V span the kernel and the hardly resisted motions.
  */
 class CoarseProblem
 {
 public:
-  /// Collective.
+  /// Assemble and factorize the coarse problem of the face @p free. Collective.
   CoarseProblem(const CoarseSpace &space, const qp::RowSet &free);
 
-  /// Of solve(): one step, or more where motions are hardly seen.
+  /// Return the number of steps of solve(): one, or five if some motions are hardly resisted.
   unsigned int n_steps() const { return W.n_columns() > 0 ? 5 : 1; }
 
   /**
-   * (G_M G_M')^+ c for every column, orthogonal to N. Where motions are
-   * hardly seen it is a sum: even steps give the part along W, W W'c, odd
-   * ones A^{-1} c, with the c that the steps before left.
+   * Return the contribution of step @p step to (G_M G_M')^+ c for every column, orthogonal to N. A
+   * single step returns the whole solution if W is empty. Otherwise the solution is a sum over
+   * steps: even steps return W W'c, the part along W, and odd steps return A^{-1} c without its
+   * part in N. Each step takes the c that remains after the previous steps.
    */
   qp::MultiVector solve(const qp::MultiVector &c, unsigned int step) const;
 
-  /// N N' c.
+  /// Return N N' c.
   qp::MultiVector kernel_part(const qp::MultiVector &c) const;
 
 private:

@@ -10,33 +10,35 @@
 
 namespace snug::feti {
 /**
- * Factorizations of one use, of which many live at a time, as those of the subdomains of a design
- * and of faces that come and go with the active set. Equal matrices share one, also later; what
- * nobody uses any more serves other matrices of its pattern with its symbolic factorization, the
- * one that has waited longest first.
+ * This class holds the factorizations of one use, of which many exist at a time: those of the
+ * subdomains of a design, or those of the faces that change with the active set. Equal matrices
+ * share one factorization, also if the second matrix is requested later. An unused factorization is
+ * recycled for another matrix of its pattern, which then needs no symbolic factorization. The
+ * factorization that has been unused for the longest time is recycled first.
  */
 class FactorPool
 {
 public:
-  /// By CHOLMOD with orders of its own unless said otherwise: most matrices are small, whatever
-  /// the package of the stiffness. Counts factorizations in @p work; it and @p orderings must
-  /// outlive this object. With a @p team see SparseFactor.
+  /// Create an empty pool. The default is CHOLMOD with its own orderings, whatever the package of
+  /// the stiffness, because most matrices are small. Factorizations are counted in @p work. Both
+  /// @p work and @p orderings must outlive this object. See SparseFactor for @p team.
   explicit FactorPool(FactorOf                    of,
                       Factorization               package   = Factorization::CHOLMOD,
                       FillOrderings              *orderings = nullptr,
                       Work                       *work      = nullptr,
                       std::shared_ptr<const Team> team      = nullptr);
 
-  /// The factorization of @p A, which returns when the pointer and its copies are gone; that may be
-  /// after the end of the pool.
+  /// Return the factorization of @p A. It goes back to the pool when the pointer and its copies are
+  /// destroyed. The pointer may outlive the pool.
   /// @throws SolveError see SparseFactor::factorize()
   std::shared_ptr<const SparseFactor> factorize(const CsrMatrix &A, const std::string &what) const;
 
 private:
-  /// Of a pattern and its values.
+  /// Fingerprints of a pattern and of the values.
   using Key = std::pair<Fingerprint, Fingerprint>;
 
-  /// Nobody's, with what it is of, if its factorization did not fail.
+  /// An unused factor, with the fingerprint of the values that it factorizes. The fingerprint is
+  /// empty if the factorization failed.
   struct Spare
   {
     std::optional<Fingerprint>    values;
@@ -45,7 +47,7 @@ private:
 
   struct Items
   {
-    std::map<Fingerprint, std::deque<Spare>>         spare; ///< of each pattern
+    std::map<Fingerprint, std::deque<Spare>>         spare; ///< unused factors of each pattern
     std::map<Key, std::weak_ptr<const SparseFactor>> used;
   };
 

@@ -4,7 +4,7 @@
 #include <snug/feti/total_feti.h>
 
 namespace snug::feti {
-/// Face of the dual problem of Total FETI; parts are made when first used.
+/// This class is a face of the dual problem of Total FETI. Its parts are made at their first use.
 class TotalFeti::FetiFreeSet : public qp::FreeSet
 {
 public:

@@ -6,14 +6,15 @@
 #include <map>
 
 namespace snug::feti {
-/// Orders in which matrices fill in little when they are factorized, one for all of a pattern:
-/// most subdomains of a grid have the same.
+/// This class provides elimination orders with little fill-in, one for each pattern. Most
+/// subdomains of a grid have the same pattern and share its order.
 class FillOrderings
 {
 public:
-  /// The rows of @p pattern, which is symmetric and has its diagonal, in the order of elimination:
-  /// nested dissection by METIS, or as they are where blocks are full, which does not depend on
-  /// what was asked for before. Valid as long as this object.
+  /// Return the rows of @p pattern in the order of elimination. The pattern is symmetric and has
+  /// its diagonal. The order is nested dissection by METIS, or the given order of the rows if the
+  /// matrix consists of full diagonal blocks. The result does not depend on earlier calls. The
+  /// reference is valid as long as this object.
   const std::vector<PetscInt> &of(const CsrPattern &pattern);
 
 private:

@@ -10,43 +10,41 @@
 
 namespace snug::feti {
 /**
- * A += rho N_f (N_f' N_f)^{-1} N_f' on the unknowns @p f, all coupled in the
- * pattern of A, with the rows @p N_f of the kernel N of A and rho = mean diag A.
- * Makes A regular, and A^-1 a generalized inverse of the former A, as
- * (A + rho Q) N = rho N_f. Nothing if N has no columns.
+ * Add rho N_f (N_f' N_f)^{-1} N_f' to A on the unknowns @p f, all of which must be coupled in the
+ * pattern of A. @p N_f are the rows f of the kernel N of A, and rho = mean diag A. The sum A + rho
+ * Q is regular, and its inverse is a generalized inverse of the former A, because (A + rho Q) N =
+ * rho N_f. Nothing is added if N has no columns.
  */
 void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::MultiVector &N_f);
 
 /**
- * K^+ of a floating subdomain by fixing nodes,
+ * The generalized inverse K^+ of a floating subdomain by fixing nodes,
  * @f[ K^+ = (K + \rho Q_f)^{-1}, \qquad
  *     Q_f = R_f (R_f^T R_f)^{-1} R_f^T, \quad
  *     \rho = \mathrm{mean}\,\mathrm{diag} K, @f]
- * where R_f are the rows of R at a few far-apart nodes. K K^+ K = K holds
- * whatever R_f, if only R_f'R is regular for the rows R of the modes there:
- * K_rho R = rho Q_f R gives R_f' K^+ K = 0. They are rounded, so that congruent
- * subdomains whose K have the same bits have one K^+.
+ * where R_f are the rounded rows of R at a few far-apart nodes, the fixing nodes. K K^+ K = K holds
+ * for every R_f for which R_f' R is regular, with R_f extended by zeros: K_rho R = rho Q_f R gives
+ * R_f' K^+ K = 0. Rounding R_f lets congruent subdomains whose K have the same bits share one K^+.
  *
- * Source: Brzobohatý, Dostál, Kozubek, Kovář, Markopoulos, Int. J. Numer.
- * Meth. Engng (2011).
+ * Source: Brzobohatý, Dostál, Kozubek, Kovář, Markopoulos, Int. J. Numer. Meth. Engng (2011).
  */
 class GeneralizedInverse
 {
 public:
-  /// @p system and @p factors must outlive this object.
+  /// Store the references. The system, the factors and the context must outlive this object.
   GeneralizedInverse(const SubdomainSystem &the_system,
                      const FactorPool      &the_factors,
                      RunContext            &the_context)
     : system(the_system), factors(the_factors), context(the_context)
   {}
 
-  /// Of the present K and R.
+  /// Factorize K_rho = K + rho Q_f for the present K and R. Error messages call the matrix @p what.
   void factorize(const std::string &what);
 
-  /// Leave the factor, which is of former numbers, to the pool: to be factorized again.
+  /// Return the factor to the pool, which may use it for other matrices of the pattern.
   void release() { factor.reset(); }
 
-  /// x = K^+ b for every column.
+  /// Compute x = K^+ b for every column.
   void apply(const qp::MultiVector &b, qp::MultiVector &x) const;
 
 private:

@@ -9,34 +9,33 @@
 
 namespace snug::feti {
 /**
- * The primal operator of one subdomain inside the preconditioner, on its
- * unknowns b with an entry in B, and on the fixing unknowns where holding
- * those leaves it a rigid motion:
+ * The primal operator of one subdomain in the preconditioner,
  * S = K_bb - K_bi K_ii^{-1} K_ib ("Dirichlet") or K_bb ("lumped").
- * b is found with the first numbers.
+ * b are the unknowns with an entry in B. The fixing unknowns are added to b if holding the unknowns
+ * with entries in B leaves the subdomain a rigid motion. factorize() chooses b.
  */
 class LocalSchur
 {
 public:
-  /// @p system, @p factors and @p patterns must outlive this object.
+  /// Keep references to all arguments. The referenced objects must outlive this object.
   LocalSchur(const SubdomainSystem &system,
              bool                   lumped,
              const FactorPool      &factors,
              SharedPatterns        &patterns,
              RunContext            &context);
 
-  /// For the present K and R.
+  /// Extract the blocks of the present K and factorize K_ii. Error messages call it @p what.
   void factorize(const std::string &what);
 
-  /// Leave the factor, which is of former numbers, to the pool: to be factorized again.
+  /// Return the factor to the pool, which may use it for other matrices of the pattern.
   void release() { factor.reset(); }
 
-  /// Unknown of the subdomain -> position in b, or n_boundary().
+  /// Return the position in b of each unknown of the subdomain, or n_boundary() outside b.
   const std::vector<unsigned int> &boundary_position() const { return position_b; }
 
   unsigned int n_boundary() const { return n_b; }
 
-  /// S x for every column; n_boundary rows.
+  /// Return S x for every column of x (n_boundary rows).
   qp::MultiVector apply(const qp::MultiVector &x) const;
 
 private:
@@ -52,12 +51,12 @@ private:
   bool                                has_fixing_dofs = false;
   unsigned int                        n_b = 0, n_i = 0;
   std::vector<unsigned int>           position_b, position_i;
-  CsrMatrix                           bb; ///< its lower triangle
+  CsrMatrix                           bb; ///< lower triangle of K_bb
   CsrMatrix                           ib;
   std::shared_ptr<const SparseFactor> factor;
 };
 
-/// Rows of x, of all unknowns, at the boundary.
+/// Return the rows of @p x at the boundary. @p x has a row for each unknown of the subdomain.
 qp::MultiVector on_boundary(const qp::MultiVector &x, const LocalSchur &schur);
 } // namespace snug::feti
 

@@ -8,33 +8,32 @@
 
 namespace snug::feti {
 /**
- * @f$W_M = B_M D^{-1} B_M^T@f$ on the owned rows, the Gram matrix of the
- * rows of B that makes the preconditioner right where rows are not
- * orthonormal: stiffness scaling, node-to-face rows, supports at contact
- * nodes. Rows coupled to contact rows are factorized per face, the others
- * once per design. Off M, the rows of W_M are those of the identity.
+ * The Gram matrix @f$W_M = B_M D^{-1} B_M^T@f$ of the rows of B on the owned rows. It corrects the
+ * preconditioner where rows are not orthonormal: stiffness scaling, node-to-face rows, supports at
+ * contact nodes. Rows coupled to contact rows are factorized per face, the other rows once per
+ * design. Rows outside M are replaced by rows of the identity.
  */
 class RowGram
 {
 public:
   explicit RowGram(const RowLayout &layout);
 
-  /// New numbers: B and 1/D per gathered entry, @p stride apart, B first.
+  /// Set the values. @p entries holds B and 1/D for each gathered entry, @p stride numbers apart.
   void update(const std::vector<double> &entries, unsigned int stride);
 
-  /// The part that depends on the set M.
+  /// The part of the factorization that depends on the set M.
   class Factor
   {
   public:
     Factor(const RowGram &gram, const qp::RowSet &free);
 
-    /// x <- W_M^{-1} x on M, zero off M.
+    /// Set x <- W_M^{-1} x on M, and x <- 0 on rows outside M.
     void solve(qp::MultiVector &x) const;
 
   private:
     const RowGram                      &gram;
     qp::RowSet                          free;
-    std::shared_ptr<const SparseFactor> W; ///< of the contact group
+    std::shared_ptr<const SparseFactor> W; ///< factor of the contact group
   };
 
 private:
@@ -49,9 +48,10 @@ private:
   Group         fixed, contact;
   FillOrderings orderings;
   FactorPool    factors{FactorOf::row_gram, Factorization::CHOLMOD, &orderings};
-  std::vector<std::pair<bool, unsigned>> place; ///< (in contact, index)
-  std::shared_ptr<const SparseFactor>    fixed_factor;
-  /// entries by unknown: (subdomain, dof) -> gathered entries
+  std::vector<std::pair<bool, unsigned>>
+    place; ///< of each owned row: (in contact group, index in group)
+  std::shared_ptr<const SparseFactor> fixed_factor;
+  /// Gathered entries of each unknown (subdomain, dof).
   std::vector<std::vector<unsigned int>> entries_of_unknown;
   std::vector<unsigned int>              row_of_entry;
 };

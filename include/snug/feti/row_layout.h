@@ -7,15 +7,15 @@
 
 namespace snug::feti {
 /**
- * Where the rows of B live. Each row is owned by one rank; a rank's local
- * rows are those its subdomains touch. Rows that share an unknown (one
- * copy of it in one subdomain) must have one owner, so that
- * @f$B D^{-1} B^T@f$ is block diagonal over ranks.
+ * This class describes the distribution of the rows of B over ranks. Each row is owned by one rank.
+ * The local rows of a rank are those with an entry in one of its subdomains. Rows that share an
+ * unknown (one copy of it in one subdomain) must have one owner, so that @f$B D^{-1} B^T@f$ is
+ * block diagonal over ranks.
  */
 class RowLayout
 {
 public:
-  /// Entry of B in a subdomain: global row (rank offset + index), unknown.
+  /// Place of an entry of B in a subdomain: global row (offset of the owner + index), unknown.
   struct Entry
   {
     unsigned int global_row;
@@ -23,10 +23,10 @@ public:
   };
 
   /**
-   * Collective.
-   * @param[in] bounded flag of each owned row: contact.
+   * Set up the communication between owned rows, local rows and entries. Collective.
+   * @param[in] bounded flag of each owned row: contact row.
    * @param[in] entries of each subdomain of this rank.
-   * @param[in] first_subdomain global id of the first one.
+   * @param[in] first_subdomain global id of the first subdomain of this rank.
    */
   RowLayout(MPI_Comm                               communicator,
             const qp::RowSet                      &bounded,
@@ -37,38 +37,38 @@ public:
   unsigned int      n_owned() const { return narrow<unsigned int>(is_bounded.size()); }
   unsigned int      n_local() const { return narrow<unsigned int>(local_rows.size()); }
   const qp::RowSet &bounded() const { return is_bounded; }
-  /// Global row of an owned one.
+  /// Return the global row of an owned row.
   unsigned int global_row(unsigned int owned_row) const { return first_owned + owned_row; }
   unsigned int global_row_of_local(unsigned int local_row) const { return local_rows[local_row]; }
-  /// Local row of a global row this rank touches.
+  /// Return the local row of a global row. An entry of this rank's subdomains must touch the row.
   unsigned int local_row(unsigned int global_row) const;
 
-  /// Owned values -> local rows. Collective.
+  /// Return local values, taken from the owned values. Collective.
   qp::MultiVector to_local(const qp::MultiVector &owned) const;
-  /// Sum of local rows -> owned values. Collective.
+  /// Return owned values as sums of the local values of all ranks. Collective.
   qp::MultiVector to_owned(const qp::MultiVector &local) const;
 
   /**
-   * Send @p width numbers per entry of B (subdomain by subdomain, in the
-   * order given to the constructor) to the row's owner, which receives
-   * them row by row, sorted by subdomain and unknown. Collective.
+   * Send @p width numbers per entry of B to the owner of the entry's row. @p values are ordered
+   * subdomain by subdomain, as the entries of the constructor. The owner receives the numbers row
+   * by row, sorted by subdomain and unknown. Collective.
    */
   std::vector<double> gather_entries(unsigned int width, const std::vector<double> &values) const;
-  /// First gathered entry of each owned row; n_owned + 1.
+  /// Return the first gathered entry of each owned row; n_owned + 1 numbers.
   const std::vector<unsigned int> &entry_start() const { return start; }
-  /// Global subdomain and unknown of each gathered entry.
+  /// Return the global subdomain and the unknown of each gathered entry.
   const std::vector<std::pair<unsigned int, unsigned int>> &entry_unknowns() const;
 
 private:
   std::vector<double> gather_unsorted(unsigned int width, const std::vector<double> &values) const;
 
-  MPI_Comm                                           comm;
-  qp::RowSet                                         is_bounded;
-  unsigned int                                       first_owned; ///< as global row
-  std::vector<unsigned int>                          local_rows;  ///< ascending global rows
-  petsc::StarForest                                  row_forest, entry_forest;
-  std::vector<unsigned int>                          start;
-  std::vector<unsigned int>                          order; ///< of gathered entries
+  MPI_Comm                  comm;
+  qp::RowSet                is_bounded;
+  unsigned int              first_owned; ///< first owned row, as a global row
+  std::vector<unsigned int> local_rows;  ///< ascending global rows
+  petsc::StarForest         row_forest, entry_forest;
+  std::vector<unsigned int> start;
+  std::vector<unsigned int> order; ///< sorted order of the gathered entries
   std::vector<std::pair<unsigned int, unsigned int>> unknowns;
 };
 } // namespace snug::feti

@@ -6,7 +6,8 @@
 #include <snug/feti/local_schur.h>
 
 namespace snug::feti {
-/// Entry (i, j) of a matrix on the unknowns of a subdomain; several add up.
+/// Entry (i, j) of a matrix on the unknowns of a subdomain. Several entries of one place are
+/// summed.
 struct JumpStiffness
 {
   unsigned int i, j;
@@ -14,12 +15,12 @@ struct JumpStiffness
 };
 
 /**
- * What a motion of a subdomain s costs its neighbours t by the jumps that it
- * causes, @f$\sum_{t \ne s} P_t^T K_t P_t@f$ with @f$P_t@f$ the columns of s in
- * @f$P_D@f$ at the unknowns of t: entries (i, j) of unknowns of s. The stiffness
- * of t's unknowns at s with all others held stands for its Schur complement,
- * and is an upper bound of it. @p columns and @p systems are those of this
- * rank. Collective.
+ * Return the stiffness with which the neighbours t resist a motion of a subdomain s, by the jumps
+ * that the motion causes: @f$\sum_{t \ne s} P_t^T K_t P_t@f$ as entries (i, j) of unknowns of s.
+ * @f$P_t@f$ are the columns of s in @f$P_D@f$ at the unknowns of t. The block of K_t at unknowns
+ * shared with s, with all other unknowns of t held, replaces the Schur complement of t and is an
+ * upper bound of it. @p columns and @p systems are those of this rank, and @p first is the global
+ * id of its first subdomain. Collective.
  */
 std::vector<std::vector<JumpStiffness>>
 stiffness_of_neighbours(const std::vector<SubdomainSystem> &systems,
@@ -30,23 +31,23 @@ stiffness_of_neighbours(const std::vector<SubdomainSystem> &systems,
 /// The soft modes of one subdomain.
 struct SoftModes
 {
-  qp::MultiVector     forces; ///< per unknown of the subdomain, B_D of which is the row forces
+  qp::MultiVector     forces; ///< y per unknown of the subdomain; the row forces are B_D y
   std::vector<double> mu;     ///< descending
 };
 
 /**
- * Motions v of a subdomain that jumps make much stiffer than the subdomain
- * is itself,
+ * Return the soft modes of a subdomain, with at most 24 modes. Soft modes are motions v whose jumps
+ * are much stiffer than the subdomain itself,
  * @f[ A v = \mu S v, \quad \mu > c, \qquad
- *     A = P_s^T S P_s + \sum_{t \ne s} P_t^T K_t P_t, \f]
- * of which the preconditioned dual operator has eigenvalues as large as mu:
- * bending of flat parts, hinges at narrow necks. Found by Rayleigh-Ritz on a
- * block Krylov space of K^+ A from fixed pseudo-random motions, so that the
- * same subdomain has the same modes on every rank. At most 24.
- * @return for each the forces y with @f$B_s^T B_D y = A v@f$.
+ *     A = P_s^T S P_s + \sum_{t \ne s} P_t^T K_t P_t. \f]
+ * They cause eigenvalues as large as mu of the preconditioned dual operator. Examples are bending
+ * of flat parts and hinges at narrow necks. The modes are computed by Rayleigh-Ritz on a block
+ * Krylov space of K^+ A. It starts from fixed pseudo-random motions, so that the same subdomain has
+ * the same modes on every rank.
+ * @return for each mode the forces y with @f$B_s^T B_D y = A v@f$.
  *
- * Source: Spillane, Rixen, Automatic spectral coarse spaces for robust FETI
- * and BDD algorithms, Int. J. Numer. Meth. Engng 95 (2013).
+ * Source: Spillane, Rixen, Automatic spectral coarse spaces for robust FETI and BDD algorithms,
+ * Int. J. Numer. Meth. Engng 95 (2013).
  */
 SoftModes soft_modes(const SubdomainSystem            &system,
                      const GeneralizedInverse         &inverse,
@@ -55,15 +56,16 @@ SoftModes soft_modes(const SubdomainSystem            &system,
                      const std::vector<JumpStiffness> &neighbours,
                      unsigned int                      subdomain);
 
-/// Row forces B_D y of the soft modes of one subdomain, before they are in equilibrium.
+/// Row forces B_D y of the soft modes of one subdomain, before they are brought into equilibrium.
 struct RowForces
 {
   unsigned int              subdomain; ///< global id
-  std::vector<unsigned int> patch;     ///< it and its neighbours, ascending
-  std::vector<unsigned int> rows;      ///< global, ascending
+  std::vector<unsigned int> patch;     ///< the subdomain and its neighbours, ascending
+  std::vector<unsigned int> rows;      ///< global rows, ascending
   qp::MultiVector           values;    ///< rows x modes
 };
 
+/// Return the row forces B_D y of @p modes, with the patch of @p subdomain (global id).
 RowForces row_forces(const SoftModes &modes, const JumpColumns &columns, unsigned int subdomain);
 } // namespace snug::feti
 

@@ -10,9 +10,10 @@
 #include <memory>
 
 namespace snug::feti {
-/// The matrices that are factorized. PETSc's options for one begin with its name and "_":
+/// Uses of factorizations. The PETSc options of a use begin with its name and "_":
 /// -NAME_pc_factor_mat_solver_type PACKAGE, -NAME_pc_type cholesky or lu,
-/// -NAME_pc_factor_mat_ordering_type ORDER and those of the package, as -NAME_mat_mumps_icntl_7.
+/// -NAME_pc_factor_mat_ordering_type ORDER and the options of the package, as
+/// -NAME_mat_mumps_icntl_7.
 enum class FactorOf
 {
   kplus,
@@ -30,28 +31,31 @@ inline Names names(FactorOf)
           {"row_gram", "B D^-1 B'"}};
 }
 
-/// @throws InputError if PETSc's options name a package or a factorization that PETSc lacks for
-/// one of the matrices, those of the stiffness being by @p package if the options name none.
-/// The same on all ranks.
+/// Check the PETSc options of all uses. Stiffness matrices are factorized by @p package if the
+/// options name no package.
+/// @throws InputError if the options name a package or a factorization that PETSc lacks. The error
+/// is the same on all ranks.
 void check_factor_options(Factorization package);
 
 /**
- * Cholesky factorization of sparse symmetric positive definite matrices
- * of one pattern on one process, or on a team of them, by a package of
- * PETSc. The symbolic part is done once. Scaling the matrix by a power of two changes no digit:
- * the package factorizes it divided by one, so that no square root of its
- * units is taken. No matrix is kept.
+ * This class is the Cholesky factorization of sparse symmetric positive definite matrices of one
+ * pattern by a package of PETSc, on one process or on a team of processes. The symbolic part is
+ * done once. Scaling the matrix by a power of two changes no digit of the factor: the package
+ * factorizes the matrix divided by a power of two of its size, so that no square root of its units
+ * is taken. No matrix is kept.
  */
 class SparseFactor
 {
 public:
   /**
+   * Analyze the pattern.
    * @param[in] pattern of the matrices; values are not used.
-   * @param[in] of whose options of PETSc hold.
-   * @param[in] package unless the options name another.
-   * @param[in] orderings where CHOLMOD takes its order from; null: it tries some of its own.
-   * @param[in] team Factorizes matrices that are the same on all its ranks, and all functions are
-   *   collective on them; null: this rank alone.
+   * @param[in] of the use, whose PETSc options apply.
+   * @param[in] package unless the options name another package.
+   * @param[in] orderings from which CHOLMOD takes its order; null: CHOLMOD tries some orderings of
+   *   its own.
+   * @param[in] team factorizes matrices that are the same on all its ranks, and all functions are
+   *   collective on team->all(); null: this rank factorizes alone.
    * @throws InputError see check_factor_options()
    */
   SparseFactor(const CsrMatrix            &pattern,
@@ -61,16 +65,15 @@ public:
                std::shared_ptr<const Team> team      = nullptr);
 
   /**
-   * Factorize a matrix of the pattern.
-   * @throws SolveError if the matrix is not positive definite, holds NaN,
-   *   or the solution of one check system is wrong (packages can fail
-   *   silently); @p what names the matrix. It counts as singular where
-   *   entries of a solution that should be of order one are above
-   *   @p singular_size: 1e11 leaves five digits. Other matrices may follow.
+   * Factorize a matrix of the pattern. A further matrix may follow, also after an error.
+   * @throws SolveError if the matrix is not positive definite, holds NaN, or the solution of one
+   *   check system is wrong (packages can fail silently); @p what names the matrix. The matrix
+   *   counts as singular if an entry of a solution that should be of order one exceeds
+   *   @p singular_size: 1e11 leaves five correct digits.
    */
   void factorize(const CsrMatrix &A, const std::string &what, double singular_size = 1e11);
 
-  /// x = A^{-1} b for every column.
+  /// Compute x = A^{-1} b for every column.
   void solve(const qp::MultiVector &b, qp::MultiVector &x) const;
 
 private:
@@ -82,21 +85,23 @@ private:
   void            solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) const;
 
   PetscInt                    n;
-  std::string                 prefix, package; ///< PETSc's names
+  std::string                 prefix, package; ///< PETSc's names of the use and of the package
   bool                        is_lu;
   FillOrderings              *orderings;
-  std::shared_ptr<const Team> team; ///< before what lives on its communicator
+  std::shared_ptr<const Team> team; ///< declared before the objects on its communicator
   petsc::Matrix               factor;
   petsc::Vector               right_hand_side, solution;
   bool                        has_failed = false;
-  double                      unit       = 1.; ///< power of two; the factor is of A / unit
+  double                      unit       = 1.; ///< power of two; the factor is that of A / unit
 };
 
 /**
- * Who factorizes a coarse problem of @p n_rows that all ranks have: null, each of them for itself,
- * or a team of @p wanted. By size if that is 0: alone is faster up to 20,000 rows, and than three
- * ranks; a team has one for 6,000 rows. Alone, too, by a package of PETSc's options but MUMPS.
- * Collective.
+ * Return the team that factorizes a replicated coarse problem of @p n_rows rows, or null if each
+ * rank factorizes it for itself. @p wanted is the number of members; 0 chooses the number by size.
+ * Up to 20,000 rows, or with fewer than four ranks, each rank factorizes for itself: one rank is
+ * then faster than a team, and also faster than a team of three. Larger problems have one member
+ * for 6,000 rows, but at least four members. The result is also null if PETSc's options name a
+ * package other than MUMPS. Collective.
  */
 std::shared_ptr<const Team>
 coarse_team(MPI_Comm all, unsigned int n_rows, FactorOf of, unsigned int wanted);

@@ -28,18 +28,18 @@ struct BEntry
 struct SubdomainSystem
 {
   unsigned int              body    = 0;
-  bool                      compact = false; ///< in shape and cells: without soft modes
+  bool                      compact = false; ///< compact shape and cells, hence without soft modes
   CsrMatrix                 K;
   std::vector<double>       f;
   std::vector<BEntry>       B;
   qp::MultiVector           R;
   qp::MultiVector           Z;
-  std::vector<unsigned int> fixing_dofs; ///< of far-apart nodes
+  std::vector<unsigned int> fixing_dofs; ///< unknowns of a few far-apart nodes
 
   unsigned int n_dofs() const { return K.n_rows(); }
 };
 
-/// One multi-vector per subdomain of this rank: primal vectors.
+/// Primal vectors: one multi-vector per subdomain of this rank.
 using PrimalVectors = std::vector<qp::MultiVector>;
 } // namespace snug::feti
 

@@ -8,13 +8,14 @@
 
 namespace snug::feti {
 /**
- * Ranks that factorize in common a matrix that all ranks have: each holds an equal range of its
- * rows. They are spread evenly over all ranks, as over the nodes of a cluster.
+ * This class is a team of ranks that factorize a replicated matrix in common. Each member holds an
+ * equal range of the rows. The members are spread evenly over all ranks and so over cluster nodes.
  */
 class Team
 {
 public:
-  /// Collective on @p all; at most as many members as it has ranks.
+  /// Create a team of @p n_members ranks of @p all, or of all ranks if there are fewer. Collective
+  /// on @p all.
   Team(MPI_Comm all, unsigned int n_members);
   ~Team();
   Team(const Team &)            = delete;
@@ -22,20 +23,21 @@ public:
 
   MPI_Comm all() const { return everyone; }
   bool     has_this_rank() const { return members != MPI_COMM_NULL; }
-  /// Null on other ranks.
+  /// Return the communicator of the members. It is MPI_COMM_NULL on other ranks.
   MPI_Comm     communicator() const { return members; }
   unsigned int size() const { return n_members; }
 
-  /// The first of the rows of this rank and the one after the last, of @p n; none for others.
+  /// Return the first row of this rank, of @p n rows, and the row after its last row. The range is
+  /// empty on ranks that are not members.
   std::pair<unsigned int, unsigned int> range(unsigned int n) const;
 
-  /// Of the members' ranges of x (n) all of it on all ranks. Collective on all().
+  /// Gather the members' ranges of x (n) to all of x on all ranks. Collective on all().
   void share(std::vector<double> &x) const;
 
 private:
-  /// The end of the rows of the first @p i members.
+  /// Return the end of the rows of the first @p i members.
   unsigned int end(unsigned int n, unsigned int i) const;
-  /// Members among the ranks before @p rank.
+  /// Return the number of members among the ranks before @p rank.
   unsigned int members_before(unsigned int rank) const;
 
   MPI_Comm     everyone, members = MPI_COMM_NULL;
