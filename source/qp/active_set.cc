@@ -15,11 +15,11 @@
 
 namespace snug::qp {
 namespace {
-/// Steps in a row that may fail to halve the KKT residual of one set, or
-/// to solve on it.
+/// Number of consecutive steps that may fail to halve the KKT residual of one set, or to solve the
+/// linear problem on the set.
 const unsigned int allowed_stalls = 3;
 
-/// One solve: the iterate, the set and what belongs to it.
+/// State of one solve: the iterate, the active set and the data that belong to them.
 class ActiveSetRun
 {
 public:
@@ -35,11 +35,11 @@ public:
     , inner_tolerance(the_options.forcing)
   {}
 
-  /// False if the set does not settle: go on with another solver from
-  /// start().
+  /// Solve from @p from. Return false if the set does not settle: another solver must then continue
+  /// from start().
   bool run(const WarmStart &from);
 
-  /// Why it does not.
+  /// Return the reason why the set does not settle.
   std::string reason() const;
 
   WarmStart start() const { return {lambda, mask}; }
@@ -49,7 +49,7 @@ public:
   DualSolution solution() const;
 
 private:
-  /// Spends on a cycle what another solver may need.
+  /// Return whether a cycle has used F-mults that another solver may need.
   bool is_long_cycle() const
   {
     return care != SetHistory::none && f_mults() > parameters.max_iterations / 4;
@@ -67,7 +67,7 @@ private:
       .relative;
   }
 
-  /// The tolerance, or what rounding allows.
+  /// Return whether the KKT residual meets the tolerance, or has reached its rounding error.
   bool is_met() const
   {
     return kkt.relative <= parameters.relative_tolerance ||
@@ -94,21 +94,21 @@ private:
   MultiVector              lambda, residual;
   RowSet                   mask;
   std::unique_ptr<FreeSet> free_set;
-  std::unique_ptr<Pcpg>    krylov; // of the face
+  std::unique_ptr<Pcpg>    krylov; // of the face of mask
   KktResidual              kkt;
-  std::vector<double>      negligible; // forces, see force_rounding()
+  std::vector<double>      negligible; // forces that may be rounding error, see force_rounding()
   double                   scale = 0.;
   double                   inner_tolerance;
-  double                   last_kkt    = 0.; // on the same set
-  unsigned int             recurrences = 0;  // since d - F lambda
+  double                   last_kkt    = 0.; // of the last solve on the same set
+  unsigned int             recurrences = 0;  // since the residual was computed as d - F lambda
   unsigned int             outer       = 0;
-  bool                     solved      = true; // on the set
+  bool                     solved      = true; // whether the last solve on the set converged
   bool                     at_rounding = false;
   unsigned int             stalls      = 0;
 };
 
-/// Start of the iteration. Whether the start is warm and has a set is asked on all ranks, as a rank
-/// without rows has empty vectors in any case.
+/// Set up the start of the iteration. All ranks decide together whether the start is warm and has a
+/// set, because a rank without rows has empty vectors in any case.
 void ActiveSetRun::begin(const WarmStart &from)
 {
   const MPI_Comm comm    = context.communicator();
@@ -129,12 +129,13 @@ void ActiveSetRun::begin(const WarmStart &from)
       }
   if (is_warm)
     free_set = balanced_set(problem, mask, lambda, scale);
-  // equality_part() replaces the columns of its argument by d - F of them, in the application of F
-  // that it makes for lambda_Im anyway.
+  // equality_part() replaces the columns of its argument by d - F times the columns. It does this
+  // in the application of F that lambda_Im needs anyway.
   residual              = is_warm ? lambda : MultiVector(problem.n_owned(), 0);
   EqualityPart equality = equality_part(problem, problem.expected_rows(), residual);
   scale                 = equality.scale;
-  // Forces of states far from this one tell less of it than the expected contacts do.
+  // Start cold if the start has a larger KKT residual than lambda_Im: forces of a distant state
+  // predict the set worse than the expected contacts do.
   if (!is_warm || (!has_set && kkt_of(equality) < kkt_here().relative))
     {
       mask     = equality.rows;
@@ -155,19 +156,20 @@ void ActiveSetRun::refresh_residual()
 
 void ActiveSetRun::solve_on_set()
 {
-  // The limit counts F-mults, the unit of work that all solvers share, not steps.
+  // The limit counts F-mults, not steps, because all solvers measure their work in F-mults.
   if (f_mults() >= parameters.max_iterations)
     throw not_converged("active set", kkt_here().relative, parameters.relative_tolerance, f_mults(),
                         true);
-  // Below half of the wanted KKT residual an inner solve would only polish a set that may still
-  // change. After a cycle was met the signs of small entries decide, so it may go further down.
+  // An inner solve below half of the wanted KKT residual would only polish a set that may still
+  // change. After a cycle the signs of small entries decide, so inner solves may go further down.
   const double least = (care == SetHistory::none ? 0.5 : 0.005) * parameters.relative_tolerance;
   const auto   inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
                                      narrow<unsigned int>(parameters.max_iterations - f_mults()));
   recurrences += inner.iterations;
   solved      = inner.converged;
   at_rounding = inner.at_rounding;
-  // w of the rows off the set, which decides who enters, needs the rigid amplitudes of this set.
+  // The w of the rows outside the set decides which rows enter. It needs the rigid amplitudes of
+  // this set.
   kkt        = kkt_here();
   negligible = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
   ++outer;
@@ -177,8 +179,8 @@ void ActiveSetRun::solve_on_set()
   context.progress(line.str());
 }
 
-/// The tolerance is met by a lambda without pull, and not only by the
-/// recurrence of the residual.
+/// Return whether the tolerance is met by a lambda without tension on contact rows, and not only by
+/// the recurrence of the residual. Clips forces that are rounding errors.
 bool ActiveSetRun::finished()
 {
   if (!is_met())
@@ -191,9 +193,9 @@ bool ActiveSetRun::finished()
   parts.add(-1., residual);
   parts.append(problem.d());
   const auto sizes = norms(parts, comm); // of F lambda and of d
-  // PCPG updates d - F lambda by recurrence. Each step adds about eps (|F lambda| + |d|) of
-  // rounding, so that the true residual is only known up to the sum of them: where this could hide
-  // a tenth of the tolerance, one F-mult makes certain.
+  // PCPG updates d - F lambda by recurrence. Each step adds rounding errors of about eps (|F
+  // lambda| + |d|), and the true residual is known only up to their sum. If this sum could hide a
+  // tenth of the tolerance, compute the residual anew by one F-mult.
   const double drift = std::numeric_limits<double>::epsilon() * recurrences * (sizes[0] + sizes[1]);
   if (drift < 0.1 * parameters.relative_tolerance * scale)
     return true;
@@ -205,27 +207,28 @@ bool ActiveSetRun::finished()
 RowSet ActiveSetRun::next_set() const
 {
   RowSet next(mask.size(), 1);
-  // With the tolerance met only rows that pull are wrong. Letting others in by the sign of a w that
-  // is within the tolerance would start the search again from noise.
+  // If the tolerance is met, only rows in tension are wrong. A w within the tolerance must not let
+  // rows enter by its sign, because the search would start again from noise.
   const bool only_drop = is_met();
   for (unsigned int i = 0; i < next.size(); ++i)
     if (problem.bounded()[i])
-      // The sign of lambda on the set, of w off it; why not lambda + c w is said at ActiveSet. A
-      // row with neither force nor gap stays where it is: its signs are rounding, and would drop it
-      // and let it in by turns.
+      // The sign of lambda decides on the set, and the sign of w outside the set; ActiveSet says
+      // why it is not lambda + c w. A row with neither force nor gap does not change, because its
+      // signs are rounding errors that would let it leave and enter by turns.
       next[i] = mask[i] ? lambda(i) >= -negligible[i] : !only_drop && kkt.w(i) > kkt.rounding;
   if (care == SetHistory::single && !only_drop)
     return with_one_change(mask, next, context.communicator());
   return next;
 }
 
-/// The set stays: go on with the same directions, more exactly.
+/// Continue on the same set with the same directions and a smaller tolerance.
 void ActiveSetRun::keep_set()
 {
-  // The set may be the right one: by at least a digit more, or each solve on it would do little.
+  // The set may be the right one. Solve to at least a digit more, because otherwise each solve on
+  // the set would achieve little.
   inner_tolerance = std::min(0.1 * inner_tolerance, options.forcing * kkt.relative);
-  // A solve on the same set ought to do better than halve the residual. Rounding in recurrence and
-  // directions is what can stop it: begin a new Krylov space, from a residual computed anew.
+  // A solve on the same set should do better than halve the residual. Only rounding in recurrence
+  // and directions can prevent this. Begin another Krylov space from a residual computed anew.
   if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt)
     {
       if (++stalls > allowed_stalls)
@@ -234,20 +237,20 @@ void ActiveSetRun::keep_set()
       krylov.reset();
       free_set = balanced_set(problem, mask, lambda, scale);
       refresh_residual();
-      const bool deflates = false; // it has its own rounding
+      const bool deflates = false; // deflation has rounding errors of its own
       krylov              = std::make_unique<Pcpg>(problem, *free_set, DirectionBasis(), deflates);
     }
   last_kkt = kkt.relative;
 }
 
-/// False if the set does not settle.
+/// Change the set to @p next. Return false if the set does not settle.
 bool ActiveSetRun::change_set(const RowSet &next)
 {
   const MPI_Comm comm    = context.communicator();
   bool           changed = false;
   for (unsigned int i = 0; i < next.size(); ++i)
-    // Rows that leave lose their force. That unbalances G lambda = e, so that lambda has to be made
-    // feasible on the new set, and its residual has to be computed anew.
+    // Rows that leave lose their force, which unbalances G lambda = e. lambda must then be made
+    // feasible on the next set, and its residual must be computed anew.
     if (!next[i] && lambda(i) != 0.)
       {
         lambda(i) = 0.;
@@ -261,11 +264,11 @@ bool ActiveSetRun::change_set(const RowSet &next)
       leaving[i] = mask[i] && !next[i];
       enters     = enters || (next[i] && !mask[i]);
     }
-  // Directions that vanish on the rows that leave lie in the new face as well, with F P known.
-  // Rows that enter do not matter: balance_load() only adds rows, so they stay in the face. Of a
-  // solve that failed they are spoilt by rounding, and so is lambda.
+  // Directions that vanish on the leaving rows lie in the next face as well, with F P known.
+  // Entering rows do not matter: balanced_set() only adds rows, so the directions stay in the face.
+  // After a failed solve the directions and lambda are spoilt by rounding.
   DirectionBasis known = solved ? krylov->directions().off(leaving, comm) : DirectionBasis();
-  // krylov refers to the face, which is replaced below, and has to go first.
+  // Destroy krylov first, because it refers to the face, which is replaced below.
   mask = next;
   krylov.reset();
   if (!solved || any(changed, comm))
@@ -307,7 +310,8 @@ bool ActiveSetRun::run(const WarmStart &from)
     }
 }
 
-/// The directions go along: sensitivities solve with the same F on (part of) the same face.
+/// The solution includes the directions, because sensitivities solve with the same F on (part of)
+/// the same face.
 DualSolution ActiveSetRun::solution() const
 {
   DualSolution result;
@@ -341,7 +345,7 @@ DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start
   const unsigned long spent  = run.f_mults();
   DualSolution        result = Smalse(remaining).solve(problem, run.start());
   result.f_mults += spent;
-  // The work of the run that gave up was done for this solution as well.
+  // Add the steps of the run that gave up, because they were done for this solution as well.
   result.outer_iterations += run.solution().outer_iterations;
   return result;
 }

@@ -10,7 +10,7 @@ orthonormal_combinations(const MultiVector &S, const std::vector<double> &smalle
 {
   const unsigned int       k = S.n_rows();
   MultiVector              C(k, 0);
-  std::vector<MultiVector> candidates; // S-orthogonal to C's columns
+  std::vector<MultiVector> candidates; // S-orthogonal to the columns of C
   std::vector<double>      squares;    // c'Sc of the candidates
   for (unsigned int j = 0; j < k; ++j)
     if (S(j, j) > smallest[j])
@@ -46,7 +46,7 @@ std::vector<unsigned int>
 leading_columns(const MultiVector &S, const double distance, const double part)
 {
   const unsigned int  k = S.n_rows();
-  std::vector<double> squares(k); // of the distances from the span
+  std::vector<double> squares(k); // squared distances from the span of the taken columns
   for (unsigned int j = 0; j < k; ++j)
     squares[j] = S(j, j);
   const double              longest = *std::max_element(squares.begin(), squares.end());

@@ -6,23 +6,22 @@
 
 namespace snug::qp {
 namespace {
-/// The scale of residuals is no smaller part of the residual before its
-/// projection.
+/// Minimum of the scale of residuals, as a part of the residual before its projection.
 const double least_part = 1e-10;
 
-/// A smaller part of the residual before its projection may be rounding of F, as of slender
-/// subdomains, whose K^+ loses many digits.
+/// A projected residual below this part of the residual before its projection may be rounding of F.
+/// This occurs for slender subdomains, whose K^+ loses many digits.
 const double suspect_part = 1e-6;
 
-/// Part of the load a set may leave unbalanced.
+/// Part of the load that a set may leave unbalanced.
 const double balance_tolerance = 1e-8;
 
-/// Of this many times the rounding of F, tolerances of 1e-6 can be met.
+/// A scale of this many times the rounding of F makes tolerances of 1e-6 attainable.
 const double above_rounding = 1e8;
 
-/// Row i of the natural residual: w_i of equalities, -min(lambda_i F_ii, -w_i) of contacts, which
-/// is zero where lambda_i, -w_i >= 0 and one of them vanishes. lambda_i F_ii is a length like w_i,
-/// and all rows count alike.
+/// Return row i of the natural residual: w_i for equalities, -min(lambda_i F_ii, -w_i) for
+/// contacts. It is zero where lambda_i, -w_i >= 0 and one of them vanishes. lambda_i F_ii is a
+/// length like w_i, so all rows have equal weight.
 double natural_residual(const DualProblem &problem,
                         const MultiVector &lambda,
                         const MultiVector &w,
@@ -55,7 +54,7 @@ KktResidual kkt_residual(const DualProblem &problem,
   KktResidual    kkt;
   kkt.amplitudes = MultiVector(problem.e().n_rows());
   // On the rows of a face alpha = -(G_M G_M')^+ G_M (d - F lambda) makes w vanish as far as rigid
-  // motions can do it.
+  // motions can.
   kkt.amplitudes.add(-1., rigid);
   kkt.w = residual;
   kkt.w.add(1., problem.apply_Gt(kkt.amplitudes));
@@ -66,13 +65,14 @@ KktResidual kkt_residual(const DualProblem &problem,
   for (unsigned int i = 0; i < problem.n_owned(); ++i)
     both(i, 0) = natural_residual(problem, lambda, kkt.w, i);
   const auto sizes = norms(both, comm);
-  // w = (d - F lambda) + G'alpha: where nearly all of d - F lambda is rigid motion the two cancel,
-  // and what is left is rounding of their size.
+  // w = (d - F lambda) + G'alpha. Where nearly all of d - F lambda is rigid motion, the two terms
+  // cancel, and the remainder is their rounding error.
   kkt.rounding = projection_rounding * sizes[1];
 
   MultiVector missing = problem.e();
   missing.add(-1., problem.apply_G(lambda));
-  // Coarse vectors are equal on all ranks: a sum over the ranks would count them repeatedly.
+  // Do not sum over ranks, because coarse vectors are equal on all ranks and would count
+  // repeatedly.
   const double imbalance = norms(missing, MPI_COMM_SELF)[0];
   kkt.feasibility        = imbalance > 0. ? imbalance / load_scale(problem, lambda, scale) : 0.;
   kkt.relative           = kkt.feasibility + (sizes[0] <= kkt.rounding ? 0. : sizes[0] / scale);
@@ -92,7 +92,8 @@ std::vector<double> force_rounding(const DualProblem &problem,
   double       largest = 0.;
   for (unsigned int i = 0; i < lambda.n_rows(); ++i)
     largest = std::max(largest, std::abs(lambda(i)));
-  // Over all rows and ranks: the forces of different contacts compare.
+  // Take the maximum over all rows and ranks, because the forces of different contacts are
+  // comparable.
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, problem.context().communicator());
   std::vector<double> rounding;
   for (const double F_ii : problem.diagonal())
@@ -101,7 +102,7 @@ std::vector<double> force_rounding(const DualProblem &problem,
 }
 
 namespace {
-/// ||P (3 F (lambda / 3) - F lambda)||, which is zero but for rounding. One F-mult.
+/// Return ||P (3 F (lambda / 3) - F lambda)||, which is zero except for rounding. One F-mult.
 double application_rounding(const DualProblem &problem, const EqualityPart &part)
 {
   // d - F lambda = part.residual
@@ -129,8 +130,8 @@ balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, doub
           return free_set;
         }
       // The part of e that the set cannot hold is a rigid motion of some bodies. Contacts that
-      // close in it are those that can push back; entries that are rounding of the fastest would
-      // let the set grow to all rows.
+      // close in this motion can push back. Rates that are rounding errors relative to the fastest
+      // rate are excluded, because they would let the set grow to all rows.
       const auto rates   = free_set->gap_closing_rates(problem.e());
       double     fastest = rates.empty() ? 0. : *std::max_element(rates.begin(), rates.end());
       MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
@@ -152,7 +153,7 @@ EqualityPart equality_part(const DualProblem &problem, const RowSet &rows, Multi
   EqualityPart part;
   part.rows   = rows;
   part.lambda = MultiVector(problem.n_owned());
-  // From zero this gives lambda_Im = G'(GG')^+ e, in the range of Q.
+  // From lambda = 0 this gives lambda_Im = G'(GG')^+ e, in the range of Q.
   part.free_set = balanced_set(problem, part.rows, part.lambda, 0.);
 
   MultiVector block = part.lambda;
@@ -166,20 +167,21 @@ EqualityPart equality_part(const DualProblem &problem, const RowSet &rows, Multi
 
   MultiVector both = part.residual;
   part.free_set->project(both);
-  // The first projection leaves rounding of part.residual in the range of G', which may be all.
+  // Project twice, because the first projection leaves rounding of part.residual in the range of
+  // G', which may be all of the result.
   part.free_set->project(both);
   both.append(part.residual);
   both.append(x);
   auto sizes = norms(both, problem.context().communicator());
-  // A projected residual that is rounding is no measure, as where bodies only move or deform
-  // evenly: the tolerance of it would be far below the rounding of the residual itself. Of gaps it
-  // has that of the positions they are differences of.
+  // A projected residual that is rounding error is no valid scale, because the tolerance would be
+  // far below the rounding of the residual itself. This occurs where bodies only move or deform
+  // evenly. A residual of gaps has the rounding of the positions whose differences the gaps are.
   if (sizes[0] <= residual_rounding * sizes[1])
     sizes[0] = *std::max_element(sizes.begin() + 1, sizes.end());
   else if (sizes[0] < suspect_part * sizes[1])
     sizes[0] = std::max(sizes[0], above_rounding * application_rounding(problem, part));
   sizes[0] = std::max(sizes[0], least_part * sizes[1]);
-  // Without loads and gaps the solution is zero, and any scale will do.
+  // Without loads and gaps the solution is zero, and any scale is valid.
   part.scale = sizes[0] == 0. ? 1. : sizes[0];
   if (!std::isfinite(part.scale))
     throw SolveError("the loads or gaps are not finite numbers");

@@ -7,10 +7,11 @@
 
 namespace snug::qp {
 namespace {
-/// Longest step of the projected gradient, in 1 / ||A||; below 2.
+/// Length of steps along the projected gradient, in units of 1 / ||A||. It must be below 2.
 const double gradient_step = 1.9;
 
-/// The norm of A = P F P + rho Q is the larger of those of its parts, whose ranges are orthogonal.
+/// Return the step length. The norm of A = P F P + rho Q is the maximum of the norms of both terms,
+/// because their ranges are orthogonal.
 double step_length(const Mprgp::Sizes &sizes)
 {
   return gradient_step / std::max(sizes.norm, sizes.rho);
@@ -45,9 +46,9 @@ Mprgp::Mprgp(const DualProblem  &the_problem,
   renew_face();
 }
 
-/// Residual and gradient from scratch: one F-mult.
-/// As lambda = lambda_Im + x and P lambda_Im = 0, P lambda = P x and Q x = lambda - P lambda -
-/// lambda_Im. With r = d - F (lambda_Im + P x) the gradient is g = A x - b + q = q + rho Q x - P r.
+/// Compute residual and gradient anew, with one F-mult. As lambda = lambda_Im + x and P lambda_Im =
+/// 0, P lambda = P x and Q x = lambda - P lambda - lambda_Im. With r = d - F (lambda_Im + P x) the
+/// gradient is g = A x - b + q = q + rho Q x - P r.
 void Mprgp::recompute()
 {
   MultiVector Px = lambda;
@@ -64,8 +65,9 @@ void Mprgp::recompute()
   g.add(-1., Pr);
 }
 
-/// The face of the rows that are free at lambda. Its preconditioner is costly, so it is only made
-/// again when the set has changed; conjugate directions do not outlive any change of the problem.
+/// Set the face of the rows that are free at lambda. Its preconditioner is costly, so it is made
+/// again only if the set has changed. Conjugate directions are reset with every change of the
+/// problem.
 void Mprgp::renew_face()
 {
   const RowSet rows = loaded_rows(problem.bounded(), lambda);
@@ -77,7 +79,7 @@ void Mprgp::renew_face()
   direction = MultiVector(problem.n_owned(), 0);
 }
 
-/// A stays and b changes by -rho Q x, so the gradient follows without an F-mult.
+/// A does not change, and b changes by -rho Q x, so the gradient is updated without an F-mult.
 void Mprgp::update_multipliers()
 {
   q.add(sizes.rho, Qx);
@@ -126,9 +128,9 @@ MultiVector Mprgp::feasible_lambda() const
   return result;
 }
 
-/// Free gradient phi, chopped gradient beta, and phi_reduced = phi . min(lambda/a, phi) with the
-/// reduced free gradient of Dostál and Schöberl: a small lambda_i counts little, as a step of
-/// length a along phi would end at its bound at once.
+/// Return the free gradient phi, the chopped gradient beta, and phi_reduced = phi . min(lambda/a,
+/// phi) with the reduced free gradient of Dostál and Schöberl. A small lambda_i has little weight,
+/// because a step of length a along phi would end at its bound at once.
 Mprgp::Gradient Mprgp::projected_gradient() const
 {
   const unsigned int n = problem.n_owned();
@@ -168,22 +170,22 @@ Mprgp::Image Mprgp::apply(const MultiVector &p) const
   image.Ap.add(sizes.rho, image.Qp);
   MultiVector both = image.Ap;
   both.append(g);
-  // p'Ap and p'g in one reduction.
+  // Compute p'Ap and p'g in one reduction.
   const MultiVector products = inner_products(p, both, comm);
   image.p_Ap                 = products(0, 0);
   image.p_g                  = products(0, 1);
   return image;
 }
 
-/// mask_F (P M_F^{-1} P + Q / rho) phi
+/// Return mask_F (P M_F^{-1} P + Q / rho) phi.
 MultiVector Mprgp::precondition(const MultiVector &phi) const
 {
   MultiVector Pphi = phi;
   equality.free_set->project(Pphi);
   MultiVector z = free_face->precondition(Pphi);
   equality.free_set->project(z);
-  // On the range of Q, A is rho Q and its inverse Q / rho. P M_F^-1 P phi has no part there, so
-  // that without this term directions could not reduce G_b x.
+  // On the range of Q, A is rho Q and its inverse is Q / rho. P M_F^-1 P phi has no part in this
+  // range, so without the term Q / rho directions could not reduce G_b x.
   z.add(1. / sizes.rho, phi);
   z.add(-1. / sizes.rho, Pphi);
   for (unsigned int i = 0; i < z.n_rows(); ++i)
@@ -192,7 +194,7 @@ MultiVector Mprgp::precondition(const MultiVector &phi) const
   return z;
 }
 
-/// The largest a for which lambda - a p stays feasible.
+/// Return the maximum a for which lambda - a p is feasible.
 double Mprgp::largest_feasible_step(const MultiVector &p) const
 {
   double a = std::numeric_limits<double>::max();
@@ -203,11 +205,11 @@ double Mprgp::largest_feasible_step(const MultiVector &p) const
   return a;
 }
 
-/// x <- x - a p with all that follows it.
+/// Set x <- x - a p and update all dependent vectors.
 void Mprgp::step(double a, const MultiVector &p, const Image &image)
 {
-  // No step passed here leads out of the bounds: what is clipped below is the rounding of one that
-  // ends at a bound, and g, r and Qx need not follow.
+  // No step given to this function violates the bounds. Clipping removes only the rounding error of
+  // steps that end at a bound, so g, r and Qx need no update.
   lambda.add(-a, p);
   for (unsigned int i = 0; i < lambda.n_rows(); ++i)
     if (problem.bounded()[i])
@@ -217,8 +219,8 @@ void Mprgp::step(double a, const MultiVector &p, const Image &image)
   Qx.add(-a, image.Qp);
 }
 
-/// lambda <- max(lambda - a p, 0); back to a half feasible step and one
-/// along the gradient if that does not lower the function.
+/// Set lambda <- max(lambda - a p, 0). If this does not lower the function, take a half feasible
+/// step and a step along the gradient instead.
 void Mprgp::expand(double a, double a_feasible)
 {
   const MultiVector old = lambda, old_g = g;
@@ -232,14 +234,15 @@ void Mprgp::expand(double a, double a_feasible)
   project_step(a, direction);
   recompute();
   MultiVector move = lambda, sum = g;
-  // Of a quadratic function f(new) - f(old) = (new - old)'(g_new + g_old) / 2, without its values.
+  // For a quadratic function f(new) - f(old) = (new - old)'(g_new + g_old) / 2, so no function
+  // values are needed.
   move.add(-1., old);
   sum.add(1., old_g);
   if (dot(move, sum) > 0.)
     {
-      // The expansion of the original MPRGP: a feasible half step and one of fixed length below
-      // 2/||A|| along the projected gradient. It cannot fail to decrease, which the proof of
-      // convergence needs.
+      // This is the expansion of the original MPRGP: a feasible half step, then a step of fixed
+      // length below 2/||A|| along the projected gradient. It always decreases the function, as the
+      // proof of convergence requires.
       project_step(0.5 * a_feasible, direction);
       recompute();
       const Gradient gradient = projected_gradient();
@@ -252,13 +255,14 @@ void Mprgp::expand(double a, double a_feasible)
   renew_face();
 }
 
-/// One conjugate gradient step; false if no decrease is left to find.
+/// Take one conjugate gradient step. Return false if no decrease is left.
 bool Mprgp::conjugate_step(const Gradient &gradient)
 {
   if (direction.n_columns() == 0)
     direction = precondition(gradient.phi);
   const Image image = apply(direction);
-  // A is positive definite: only at the rounding floor, or with NaN, can this be.
+  // A is positive definite, so p'Ap <= 0 occurs only at the rounding floor, and NaN with invalid
+  // data.
   if (!(image.p_Ap > 0.))
     return false;
   const double a          = image.p_g / image.p_Ap;
@@ -274,7 +278,7 @@ bool Mprgp::conjugate_step(const Gradient &gradient)
     if (!free[i])
       phi(i) = 0.;
   MultiVector z = precondition(phi);
-  // A-orthogonal to the last direction by construction, whatever rounding did to z.
+  // This makes z A-orthogonal to the last direction by construction, for any rounding in z.
   z.add(-dot(z, image.Ap) / image.p_Ap, direction);
   const bool reached_bound = any(loaded_rows(problem.bounded(), lambda) != free, comm);
   if (reached_bound)
@@ -296,13 +300,15 @@ void Mprgp::minimize(const Stop &stop)
   while (problem.context().work.f_mults < stop.f_mults)
     {
       const Gradient gradient = projected_gradient();
-      // Inexactness of SMALSE-M: the inner problem is solved only as well as G_b x = 0 is met.
+      // SMALSE-M is inexact: it solves the inner problem only as accurately as G_b x = 0 is
+      // satisfied.
       const double wanted =
         std::max(std::min(stop.gradient_factor * infeasibility(), stop.gradient_cap),
                  stop.gradient_floor);
       if (!(gradient.norm > wanted))
         return;
-      // Not proportional (with Gamma = 1): freeing active rows gains more than the face does.
+      // The iterate is not proportional (with Gamma = 1): freeing active rows gains more than
+      // minimizing in the face.
       if (gradient.beta_beta > gradient.phi_reduced)
         proportion(gradient);
       else if (!conjugate_step(gradient))

@@ -29,7 +29,7 @@ void MultiVector::add_product(double factor, const MultiVector &x, const MultiVe
   const double       one = 1.;
   if (m == 0 || n == 0 || k == 0)
     return;
-  // dgemv, as dgemm is slower for one column.
+  // Use dgemv for one column, because dgemm is slower.
   if (n == 1)
     BLASgemv_("N", &m, &k, &factor, x.column(0), &m, C.column(0), &stride, &one, column(0),
               &stride);
@@ -37,7 +37,7 @@ void MultiVector::add_product(double factor, const MultiVector &x, const MultiVe
     BLASgemm_("N", "N", &m, &n, &k, &factor, x.column(0), &m, C.column(0), &k, &one, column(0), &m);
 }
 
-/// Columns are contiguous, so that appending some leaves the others where they are.
+/// Columns are contiguous, so appending columns does not move the others within the array.
 void MultiVector::append(const MultiVector &x)
 {
   Assert(rows == x.rows, dealii::ExcDimensionMismatch(rows, x.rows));
@@ -58,8 +58,8 @@ MultiVector MultiVector::columns_from(unsigned int first, unsigned int n) const
   return part;
 }
 
-/// The order of the sum depends on the number of ranks, and so do the last digits; on one number
-/// of ranks they are reproducible and equal on all ranks, so that decisions taken from them agree.
+/// The order of the summation depends on the number of ranks, and with it the last digits. For a
+/// given number of ranks they are reproducible and equal on all ranks, so that decisions agree.
 MultiVector inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm)
 {
   MultiVector products(X.n_columns(), Y.n_columns());

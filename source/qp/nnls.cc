@@ -12,9 +12,9 @@
 
 namespace snug::qp {
 namespace {
-const double right_angle = 1e-12; ///< cosine, in NNLS
+const double right_angle = 1e-12; ///< cosine below which an angle counts as right
 
-/// Solve min || A(:, columns) y - b || with the smallest y.
+/// Return the solution of min || A(:, columns) y - b || with minimum norm of y.
 std::vector<double>
 least_squares(const MultiVector &A, const MultiVector &b, const std::vector<unsigned int> &columns)
 {
@@ -23,8 +23,8 @@ least_squares(const MultiVector &A, const MultiVector &b, const std::vector<unsi
   for (unsigned int i = 0; i < A.n_rows(); ++i)
     for (unsigned int j = 0; j < n; ++j)
       part(i, j) = A(i, columns[j]);
-  // Contact columns are often dependent, as the nodes of a flat face push alike: hence singular
-  // values, with a cut.
+  // Use singular values with a cut, because contact columns are often dependent: the nodes of a
+  // flat face push in the same direction.
   part.compute_inverse_svd(1e-13);
   dealii::Vector<double> y(n);
   part.vmult(y, dealii::Vector<double>(b.column(0), b.column(0) + b.n_rows()));
@@ -64,12 +64,12 @@ private:
   const MultiVector        &A, &b;
   std::vector<double>       lengths;
   MultiVector               x, residual;
-  std::vector<bool>         refused; // since the last decrease
+  std::vector<bool>         refused; // columns refused since the last decrease
   std::vector<unsigned int> positive;
 };
 
-/// The column at the smallest angle to the residual; false if none
-/// would lower the residual.
+/// Add the column at the smallest angle to the residual. Return false if no column would lower the
+/// residual.
 bool NonNegativeLeastSquares::add_column()
 {
   const double      length = norm_of(residual.column(0), b.n_rows());
@@ -89,8 +89,8 @@ bool NonNegativeLeastSquares::add_column()
   return true;
 }
 
-/// Go towards the least squares solution on the positive columns,
-/// dropping the one that first becomes zero until none does.
+/// Move to the least squares solution on the positive columns. Drop the column that first becomes
+/// zero, until no column becomes zero.
 void NonNegativeLeastSquares::minimize_over_columns()
 {
   while (!positive.empty())
@@ -101,7 +101,7 @@ void NonNegativeLeastSquares::minimize_over_columns()
       for (std::size_t k = 0; k < y.size(); ++k)
         if (y[k] <= 0.)
           {
-            // The part of the way to y at which x_k becomes zero.
+            // Fraction of the step to y at which x_k becomes zero.
             const double now  = x(positive[k]);
             const double here = now > 0. ? now / (now - y[k]) : 0.;
             if (blocking == y.size() || here < step)
@@ -134,8 +134,9 @@ NnlsResult NonNegativeLeastSquares::solve()
       residual = b;
       residual.add_product(-1., A, x);
       const double length = norm_of(residual.column(0), b.n_rows());
-      // In exact arithmetic each step lowers the residual. A column that does not, for rounding, is
-      // not tried again before another has: without that the loop could go round for ever.
+      // In exact arithmetic each step lowers the residual. A column that fails to do so by rounding
+      // is not tried again before another column has lowered the residual, because otherwise the
+      // loop might not end.
       if (length < smallest)
         {
           smallest = length;
@@ -169,8 +170,8 @@ MultiVector shortest(const MultiVector &A, const MultiVector &b)
   MultiVector y(m);
   if (length == 0.)
     return y;
-  // min_{x >= 0} ||(A; b') x - (0; 1)||, b in units of its largest entry: the residual (r, s) has
-  // y = -r / s.
+  // min_{x >= 0} ||(A; b') x - (0; 1)||, with b divided by its maximum entry. The residual (r, s)
+  // gives y = -r / s.
   MultiVector E(m + 1, n), f(m + 1);
   for (unsigned int j = 0; j < n; ++j)
     {

@@ -10,29 +10,29 @@
 
 namespace snug::qp {
 namespace {
-/// Directions depend on each other if a pivot of their Gram matrix,
-/// scaled to unit diagonal, is below this.
+/// Directions are linearly dependent if a pivot of their Gram matrix, scaled to unit diagonal, is
+/// below this value.
 const double dependence_cut = 1e-3;
 
-/// A direction is rounding if orthogonalisation leaves less than this
-/// of the square of its F-norm.
+/// A direction is rounding error if orthogonalization leaves less than this part of the square of
+/// its F-norm.
 const double noise = 1e-12;
 
-/// A column whose residual is this part of its tolerance from the span
-/// of the others' converges with them.
+/// A column converges with the others if the distance of its residual from the span of the other
+/// residuals is at most this part of its tolerance.
 const double negligible = 0.5;
 
-/// Columns that stand out by less of the longest than this wait: later
-/// the directions of the others may do.
+/// Columns whose distance from this span is less than this part of the longest column give no
+/// direction yet, because later directions of the others may suffice.
 const double minor = 0.3;
 
-/// Room is made for the directions of so many beforehand.
+/// Number of iterations for whose directions memory is reserved.
 const unsigned int usual_iterations = 32;
 
-/// Iterations without a smaller residual that mean it is at its floor.
+/// Number of iterations without a smaller residual after which the residual has stalled.
 const unsigned int patience = 40;
 
-/// Columns of @p x, divided by @p units, that span the others nearly.
+/// Return columns of @p x, divided by @p units, whose span is near all the others.
 MultiVector leading_part(const MultiVector               &x,
                          const std::vector<unsigned int> &columns,
                          const std::vector<double>       &units,
@@ -52,12 +52,13 @@ MultiVector leading_part(const MultiVector               &x,
   return part;
 }
 
-/// Remembers the smallest worst column and when it was reached.
+/// This class records the minimum of the worst column and the iterations since this minimum.
 class StagnationTest
 {
 public:
-  /// Is at once what grows where only rounding is left (@p is_rounding): new directions would be
-  /// of rounding as well, and soon no longer F-orthogonal.
+  /// Return whether the residual has stalled. If only rounding is left (@p is_rounding), one
+  /// iteration without a smaller residual suffices: further directions would be rounding errors as
+  /// well, and soon no longer F-orthogonal.
   bool stagnates(const double worst, const bool is_rounding)
   {
     ++waited;
@@ -87,7 +88,7 @@ Pcpg::Pcpg(const DualProblem &the_problem,
 {
   if (basis.P.n_columns() == 0)
     basis = {MultiVector(problem.n_owned(), 0), MultiVector(problem.n_owned(), 0)};
-  // p'Fp = unit for all known directions: their Rayleigh quotients are unit / |p|^2.
+  // p'Fp = unit for all known directions, so their Rayleigh quotients are unit / |p|^2.
   for (const double length : norms(basis.P, comm))
     largest_rayleigh_quotient = std::max(largest_rayleigh_quotient, basis.unit / (length * length));
 }
@@ -98,7 +99,7 @@ void Pcpg::correct(MultiVector &lambda, MultiVector &residual) const
     free_set.minimize_over_deflated(lambda, residual);
   if (basis.P.n_columns() == 0)
     return;
-  // As P'FP = unit I the minimum over the span has the coefficients P'r / unit.
+  // The minimum over the span has the coefficients P'r / unit, because P'FP = unit I.
   const MultiVector a = inner_products(basis.P, residual, comm);
   lambda.add_product(1. / basis.unit, basis.P, a);
   residual.add_product(-1. / basis.unit, basis.FP, a);
@@ -121,15 +122,15 @@ MultiVector Pcpg::new_directions(const MultiVector &r, std::vector<double> &remo
 {
   MultiVector Z = free_set.precondition(r);
   free_set.project(Z);
-  // Full reorthogonalisation against all earlier directions, not only the last: contact problems
-  // have few iterations and F costs far more than the products, while with the short recurrence of
-  // CG rounding would cost further F-mults.
+  // Reorthogonalize against all earlier directions, not only the last. Contact problems have few
+  // iterations, and F costs far more than these products. With the short recurrence of CG, rounding
+  // would cost further F-mults.
   removed = orthogonalise(Z);
   if (Z.n_columns() == 1)
     return Z;
-  // A well conditioned basis first: dependent directions cost no F-mult.
-  // It amplifies round-off, so the directions are projected and made
-  // F-orthogonal once more, or residuals grow again near convergence.
+  // Compute a well conditioned basis first, because dependent directions then cost no F-mult. The
+  // combinations amplify rounding errors. The directions are therefore projected and made
+  // F-orthogonal once more, because otherwise residuals grow again near convergence.
   std::vector<double> smallest(Z.n_columns(), 0.);
   for (unsigned int j = 0; j < Z.n_columns(); ++j)
     if (removed[j] > 0.)
@@ -148,7 +149,7 @@ bool Pcpg::step(const MultiVector         &Z,
 {
   const unsigned int n = Z.n_columns(), k = residual.n_columns();
   const MultiVector  FZ = problem.apply(Z);
-  // Z'FZ, Z'Z and Z'r by one product and one reduction over the ranks.
+  // Compute Z'FZ, Z'Z and Z'r by one product and one reduction over the ranks.
   MultiVector right = FZ;
   right.append(Z);
   right.append(residual);
@@ -163,7 +164,7 @@ bool Pcpg::step(const MultiVector         &Z,
         std::max(std::numeric_limits<double>::epsilon() * largest_rayleigh_quotient * ZZ,
                  noise * removed[j]);
     }
-  // A power of two near ||F||, once for the life of the basis: divisions by it are exact.
+  // Choose a power of two near ||F|| once for the lifetime of the basis. Divisions by it are exact.
   if (basis.P.n_columns() == 0 && largest_rayleigh_quotient > 0.)
     basis.unit = std::ldexp(1., std::ilogb(largest_rayleigh_quotient));
   MultiVector ZFZ(n, n);
@@ -171,10 +172,10 @@ bool Pcpg::step(const MultiVector         &Z,
   for (double &least : smallest)
     least /= basis.unit;
   const MultiVector C = orthonormal_combinations(ZFZ, smallest, dependence_cut);
-  // F vanishes on all of Z up to rounding: these directions lower nothing.
+  // If F vanishes on all of Z up to rounding, these directions lower nothing.
   if (C.n_columns() == 0)
     return false;
-  // These products are global sums already.
+  // The products are already sums over ranks.
   const MultiVector a     = inner_products(C, products.columns_from(2 * n, k), MPI_COMM_SELF);
   const MultiVector new_P = times(Z, C), new_FP = times(FZ, C);
   lambda.add_product(1. / basis.unit, new_P, a);
@@ -198,7 +199,8 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
   correct(lambda, residual);
   for (MultiVector *directions : {&basis.P, &basis.FP})
     if (directions->n_columns() == 0 || k > 1)
-      // Appending a column may copy all of them; a basis in use has its room already.
+      // Reserve memory, because appending a column may copy all columns. A basis in use has its
+      // memory.
       directions->reserve(directions->n_columns() + usual_iterations * k);
   while (true)
     {
@@ -215,8 +217,8 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
         first = sizes;
       for (unsigned int j = 0; j < k; ++j)
         {
-          // The projection takes the difference of numbers of the size of the residual, most of
-          // which may be rigid motion: it cannot be brought below the rounding of these.
+          // The projection subtracts numbers of the size of the residual, most of which may be
+          // rigid motion. Its result cannot be brought below their rounding error.
           goals[j] = std::max(tolerances[j], projection_rounding * sizes[k + j]);
           if (sizes[j] <= goals[j])
             continue;

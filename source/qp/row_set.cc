@@ -6,7 +6,7 @@
 
 namespace snug::qp {
 namespace {
-/// Number of the first row of this rank.
+/// Return the number of the first row of this rank.
 long long first_row(unsigned int n_owned, MPI_Comm comm)
 {
   const long long n     = n_owned;
@@ -41,8 +41,8 @@ std::uint64_t fingerprint(const RowSet &rows, MPI_Comm comm)
   std::uint64_t   sum   = 0;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i])
-      // Scrambled numbers are summed modulo 2^64: the order of rows and ranks does not matter, and
-      // two sets are taken for one another with a probability of 2^-64.
+      // Sum scrambled numbers modulo 2^64, so that the order of rows and ranks has no effect. Two
+      // sets have the same sum with a probability of 2^-64.
       sum += scramble(first + i);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, comm);
   return sum;
@@ -58,7 +58,7 @@ RowSet with_one_change(const RowSet &from, const RowSet &to, MPI_Comm comm)
   const long long mine = last;
   MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_LONG_LONG, MPI_MAX, comm);
   RowSet result = from;
-  // Only the rank that owns the row has it as its own last one.
+  // Only the owner of the row has it as the last changed row of its own.
   if (last >= 0 && last == mine)
     result[last - first] = to[last - first];
   return result;

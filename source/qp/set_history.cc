@@ -13,8 +13,9 @@ SetHistory::enter(const std::uint64_t set, const double kkt_residual, const bool
   return care;
 }
 
-/// Care only grows: none, exact on the visit that counts as a cycle, single on the next one. Then
-/// the visits are counted anew, as changes of single rows lead through other sets.
+/// Count the visit and raise the care, which never decreases: exact on the visit that counts as a
+/// cycle, single on the next visit. The visits are then counted anew, because changes of single
+/// rows lead through other sets.
 void SetHistory::count_visits(const std::uint64_t set)
 {
   const unsigned int n = ++visits[set];
@@ -31,8 +32,9 @@ void SetHistory::count_visits(const std::uint64_t set)
     }
 }
 
-/// A slow crawl gives up as well, but for changes of single rows, which have their own limit, and
-/// sets that only shrink, which end: a slender body peels off its base by its thickness at a time.
+/// Give up if the residual decreases too slowly. Changes of single rows are excluded, because they
+/// have their own limit. Shrinking sets are excluded, because they end: a slender body peels off
+/// its base, and each step advances by the thickness of the body.
 void SetHistory::watch_residual(const double kkt_residual, const bool shrinks)
 {
   if (kkt_residual < 0.9 * least_residual)

@@ -10,26 +10,25 @@
 namespace snug::qp {
 namespace {
 const double       penalty_factor    = 10.; ///< rho / ||P F P|| at first
-const double       largest_penalty   = 1e5; ///< rho / ||P F P||; beyond, rounding of rho Q x counts
-const unsigned int patience          = 20;  ///< steps in which ||G_b x|| is to fall to
-const double       wanted_fall       = 0.1; ///< this part, or rho is raised
+const double       largest_penalty   = 1e5; ///< maximum of rho / ||P F P||, by rounding of rho Q x
+const unsigned int patience          = 20;  ///< steps between two checks of ||G_b x||
+const double       wanted_fall       = 0.1; ///< rho is raised unless it falls to this part
 const double       balancing_factor  = 1.;  ///< M / ||P F P|| at first
-const double       balancing_descent = 0.1; ///< of M when L falls short
-const double       first_accuracy    = 0.1; ///< of ||g^P||, to ||b||
+const double       balancing_descent = 0.1; ///< factor of M if L grows too little
+const double       first_accuracy    = 0.1; ///< of ||g^P|| relative to ||b||
 const unsigned int power_steps       = 10;
 const unsigned int max_outer         = 1000;
 
 /**
- * 1.05 times the largest Rayleigh quotient met by power steps with
- * P F P, which start from @p b and a pattern of the row number, counted
- * over all ranks.
+ * Return 1.05 times the maximum Rayleigh quotient in power steps with P F P. The start is the sum
+ * of the normalized @p v and a pattern of the row number, which is counted over all ranks.
  */
 double operator_norm(const DualProblem &problem, const FreeSet &all, MultiVector v)
 {
   const MPI_Comm      comm  = problem.context().communicator();
   const double        size  = norms(v, comm)[0];
   const unsigned long n     = v.n_rows();
-  unsigned long       first = 0; // row of this rank
+  unsigned long       first = 0; // first row of this rank
   MPI_Scan(&n, &first, 1, MPI_UNSIGNED_LONG, MPI_SUM, comm);
   first -= n;
   for (unsigned int i = 0; i < n; ++i)
@@ -99,7 +98,8 @@ void SmalseRun::begin(const WarmStart &start)
 {
   const MPI_Comm comm = context.communicator();
   MultiVector    none(problem.n_owned(), 0);
-  // Its projector is that of all rows; residuals are measured as by other solvers.
+  // The projector of SMALSE-M is that of all rows, but residuals are scaled as by the other
+  // solvers.
   const double scale = equality_part(problem, problem.expected_rows(), none).scale;
   equality           = equality_part(problem, RowSet(problem.n_owned(), 1), none);
   equality.scale     = scale;
@@ -114,7 +114,7 @@ void SmalseRun::begin(const WarmStart &start)
   inner = std::make_unique<Mprgp>(problem, equality, sizes, lambda);
   if (!warm)
     return;
-  // -g = w at the solution: q = -Q r - G' alpha
+  // At the solution -g = w, hence q = -Q r - G' alpha.
   MultiVector q = inner->residual();
   equality.free_set->project(q);
   q.add(-1., inner->residual());
@@ -122,9 +122,9 @@ void SmalseRun::begin(const WarmStart &start)
   inner->set_multipliers(q);
 }
 
-/// The rows with a force tell the rigid amplitudes best, but not all where these rows leave a
-/// motion free, as of a block whose load goes through one node. There those of the multipliers keep
-/// the other contacts from overlapping.
+/// Rigid amplitudes are best determined from the rows with a force. Where these rows leave a motion
+/// free, as of a block loaded through one node, they do not determine all amplitudes. The
+/// amplitudes from the multipliers then keep the other contacts from overlapping.
 KktResidual SmalseRun::kkt_of(const FreeSet     &free_set,
                               const MultiVector &lambda,
                               const MultiVector &residual) const
@@ -141,8 +141,8 @@ KktResidual SmalseRun::kkt_of(const FreeSet     &free_set,
 }
 
 /**
- * True if the solution is found: the free rows of the iterate carry a
- * feasible lambda >= 0 that meets the tolerance with a fresh residual.
+ * Return whether the solution is found: the free rows of the iterate carry a feasible lambda >= 0
+ * that meets the tolerance with a residual computed anew.
  */
 bool SmalseRun::certified()
 {
@@ -174,9 +174,10 @@ bool SmalseRun::certified()
   return true;
 }
 
-/// Each step lowers ||G_b x|| by a factor of about 1 / (1 + rho s), s the least eigenvalue of
-/// G_b A^-1 G_b' on the free rows. Where few rows carry slender bodies s is so small that with the
-/// first rho thousands of steps would be needed; the preconditioned inner solves take any rho.
+/// Adapt M, the multipliers and rho. Each step lowers ||G_b x|| by a factor of about 1 / (1 + rho
+/// s), with s the minimum eigenvalue of G_b A^-1 G_b' on the free rows. Where few rows carry
+/// slender bodies, s is so small that the first rho would need thousands of steps. The
+/// preconditioned inner solves allow any rho.
 void SmalseRun::end_step(Mprgp::Stop &stop)
 {
   const double infeasibility = inner->infeasibility();
@@ -208,7 +209,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
   stop.gradient_floor  = 0.3 * tolerance;
   stop.f_mults         = f_mults_before + parameters.max_iterations;
   double wanted        = parameters.relative_tolerance;
-  double tried         = 0.; // ||G_b x|| when it was not certified
+  double tried         = 0.; // ||G_b x|| at the last failed certification
   while (f_mults() < parameters.max_iterations && solution.outer_iterations < max_outer)
     {
       inner->minimize(stop);
@@ -218,8 +219,8 @@ DualSolution SmalseRun::run(const WarmStart &start)
       line << "SMALSE-M, step " << solution.outer_iterations << ": KKT residual "
            << solution.kkt_residual << ", " << f_mults() << " F-mults";
       context.progress(line.str());
-      // What P x lacks in the bounds, the certified state pays for: it falls with ||G_b x||, also
-      // where the KKT residual is at its rounding.
+      // Certification removes the violation of the bounds by P x, which increases the residual. The
+      // violation falls with ||G_b x||, also where the KKT residual is at its rounding error.
       if (solution.kkt_residual <= wanted ||
           (solution.kkt_residual <= parameters.relative_tolerance &&
            inner->infeasibility() <= 0.1 * tried))

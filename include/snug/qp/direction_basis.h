@@ -4,24 +4,24 @@
 #include <snug/qp/dual_problem.h>
 
 namespace snug::qp {
-/// Directions P with P' F P = unit I, and F P (n_owned x n each). The unit
-/// is a power of two of F's size: nothing takes a square root of F's units,
-/// so that scaling F by a power of two changes no digit.
+/// Directions P with P' F P = unit I, and the products F P (n_owned x n each). The unit is a power
+/// of two of the size of F: no square root of the units of F is taken, so that scaling F by a power
+/// of two changes no digit.
 struct DirectionBasis
 {
   MultiVector P{0, 0}, FP{0, 0};
   double      unit = 1.;
 
   /**
-   * Such a basis of the directions' span that vanishes on
-   * @p rows; without F-mults. Empty if there are as many of these rows
-   * with nonzeros as directions. Collective.
+   * Return a basis of the part of the directions' span that vanishes on @p rows. This costs no
+   * F-mult. The basis is empty if at least as many of these rows have nonzeros as there are
+   * directions. Collective.
    */
   DirectionBasis off(const RowSet &rows, MPI_Comm comm) const;
 };
 
-/// Orthonormal basis, n x (n - rank), of what @p A (m x n, n > 0) takes to zero:
-/// singular values up to @p cut are rounding.
+/// Return an orthonormal basis, n x (n - rank), of the null space of @p A (m x n, n > 0). Singular
+/// values up to @p cut count as rounding errors.
 MultiVector null_space(const MultiVector &A, double cut);
 } // namespace snug::qp
 

@@ -5,19 +5,18 @@
 
 namespace snug::qp {
 /**
- * Rank-revealing Cholesky factorization of the symmetric positive
- * semidefinite S (k x k): C (k x rank) with C' S C = I. Pivots (of S
- * scaled to unit diagonal) below @p cut are dropped, and rows whose
- * diagonal entry is not above their entry of @p smallest.
+ * Return C (k x rank) with C' S C = I by a rank-revealing Cholesky factorization of the symmetric
+ * positive semidefinite S (k x k). Pivots (of S scaled to unit diagonal) below @p cut are dropped,
+ * and also rows whose diagonal entry does not exceed their entry of @p smallest.
  */
 MultiVector
 orthonormal_combinations(const MultiVector &S, const std::vector<double> &smallest, double cut);
 
 /**
- * Some of k columns whose span all of them are near: by Cholesky
- * factorization with pivots of their Gram matrix @p S (k x k), columns are
- * taken, farthest first, until none is farther from the span of those taken
- * than @p distance, or than @p part of the longest column. At least one.
+ * Return the indices of some of k columns such that all columns are near the span of these. @p S is
+ * the Gram matrix (k x k) of the columns. A Cholesky factorization with pivots takes the farthest
+ * column first, at least one. It stops if no column is farther from the span of the taken columns
+ * than @p distance, or than @p part of the length of the longest column.
  */
 std::vector<unsigned int> leading_columns(const MultiVector &S, double distance, double part);
 } // namespace snug::qp

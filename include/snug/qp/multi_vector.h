@@ -7,8 +7,8 @@
 
 namespace snug::qp {
 /**
- * This rank's rows of @p k vectors, stored column by column. One vector is
- * the case k = 1; blocks of right-hand sides share every operation.
+ * This class holds this rank's rows of @p k vectors, stored column by column. One vector is the
+ * case k = 1. Blocks of right-hand sides share every operation.
  */
 class MultiVector
 {
@@ -33,21 +33,21 @@ public:
 
   const double *column(unsigned int j) const { return values.data() + std::size_t(j) * rows; }
 
-  /// this += factor * x; equal sizes.
+  /// Add factor * x, of equal size, to this multi-vector.
   void add(double factor, const MultiVector &x);
 
-  /// this += factor * x * C with C (x.n_columns x n_columns).
+  /// Add factor * x * C to this multi-vector, with C (x.n_columns x n_columns).
   void add_product(double factor, const MultiVector &x, const MultiVector &C);
 
-  /// Append the columns of @p x, which has as many rows. Start from
-  /// MultiVector(n_rows, 0): the default has one column.
+  /// Append the columns of @p x, which has as many rows. Start from MultiVector(n_rows, 0), because
+  /// the default has one column.
   void append(const MultiVector &x);
 
-  /// Room for @p n columns: until then append() copies no earlier ones, and
-  /// memory that is not used is not touched.
+  /// Reserve memory for @p n columns. Until then append() copies no earlier columns, and unused
+  /// memory is not touched.
   void reserve(unsigned int n);
 
-  /// Columns [first, first + n).
+  /// Return the columns [first, first + n).
   MultiVector columns_from(unsigned int first, unsigned int n) const;
 
 private:
@@ -56,20 +56,19 @@ private:
   std::vector<double> values;
 };
 
-/// X' Y summed over ranks, (X.n_columns x Y.n_columns), equal on all
-/// ranks. Collective.
+/// Return X' Y summed over ranks (X.n_columns x Y.n_columns), equal on all ranks. Collective.
 MultiVector inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm);
 
-/// X' Y of these rows alone.
+/// Return X' Y of the rows of this rank alone.
 MultiVector transpose_times(const MultiVector &X, const MultiVector &Y);
 
-/// Euclidean norms of the columns, equal on all ranks. Collective.
+/// Return the Euclidean norms of the columns, equal on all ranks. Collective.
 std::vector<double> norms(const MultiVector &X, MPI_Comm comm);
 
-/// x C with C (x.n_columns x n).
+/// Return x C with C (x.n_columns x n).
 MultiVector times(const MultiVector &x, const MultiVector &C);
 
-/// The rows of x with the given numbers.
+/// Return the rows of x with the given numbers.
 MultiVector rows_of(const MultiVector &x, const std::vector<unsigned int> &numbers);
 } // namespace snug::qp
 

@@ -8,9 +8,9 @@
 
 namespace snug::qp {
 /**
- * Eight columns of a multi-vector, or what is left of them and zeros, with the numbers of a row
- * side by side: loops over the entries of a sparse matrix read it once for all eight, and the
- * compiler knows their number.
+ * Eight columns of a multi-vector, or the remaining columns and zeros, with the numbers of a row
+ * side by side. A loop over the entries of a sparse matrix then reads the matrix once for all eight
+ * columns, and the compiler knows their number.
  */
 class PackedColumns
 {
@@ -18,7 +18,7 @@ public:
   static constexpr unsigned int width = 8;
   using Row                           = std::array<double, width>;
 
-  /// Columns [first, first + width) of @p x, as far as there are.
+  /// Copy the columns [first, first + width) of @p x, as far as they exist.
   PackedColumns(const MultiVector &x, const unsigned int first_column)
     : first(first_column), rows(x.n_rows())
   {
@@ -30,7 +30,7 @@ public:
   Row       &operator[](const unsigned int i) { return rows[i]; }
   const Row &operator[](const unsigned int i) const { return rows[i]; }
 
-  /// Put them back into @p x.
+  /// Copy the columns back into @p x.
   void unpack(MultiVector &x) const
   {
     for (unsigned int k = first; k < end(x); ++k)
@@ -38,7 +38,7 @@ public:
         x(i, k) = rows[i][k - first];
   }
 
-  /// y += a x
+  /// Add a x to y.
   static void add(const double a, const Row &x, Row &y)
   {
     for (unsigned int k = 0; k < width; ++k)

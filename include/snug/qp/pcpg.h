@@ -8,74 +8,70 @@ struct PcpgResult
 {
   unsigned int        iterations = 0;
   std::vector<double> residual_norms; ///< ||P_M (d_j - F lambda_j)||
-  /// Every column is within its tolerance or zero up to rounding; false
-  /// if the iterations ran out or the residual no longer falls.
+  /// True if every column is within its tolerance or zero up to rounding. False if the iterations
+  /// ran out or the residual stalled.
   bool converged = false;
-  /// It is not, but the residual is rounding and falls no more; counts as converged.
+  /// True if the residual exceeds its tolerance, but is rounding error and has stalled. converged
+  /// is then true as well.
   bool at_rounding = false;
 };
 
 /**
- * Block preconditioned conjugate projected gradients with full
- * reorthogonalisation for the linear problems on a face,
+ * Block preconditioned conjugate projected gradients with full reorthogonalization for the linear
+ * problems on a face,
  * @f[ P_M (d_j - F \lambda_j) = 0, \qquad j = 1, \dots, k. @f]
- * Each iteration adds a block of directions
- * @f$P_M M^{-1}_M P_M r_j@f$, made F-orthonormal to all earlier ones, and
- * minimizes all k columns over it. Only columns whose residuals, measured
- * by their tolerances, stand out from the span of the others' give
- * directions, and linearly dependent ones are dropped before F is applied:
- * similar columns cost little more than one of them does.
+ * Each iteration adds a block of directions @f$P_M M^{-1}_M P_M r_j@f$, made F-orthonormal to all
+ * earlier directions, and minimizes all k columns over it. A column gives a direction only if its
+ * residual, relative to its tolerance, is far enough from the span of the other residuals. Linearly
+ * dependent directions are dropped before F is applied. Similar columns therefore cost little more
+ * than one of them does.
  *
- * The directions are kept: solving again on the same face, with tighter
- * tolerances or corrected residuals, continues the iteration. Those that
- * vanish on rows that leave the face are directions on the new face too,
- * and cost nothing there.
+ * The directions are kept: solving again on the same face, with tighter tolerances or corrected
+ * residuals, continues the iteration. Directions that vanish on the rows that leave the face are
+ * directions on the next face too, and cost nothing there.
  *
- * Source: O'Leary, The block conjugate gradient algorithm, Linear Algebra
- * Appl. 29 (1980); Farhat, Roux, An unconventional domain decomposition
- * method, SIAM J. Sci. Stat. Comput. 13 (1992).
+ * Source: O'Leary, The block conjugate gradient algorithm, Linear Algebra Appl. 29 (1980); Farhat,
+ * Roux, An unconventional domain decomposition method, SIAM J. Sci. Stat. Comput. 13 (1992).
  */
 class Pcpg
 {
 public:
-  /// Problem and face must outlive this object; @p known directions must
-  /// lie in the face. Whether it uses the directions C that are known for
-  /// every face, whose rounding bounds the accuracy.
+  /// Store the references; problem and face must outlive this object. The @p known directions must
+  /// lie in the face. If @p deflates, the method uses the directions C that are known for every
+  /// face, whose rounding errors bound the accuracy.
   Pcpg(const DualProblem &problem,
        const FreeSet     &free_set,
        DirectionBasis     known    = DirectionBasis(),
        bool               deflates = true);
 
   /**
+   * Solve on the face. Costs one F-mult per direction; with k = 1 and no earlier directions at most
+   * max_iterations. Collective.
    * @param[in,out] lambda feasible start, then solution (n_owned x k).
-   * @param[in,out] residual d - F lambda for start and solution, updated
-   *   by recurrence.
+   * @param[in,out] residual d - F lambda for start and solution, updated by recurrence.
    * @param[in] tolerances absolute, one per column.
-   * Collective. Costs one F-mult per direction; with k = 1 and no earlier
-   * directions at most max_iterations.
    */
   PcpgResult solve(MultiVector               &lambda,
                    MultiVector               &residual,
                    const std::vector<double> &tolerances,
                    unsigned int               max_iterations);
 
-  /// All directions so far.
+  /// Return all directions so far.
   const DirectionBasis &directions() const { return basis; }
 
 private:
-  /// Minimize over directions already there.
+  /// Minimize over the directions that are already known.
   void correct(MultiVector &lambda, MultiVector &residual) const;
 
-  /// x <- (I - P (F P)' / unit) x; squares of the F-norms of what was
-  /// removed.
+  /// Set x <- (I - P (F P)' / unit) x. Return the squares of the F-norms of the removed parts.
   std::vector<double> orthogonalise(MultiVector &x) const;
 
-  /// New directions from the projected residuals @p r, and what the last
-  /// orthogonalisation removed from them.
+  /// Return directions from the projected residuals @p r. @p removed receives the squares of the
+  /// F-norms that the last orthogonalization removed from the directions.
   MultiVector new_directions(const MultiVector &r, std::vector<double> &removed) const;
 
-  /// Append an F-orthonormal basis of @p Z and minimize over it; false
-  /// if F vanishes on Z up to rounding.
+  /// Append an F-orthonormal basis of @p Z and minimize over it. Return false if F vanishes on Z up
+  /// to rounding.
   bool step(const MultiVector         &Z,
             const std::vector<double> &removed,
             MultiVector               &lambda,
@@ -89,7 +85,7 @@ private:
   double             largest_rayleigh_quotient = 0.;
 };
 
-/// Pcpg with an empty basis; the directions are forgotten. Collective.
+/// Solve by Pcpg with an empty basis and forget the directions. Collective.
 PcpgResult pcpg(const DualProblem         &problem,
                 const FreeSet             &free_set,
                 MultiVector               &lambda,

@@ -8,8 +8,8 @@
 #include <map>
 
 namespace snug::qp {
-/// The active sets met so far and the KKT residuals they were left with;
-/// says how careful to be.
+/// This class records the visited active sets and the KKT residuals, and decides how carefully the
+/// active set method must proceed.
 class SetHistory
 {
 public:
@@ -23,11 +23,11 @@ public:
 
   explicit SetHistory(const ActiveSetOptions &options);
 
-  /// The set with this fingerprint is entered once more, coming from one
-  /// with @p kkt_residual; @p shrinks: which has all its rows.
+  /// Record a visit of the set with fingerprint @p set, coming from a set with @p kkt_residual.
+  /// @p shrinks tells that the previous set contains all rows of this one.
   Care enter(std::uint64_t set, double kkt_residual, bool shrinks);
 
-  /// What the sets do, for the log, when it is time to give up.
+  /// Return the reason for giving up, for the log.
   const std::string &reason() const;
 
 private:
@@ -36,7 +36,7 @@ private:
   Care                                  care           = none;
   unsigned int                          single_steps   = 0;
   double                                least_residual = std::numeric_limits<double>::max();
-  unsigned int idle_steps = 0; ///< with rows that enter, since it fell by a tenth
+  unsigned int idle_steps = 0; ///< steps with entering rows since the last fall by a tenth
   std::string  why;
 
   void count_visits(std::uint64_t set);

@@ -5,14 +5,13 @@
 
 namespace snug::qp {
 /**
- * SMALSE-M: semimonotonic augmented Lagrangians for separable bounds and
- * equalities, with the balancing parameter M adapted and the penalty
- * @f$\varrho = 10 \|P F P\|@f$ fixed; the inner problems by Mprgp. The
- * norm comes from ten power steps, one F-mult each. Slower than ActiveSet
- * but with a proof of convergence.
+ * SMALSE-M: semimonotonic augmented Lagrangians for separable bounds and equalities. The balancing
+ * parameter M is adapted. The penalty is @f$\varrho = 10 \|P F P\|@f$ and is raised only if the
+ * infeasibility falls too slowly. Mprgp solves the inner problems. The norm comes from ten power
+ * steps, one F-mult each. The method is slower than ActiveSet but has a proof of convergence.
  *
- * Source: Dostál, Kozubek, Sadowská, Vondrák, Scalable Algorithms for
- * Contact Problems, Springer (2017).
+ * Source: Dostál, Kozubek, Sadowská, Vondrák, Scalable Algorithms for Contact Problems, Springer
+ * (2017).
  */
 class Smalse : public Solver
 {

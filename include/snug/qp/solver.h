@@ -15,28 +15,28 @@ namespace snug::qp {
 struct SolverParameters
 {
   std::string  method             = "active set";
-  double       relative_tolerance = 1e-6; ///< of the KKT residual
-  unsigned int max_iterations     = 2000; ///< F-mults of one solve
+  double       relative_tolerance = 1e-6; ///< tolerance of the KKT residual
+  unsigned int max_iterations     = 2000; ///< maximum number of F-mults of one solve
 
   void declare(Entries &entries);
 };
 
-/// Where a solve begins. Empty vectors mean a cold start.
+/// Start of a solve. Empty vectors mean a cold start.
 struct WarmStart
 {
   MultiVector lambda; ///< n_owned x 1
-  /// Free contact rows and all equality rows. Empty: those that press, unless the KKT residual of
-  /// lambda is larger than that of a cold start, which is taken then.
+  /// Free contact rows and all equality rows. If empty, the rows with a force in lambda are taken,
+  /// unless the KKT residual of lambda is larger than that of a cold start. The solve then starts
+  /// cold.
   RowSet active;
-  /// Of an earlier solve with the same F; may be empty.
+  /// Directions of an earlier solve with the same F; may be empty.
   DirectionBasis directions = {};
 };
 
 /**
- * The natural KKT residual, one measure for every solver:
- * r_E = w_E, r_i = -min(lambda_i F_ii, -w_i) with
- * w = d - F lambda + G' alpha, relative to ||P (d - F lambda_Im)||, plus
- * ||G lambda - e|| over the loads and forces, see kkt_residual().
+ * Solution of the dual QP. All solvers have the same measure, the natural KKT residual: r_E = w_E,
+ * r_i = -min(lambda_i F_ii, -w_i) with w = d - F lambda + G' alpha, relative to ||P (d - F
+ * lambda_Im)||, plus ||G lambda - e|| relative to the loads and forces, see kkt_residual().
  */
 struct DualSolution
 {
@@ -48,7 +48,7 @@ struct DualSolution
   unsigned int  outer_iterations = 0;
   unsigned long f_mults          = 0;
   std::string   method; ///< the solver that finished
-  /// of the linear problem on the active set, if the solver used any
+  /// Directions of the linear problem on the active set, if the solver used any.
   DirectionBasis directions;
 };
 
@@ -66,7 +66,7 @@ public:
   virtual DualSolution solve(const DualProblem &problem, const WarmStart &start) const = 0;
 };
 
-/// {"active set", "SMALSE-M"}
+/// Return the table of solvers, {"active set", "SMALSE-M"}.
 const ChoiceTable<std::unique_ptr<Solver>(const SolverParameters &)> &solver_table();
 } // namespace snug::qp
 
