@@ -13,9 +13,9 @@ struct TributaryFaces
   const FaceShape<dim>            &shape;
 };
 
-/// Return whether the area of a node is zero except for curvature. On the axis of revolution, int N
-/// r dr = 0 for the corner nodes of degree 2. A pressure causes no force there, and a force causes
-/// no pressure.
+/// Return whether the area of a node is zero except for curvature. For corner nodes of degree 2 on
+/// the axis of revolution, int N r dr = 0. A pressure causes no force there, and a force causes no
+/// pressure.
 template <int dim>
 bool is_without_area(const mesh::Surface<dim>     &surface,
                      unsigned int                  degree,
