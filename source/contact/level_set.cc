@@ -13,8 +13,8 @@ namespace {
 /// times that of the formula.
 const double level_set_step = 1. / 25.;
 
-/// Return the rotation in the plane of e_last and @p axis that maps e_last to the direction of @p
-/// axis.
+/// Return the rotation in the plane of e_last and @p axis that maps e_last to the direction of
+/// @p axis.
 template <int dim>
 dealii::Tensor<2, dim> rotation_to(dealii::Tensor<1, dim> axis)
 {

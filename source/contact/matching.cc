@@ -19,9 +19,9 @@ double offset_across(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, di
 }
 } // namespace
 
-/// Where faces are apart and not parallel, nodes may face each other in any direction between the
-/// two normals. The tolerance therefore includes the offset that the angle between the normals
-/// causes over the gap.
+/// Count the matching nodes. Where faces are apart and not parallel, nodes may face each other in
+/// any direction between the two normals. The tolerance therefore includes the offset that the
+/// angle between the normals causes over the gap.
 template <int dim>
 Matching matching(const PairGeometry<dim> &pair)
 {

@@ -70,9 +70,9 @@ class NodalRows : public RowGroup<dim>
 public:
   using Field = typename RowGroup<dim>::Field;
 
-  /// Slave nodes that hang have no row (project() leaves them out). They move with their masters,
-  /// whose rows hold them. A row of a hanging node would be nearly a combination of the rows of its
-  /// masters.
+  /// Find the slave nodes with rows. Slave nodes that hang have no row (project() leaves them out).
+  /// They move with their masters, whose rows hold them. A row of a hanging node would be nearly a
+  /// combination of the rows of its masters.
   explicit NodalRows(const PairGeometry<dim> &pair)
     : surface(pair.surface), shape(pair.shape), sides(pair.sides), held(pair.held)
   {

@@ -73,7 +73,8 @@ Choice<Make<dim>> round(const std::string &name, const std::string &meaning, boo
 }
 } // namespace
 
-/// The lists come from parameter files, for which the number of entries has been checked.
+/// Return the coordinates as a point. The lists come from parameter files, for which the number of
+/// entries has been checked.
 template <int dim>
 dealii::Point<dim> to_point(const std::vector<double> &coordinates)
 {

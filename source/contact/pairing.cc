@@ -239,7 +239,7 @@ void Contact<dim>::share_rows(const Field &positions, const faces::HeldDirection
       }
 }
 
-/// All data are replicated, so all ranks reach the same answer and throw the same error.
+/// Check replicated data, so that all ranks reach the same answer and throw the same error.
 template <int dim>
 void Contact<dim>::check_named_pairs() const
 {

@@ -15,7 +15,7 @@ typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values
   return t;
 }
 
-/// deal.II's cross_product_2d(t) is (t_y, -t_x), which is t rotated by -90 degrees. Faces are
+/// Return cross_product_2d(t) of deal.II, (t_y, -t_x), which is t rotated by -90 degrees. Faces are
 /// oriented such that this vector, or t_1 x t_2, points out of the body.
 dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
 {
@@ -27,7 +27,7 @@ dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t)
   return dealii::cross_product_3d(t[0], t[1]);
 }
 
-/// The area vector is linear in the tangent in 2D and bilinear in 3D.
+/// Use that the area vector is linear in the tangent in 2D and bilinear in 3D.
 dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &,
                                             const std::array<dealii::Tensor<1, 2>, 1> &dt)
 {

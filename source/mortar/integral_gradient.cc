@@ -18,8 +18,8 @@ struct Integrand
   faces::FaceCoordinates<dim, double> to_slave{}, to_master{};
   std::array<double, dim>             to_offset{}; ///< with respect to delta
 
-  /// f = sum_j N_j (d_j + sum_l m_jl N_l + sum_k P_jk N_k + sum_c o_jc delta_c)
-  ///     + sum_jk W_jk (N_j N_k)^p
+  /// Compute f = sum_j N_j (d_j + sum_l m_jl N_l + sum_k P_jk N_k + sum_c o_jc delta_c)
+  ///             + sum_jk W_jk (N_j N_k)^p and its derivatives.
   Integrand(const PairWeights                    &weights,
             const faces::FaceValues<dim, double> &slave,
             const faces::FaceValues<dim, double> &master,

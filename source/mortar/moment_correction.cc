@@ -123,8 +123,8 @@ void MomentCorrection<dim, Number>::solve_for_c()
     component *= -1.;
 }
 
-/// With b = sum_k w_k q_k d_k and e = -A^+ P b the scalar is b . c = e . G. Its differential is d(b
-/// . c) = c . db + e . dG + e' dS c. The last lines include the rotation of P.
+/// Differentiate the scalar. With b = sum_k w_k q_k d_k and e = -A^+ P b it is b . c = e . G, and
+/// d(b . c) = c . db + e . dG + e' dS c. The last lines include the rotation of P.
 template <int dim, typename Number>
 typename MomentCorrection<dim, Number>::Gradient
 MomentCorrection<dim, Number>::gradient(const std::vector<Number> &q) const

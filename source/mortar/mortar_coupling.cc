@@ -42,9 +42,9 @@ Matrix<Number> inverse(Matrix<Number> m)
   return result;
 }
 
-/// Return A with psi_j = sum_l A_jl N_l, biorthogonal. A = diag(d) m^-1 makes int psi_j N_l =
-/// delta_jl d_j (Wohlmuth, SIAM J. Numer. Anal. 38, 2000). So the row of each multiplier has the
-/// displacement of one slave node only.
+/// Return A with psi_j = sum_l A_jl N_l, biorthogonal. A = diag(d) m^-1 makes
+/// int psi_j N_l = delta_jl d_j (Wohlmuth, SIAM J. Numer. Anal. 38, 2000). So the row of each
+/// multiplier has the displacement of one slave node only.
 template <typename Number>
 Matrix<Number> dual_coefficients(const FaceIntegrals<Number> &integrals)
 {

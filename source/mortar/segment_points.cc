@@ -126,12 +126,11 @@ faces::PlaneFace<dim, Number> projected(unsigned int                  degree,
   return {degree, nodes};
 }
 
-/// Return the cells between neighbouring nodes with positive orientation; cells without it are left
-/// out.
-template <int dim, typename Number>
-std::vector<ConvexCell<dim - 1, Number>>
+/// Return the cells between neighbouring nodes with positive orientation; other cells are left out.
 /// A quadratic face has curved edges in the plane. The convex cells between its nodes replace the
 /// face in the intersection only. A master faces the other way, so its cells are @p reversed.
+template <int dim, typename Number>
+std::vector<ConvexCell<dim - 1, Number>>
 cells(unsigned int degree, const faces::PlaneFace<dim, Number> &face, bool reversed)
 {
   std::vector<ConvexCell<dim - 1, Number>> result;

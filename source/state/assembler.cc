@@ -45,8 +45,8 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
   build_pattern();
 }
 
-/// Nodes are neighbours if a cell reaches both nodes. Through a hanging node a cell also reaches
-/// masters that are not among its own nodes.
+/// Find the neighbours of each node. Nodes are neighbours if a cell reaches both nodes. Through a
+/// hanging node a cell also reaches masters that are not among its own nodes.
 template <int dim>
 void Assembler<dim>::build_pattern()
 {
@@ -71,7 +71,7 @@ void Assembler<dim>::build_pattern()
     }
 }
 
-/// Hanging nodes have no rows, because Subdomain::nodes contains their masters instead.
+/// Return no rows for hanging nodes, because Subdomain::nodes contains their masters instead.
 template <int dim>
 feti::CsrMatrix Assembler<dim>::sparsity() const
 {
@@ -114,7 +114,7 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
     }
 }
 
-/// The load is that of this subdomain alone. A node with several copies has parts of its load on
+/// Assemble the load of this subdomain alone. A node with several copies has parts of its load on
 /// all copies, and B'lambda balances the copies.
 template <int dim>
 std::vector<double> Assembler<dim>::load(const Field     &positions,
@@ -137,8 +137,9 @@ std::vector<double> Assembler<dim>::load(const Field     &positions,
   return f;
 }
 
-/// About a far centre a rotation is nearly a translation, and orthogonalization would lose digits,
-/// so the modes are centred in the subdomain. Divided by the radius, all modes are of size one.
+/// Compute the modes about the centre of the subdomain, because about a far centre a rotation is
+/// nearly a translation, and orthogonalization would lose digits. Divided by the radius, all modes
+/// are of size one.
 template <int dim>
 void Assembler<dim>::rigid_modes(const Field                  &positions,
                                  const dealii::Tensor<1, dim> &centre,
@@ -294,7 +295,7 @@ elasticity::LinearTraction<dim> Assembler<dim>::linear_traction(unsigned int    
   return found == tractions[load_case].end() ? elasticity::LinearTraction<dim>() : found->second;
 }
 
-/// The load of such a subdomain has to be assembled again even if none of its nodes has moved.
+/// Return whether the load must be assembled again even if no node of this subdomain has moved.
 template <int dim>
 bool Assembler<dim>::has_resultants() const
 {

@@ -43,7 +43,7 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
     owned_contact.push_back(row.source == Source::contact ? row.index : n_contact_rows());
 }
 
-/// scale_rows() sets the scale of vanished rows to zero.
+/// Return the rows with the scale zero, which scale_rows() sets for vanished rows.
 template <int dim>
 std::vector<unsigned int> Gluing<dim>::vanished_rows() const
 {
@@ -54,7 +54,7 @@ std::vector<unsigned int> Gluing<dim>::vanished_rows() const
   return vanished;
 }
 
-/// Keep the entries of the reference geometry, also where a value happens to be zero at this
+/// Fill the entries of the reference geometry, also where a value happens to be zero at this
 /// geometry, because the pattern of B must not depend on the design.
 template <int dim>
 void Gluing<dim>::fill_B(unsigned int                s,

@@ -144,9 +144,9 @@ ResultantLoads<dim>::traction_derivatives(const Field &positions, const Field &v
   return result;
 }
 
-/// f . u = F . U / A + M . y with U = int u dA and y = I^-1 int r x u dA over the whole boundary. A
-/// first pass sums U and the moment over all ranks. A second pass adds the derivatives of these
-/// sums and of the positions of the faces.
+/// Differentiate f . u = F . U / A + M . y with U = int u dA and y = I^-1 int r x u dA over the
+/// whole boundary. A first pass sums U and the moment over all ranks. A second pass adds the
+/// derivatives of these sums and of the positions of the faces.
 template <int dim>
 void ResultantLoads<dim>::add_work_gradient(unsigned int load_case,
                                             const Field &positions,

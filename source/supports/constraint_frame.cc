@@ -75,8 +75,8 @@ ConstraintFrame<dim> Orthonormalised<dim>::derivative(const ConstraintFrame<dim>
   return result;
 }
 
-// Solve L' m = mu by back substitution, because sum_k mu_k (q_k . u - s_k) = sum_j m_j (d_j . u -
-// v_j).
+// Solve L' m = mu by back substitution, because
+// sum_k mu_k (q_k . u - s_k) = sum_j m_j (d_j . u - v_j).
 template <int dim>
 std::vector<double> Orthonormalised<dim>::given_multipliers(std::vector<double> multipliers) const
 {

@@ -335,7 +335,7 @@ void DirichletConstraints<dim>::add_energy_gradient(
   surface.add_owned(at_surface, gradient);
 }
 
-/// Reactions belong to orthonormal directions, so convert them to the given directions of the
+/// Convert the reactions, which belong to orthonormal directions, to the directions of the
 /// supports.
 template <int dim>
 std::vector<typename DirichletConstraints<dim>::Force>

@@ -27,7 +27,7 @@ struct NamedPair
   /// belong to this pair
   std::vector<std::pair<unsigned int, double>> rows;
 
-  /// "slave: master"
+  /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }
 };
 

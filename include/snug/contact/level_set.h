@@ -6,8 +6,8 @@
 
 namespace snug::contact {
 /**
- * This class is the obstacle phi < 0 of a formula phi. Newton's method computes the point y of phi
- * = 0 closest to x from
+ * This class is the obstacle phi < 0 of a formula phi. Newton's method computes the point y of
+ * phi = 0 closest to x from
  *   y - x + m grad phi(y) = 0,  phi(y) = 0.
  * With n = grad phi(y) / |grad phi(y)| the distance is n . (x - y), and its gradient is n. The
  * Hessian n' of the distance follows from the derivative of this system. Derivatives of phi are
@@ -18,9 +18,11 @@ template <int dim>
 class LevelSet : public Obstacle<dim>
 {
 public:
+  /// Parse the formula of @p parameters.
   /// @throws InputError if the formula cannot be parsed.
   LevelSet(const ObstacleParameters &parameters, double element_size);
 
+  /// Return the distance of @p x, or nothing if Newton's method finds no closest point.
   /// @throws InputError if the formula is not finite at a point where it is evaluated.
   std::optional<ObstacleDistance<dim>> distance(const dealii::Point<dim> &x) const override;
 

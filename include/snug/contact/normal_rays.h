@@ -30,8 +30,8 @@ struct RayEquations
 };
 
 /**
- * This class provides the rays x(xi) + t v(xi) of a master face at given positions, where v(xi) =
- * sum_k N_k(xi) n_k with the nodal normals n_k.
+ * This class provides the rays x(xi) + t v(xi) of a master face at given positions, where
+ * v(xi) = sum_k N_k(xi) n_k with the nodal normals n_k.
  */
 template <int dim>
 class NormalRays

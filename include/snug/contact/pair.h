@@ -122,7 +122,7 @@ struct Pair
   /// smaller
   double contrast = 1.;
 
-  /// "slave: master"
+  /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }
 };
 

@@ -85,8 +85,8 @@ public:
   /// round-off.
   bool is_near(double distance) const { return std::abs(distance) <= largest_distance; }
 
-  /// Return whether the node is near and its normal is within the largest angle to the unit @p
-  /// normal into the master.
+  /// Return whether the node is near and its normal is within the largest angle to the unit
+  /// @p normal into the master.
   bool holds(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const
   {
     return is_near(distance) && normals[slave] * normal >= least_cosine;

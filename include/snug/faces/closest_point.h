@@ -19,8 +19,8 @@ struct ClosestPoint
  * The minimum is found by Newton's method projected onto the bounds, with the Gauss-Newton matrix
  * where the Hessian is not positive definite (Bertsekas, SIAM J. Control Optim. 20, 1982). The
  * method starts from each local minimum of a grid of 2 degree + 1 samples per direction. The result
- * is accurate to round-off. A quadratic face whose radius of curvature is below its distance to @p
- * p may have minima that the grid misses.
+ * is accurate to round-off. A quadratic face whose radius of curvature is below its distance to
+ * @p p may have minima that the grid misses.
  */
 template <int dim>
 ClosestPoint<dim> closest_point(const FaceShape<dim>                      &shape,

@@ -49,7 +49,7 @@ public:
   /// Return the values on an even grid of 2p + 1 points per direction, the first one fastest.
   const std::vector<Values> &grid() const { return grid_values; }
 
-  /// @name The functions of a face's samples, which describe its true surface
+  /// @name Shape functions of the samples of a face, which describe its true surface
   /// @{
   static Values samples_at(const Coordinates &xi)
   {

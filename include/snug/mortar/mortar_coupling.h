@@ -11,8 +11,8 @@ namespace snug::mortar {
 /**
  * Integrals over the covered part of a slave face, which is the part opposite to the given master
  * faces. The integrands contain the shape functions N_j of the slave face and N_k of the master
- * faces. They also contain the offset between the true surfaces beyond that of the faces, delta =
- * delta_master - delta_slave.
+ * faces. They also contain the offset between the true surfaces beyond that of the faces,
+ * delta = delta_master - delta_slave.
  */
 template <typename Number>
 struct FaceIntegrals

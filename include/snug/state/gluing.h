@@ -18,8 +18,8 @@ class Gluing
 {
 public:
   /**
-   * Build the rows for the copies of all nodes, for @p held and for the contact rows that @p
-   * reference contains at the reference geometry (equal on all ranks). @p held must outlive this
+   * Build the rows for the copies of all nodes, for @p held and for the contact rows that
+   * @p reference contains at the reference geometry (equal on all ranks). @p held must outlive this
    * object. Collective.
    */
   Gluing(const mesh::BodyMesh<dim>                 &mesh,

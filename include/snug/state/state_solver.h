@@ -34,8 +34,8 @@ public:
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
-  /// Return @p state after further iterations from its own forces, until its certificate meets @p
-  /// tolerance. Collective. @throws SolveError.
+  /// Return @p state after further iterations from its own forces, until its certificate meets
+  /// @p tolerance. Collective. @throws SolveError.
   ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
 
   /**
