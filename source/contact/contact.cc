@@ -6,14 +6,13 @@
 
 namespace snug::contact {
 namespace {
-/// Part of the slave faces' size over which gap formulas are
-/// differentiated by differences.
+/// Step of the difference quotients of gap formulas, as a fraction of the size of the slave faces.
 const double gap_step = 1. / 25.;
 
-/// Value of a field at the slave of a row less that at its master, if
-/// it has nodes, by the factors of the normal in the coefficients.
-/// Coefficients are c n, so their product with n gives c back: 1 at the slave, -w_k at the master,
-/// or those of a mortar row. A row against an obstacle has no master nodes and gives the slave's.
+/// Return the value of @p field at the slave of a row minus the value at its master, if the row has
+/// master nodes. Coefficients are c n, so their product with n is the factor c: 1 at the slave and
+/// -w_k at the master, or the factors of a mortar row. A row against an obstacle has no master
+/// nodes, so its result is the value at the slave.
 template <int dim>
 dealii::Tensor<1, dim> slave_minus_master(const Row<dim>                           &row,
                                           const typename mesh::Surface<dim>::Field &field)
@@ -25,8 +24,8 @@ dealii::Tensor<1, dim> slave_minus_master(const Row<dim>                        
   return sum;
 }
 
-/// Length of @p v at right angles to @p normal.
-/// [length]; what the row does not resist, as contact is without friction.
+/// Return the length of the part of @p v at right angles to @p normal [length]. Rows do not resist
+/// this part, because contact is without friction.
 template <int dim>
 double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
 {
@@ -34,7 +33,8 @@ double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &norm
 }
 } // namespace
 
-/// Groups number their own rows; rows of Contact count through all groups.
+/// Shift the row indices: groups number their own rows, but rows of Contact count through all
+/// groups.
 template <int dim>
 void Contact<dim>::collect_shared_nodes()
 {
@@ -64,7 +64,7 @@ void Contact<dim>::measure_pairing(const Field &positions)
       const auto &[p, slave, of] = row_places[i];
       paired_offsets.push_back(slave_minus_master(paired[i], positions));
       double gap = paired[i].gap;
-      // An obstacle that moves into a body is a load, not a body at the wrong place.
+      // An obstacle that moves into a body is a load, not a misplaced body.
       if (chosen[p].obstacle)
         {
           const dealii::Tensor<1, dim> motion = to_point<dim>(chosen[p].obstacle->displacement);
@@ -103,8 +103,8 @@ std::vector<Row<dim>> Contact<dim>::rows(const Field &positions) const
       {
         const unsigned int slave = row_places[result.size()].slave;
         if (group.offset)
-          // At the slave's position in the design, so that the formula belongs to places, not to
-          // the material.
+          // The formula is evaluated at the slave's position in the design, because the formula
+          // belongs to places, not to the material.
           row.gap += group.offset->value(dealii::Point<dim>(positions[slave]));
         result.push_back(std::move(row));
       }
@@ -149,8 +149,7 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
       group.rows->add_energy_gradient(positions, displacement, of_group, gradient);
       if (group.offset)
         for (unsigned int i = 0; i < slaves.size(); ++i)
-          // The energy gradient is that of sum_i force_i (sum_b c_b . u_b - gap_i): hence the
-          // minus.
+          // The energy is sum_i force_i (sum_b c_b . u_b - gap_i), so the gap has a minus sign.
           gradient[slaves[i]] -=
             of_group[i] *
             group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]), group.step);
@@ -221,9 +220,10 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
       const auto offset             = slave_minus_master(rows[i], positions);
       const auto &[pair, slave, of] = row_places[i];
       const auto &off_face          = rows[i].off_face;
-      // Where the foot follows the offset is along the normal, but for coordinates that are fixed.
+      // Where the foot follows the node, the offset is along the normal, except for fixed
+      // coordinates.
       const auto moved = off_face ? offset : offset - paired_offsets[i];
-      // The closest point on an obstacle follows the node, so it cannot drift off.
+      // The closest point on an obstacle follows the node, so the node cannot drift off this point.
       result.push_back(chosen[pair].obstacle
                          ? 0.
                          : along(moved, rows[i].normal) / sizes[slave] + off_face.value_or(0.));

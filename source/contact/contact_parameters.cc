@@ -97,7 +97,7 @@ void ContactParameters::declare(Entries &entries)
   const auto read = [this, names](const std::string &text) {
     TextPairs wanted;
     from_text(text, wanted);
-    // pairs that are there keep their entries
+    // Keep the entries of the pairs if the names do not change.
     if (wanted == names())
       return;
     pairs.clear();

@@ -8,8 +8,8 @@
 namespace snug::contact {
 namespace {
 /**
- * Bézier control points of the face with Lagrange @p nodes: their hull
- * contains the face, also a quadratic one that bulges beyond its nodes.
+ * Return the Bézier control points of the face with Lagrange @p nodes. The convex hull of the
+ * control points contains the face, also a quadratic face that bulges beyond its nodes.
  */
 template <int dim>
 std::vector<dealii::Point<dim>> hull_points(const faces::FaceShape<dim>        &shape,
@@ -85,7 +85,8 @@ double FaceTree<dim>::bound(const dealii::Tensor<1, dim> &x) const
 {
   namespace bgi = boost::geometry::index;
   double square = std::numeric_limits<double>::infinity();
-  // Of four, as the face of the nearest box need not be the nearest face; any number gives a bound.
+  // Check the faces of four boxes, because the face of the nearest box need not be the nearest
+  // face. Any number of boxes gives an upper bound.
   for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(dealii::Point<dim>(x), 4)))
     square = std::min(square, faces::closest_point(shape, face_points[i], x).squared_distance);
   return std::sqrt(square);
@@ -108,7 +109,7 @@ std::vector<std::size_t> FaceTree<dim>::meeting(const Box &box) const
   std::vector<std::size_t> result;
   for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(box)))
     result.push_back(i);
-  // The tree returns faces in an order of its own; rows must not depend on it.
+  // Sort the faces, because rows must not depend on the order in which the tree returns them.
   std::sort(result.begin(), result.end());
   return result;
 }

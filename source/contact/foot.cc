@@ -7,15 +7,15 @@
 
 namespace snug::contact {
 namespace {
-/// Coordinates of feet this close to those of nodes are theirs: matching meshes of files differ by
-/// the rounding of their digits.
+/// Coordinates of feet that are this close to those of a node are set to the node's, because
+/// matching meshes of files differ by the rounding of their digits.
 const double on_node = 1e-9;
 
-/// A foot farther off its face, in parts of it, has lost it: the polynomials of the face tell
-/// nothing there.
+/// A foot that is farther off its face than this fraction of the face is lost, because the
+/// polynomials of the face have no meaning there.
 const double lost = 1.;
 
-/// sum_k values_k field_k
+/// Return sum_k values_k field_k.
 template <int dim>
 dealii::Tensor<1, dim> mean(const std::vector<double>                &values,
                             const std::vector<unsigned int>          &points,
@@ -27,7 +27,7 @@ dealii::Tensor<1, dim> mean(const std::vector<double>                &values,
   return sum;
 }
 
-/// Its transpose: field_k += values_k g
+/// Apply the transpose of mean(): field_k += values_k g.
 template <int dim>
 void spread(const std::vector<double>          &values,
             const std::vector<unsigned int>    &points,
@@ -38,8 +38,8 @@ void spread(const std::vector<double>          &values,
     field[points[k]] += values[k] * g;
 }
 
-/// Vectors of coordinates and a length have dim components. That of the length is 0 where only
-/// coordinates count.
+/// Return a vector of face coordinates extended by a length to dim components. The component of the
+/// length is 0, because only coordinates count.
 template <int dim>
 dealii::Tensor<1, dim> with_length(const dealii::Tensor<1, dim - 1> &of_coordinates)
 {
@@ -80,7 +80,8 @@ Foot<dim>::Foot(const mesh::Surface<dim>    &surface,
       bool on_lines = true;
       for (int a = 0; a < dim - 1; ++a)
         on_lines = on_lines && (!equations.fixed[a] || shape.node(k)[a] == start[a]);
-      // The others have no weight wherever the free coordinates go: rows must not couple to them.
+      // The other nodes have zero weight for all values of the free coordinates, so rows must not
+      // couple to these nodes.
       if (on_lines)
         taking_part.push_back(k);
     }
@@ -121,7 +122,7 @@ typename Foot<dim>::Place Foot<dim>::at(const Field &positions, const Field &nor
   return result;
 }
 
-/// By implicit differentiation, first of the foot, then of where its ray meets the true surface.
+/// Differentiate implicitly, first the foot, then the point where its ray meets the true surface.
 template <int dim>
 typename Foot<dim>::Slopes Foot<dim>::Place::slopes(const Field &velocity,
                                                     const Field &normal_velocity) const
@@ -151,7 +152,7 @@ typename Foot<dim>::Slopes Foot<dim>::Place::slopes(const Field &velocity,
   return result;
 }
 
-/// The same backwards.
+/// Apply the transposes of the steps of slopes() in reverse order.
 template <int dim>
 void Foot<dim>::Place::add_transpose(const std::vector<double> &by_masters,
                                      const std::vector<double> &by_surface,

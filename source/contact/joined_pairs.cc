@@ -25,7 +25,7 @@ bool are_equal(const PairParameters &a, const PairParameters &b)
   return all(a) == all(b);
 }
 
-/// The pairs of one boundary of each side.
+/// Return the pairs of one boundary of each side.
 std::vector<JoinedPair::Part> parts_of(const Pair &pair, const unsigned int index)
 {
   std::vector<JoinedPair::Part> parts;
@@ -38,7 +38,7 @@ std::vector<JoinedPair::Part> parts_of(const Pair &pair, const unsigned int inde
   return parts;
 }
 
-/// "a + b" of the different names, in their order.
+/// Return "a + b" of the distinct names, in their order.
 std::string sum_of(const std::vector<std::string> &names)
 {
   std::vector<std::string> different;
@@ -51,7 +51,7 @@ std::string sum_of(const std::vector<std::string> &names)
     result += (result.empty() ? "" : " + ") + name;
   return result;
 }
-/// Call the sides by the names of the pairs of the scene.
+/// Name the sides by the names of the pairs of the scene.
 void name_sides(const std::vector<Pair> &pairs, JoinedPair &joined)
 {
   std::vector<std::string> slaves, masters;
@@ -65,7 +65,8 @@ void name_sides(const std::vector<Pair> &pairs, JoinedPair &joined)
 }
 } // namespace
 
-/// Sets of numbers that are united step by step; each is known by its smallest number.
+/// Disjoint sets of numbers that are united step by step. The smallest number of a set represents
+/// it.
 class Unions
 {
 public:
@@ -88,7 +89,7 @@ private:
   std::vector<unsigned int> parent;
 };
 
-/// Which boundaries of the pairs continue each other.
+/// This class finds which boundaries of the pairs continue each other smoothly.
 template <int dim>
 class SmoothSurfaces
 {
@@ -110,7 +111,7 @@ public:
     const double least_cosine = std::cos(smooth_meeting / 180. * dealii::numbers::PI);
     for (unsigned int i = 0; i < boundaries.size(); ++i)
       for (unsigned int j = i + 1; j < boundaries.size(); ++j)
-        // Normals of nodes that a boundary does not have are zero.
+        // Normals are zero at nodes that do not belong to the boundary.
         for (unsigned int node = 0; node < surface.n_nodes(); ++node)
           if (normals[i][node] * normals[j][node] > least_cosine)
             {
@@ -120,7 +121,7 @@ public:
             }
   }
 
-  /// Whether the boundaries are the same or share nodes and meet smoothly there.
+  /// Return whether the boundaries are the same or share nodes and meet smoothly at a shared node.
   bool meet(const Boundary &a, const Boundary &b) const
   {
     const auto [i, j] = std::minmax({index(a), index(b)});
@@ -204,7 +205,7 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
     for (unsigned int j = i + 1; j < parts.size(); ++j)
       if (can_join(parts[i], parts[j]))
         unions.unite(i, j);
-  std::map<unsigned int, JoinedPair> joined; // by the first part
+  std::map<unsigned int, JoinedPair> joined; // keyed by the first part
   for (unsigned int i = 0; i < parts.size(); ++i)
     {
       const auto &part           = parts[i];

@@ -8,13 +8,13 @@
 
 namespace snug::contact {
 namespace {
-/// Part of the element size over which differences are taken: with 1/25
-/// a wave six elements long is differentiated to 3e-11, and round-off is
-/// 1e3 times that of the formula in second derivatives.
+/// Step of the difference quotients, as a fraction of the element size. With 1/25, the error of the
+/// derivative of a wave six elements long is 3e-11, and the round-off of second derivatives is 1e3
+/// times that of the formula.
 const double level_set_step = 1. / 25.;
 
-/// The rotation in the plane of e_last and @p axis that takes the one to
-/// the direction of the other.
+/// Return the rotation in the plane of e_last and @p axis that maps e_last to the direction of
+/// @p axis.
 template <int dim>
 dealii::Tensor<2, dim> rotation_to(dealii::Tensor<1, dim> axis)
 {
@@ -22,8 +22,9 @@ dealii::Tensor<2, dim> rotation_to(dealii::Tensor<1, dim> axis)
   dealii::Tensor<1, dim> last;
   last[dim - 1]            = 1.;
   dealii::Tensor<2, dim> q = dealii::unit_symmetric_tensor<dim>();
-  // The product of the reflections at the planes normal to e_last and to s. Not defined for
-  // opposite directions, for which any half turn about an axis normal to e_last does.
+  // The rotation is the product of the reflections at the planes normal to e_last and to s. It is
+  // not defined for opposite directions, for which any half turn about an axis normal to e_last
+  // suffices.
   const auto s = last + axis;
   if (s.norm() > 1e-8)
     return q - outer_product(s, s) / (1. + axis[dim - 1]) + 2. * outer_product(axis, last);
@@ -31,7 +32,7 @@ dealii::Tensor<2, dim> rotation_to(dealii::Tensor<1, dim> axis)
   return q;
 }
 
-/// By the leading minors (Sylvester); 2 or 3 dimensions.
+/// Return whether @p a is positive definite, by its leading minors (Sylvester); 2 or 3 dimensions.
 template <int dim>
 bool is_positive_definite(const dealii::SymmetricTensor<2, dim> &a)
 {
@@ -39,9 +40,9 @@ bool is_positive_definite(const dealii::SymmetricTensor<2, dim> &a)
 }
 } // namespace
 
-/// The point y = x - m grad phi(y) with what phi is there.
-/// The unknowns of the Newton method are y and the multiplier m; at the solution
-/// m |grad phi| = n . (x - y) is the signed distance.
+/// The point y = x - m grad phi(y) with the value and the derivatives of phi at y. The unknowns of
+/// Newton's method are y and the multiplier m. At the solution m |grad phi| = n . (x - y) is the
+/// signed distance.
 template <int dim>
 struct LevelSet<dim>::Foot
 {
@@ -50,10 +51,10 @@ struct LevelSet<dim>::Foot
   double                 value;
   dealii::Tensor<1, dim> gradient;
   dealii::Tensor<2, dim> hessian;
-  /// inverse of [I + m hessian, gradient; gradient', 0]
+  /// inverse of [I + m hessian, n; n', 0] with n = gradient / |gradient|
   dealii::FullMatrix<double> inverse = dealii::FullMatrix<double>(dim + 1, dim + 1);
 
-  /// How y moves with x.
+  /// Return the derivative of y with respect to x.
   dealii::Tensor<2, dim> follow() const
   {
     dealii::Tensor<2, dim> result;
@@ -63,7 +64,7 @@ struct LevelSet<dim>::Foot
     return result;
   }
 
-  /// Whether the inverse exists and y is a minimum of the distance.
+  /// Compute the inverse. Return whether the inverse exists and y is a minimum of the distance.
   bool invert();
 };
 
@@ -75,14 +76,15 @@ bool LevelSet<dim>::Foot::invert()
     return false;
   const dealii::Tensor<1, dim> n        = gradient / length;
   const auto                   identity = dealii::unit_symmetric_tensor<dim>();
-  // y is a minimum of the distance on phi = 0 if I + m H is positive on its tangents; elsewhere,
-  // past a centre of curvature, other points of the obstacle are closer.
+  // y is a minimum of the distance on phi = 0 if I + m H is positive definite on the tangents. Past
+  // a centre of curvature I + m H is not, and other points of the obstacle are closer.
   const dealii::Tensor<2, dim> across = identity - outer_product(n, n);
   const dealii::Tensor<2, dim> A      = identity + m * hessian;
   const auto                   bend   = symmetrize(across * A * across + outer_product(n, n));
   if (!is_positive_definite(bend - 1e-6 * identity))
     return false;
-  // scaled so that all entries are of order one
+  // The unit normal in place of the gradient scales the matrix, so that all entries are of order
+  // one.
   for (unsigned int i = 0; i < dim; ++i)
     {
       for (unsigned int j = 0; j < dim; ++j)
@@ -106,15 +108,15 @@ LevelSet<dim>::LevelSet(const ObstacleParameters &parameters, double element_siz
 template <int dim>
 void LevelSet<dim>::evaluate(Foot &foot) const
 {
-  // The formula is one of coordinates turned to Axis: derivatives are turned back.
+  // The formula depends on coordinates rotated to Axis, so its derivatives are rotated back.
   const dealii::Point<dim> local(transpose(rotation) * (foot.y - origin));
   foot.value    = formula.value(local);
   foot.gradient = rotation * formula.gradient(local, step);
   foot.hessian  = rotation * formula.hessian(local, step) * transpose(rotation);
 }
 
-/// Along the gradient until phi vanishes, as the first guess.
-/// To within a tenth of an element of phi = 0, from where Newton's method takes over.
+/// Move y along the gradient to within a tenth of an element of phi = 0. The result is the initial
+/// guess of Newton's method. Return whether this distance is reached.
 template <int dim>
 bool LevelSet<dim>::descend(const dealii::Point<dim> &x, Foot &foot) const
 {
@@ -125,10 +127,10 @@ bool LevelSet<dim>::descend(const dealii::Point<dim> &x, Foot &foot) const
       const double square = foot.gradient.norm_square();
       if (!(square > 0.) || !std::isfinite(square))
         return false;
-      // Newton's step for phi = 0 along the gradient.
+      // Make a Newton step for phi = 0 along the gradient.
       const dealii::Tensor<1, dim> move = -foot.value / square * foot.gradient;
       foot.y += move;
-      // From y - x + m grad phi = 0, in the direction of the gradient.
+      // Take m from y - x + m grad phi = 0 in the direction of the gradient.
       foot.m = (x - foot.y) * foot.gradient / square;
       if (move.norm() < 0.1 * size)
         return true;
@@ -146,14 +148,16 @@ std::optional<typename LevelSet<dim>::Foot> LevelSet<dim>::foot(const dealii::Po
   for (unsigned int i = 0; i < 30; ++i)
     {
       evaluate(foot);
-      // At every iterate: Newton's matrix has to be regular and to lead to a minimum.
+      // Check every iterate, because the matrix of Newton's method has to be regular and to lead to
+      // a minimum.
       if (!foot.invert())
         return std::nullopt;
-      // Only after another evaluation: distance() takes gradient and Hessian at the foot.
+      // Return only after another evaluation, because distance() takes the gradient and the Hessian
+      // at the foot.
       if (close)
         return foot;
-      // The matrix was made with the unit normal in place of the gradient: residual and multiplier
-      // are scaled by its length.
+      // The matrix contains the unit normal in place of the gradient, so the residual and the
+      // multiplier are scaled by the length of the gradient.
       const double           length = foot.gradient.norm();
       const auto             rest   = foot.y - x + foot.m * foot.gradient;
       dealii::Tensor<1, dim> move;
@@ -168,7 +172,7 @@ std::optional<typename LevelSet<dim>::Foot> LevelSet<dim>::foot(const dealii::Po
       dm -= foot.inverse(dim, dim) * foot.value / length;
       foot.y += move;
       foot.m += dm / length;
-      // quadratic convergence: the next error is below round-off
+      // Convergence is quadratic, so the next error is below round-off.
       close = move.norm() < 1e-9 * size;
     }
   return std::nullopt;

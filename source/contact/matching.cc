@@ -11,7 +11,7 @@
 
 namespace snug::contact {
 namespace {
-/// v without its part along the unit vector @p n.
+/// Return the length of v without its part along the unit vector @p n.
 template <int dim>
 double offset_across(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &n)
 {
@@ -19,8 +19,9 @@ double offset_across(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, di
 }
 } // namespace
 
-/// Where faces are apart and not parallel, nodes may face each other in any direction between the
-/// two normals: as far as these part over the gap, an offset tells nothing.
+/// Count the matching nodes. Where faces are apart and not parallel, nodes may face each other in
+/// any direction between the two normals. The tolerance therefore includes the offset that the
+/// angle between the normals causes over the gap.
 template <int dim>
 Matching matching(const PairGeometry<dim> &pair)
 {
@@ -55,10 +56,10 @@ Matching matching(const PairGeometry<dim> &pair)
 }
 
 namespace {
-/// Where normals are opposite by less than this angle [degrees], faces meet.
+/// Faces are opposite if their normals are opposite up to this angle [degrees].
 const double steepest_meeting = 60.;
 
-/// Centre and unit normal of a face.
+/// Return the centre and the unit normal of a face.
 template <int dim>
 std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
 middle(const mesh::Surface<dim>                 &surface,

@@ -8,14 +8,14 @@
 
 namespace snug::contact {
 namespace {
-/// Faces covered less than this have standard multiplier functions.
+/// Faces of which less than this fraction is covered have standard multiplier functions.
 const double least_biorthogonal_cover = 0.25;
 
-/// Covered but for this part of its extent a face counts as covered there, so that its nodes keep
-/// rows of their own where curved sides end together.
+/// A face that is covered except for this fraction of its extent counts as covered up to its edge,
+/// so that its nodes keep rows of their own where curved sides end together.
 const double uncovered_edge = 0.01;
 
-/// A node is held if its supports leave less than this of its normal.
+/// A node is held if its supports leave less than this fraction of its normal free.
 const double held_part = 0.1;
 
 double sum(const std::vector<double> &values)
@@ -64,14 +64,15 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
       std::copy_n(boxes[f].begin(), dim - 1, box.lower.begin());
       std::copy_n(boxes[f].begin() + dim - 1, dim - 1, box.upper.begin());
       const auto cover = choose_functions(faces[f], parts[f], box, pair.positions);
-      // Opposite within the margin of the pairing, but not covered yet: no multipliers.
+      // A face that is opposite only within the margin of the pairing is not covered and gets no
+      // multipliers.
       if (sum(cover.covered) > 0.)
         covers.push_back(cover);
     }
   multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, pair.positions);
 }
 
-/// The cover of a face, by the functions it gets.
+/// Choose the multiplier functions of a face. Return the cover of the face, by these functions.
 template <int dim>
 mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                           &face,
                                                     const mortar::FaceIntegrals<double> &of_nodes,
@@ -80,7 +81,7 @@ mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                   
 {
   mortar::FaceCover cover = {face.face, of_nodes.slave,
                              faces::shape_integrals(surface, face.face, shape, positions)};
-  // The Gram matrix of shape functions over a sliver of a face is nearly singular: its inverse
+  // The Gram matrix of shape functions over a sliver of a face is nearly singular. Its inverse
   // would give multiplier functions with large values of both signs.
   if (sum(cover.covered) < least_biorthogonal_cover * sum(cover.whole))
     {
@@ -92,7 +93,7 @@ mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                   
   return cover;
 }
 
-/// The part of the face that is covered lies within.
+/// Return the box that contains the covered part of the face.
 template <int dim>
 mortar::CoverBox<dim> MortarRows<dim>::cover_box(const SlaveFace                      &face,
                                                  const mortar::FaceNodes<dim, double> &x) const
@@ -104,8 +105,9 @@ mortar::CoverBox<dim> MortarRows<dim>::cover_box(const SlaveFace                
   return box;
 }
 
-/// All nodes that a row may reach while the pairing stays, those with zero coefficients included:
-/// B keeps its pattern while the design moves, and its symbolic factorizations stay valid.
+/// Collect all nodes that a row may couple while the pairing stays, including nodes with zero
+/// coefficients. So B keeps its sparsity pattern while the design moves, and its symbolic
+/// factorizations stay valid.
 template <int dim>
 void MortarRows<dim>::collect_row_nodes()
 {
@@ -124,7 +126,8 @@ void MortarRows<dim>::collect_row_nodes()
           {
             auto &row = reached[share.first];
             row.insert(masters.begin(), masters.end());
-            // int psi_j N_l = 0 for l != j: of the slave side only the node itself.
+            // With int psi_j N_l = 0 for l != j, the row contains only the node itself of the slave
+            // side.
             if (face.functions.are_nodal())
               row.insert(node);
             else
@@ -133,7 +136,7 @@ void MortarRows<dim>::collect_row_nodes()
     }
   for (const auto &nodes : reached)
     {
-      // Hanging nodes have no unknowns.
+      // Replace hanging nodes by their masters, because hanging nodes have no unknowns.
       std::set<unsigned int> resolved;
       for (const unsigned int node : nodes)
         {
@@ -146,8 +149,8 @@ void MortarRows<dim>::collect_row_nodes()
     }
 }
 
-/// Far rows take their multiplier functions along, so shares may sum to less than 1 afterwards: a
-/// part of the side that is out of reach carries no pressure.
+/// Remove far rows together with their multiplier functions. So shares may sum to less than 1
+/// afterwards, because a part of the side that is out of reach carries no pressure.
 template <int dim>
 void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
 {
@@ -159,7 +162,7 @@ void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
   multipliers.nodes.clear();
   row_nodes.clear();
   for (unsigned int i = 0; i < all.size(); ++i)
-    // By the gap alone: the angles of faces were tested when they were paired.
+    // Check the gap alone, because the angles of faces were checked when they were paired.
     if (opposition.is_near(all[i].gap))
       {
         index[i] = row_nodes.size();

@@ -2,7 +2,7 @@
 #include <snug/mortar/integral_gradient.h>
 
 namespace snug::contact {
-/// x + u, hanging nodes displaced with their masters.
+/// Return x + u, where hanging nodes are displaced with their masters.
 template <int dim>
 typename MortarRows<dim>::Field MortarRows<dim>::deformed(const Field &positions,
                                                           const Field &displacement) const
@@ -39,8 +39,8 @@ void MortarRows<dim>::add_energy_gradient(const Field               &positions,
       const auto             corrected = correction(i, sums[i], x, of_n[node]);
       dealii::Tensor<1, dim> r;
       for (int d = 0; d < dim; ++d)
-        // r_i = int psi_i (y_slave - y_master) dA for y = x + u: the offset is that of x, master
-        // less slave.
+        // r_i = int psi_i (y_slave - y_master) dA for y = x + u. The minus sign converts the offset
+        // of x, which is master minus slave.
         r[d] = -sums[i].offset[d];
       std::vector<double> along_n;
       for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
@@ -51,10 +51,12 @@ void MortarRows<dim>::add_energy_gradient(const Field               &positions,
         }
       normal_gradient[node] += p * r;
       energy.directions.push_back(p * n);
-      // force / a_i n . r_i: by n it is p r_i, by r_i p n, by a_i minus the whole over a_i.
+      // The derivatives of force / a_i n . r_i are p r_i with respect to n, p n with respect to
+      // r_i, and the whole over -a_i with respect to a_i.
       energy.area_slopes.push_back(-p / sums[i].area * (n * r));
 
-      // The share of the correction, -p sum_k dM_k n . u_k, by what dM is made of.
+      // Differentiate the part of the correction, -p sum_k dM_k n . u_k, with respect to the data
+      // that dM depends on.
       auto by = corrected.gradient(along_n);
       for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
         {
@@ -63,7 +65,7 @@ void MortarRows<dim>::add_energy_gradient(const Field               &positions,
           for (int d = 0; d < dim; ++d)
             {
               gradient[row_nodes[i][k]][d] -= p * by.x[k][d];
-              // Places are relative to the slave node.
+              // Positions in the correction are relative to the slave node.
               gradient[node][d] += p * by.x[k][d];
             }
         }
@@ -77,7 +79,7 @@ void MortarRows<dim>::add_energy_gradient(const Field               &positions,
     add_face_gradient(face, energy, gradient);
 }
 
-/// The energy of rows without directions: only areas count.
+/// Set the directions of the energy to zero, so that only areas count.
 template <int dim>
 void MortarRows<dim>::add_area_gradient(const Field               &positions,
                                         const std::vector<double> &factors,
@@ -89,7 +91,8 @@ void MortarRows<dim>::add_area_gradient(const Field               &positions,
     add_face_gradient(face, energy, gradient);
 }
 
-/// Of the corrections of rows by what stands in them for psi_j N of two nodes.
+/// Return the derivative of the corrections of all rows with respect to the integral of psi_j N,
+/// where psi_j belongs to @p slave_node and N to @p node.
 template <int dim>
 double MortarRows<dim>::correction_slope(const std::vector<std::vector<double>> &slopes,
                                          unsigned int                            slave_node,
@@ -118,7 +121,8 @@ void MortarRows<dim>::add_to_points(unsigned int                           face,
   mortar::add_offset_gradient<dim>(of, shape, values.offsets, gradient);
 }
 
-/// By the integrals, from those by the coupling and of the corrections' weights.
+/// Return the derivatives with respect to the integrals, from the derivatives with respect to the
+/// coupling and to the weights of the corrections.
 template <int dim>
 mortar::FaceIntegrals<double>
 MortarRows<dim>::integral_slopes(const SlaveFace                     &face,
@@ -148,9 +152,9 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
 {
   const auto        &nodes = surface.faces()[face.face].nodes;
   const unsigned int n     = nodes.size();
-  // of the multiplier functions of the face's own nodes
+  // directions of the multiplier functions of the face's nodes
   Field direction(n);
-  // A function that is shared acts in several rows: what the rows say of it adds up by the shares.
+  // A shared function acts in several rows, so the derivatives of these rows add up by the shares.
   std::vector<double> area_slope(n, 0.);
   for (unsigned int j = 0; j < n; ++j)
     for (const auto &share : multipliers.shares[nodes[j]])
@@ -161,19 +165,19 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
   bool counts = false;
   for (unsigned int j = 0; j < n; ++j)
     counts = counts || direction[j].norm_square() > 0. || area_slope[j] != 0.;
-  // Most faces of the slave side are open; cutting segments is what costs time.
+  // Skip open faces, which are most of the slave side, because cutting segments is expensive.
   if (!counts)
     return;
 
-  // positions that stand in x + u, and the gradient of the integrals; as
-  // the integrals of psi_j (1 - 1) vanish, from any origin
+  // Compute the derivatives with respect to the positions in x + u and to the integrals. The
+  // integrals of psi_j (1 - 1) vanish, so y may be measured from any origin.
   const auto origin      = energy.deformed[nodes[0]];
   const auto x           = mortar::node_arrays<dim>(energy.positions);
   const auto of_shapes   = integrals(face, x);
   const auto coupling    = mortar::couple(of_shapes, face.functions);
   auto       to_coupling = coupling;
   to_coupling.multiplier = area_slope;
-  // sum_j direction_j . int psi_j N_k y_k: by the positions of node k, and by the integral itself.
+  // Differentiate sum_j direction_j . int psi_j N_k y_k with respect to y_k and to the integral.
   const auto add = [&](double sign, const dealii::Table<2, double> &integral,
                        const std::vector<unsigned int> &others, dealii::Table<2, double> &slope) {
     for (unsigned int j = 0; j < n; ++j)
@@ -181,7 +185,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace &face,
         {
           gradient[others[k]] += sign * integral(j, k) * direction[j];
           slope(j, k) = sign * (direction[j] * (energy.deformed[others[k]] - origin));
-          // Of the slave side only the node itself is in the rows of biorthogonal functions.
+          // Rows of biorthogonal functions contain only the node itself of the slave side.
           if (sign < 0. || !face.functions.are_nodal() || j == k)
             slope(j, k) +=
               sign * correction_slope(energy.coefficient_slopes, nodes[j], others[k], false);

@@ -18,7 +18,7 @@ MortarRows<dim>::integrals(const SlaveFace &face, const mortar::FaceNodes<dim, N
                                 masters);
 }
 
-/// Of the slave faces: cutting a pair of faces is what takes time.
+/// Return the costs of the slave faces, because cutting a pair of faces takes most of the time.
 template <int dim>
 std::vector<double> MortarRows<dim>::costs() const
 {
@@ -44,7 +44,7 @@ MortarRows<dim>::all_integrals(const mortar::FaceNodes<dim, Number> &x) const
   return result;
 }
 
-/// The parts of rows that are integrals over one slave face.
+/// Add the parts of rows that are integrals over one slave face.
 template <int dim>
 template <typename Number>
 void MortarRows<dim>::add_face(const SlaveFace                      &face,
@@ -54,7 +54,7 @@ void MortarRows<dim>::add_face(const SlaveFace                      &face,
 {
   const auto  coupling = mortar::couple(of_shapes, face.functions);
   const auto &nodes    = surface.faces()[face.face].nodes;
-  // int psi_j N at one node of a face: coefficient and part of the gap
+  // Add int psi_j N at one node of a face to the coefficient and to the gap.
   const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
     for (const auto &share : multipliers.shares[nodes[j]])
       {
@@ -64,8 +64,8 @@ void MortarRows<dim>::add_face(const SlaveFace                      &face,
           sum.coefficients[place] += weight * shared;
         });
         for (int d = 0; d < dim; ++d)
-          // Hanging nodes at their own position, though their coefficients went to their
-          // masters: the gap is one between the faces as they are.
+          // Hanging nodes enter the gap at their own position, because the gap is that between the
+          // actual faces. The coefficients of hanging nodes went to their masters.
           sum.offset[d] -= shared * x[node][d];
       }
   };
@@ -78,7 +78,7 @@ void MortarRows<dim>::add_face(const SlaveFace                      &face,
             sums[share.first].offset[d] += share.second * coupling.multiplier_offset(j, d);
         }
       for (unsigned int l = 0; l < nodes.size(); ++l)
-        // The other integrals are zero up to rounding, and their nodes may not be in the row.
+        // The other integrals are zero up to round-off, and the row may not contain their nodes.
         if (!face.functions.are_nodal() || l == j)
           add(j, nodes[l], coupling.multiplier_slave(j, l));
       for (unsigned int f = 0; f < face.masters.size(); ++f)
@@ -89,7 +89,8 @@ void MortarRows<dim>::add_face(const SlaveFace                      &face,
               add(j, master[k], -coupling.multiplier_master[f](j, k));
               for (const auto &share : multipliers.shares[nodes[j]])
                 for_each_place(share.first, master[k], [&](unsigned int place, double weight) {
-                  // Of hanging nodes of degree 2, weights and shares may be negative.
+                  // Absolute values are needed, because weights and shares of hanging nodes of
+                  // degree 2 may be negative.
                   sums[share.first].weights[place] +=
                     std::abs(weight * share.second) * of_shapes.weights[f](j, k);
                 });
@@ -113,7 +114,7 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
   for (unsigned int f = 0; f < faces.size(); ++f)
     add_face(faces[f], parts[f], x, sums);
   for (const auto &sum : sums)
-    // The row is divided by its area.
+    // The area must be positive, because the row is divided by it.
     if (!(faces::value_of(sum.area) > 0.))
       throw TangledMesh("the master side has moved away from contact "
                         "nodes that it was opposite to");
@@ -138,7 +139,7 @@ MortarRows<dim>::correction(unsigned int                          i,
   return {relative, sum.coefficients, sum.weights, n};
 }
 
-/// Hanging nodes are left out: they have no unknowns whose force could be asked for.
+/// Leave out hanging nodes, because they have no unknowns on which a force could act.
 template <int dim>
 std::vector<SharedNode> MortarRows<dim>::shared_nodes() const
 {
@@ -181,7 +182,8 @@ std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
 {
   const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
   const Field                 normal_slopes = normals.derivative(velocity);
-  // One pass over the segments gives values and derivatives, exact through cuts and projections.
+  // One pass over the segments gives values and derivatives, which are exact through cuts and
+  // projections.
   const auto            x          = mortar::node_arrays<dim>(positions, velocity);
   const auto            with_slope = mortar::node_arrays<dim>(normals.normals(), normal_slopes);
   const auto            sums       = row_sums<faces::Differential<1>>(x);

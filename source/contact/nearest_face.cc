@@ -2,9 +2,10 @@
 
 namespace snug::contact {
 namespace {
-/// Equally close: the same point, which faces share, or another one at the same distance but for
-/// round-off. Points in between are different answers, of which the closer is right. @p extent: of
-/// a face, with which rounding of positions is compared.
+/// Return whether @p a and @p best are equally close. They are if they are the same point, which
+/// faces share, or distant points at the same distance up to round-off. Of points in between, the
+/// closer point is right. @p extent is the size of a face, with which round-off of positions is
+/// compared.
 template <int dim>
 bool ties(const faces::ClosestPoint<dim> &a,
           const faces::ClosestPoint<dim> &best,
@@ -19,12 +20,13 @@ bool ties(const faces::ClosestPoint<dim> &a,
 template <int dim>
 typename NearestFace<dim>::Found NearestFace<dim>::closest(const dealii::Tensor<1, dim> &p) const
 {
-  // A little more than the bound, so that faces which are equally close are candidates, too, and
+  // Extend the box a little beyond the bound, so that equally close faces are candidates, too, and
   // also where the distance is zero.
   dealii::BoundingBox<dim> cube({dealii::Point<dim>(p), dealii::Point<dim>(p)});
   cube.extend(tree.bound(p) * (1. + 1e-6) + 1e-6 * tree.extent(tree.nearest_box(p)));
-  // By index, as the first of those that tie is taken: on matching meshes the closest point is
-  // often a corner of four faces, and rounding must not choose between them.
+  // Candidates are ordered by index, and the first of the equally close ones is taken. On matching
+  // meshes the closest point is often a corner of four faces, and round-off must not choose between
+  // these faces.
   const auto                            candidates = tree.meeting(cube);
   std::vector<faces::ClosestPoint<dim>> points;
   std::size_t                           best = 0;
@@ -35,7 +37,7 @@ typename NearestFace<dim>::Found NearestFace<dim>::closest(const dealii::Tensor<
         best = points.size() - 1;
     }
   std::size_t first = 0;
-  // Ends at `best` at the latest, which ties with itself.
+  // The loop ends at `best` at the latest, because `best` ties with itself.
   while (!ties<dim>(points[first], points[best], tree.extent(candidates[best])))
     ++first;
   return {faces[candidates[first]], points[first]};

@@ -8,7 +8,7 @@
 
 namespace snug::contact {
 namespace {
-/// n = v/|v|, v = -sum_k w_k n_k
+/// Normal of a row: n = v/|v|, v = -sum_k w_k n_k.
 template <int dim>
 struct RowNormal
 {
@@ -19,7 +19,7 @@ struct RowNormal
 template <int dim>
 using SurfaceField = typename mesh::Surface<dim>::Field;
 
-/// sum_k w_k field_k
+/// Return sum_k w_k field_k.
 template <int dim>
 dealii::Tensor<1, dim> weighted(const Weights &weights, const SurfaceField<dim> &field)
 {
@@ -29,8 +29,9 @@ dealii::Tensor<1, dim> weighted(const Weights &weights, const SurfaceField<dim> 
   return sum;
 }
 
-/// From the @p slave to the true surface of the master, by the weights of its points, or the
-/// derivative along a velocity of the positions.
+/// Return the vector from the @p slave to the true surface of the master, by the weights of its
+/// points. If @p field is a velocity of the positions, return the derivative of this vector along
+/// @p field.
 template <int dim>
 dealii::Tensor<1, dim>
 to_master(const unsigned int slave, const Weights &surface, const SurfaceField<dim> &field)
@@ -41,7 +42,7 @@ to_master(const unsigned int slave, const Weights &surface, const SurfaceField<d
 template <int dim>
 RowNormal<dim> row_normal(const Weights &masters, const SurfaceField<dim> &nodal_normals)
 {
-  // Nodal normals point out of the master; those of rows into it.
+  // Nodal normals point out of the master, and normals of rows point into it.
   const dealii::Tensor<1, dim> v      = -1. * weighted<dim>(masters, nodal_normals);
   const double                 length = v.norm();
   if (!(length > 0.))
@@ -49,7 +50,7 @@ RowNormal<dim> row_normal(const Weights &masters, const SurfaceField<dim> &nodal
   return {v / length, length};
 }
 
-/// The row whose coefficients are @p factors times @p n.
+/// Return the row whose coefficients are @p factors times @p n.
 template <int dim>
 Row<dim> make_row(const std::vector<std::pair<unsigned int, double>> &factors,
                   const dealii::Tensor<1, dim>                       &n,
@@ -69,8 +70,9 @@ class NodalRows : public RowGroup<dim>
 public:
   using Field = typename RowGroup<dim>::Field;
 
-  /// Slave nodes that hang have no row (project() leaves them out): they move with their masters,
-  /// whose rows hold them, and a row of their own would be nearly a combination of those.
+  /// Find the slave nodes with rows. Slave nodes that hang have no row (project() leaves them out).
+  /// They move with their masters, whose rows hold them. A row of a hanging node would be nearly a
+  /// combination of the rows of its masters.
   explicit NodalRows(const PairGeometry<dim> &pair)
     : surface(pair.surface), shape(pair.shape), sides(pair.sides), held(pair.held)
   {
@@ -82,7 +84,7 @@ public:
         const unsigned int slave = projection.slave;
         const double distance    = to_master<dim>(slave, projection.surface, pair.positions).norm();
         const auto   n           = row_normal<dim>(projection.masters, normals.normals()).n;
-        // The distance counts on both sides: a deep overlap is as far away as a wide gap.
+        // Check the distance on both sides, because a deep overlap is as far away as a wide gap.
         if (pair.taken[slave] || !opposition.holds(slave, distance, n))
           continue;
         if (faces::is_without_area(surface, shape.degree(), pair.positions[slave]))
@@ -110,7 +112,8 @@ public:
       {
         const auto place = foot.at(positions, normals.normals());
         const auto n     = row_normal<dim>(place.masters, normals.normals()).n;
-        // With the positions of the hanging nodes themselves: the gap is that of the mesh as it is.
+        // Use the positions of the hanging nodes themselves, because the gap is that of the actual
+        // mesh.
         const double gap =
           n * to_master<dim>(foot.paired.slave, place.surface, positions) + foot.paired.relief;
         result.push_back(make_row(factors(foot, 1., place.masters), n, gap));
@@ -138,7 +141,8 @@ public:
                             normal.n * (to_master<dim>(slave, place.surface, velocity) +
                                         weighted<dim>(slopes.surface, positions));
         result.push_back(make_row(factors(foot, 1., place.masters), dn, dgap));
-        // factor n: by n above, by the factor here; both lists have the same nodes
+        // Coefficients are factor n: differentiate n above and the factor here. Both lists have the
+        // same nodes.
         const auto by_weights = factors(foot, 0., slopes.masters);
         for (unsigned int b = 0; b < by_weights.size(); ++b)
           result.back().coefficients[b].second += by_weights[b].second * normal.n;
@@ -159,14 +163,14 @@ public:
         const unsigned int slave  = feet[i].paired.slave;
         const auto         place  = feet[i].at(positions, normals.normals());
         const auto         normal = row_normal<dim>(place.masters, normals.normals());
-        // d/dn of n . (sum_b factor_b u_b - x_m + x_s)
+        // derivative of n . (sum_b factor_b u_b - x_m + x_s) with respect to n
         dealii::Tensor<1, dim> n_gradient = -1. * to_master<dim>(slave, place.surface, positions);
         for (const auto &factor : factors(feet[i], 1., place.masters))
           n_gradient += factor.second * displacement[factor.first];
         // The derivative of a unit vector is symmetric and serves as its own transpose.
         const auto v_gradient =
           forces[i] * faces::unit_vector_derivative(normal.n, normal.length, n_gradient);
-        // By the positions in the gap; displacements are fixed.
+        // Differentiate with respect to the positions in the gap, at fixed displacements.
         gradient[slave] += forces[i] * normal.n;
         std::vector<double> by_masters, by_surface;
         for (const auto &point : place.surface)
@@ -186,8 +190,8 @@ public:
     normals.add_transpose(normal_gradients, gradient);
   }
 
-  /// Over the whole slave side, also where the master side ends within it: the force of a row
-  /// divided by this area is a mean pressure around its node.
+  /// Return areas over the whole slave side, also where the master side ends within it. So the
+  /// force of a row divided by its area is a mean pressure around its node.
   std::vector<double> areas(const Field &positions) const override
   {
     return faces::tributary_areas<dim>({surface, sides.slave, shape}, slave_nodes, positions);
@@ -206,13 +210,14 @@ private:
   const faces::FaceShape<dim> &shape;
   PairFaces                    sides;
   faces::HeldDirections<dim>   held;
-  std::vector<Foot<dim>>       feet; ///< of each row
+  std::vector<Foot<dim>>       feet; ///< one per row
   std::vector<unsigned int>    slave_nodes;
   std::vector<unsigned int>    idle; ///< slave nodes opposite to the master, but without an area
 
-  /// Surface nodes, ascending, and their factors of n in the coefficients of a row: that of the
-  /// slave is given, those of masters are -w_k, and masters that hang are replaced by their own.
-  /// The map merges nodes that are reached twice and sorts them.
+  /// Return the surface nodes of a row, ascending, and their factors of n in the coefficients. The
+  /// factor of the slave is @p of_slave, the factors of masters are -w_k, and masters that hang are
+  /// replaced by their own masters. The map sorts the nodes and merges nodes that are reached
+  /// twice.
   std::vector<std::pair<unsigned int, double>>
   factors(const Foot<dim> &foot, const double of_slave, const Weights &weights) const
   {
@@ -229,7 +234,7 @@ private:
     return {factor.begin(), factor.end()};
   }
 
-  /// The displacement of a node, that of its masters if it hangs.
+  /// Return the displacement of a node, interpolated from its masters if the node hangs.
   dealii::Tensor<1, dim> moved(const unsigned int node, const Field &displacement) const
   {
     const auto &masters = surface.masters(node);

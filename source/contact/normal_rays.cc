@@ -8,7 +8,8 @@ namespace snug::contact {
 namespace {
 const unsigned int max_iterations = 30;
 
-/// When a step of Newton's method is rounding: below 1e-15, or where steps shrink no more.
+/// This class detects the convergence of Newton's method: a step is below 1e-15, or it is below
+/// 1e-12 and at least half of the previous step.
 class Convergence
 {
 public:
@@ -23,7 +24,7 @@ private:
   double before = std::numeric_limits<double>::max();
 };
 
-/// xi += step; @return its length in the face.
+/// Add @p step to xi. @return the length of the step in face coordinates.
 template <int dim>
 double advance(dealii::Point<dim - 1> &xi, const dealii::Tensor<1, dim> &step)
 {
@@ -36,7 +37,7 @@ double advance(dealii::Point<dim - 1> &xi, const dealii::Tensor<1, dim> &step)
   return move;
 }
 
-/// A step beyond this, in faces, leads nowhere.
+/// Newton's method stops without a result if a step is longer than this number of faces.
 const double wild = 10.;
 } // namespace
 
@@ -124,7 +125,8 @@ NormalRays<dim>::to(const dealii::Tensor<1, dim> &p,
 template <int dim>
 typename NormalRays<dim>::Hit NormalRays<dim>::on_surface(const Xi &xi) const
 {
-  // Places are relative to the face: far off the origin of the scene rounding would stop the steps.
+  // Positions are relative to the face, because round-off far off the origin of the scene would
+  // prevent convergence.
   const auto  origin = positions[face.nodes[0]];
   const auto  point  = at(xi, origin, 0.);
   Xi          zeta   = xi;

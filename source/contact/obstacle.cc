@@ -24,8 +24,8 @@ private:
   const dealii::Tensor<1, dim> normal;
 };
 
-/// A ball, or a round bar where the distance is taken at right angles to
-/// its axis; hollow: all the space but that.
+/// This class is a ball, or a round bar if the distance is taken at right angles to its axis. The
+/// hollow shape is the space outside of the ball or bar.
 template <int dim>
 class Round : public Obstacle<dim>
 {
@@ -45,11 +45,12 @@ public:
   {
     const dealii::Tensor<1, dim> r      = across * (x - centre);
     const double                 length = r.norm();
-    // On the centre or axis no direction is the closest.
+    // At the centre or on the axis, the closest point is not unique.
     if (!(length > 1e-10 * radius))
       return std::nullopt;
     const dealii::Tensor<1, dim> n = r / length;
-    // H = (I - n n')/|r| within the directions that count; the hollow shape has all signs reversed.
+    // H = (I - n n')/|r| within the directions of `across`. The hollow shape has all signs
+    // reversed.
     return ObstacleDistance<dim>{side * (length - radius), side * n,
                                  side / length * (across - outer_product(n, n))};
   }
@@ -72,7 +73,8 @@ Choice<Make<dim>> round(const std::string &name, const std::string &meaning, boo
 }
 } // namespace
 
-/// Parameter files give lists, of which the number of entries has been checked.
+/// Return the coordinates as a point. The lists come from parameter files, for which the number of
+/// entries has been checked.
 template <int dim>
 dealii::Point<dim> to_point(const std::vector<double> &coordinates)
 {

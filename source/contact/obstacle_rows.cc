@@ -25,15 +25,15 @@ public:
     for (const unsigned int face : slave_faces)
       for (const unsigned int node : surface.faces()[face].nodes)
         {
-          // Hanging nodes follow their masters, which have rows; `taken` are rows of an earlier
-          // pair with the same obstacle.
+          // Hanging nodes follow their masters, which have rows. Nodes in `taken` have a row in
+          // another pair with the same obstacle.
           if (visited[node] || !surface.masters(node).empty())
             continue;
           visited[node] = true;
           const auto d  = obstacle->distance(dealii::Point<dim>(pair.positions[node]));
           if (!d || !opposition.holds(node, d->value, -d->gradient))
             continue;
-          // A row of a node without an area would hold it, but show no pressure.
+          // A row of a node without an area would hold the node, but show no pressure.
           const bool has_area =
             !faces::is_without_area(surface, shape.degree(), pair.positions[node]);
           (has_area ? slave_nodes : idle).push_back(node);
@@ -54,7 +54,8 @@ public:
       {
         const auto                   d = distance(positions[slave]);
         const dealii::Tensor<1, dim> n = -d.gradient;
-        // n . (u - w) <= d(x): the obstacle moved by w is met with the normal at its place before.
+        // The row is n . (u - w) <= d(x): contact with the obstacle moved by w uses the normal at
+        // the place of the obstacle before.
         result.push_back({{{slave, n}}, d.value + n * shift, n});
       }
     return result;
@@ -85,8 +86,8 @@ public:
       {
         const unsigned int slave = slave_nodes[i];
         const auto         d     = distance(positions[slave]);
-        // of n . (u - w) - d
-        // n = -grad d at x: its derivative is -H, and gap' = grad d.
+        // Differentiate n . (u - w) - d with n = -grad d at x: the derivative of n is -H, and that
+        // of d is grad d.
         gradient[slave] -= forces[i] * (d.hessian * (displacement[slave] - shift) + d.gradient);
       }
   }
@@ -110,7 +111,7 @@ private:
   std::unique_ptr<Obstacle<dim>> obstacle;
   dealii::Tensor<1, dim>         shift; ///< w
   std::vector<unsigned int>      slave_faces, slave_nodes;
-  std::vector<unsigned int>      idle; ///< as in NodalRows
+  std::vector<unsigned int> idle; ///< slave nodes opposite to the obstacle, but without an area
 
   ObstacleDistance<dim> distance(const dealii::Tensor<1, dim> &x) const
   {

@@ -9,7 +9,7 @@
 
 namespace snug::contact {
 namespace {
-/// Limits of angles are met up to this.
+/// Tolerance of the cosines at the limits of angles.
 const double equal_cosine = 1e-9;
 
 template <int dim>
@@ -18,9 +18,8 @@ dealii::BoundingBox<dim> bounding_box(const std::vector<dealii::Tensor<1, dim>> 
   return dealii::BoundingBox<dim>(std::vector<dealii::Point<dim>>(nodes.begin(), nodes.end()));
 }
 
-/// A face as the search needs it.
-/// The box is that of the nodes: a curved face may bulge beyond it by a little, for which the slack
-/// of the search makes up.
+/// A face with the data of the search. The box is that of the nodes. A curved face may bulge beyond
+/// the box by a little, which the slack of the search covers.
 template <int dim>
 struct SearchFace
 {
@@ -45,7 +44,7 @@ struct SearchFace
     normal /= normal.norm();
   }
 
-  /// As the mortar kernels take positions, whose numbers may carry derivatives.
+  /// Return the nodes in the form of the mortar functions, whose numbers may carry derivatives.
   mortar::FaceNodes<dim, double> arrays() const
   {
     mortar::FaceNodes<dim, double> result(nodes.size());
@@ -56,7 +55,7 @@ struct SearchFace
   }
 };
 
-/// The faces of the master side that are near enough to @p slave.
+/// Return the faces of the master side that are near enough to @p slave.
 template <int dim>
 std::vector<std::size_t> near(const FaceTree<dim> &masters, const SearchFace<dim> &slave)
 {
@@ -72,7 +71,8 @@ std::vector<std::vector<unsigned int>> find_opposite(const PairGeometry<dim> &pa
   const auto  search_face = [&](unsigned int face) {
     return SearchFace<dim>(pair.surface, face, pair.shape, pair.positions);
   };
-  // Projecting along the slave's normal squeezes a face by the cosine of the angle.
+  // Limit the angle, because projection along the slave's normal shrinks a face by the cosine of
+  // the angle.
   const double angle        = std::min(pair.pair.parameters.largest_angle, steepest_angle);
   const double least_cosine = std::cos(angle / 180. * dealii::numbers::PI) - equal_cosine;
   std::vector<std::vector<unsigned int>> result(slaves.size());
@@ -81,14 +81,14 @@ std::vector<std::vector<unsigned int>> find_opposite(const PairGeometry<dim> &pa
     masters.push_back(search_face(face));
   if (masters.empty())
     return result;
-  // All pairs of faces would be a square of their number.
+  // Use a tree, because the number of all pairs of faces would be quadratic.
   const FaceTree<dim> tree(pair.surface, pair.sides.master, pair.shape, pair.positions);
   const mortar::SegmentQuadrature<dim> quadrature(pair.shape.degree(), pair.surface.idealization());
   const auto                           opposite = [&](const unsigned int i) {
     const SearchFace<dim> slave = search_face(slaves[i]);
     std::vector<double>   found;
     for (const std::size_t m : near(tree, slave))
-      // Both normals point out of their bodies, so those of opposite faces are opposite.
+      // Both normals point out of their bodies, so opposite faces have opposite normals.
       if (-(slave.normal * masters[m].normal) >= least_cosine &&
           quadrature.overlap(slave.arrays(), masters[m].arrays(), pairing_margin))
         found.push_back(pair.sides.master[m]);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 namespace snug::contact {
-/// With blanks, because names of mesh files may have a plus sign.
+/// Split at plus signs between blanks, because names of mesh files may have a plus sign.
 std::vector<std::string> faces_of_side(const std::string &side)
 {
   const std::string        plus = " + ";

@@ -10,12 +10,12 @@
 
 namespace snug::contact {
 namespace {
-/// Nodes exactly at the search distance or the largest angle are inside the limits, whatever
-/// rounding says: which rows there are must not depend on it.
+/// Nodes exactly at the search distance or the largest angle are inside the limits, because the set
+/// of rows must not depend on round-off.
 const double round_off = 1e-9;
 
-/// Diagonal over sqrt(dim-1), the edge length of a square.
-/// The first and the last node in tensor order are opposite corners.
+/// Return the diagonal over sqrt(dim-1), which is the edge length of a square. The first and the
+/// last node in tensor order are opposite corners.
 template <int dim>
 double face_size(const std::vector<unsigned int>          &nodes,
                  const typename mesh::Surface<dim>::Field &positions)
@@ -58,8 +58,8 @@ face_height(const mesh::Surface<dim> &surface, const faces::FaceShape<dim> &shap
           auto offset = X[face.samples[k]];
           for (unsigned int a = 0; a < face.nodes.size(); ++a)
             offset -= shape.at_sample(k).value[a] * X[face.nodes[a]];
-          // Along the normal alone: samples of graded cells lie beside the points of the face with
-          // the same coordinates, also where the face is plane.
+          // Measure along the normal alone, because samples of graded cells lie beside the points
+          // of the face with the same coordinates, also where the face is plane.
           const auto n =
             faces::area_vector(faces::tangents<dim>(shape.at_sample(k), face.nodes, X));
           const double height = std::abs(offset * n) / n.norm();
@@ -76,7 +76,8 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
   std::vector<double> sizes(surface.n_nodes(), 0.);
   for (const auto &face : surface.faces())
     for (const unsigned int node : face.nodes)
-      // The largest: slips and drifts are measured against what the mesh resolves at the node.
+      // Take the largest face, because slips and drifts are compared with what the mesh resolves at
+      // the node.
       sizes[node] = std::max(sizes[node], face_size<dim>(face.nodes, positions));
   return sizes;
 }
@@ -110,7 +111,7 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
               .normals())
 {
   const PairParameters &parameters = pair.pair.parameters;
-  // 0 stands for no limit.
+  // The value 0 means no limit.
   largest_distance = parameters.search_distance == 0.
                        ? std::numeric_limits<double>::infinity()
                        : parameters.search_distance * (1. + round_off);

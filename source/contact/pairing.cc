@@ -7,25 +7,26 @@
 
 namespace snug::contact {
 namespace {
-/// A side is finer if its faces are smaller by more than this part:
-/// equal meshes must be decided neither by round-off nor by a curvature
-/// that makes one side a few percent longer.
+/// A side is finer if its faces are smaller by more than this fraction. The choice between equal
+/// meshes must not depend on round-off or on a curvature that makes one side a few percent longer.
 const double finer_by = 0.1;
 
-/// Times, by size and by modulus together, that faces of mortar pairs are alike. Of sides that are
-/// more different the coarser one is the slave: its master must be able to follow its multipliers.
-/// Pressures of rings with 60 and 72 cells, the finer stiffer by 200, scatter by 90 % if it is the
-/// slave, and of equal moduli by 0.4 %, where a contact of few faces is better off with more nodes.
+/// Maximum ratio, of sizes times moduli, of faces of mortar pairs that count as alike. Beyond this
+/// ratio the coarser side is the slave, because its master must be able to follow its multipliers.
+/// Measured on rings with 60 and 72 cells: pressures scatter by 90 % if the slave is the finer ring
+/// and stiffer by a factor of 200, but by 0.4 % with equal moduli. With equal moduli, a contact of
+/// few faces benefits from the greater number of nodes of the finer side.
 const double alike = 1.5;
 
-/// Whether the master of a mortar pair is too coarse for its slave, by the size of its faces over
-/// that of the slave's and the ratio of their moduli, the stiffer over the softer.
+/// Return whether the master of a mortar pair is too coarse for its slave. @p size is the size of
+/// the master's faces over that of the slave's, and @p contrast is the ratio of the moduli, the
+/// stiffer over the softer.
 bool asks_too_much(const double size, const double contrast)
 {
   return size > 1. / (1. - finer_by) && size * contrast > alike;
 }
 
-/// Of obstacles, the master side is empty.
+/// Return the faces of both sides of a pair. The master side of an obstacle is empty.
 template <int dim>
 PairFaces sides_of(const mesh::Surface<dim> &surface, const Pair &pair)
 {
@@ -33,7 +34,7 @@ PairFaces sides_of(const mesh::Surface<dim> &surface, const Pair &pair)
           pair.obstacle ? std::vector<unsigned int>() : faces_of(surface, pair.master)};
 }
 
-/// Size of the master's faces over that of the slave's.
+/// Return the size of the master's faces over that of the slave's faces.
 template <int dim>
 double relative_size(const mesh::Surface<dim>                 &surface,
                      const typename mesh::Surface<dim>::Field &positions,
@@ -65,8 +66,8 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
           std::swap(named[part.pair].slave_name, named[part.pair].master_name);
       }
   make_groups(positions, held);
-  // Of the pairs of one boundary of each side that a list of boundaries stands for, some may be
-  // too far apart to touch.
+  // A list of boundaries stands for all pairs of one boundary of each side. Remove the pairs
+  // without rows, because some of them may be too far apart to touch.
   for (unsigned int p = joined.size(); p-- > 0;)
     if (groups[p].rows->slaves().empty())
       {
@@ -78,14 +79,14 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
   number_rows(positions, held);
 }
 
-/// Choose the slaves and the methods of the joined pairs. The choices are made once: a design that
-/// changes which side is finer must not exchange the sides, or the kind of the rows, when contact
-/// is paired anew.
+/// Choose the slaves and the methods of the joined pairs. The choices are made once, because a
+/// design that changes which side is finer must not exchange the sides, or the kind of the rows, in
+/// a new contact search.
 template <int dim>
 void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held)
 {
-  // Whether the sides of a pair of the scene are exchanged: in all joined pairs that it is part of,
-  // as its force is that on one side.
+  // Store whether the sides of a pair of the scene are exchanged. The choice holds for all joined
+  // pairs that contain this pair, because the force of the pair is the force on one side.
   std::map<unsigned int, bool> exchanged;
   for (JoinedPair &of : joined)
     {
@@ -146,7 +147,7 @@ void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirectio
   row_places.clear();
   for (unsigned int p = 0; p < groups.size(); ++p)
     for (const unsigned int slave : groups[p].rows->slaves())
-      // The number of a row is its place here, over all groups.
+      // The index of a row is its position in this list of all groups.
       row_places.push_back({p, slave});
   share_rows(positions, held);
   check_named_pairs();
@@ -167,8 +168,9 @@ void Contact<dim>::make_groups(const Field &positions, const faces::HeldDirectio
       groups[p] = make_group(geometry(p, positions, held, std::move(taken[p])));
 }
 
-/// Slave nodes of each group that have a row against the same surface in another group, whose side
-/// faces it better: two such rows would be nearly equal and W = B D^-1 B' singular. Empty: none.
+/// Return, for each group, the slave nodes that have a row against the same surface in another
+/// group whose side faces this surface better. Two such rows would be nearly equal and W = B D^-1
+/// B' singular. An empty list means that there are no such nodes.
 template <int dim>
 std::vector<std::vector<bool>> Contact<dim>::contested_nodes(const Field &positions) const
 {
@@ -177,7 +179,7 @@ std::vector<std::vector<bool>> Contact<dim>::contested_nodes(const Field &positi
     unsigned int group;
     double       cosine; ///< between the normals of the group's side and of the row
   };
-  std::map<std::pair<std::string, Boundary>, std::vector<unsigned int>> groups_of; // a surface
+  std::map<std::pair<std::string, Boundary>, std::vector<unsigned int>> groups_of; // per surface
   for (unsigned int p = 0; p < groups.size(); ++p)
     groups_of[{chosen[p].obstacle ? chosen[p].obstacle->name : "", joined[p].master_surface}]
       .push_back(p);
@@ -200,7 +202,7 @@ std::vector<std::vector<bool>> Contact<dim>::contested_nodes(const Field &positi
         {
           auto best = rows.front();
           for (const Row &row : rows)
-            if (row.cosine > best.cosine + 1e-9) // of equal ones the first
+            if (row.cosine > best.cosine + 1e-9) // the first of equal rows
               best = row;
           for (const Row &row : rows)
             if (row.group != best.group)
@@ -237,7 +239,7 @@ void Contact<dim>::share_rows(const Field &positions, const faces::HeldDirection
       }
 }
 
-/// Replicated data: the same answer, and the same error, on all ranks.
+/// Check replicated data, so that all ranks reach the same answer and throw the same error.
 template <int dim>
 void Contact<dim>::check_named_pairs() const
 {

@@ -32,7 +32,7 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
 template <int dim>
 PointGaps<dim>::~PointGaps() = default;
 
-/// On the true surface of the master.
+/// Return the position of @p foot on the true surface of the master.
 template <int dim>
 dealii::Tensor<1, dim> PointGaps<dim>::place(const PointProjection<dim> &foot) const
 {
@@ -42,8 +42,9 @@ dealii::Tensor<1, dim> PointGaps<dim>::place(const PointProjection<dim> &foot) c
   return y;
 }
 
-/// From @p x along the slave's normal: the foot, by the master's normals, of a point that is moved
-/// to it along that. Each step leaves the square of the angle between them.
+/// Return the foot of @p x along the slave's normal. Each step moves the point along the slave's
+/// normal to the height of the foot and projects it along the master's normals. A step multiplies
+/// the error by the square of the angle between the two normals.
 template <int dim>
 std::optional<PointProjection<dim>>
 PointGaps<dim>::foot(const dealii::Tensor<1, dim> &x,
@@ -80,7 +81,8 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       if (!slave_normals)
         for (const auto &[node, weight] : nearest->masters)
           result.normal -= weight * normals->normals()[node];
-      // those of mortar rows are shorter between nodes, and so an offset of them is too large
+      // Normalize, because interpolated normals are shorter between nodes, as in mortar rows, and
+      // an offset is too large in comparison.
       result.normal /= result.normal.norm();
       result.gap             = result.normal * (place(*nearest) - x) + nearest->relief;
       result.masters         = nearest->masters;

@@ -6,7 +6,7 @@
 
 namespace snug::contact {
 namespace {
-/// Weights below this are round-off of nodes that do not take part.
+/// Weights below this value are round-off of nodes that do not take part.
 const double least_weight = 1e-12;
 
 Weights nonzero(const std::vector<double> &values, const std::vector<unsigned int> &points)
@@ -14,21 +14,21 @@ Weights nonzero(const std::vector<double> &values, const std::vector<unsigned in
   Weights result;
   double  sum = 0.;
   for (unsigned int k = 0; k < points.size(); ++k)
-    // On an edge the nodes of the other edges have weights that are rounding: they would couple the
-    // row to nodes that it has nothing to do with.
+    // On an edge, the weights of the nodes of the other edges are round-off. These weights would
+    // couple the row to unrelated nodes.
     if (std::abs(values[k]) >= least_weight)
       {
         result.emplace_back(points[k], values[k]);
         sum += values[k];
       }
   for (auto &weight : result)
-    // What was left out is made up for: rigid translations must not open or close the gap.
+    // Divide by the sum of the weights, because rigid translations must not open or close the gap.
     weight.second /= sum;
   std::sort(result.begin(), result.end());
   return result;
 }
 
-/// @p xi without rounding beyond the edges, if the face contains it.
+/// Return @p xi without round-off beyond the edges, if the face contains it.
 template <int dim>
 std::optional<dealii::Point<dim>> inside(dealii::Point<dim> xi)
 {
@@ -71,7 +71,7 @@ Projector<dim>::find_ray(const dealii::Tensor<1, dim> &p,
   std::vector<unsigned int> candidates = {face};
   for (const unsigned int node : surface.faces()[face].nodes)
     candidates.insert(candidates.end(), faces_at[node].begin(), faces_at[node].end());
-  // The face of the closest point first, then its neighbours by number.
+  // The face of the closest point comes first, then its neighbours by number.
   std::sort(candidates.begin() + 1, candidates.end());
   dealii::Point<dim - 1> middle;
   for (int a = 0; a < dim - 1; ++a)
@@ -87,8 +87,8 @@ template <int dim>
 std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1, dim> &p) const
 {
   const auto closest = side.closest(p);
-  // Beyond the end of the master side the closest point stays on its edge, and the row would
-  // hold back a node that passes by the master side.
+  // Beyond the end of the master side the closest point stays on its edge, and the row would hold
+  // back a node that passes by the master side.
   const double excess =
     edges.excess(closest.face, closest.point.xi, p - closest.point.position, positions);
   if (excess >= edge_tolerance)
@@ -97,7 +97,8 @@ std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1,
   const auto [face, xi] = ray.value_or(std::make_pair(closest.face, closest.point.xi));
   const auto &of        = surface.faces()[face];
   const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
-  // Where the ray begins on the side, as in a symmetry plane, nothing ends.
+  // Where the ray begins on the side, as in a symmetry plane, the side does not end, so the relief
+  // is 0.
   const double beyond = ray ? 0. : std::max(0., excess);
   const auto   meets =
     of.samples.empty() ? masters : nonzero(rays(face).on_surface(xi).values.value, of.samples);
@@ -120,7 +121,7 @@ std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &s
   for (const unsigned int slave_face : sides.slave)
     for (const unsigned int slave : surface.faces()[slave_face].nodes)
       {
-        // Faces share nodes, of which each is projected once; hanging ones never.
+        // Faces share nodes, so each node is projected once. Hanging nodes are not projected.
         if (visited[slave] || !surface.masters(slave).empty())
           continue;
         visited[slave] = true;

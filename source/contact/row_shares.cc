@@ -16,7 +16,7 @@ Boundary boundary_of(const Face &face)
   return {face.body, face.boundary};
 }
 
-/// Tributary areas of the slave nodes by the pairs of the scene they belong to.
+/// Tributary areas of the slave nodes, split among the pairs of the scene.
 template <int dim>
 class SharedAreas
 {
@@ -36,7 +36,7 @@ public:
       for (const unsigned int face : geometry.sides.slave)
         add(face,
             {{joined.pair_of(boundary_of(geometry.surface.faces()[face]), {}), integrals(face)}});
-    // A hanging node gives its area to its masters, as its force.
+    // A hanging node gives its area to its masters, like its force.
     for (unsigned int node = 0; node < areas.size(); ++node)
       for (const auto &[master, weight] : geometry.surface.masters(node))
         for (const auto &[pair, area] : areas[node])
@@ -46,7 +46,7 @@ public:
   const PairShares &at(const unsigned int node) const { return areas[node]; }
 
 private:
-  using OfPairs = std::map<unsigned int, std::vector<double>>; ///< per node of a face
+  using OfPairs = std::map<unsigned int, std::vector<double>>; ///< by pair, per node of a face
 
   const JoinedPair        &joined;
   const PairGeometry<dim> &geometry;
@@ -65,8 +65,8 @@ private:
         areas[nodes[k]][pair] += values[k];
   }
 
-  /// By the integrals over the parts of a slave face opposite to each master face; what is
-  /// opposite to none goes to the pair of the nearest one.
+  /// Split the areas by the integrals over the parts of a slave face opposite to each master face.
+  /// A part without an opposite face goes to the pair of the nearest master face.
   void add_opposite()
   {
     const auto                          &surface  = geometry.surface;
@@ -125,7 +125,7 @@ row_shares(const JoinedPair &joined, const PairGeometry<dim> &geometry, const Ro
   std::vector<PairShares> result;
   for (const unsigned int slave : slaves)
     result.push_back(areas.at(slave));
-  // The multiplier functions of nodes without a row.
+  // Add the areas of nodes without a row, whose multiplier functions belong to the rows.
   for (const auto &shared : group.shared_nodes())
     for (const auto &[row, share] : shared.rows)
       for (const auto &[pair, area] : areas.at(shared.node))
@@ -136,7 +136,7 @@ row_shares(const JoinedPair &joined, const PairGeometry<dim> &geometry, const Ro
       for (const auto &[pair, area] : shares)
         sum += area;
       for (auto &[pair, area] : shares)
-        // Nodes on the axis of revolution have no area at degree 2.
+        // Nodes on the axis of revolution have no area at degree 2, so their shares are equal.
         area = sum > 0. ? area / sum : 1. / double(shares.size());
     }
   return result;

@@ -2,7 +2,8 @@
 
 namespace snug::contact {
 namespace {
-/// cos(25 deg): normals that lean more on a support mean it.
+/// About cos(25 deg), the minimum length of the free part of a normal that is corrected. Normals
+/// that lean more on a support are meant to do so.
 const double least_free_part = 0.9;
 } // namespace
 
@@ -48,7 +49,7 @@ void SupportedNormals<dim>::add_transpose(const Field &normal_gradient, Field &g
   Field to_nodal = normal_gradient;
   for (unsigned int node = 0; node < to_nodal.size(); ++node)
     if (length[node] > 0.)
-      // Transposes in reverse order; both factors are symmetric.
+      // Apply the transposes in reverse order; both factors are symmetric.
       to_nodal[node] = faces::free_part(faces::unit_vector_derivative(unit[node], length[node],
                                                                       normal_gradient[node]),
                                         held[node]);

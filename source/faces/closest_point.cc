@@ -6,7 +6,7 @@
 
 namespace snug::faces {
 namespace {
-/// phi = 1/2 |x(xi) - p|^2, its derivatives, and J'J in gauss_newton.
+/// phi = 1/2 |x(xi) - p|^2 with its derivatives, and J'J in gauss_newton.
 template <int dim>
 struct DistanceExpansion
 {
@@ -16,7 +16,8 @@ struct DistanceExpansion
   dealii::Tensor<2, dim - 1> hessian, gauss_newton;
 };
 
-/// Half the squared distance of @p p to the points of a face as a function of their coordinates xi.
+/// This class is half the squared distance of @p p to the points of a face as a function of their
+/// coordinates xi.
 template <int dim>
 class DistanceToFace
 {
@@ -27,7 +28,7 @@ public:
     : shape(shape), nodes(nodes), p(p)
   {}
 
-  /// phi alone.
+  /// Return phi alone.
   double at(const typename FaceShape<dim>::Values &values) const
   {
     dealii::Tensor<1, dim> offset;
@@ -43,9 +44,9 @@ public:
     std::array<dealii::Tensor<1, dim>, dim - 1> t;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       {
-        // sum of the shape functions is 1: subtracting p first keeps
-        // the digits of small distances far from the origin
-        // (Values and tangents alike: the derivatives of the shape functions sum to 0.)
+        // The sum of the shape functions is 1, so p may be subtracted first. This preserves the
+        // digits of small distances far from the origin. The same holds for tangents, because the
+        // derivatives of the shape functions sum to 0.
         const dealii::Tensor<1, dim> x = nodes[k] - p;
         result.offset += values.value[k] * x;
         for (int i = 0; i < dim - 1; ++i)
@@ -58,8 +59,8 @@ public:
         for (int j = 0; j < dim - 1; ++j)
           result.gauss_newton[i][j] = t[i] * t[j];
       }
-    // phi,_ij = x,_i . x,_j + (x - p) . x,_ij; the second term vanishes on straight segments and
-    // parallelograms only.
+    // phi,_ij = x,_i . x,_j + (x - p) . x,_ij; the second term vanishes only on straight segments
+    // and parallelograms.
     result.hessian = result.gauss_newton;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       result.hessian += (result.offset * (nodes[k] - p)) * values.hessian[k];
@@ -72,8 +73,8 @@ private:
   const dealii::Tensor<1, dim>              &p;
 };
 
-/// Beyond the face's centre of curvature the Hessian is indefinite; 1e-10 also leaves out Hessians
-/// whose inverse would be rounding.
+/// Return whether @p m is positive definite. Beyond the centre of curvature of the face, the
+/// Hessian is indefinite. The factor 1e-10 also excludes Hessians whose inverse would be round-off.
 bool positive_definite(const dealii::Tensor<2, 1> &m)
 {
   return m[0][0] > 0.;
@@ -84,22 +85,23 @@ bool positive_definite(const dealii::Tensor<2, 2> &m)
   return m[0][0] > 0. && m[1][1] > 0. && dealii::determinant(m) > 1e-10 * m[0][0] * m[1][1];
 }
 
-/// Is coordinate @p x at a bound with @p slope pushing out of it?
+/// Return whether coordinate @p x is at a bound and a descent step along -@p slope would leave it.
 /// Such coordinates are active constraints of the projected Newton method.
 bool held(double x, double slope)
 {
   return (x <= 0. && slope > 0.) || (x >= 1. && slope < 0.);
 }
 
-/// Newton step in the coordinates not held by their bounds; a diagonally
-/// scaled gradient step where Newton would leave through a bound.
+/// Return the Newton step in the coordinates not held by their bounds, or a diagonally scaled
+/// gradient step where the Newton step would leave through a bound.
 template <int dim>
 dealii::Tensor<1, dim - 1> newton_step(const dealii::Point<dim - 1> &xi,
                                        const DistanceExpansion<dim> &at)
 {
   dealii::Tensor<1, dim - 1> slope  = at.gradient;
   dealii::Tensor<2, dim - 1> newton = at.hessian;
-  // First pass with the Hessian; second one, where that is not positive definite, with J'J.
+  // The first pass uses the Hessian. The second pass uses J'J if the Hessian is not positive
+  // definite.
   for (int pass = 0; pass < 2; ++pass)
     {
       for (int i = 0; i < dim - 1; ++i)
@@ -107,7 +109,7 @@ dealii::Tensor<1, dim - 1> newton_step(const dealii::Point<dim - 1> &xi,
           {
             for (int j = 0; j < dim - 1; ++j)
               newton[i][j] = newton[j][i] = 0.;
-            // A held coordinate gets no step, but its entry must keep the matrix regular.
+            // A held coordinate gets no step, but its diagonal entry must keep the matrix regular.
             newton[i][i] = at.gauss_newton[i][i];
             slope[i]     = 0.;
           }
@@ -116,8 +118,9 @@ dealii::Tensor<1, dim - 1> newton_step(const dealii::Point<dim - 1> &xi,
       newton = at.gauss_newton;
     }
   dealii::Tensor<1, dim - 1> step;
-  // The Newton step of a free coordinate may push into a bound that it is at: projected it would be
-  // no step at all. The scaled gradient points inwards there, as `held` has sorted out the others.
+  // The Newton step of a free coordinate may leave through a bound at which the coordinate is, and
+  // its projection would be no step at all. The scaled gradient step points inwards there, because
+  // `held` has excluded the other coordinates.
   bool bad = !positive_definite(newton);
   if (!bad)
     step = -(dealii::invert(newton) * slope);
@@ -129,7 +132,7 @@ dealii::Tensor<1, dim - 1> newton_step(const dealii::Point<dim - 1> &xi,
   return step;
 }
 
-/// A grid of samples of phi; those no neighbour of which is closer.
+/// Return the samples of phi on a grid that have no closer neighbour.
 template <int dim>
 std::vector<dealii::Point<dim - 1>> starting_points(const FaceShape<dim> &shape,
                                                     DistanceToFace<dim>  &distance)
@@ -144,7 +147,7 @@ std::vector<dealii::Point<dim - 1>> starting_points(const FaceShape<dim> &shape,
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < n; ++i)
       {
-        // Equal neighbours both stay: descents from both find the same point.
+        // Equal neighbours are both kept, because descents from both find the same point.
         bool least = true;
         for (int b = std::max(0, j - 1); b <= std::min(rows - 1, j + 1); ++b)
           for (int a = std::max(0, i - 1); a <= std::min(n - 1, i + 1); ++a)
@@ -155,11 +158,11 @@ std::vector<dealii::Point<dim - 1>> starting_points(const FaceShape<dim> &shape,
   return starts;
 }
 
-/// Projected Newton iteration from @p xi.
+/// Iterate from @p xi with the projected Newton method.
 template <int dim>
 ClosestPoint<dim> descend(DistanceToFace<dim> &distance, dealii::Point<dim - 1> xi)
 {
-  // Round-off of phi in units of phi, and of xi
+  // Round-off of phi relative to phi, and round-off of xi.
   const double           phi_noise = 1e-15, converged = 1e-15;
   const unsigned int     max_iterations = 100;
   DistanceExpansion<dim> at             = distance.expand(xi);
@@ -167,7 +170,7 @@ ClosestPoint<dim> descend(DistanceToFace<dim> &distance, dealii::Point<dim - 1> 
     {
       const dealii::Tensor<1, dim - 1> step = newton_step<dim>(xi, at);
       double                           move = 0.;
-      // Backtracking along the path that is projected onto the bounds.
+      // Backtrack along the path that is projected onto the bounds.
       for (double length = 1.; length > 1e-10; length *= 0.5)
         {
           dealii::Point<dim - 1>     trial = xi + length * step;
@@ -178,9 +181,9 @@ ClosestPoint<dim> descend(DistanceToFace<dim> &distance, dealii::Point<dim - 1> 
               moved[i] = trial[i] - xi[i];
             }
           const DistanceExpansion<dim> next = distance.expand(trial);
-          // Armijo's condition for the step as projected onto the bounds. Close to the minimum the
-          // decrease drowns in the rounding of phi; without the noise term the last digits of xi
-          // would not be found.
+          // Check Armijo's condition for the step as projected onto the bounds. Close to the
+          // minimum, the decrease is below the round-off of phi. Without the noise term the last
+          // digits of xi would not be found.
           if (next.phi <= at.phi * (1. + phi_noise) + 1e-4 * (at.gradient * moved))
             {
               move = moved.norm();
@@ -207,7 +210,8 @@ ClosestPoint<dim> closest_point(const FaceShape<dim>                      &shape
   for (const auto &start : starting_points<dim>(shape, distance))
     {
       const ClosestPoint<dim> found = descend<dim>(distance, start);
-      // Different starts may end in different minima: the closest counts, of equal ones the first.
+      // Different starts may end in different minima. Take the closest one, and the first of equal
+      // ones.
       if (found.squared_distance < best.squared_distance)
         best = found;
     }

@@ -4,9 +4,9 @@
 
 namespace snug::faces {
 namespace {
-/// x with A x = b
-/// A is of plain numbers also where b carries derivatives: one Newton step with the derivative at
-/// the solution gives the derivatives of the solution exactly, whatever those of A are.
+/// Return x with A x = b. A has plain numbers even where b carries derivatives: one Newton step
+/// with the derivative at the solution gives the derivatives of the solution exactly, independently
+/// of the derivatives of A.
 template <typename Number>
 std::array<Number, 1> solve(const std::array<std::array<double, 1>, 1> &A,
                             const std::array<Number, 1>                &b)
@@ -22,7 +22,7 @@ std::array<Number, 2> solve(const std::array<std::array<double, 2>, 2> &A,
   return {{(b[0] * A[1][1] - b[1] * A[0][1]) * d, (b[1] * A[0][0] - b[0] * A[1][0]) * d}};
 }
 
-/// y - sum_k N_k(xi) y_k, and the derivative of the sum.
+/// Residual y - sum_k N_k(xi) y_k, and the derivative of the sum.
 template <int dim, typename Number>
 struct Residual
 {
@@ -46,7 +46,7 @@ struct Residual
   }
 };
 
-/// The numbers without their derivatives.
+/// Return the numbers without their derivatives.
 template <int dim, typename Number>
 FaceCoordinates<dim, double> values_of(const FaceCoordinates<dim, Number> &x)
 {
@@ -97,7 +97,7 @@ FaceCoordinates<dim, Number> PlaneFace<dim, Number>::coordinates(const Point &y)
   const auto         wanted         = values_of<dim>(y);
 
   FaceCoordinates<dim, double> xi;
-  // From the centre: the map of a convex face is nearly linear.
+  // Start from the centre, because the map of a convex face is nearly linear.
   xi.fill(0.5);
   double move = 1., last_move = 2.;
   for (unsigned int i = 0; i < max_iterations && move > round_off; ++i)
@@ -111,14 +111,14 @@ FaceCoordinates<dim, Number> PlaneFace<dim, Number>::coordinates(const Point &y)
           xi[a] += step[a];
           move += std::abs(step[a]);
         }
-      // Steps that no longer shrink are rounding, on faces where it is above round_off.
+      // Steps that do not shrink are round-off, on faces where round-off is above round_off.
       if (move < converged && move >= last_move)
         break;
     }
   if (!(move < converged))
     throw TangledMesh("a contact face is folded: a point opposite to it "
                       "has no coordinates in it");
-  // xi' = J^-1 (y' - sum_k N_k y_k'): by the step whose values vanish up to rounding.
+  // One step whose values vanish up to round-off gives xi' = J^-1 (y' - sum_k N_k y_k').
   const Residual<dim, Number> at(degree, points, y, xi);
   Point                       result = solve(at.jacobian, at.value);
   for (int a = 0; a < dim - 1; ++a)

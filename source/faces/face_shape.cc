@@ -1,7 +1,8 @@
 #include <snug/faces/face_shape.h>
 
 namespace snug::faces {
-/// Of positions the tangents, of velocities their derivatives.
+/// Return the tangents if @p field contains positions, or their derivatives if it contains
+/// velocities.
 template <int dim>
 typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values    &values,
                                            const std::vector<unsigned int>          &nodes,
@@ -14,8 +15,8 @@ typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values
   return t;
 }
 
-/// deal.II's cross_product_2d(t) is (t_y, -t_x): t turned by -90 degrees. Faces are oriented such
-/// that this, or t_1 x t_2, points out of the body.
+/// Return cross_product_2d(t) of deal.II, (t_y, -t_x), which is t rotated by -90 degrees. Faces are
+/// oriented such that this vector, or t_1 x t_2, points out of the body.
 dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t)
 {
   return dealii::cross_product_2d(t[0]);
@@ -26,7 +27,7 @@ dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t)
   return dealii::cross_product_3d(t[0], t[1]);
 }
 
-/// In 2D the area vector is linear in the tangent, in 3D bilinear.
+/// Use that the area vector is linear in the tangent in 2D and bilinear in 3D.
 dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &,
                                             const std::array<dealii::Tensor<1, 2>, 1> &dt)
 {
@@ -42,7 +43,7 @@ dealii::Tensor<1, 3> area_vector_derivative(const std::array<dealii::Tensor<1, 3
 std::array<dealii::Tensor<1, 2>, 1>
 area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &, const dealii::Tensor<1, 2> &b)
 {
-  // The transpose of a turn by -90 degrees is the turn by 90.
+  // The transpose of a rotation by -90 degrees is the rotation by 90 degrees.
   return {{-dealii::cross_product_2d(b)}};
 }
 

@@ -18,7 +18,7 @@ NodalNormals<dim>::NodalNormals(const mesh::Surface<dim>        &surface,
   correct();
 }
 
-/// a_k/|a_k| and |a_k| at the positions @p x.
+/// Compute a_k/|a_k| and |a_k| at the positions @p x.
 template <int dim>
 void NodalNormals<dim>::normalise_areas(const Field         &x,
                                         Field               &areas,
@@ -33,8 +33,8 @@ void NodalNormals<dim>::normalise_areas(const Field         &x,
       for (unsigned int k = 0; k < face.nodes.size(); ++k)
         {
           const TrueSurface<dim> of(shape, face, k);
-          // Not normalized before they are summed: faces weigh by their areas, and the sum is a
-          // polynomial of the positions.
+          // Area vectors are summed without normalization, so that faces are weighted by their
+          // areas and the sum is a polynomial of the positions.
           areas[face.nodes[k]] += area_vector(tangents<dim>(of.at_node, of.points, x));
           touched[face.nodes[k]] = true;
         }
@@ -43,7 +43,7 @@ void NodalNormals<dim>::normalise_areas(const Field         &x,
     if (touched[node])
       {
         lengths[node] = areas[node].norm();
-        // Written so that NaN is caught as well.
+        // The condition is written so that it also catches NaN.
         if (!(lengths[node] > 0.) || !std::isfinite(lengths[node]))
           {
             std::ostringstream message;
@@ -69,8 +69,9 @@ void NodalNormals<dim>::correct()
     for (const unsigned int node : surface.faces()[f].nodes)
       {
         const Known here = surface.faces()[f].known;
-        // Of a face without one, or with another one, the normal is a mean. The parts of a surface
-        // that is cut into boundaries are known separately, to the digits of a mesh file.
+        // If a face has no known surface, or another one, the normal is a mean. The parts of a
+        // surface that is cut into boundaries are known separately, up to the digits of a mesh
+        // file.
         several[node] = several[node] || here == nullptr ||
                         (known[node] && known[node] != here &&
                          (normal_of(known[node], node) - normal_of(here, node)).norm() > 1e-6);
@@ -116,7 +117,8 @@ typename NodalNormals<dim>::Field NodalNormals<dim>::derivative(const Field &vel
   return result;
 }
 
-/// The chain backwards: unit normal, sum of area vectors, tangents, points of each face.
+/// Apply the chain rule in reverse order: unit normal, sum of area vectors, tangents, points of
+/// each face.
 template <int dim>
 void NodalNormals<dim>::add_transpose(const Field &normal_gradient, Field &gradient) const
 {
@@ -127,7 +129,7 @@ void NodalNormals<dim>::add_transpose(const Field &normal_gradient, Field &gradi
         {
           const TrueSurface<dim> of(shape, face, k);
           const unsigned int     node = face.nodes[k];
-          // (I - n n')/|a| is symmetric: the same function serves derivative and transpose.
+          // (I - n n')/|a| is symmetric, so the same function serves derivative and transpose.
           const auto to_area =
             unit_vector_derivative(area_unit[node], area_length[node],
                                    unit_vector_derivative(unit[node], length[node],

@@ -4,7 +4,7 @@
 
 namespace snug::faces {
 namespace {
-/// xi closer than this to 0 or 1 is on the edge.
+/// Points with xi closer than this to 0 or 1 are on the edge.
 const double edge_width = 1e-12;
 
 bool at_bound(double x)
@@ -19,9 +19,9 @@ OuterEdges<dim>::OuterEdges(const mesh::Surface<dim>        &surface,
                             const FaceShape<dim>            &shape)
   : surface(surface), shape(shape)
 {
-  // Faces with these edge nodes; and whether edges with these masters are
-  // found with (fine) and without (coarse) hanging nodes: the halves of an
-  // edge reach the same masters as the coarse edge they lie on.
+  // n_faces is the number of faces with the same edge nodes. Halves tells whether edges with the
+  // same masters are found with (fine) and without (coarse) hanging nodes. The halves of an edge
+  // reach the same masters as the coarse edge that contains them.
   struct Halves
   {
     bool coarse = false, fine = false;
@@ -33,8 +33,8 @@ OuterEdges<dim>::OuterEdges(const mesh::Surface<dim>        &surface,
       {
         const auto nodes = edge_nodes(face, edge);
         // Where meshes of different fineness meet, the edge of the coarse face and its halves have
-        // different nodes, so that each is on one face only. Both reach the same masters, by which
-        // they are known not to be at the end of the side.
+        // different nodes, so that each of them is on one face only. Both reach the same masters,
+        // which shows that they are not at the end of the side.
         const bool hanging = std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
           return !surface.masters(node).empty();
         });
@@ -53,11 +53,12 @@ OuterEdges<dim>::OuterEdges(const mesh::Surface<dim>        &surface,
         for (const unsigned int node : nodes)
           outer_at_vertex[node].emplace_back(face, edge);
       }
-  // For the binary search of excess().
+  // Sort the edges for the binary search of excess().
   std::sort(outer.begin(), outer.end());
 }
 
-/// Sorted, so that two faces give the same name to an edge they share. In 2D an "edge" is a node.
+/// Return the nodes of an edge, sorted, so that two faces give the same result for an edge they
+/// share. In 2D an "edge" is a node.
 template <int dim>
 std::vector<unsigned int> OuterEdges<dim>::edge_nodes(unsigned int face, unsigned int edge) const
 {
@@ -99,7 +100,8 @@ double OuterEdges<dim>::excess(unsigned int                              face,
         ++n_bounds;
         edge = 2 * i + (xi[i] > 0.5 ? 1 : 0);
       }
-  // The closest point is inside of the face: the offset is along the normal, and nothing ends here.
+  // The closest point is inside of the face, so the offset is along the normal and nothing ends
+  // here.
   if (n_bounds == 0)
     return 0.;
   if (n_bounds < dim - 1)
@@ -109,7 +111,7 @@ double OuterEdges<dim>::excess(unsigned int                              face,
                ? excess_at_edge(only, xi, offset, positions)
                : 0.;
     }
-  // The corner node nearest to xi; nodes are 1/degree apart.
+  // Find the corner node nearest to xi; nodes are 1/degree apart.
   unsigned int corner = 0;
   while (!(shape.node(corner).distance(xi) < 0.25 / shape.degree()))
     ++corner;
@@ -121,7 +123,7 @@ double OuterEdges<dim>::excess(unsigned int                              face,
       {
         const auto        &nodes = surface.faces()[incident.first].nodes;
         const unsigned int k     = std::find(nodes.begin(), nodes.end(), vertex) - nodes.begin();
-        // At a corner of the side the edges of other faces end, too: the largest excess counts.
+        // At a corner of the side, edges of other faces end as well, so the largest excess counts.
         result = std::max(result, excess_at_edge(incident, shape.node(k), offset, positions));
       }
   return result;
@@ -134,13 +136,14 @@ double OuterEdges<dim>::excess_at_edge(const Edge                               
                                        const typename mesh::Surface<dim>::Field &positions) const
 {
   const auto values = shape.at(xi);
-  // d x/d xi is also the extent of the face along xi, as xi runs from 0 to 1.
+  // d x/d xi is also the extent of the face along xi, because xi runs from 0 to 1.
   const auto             t = tangents<dim>(values, surface.faces()[edge.first].nodes, positions);
   const unsigned int     across  = edge.second / 2;
   dealii::Tensor<1, dim> outward = t[across];
   if (dim == 3)
     {
-      // At right angles to the edge within the face, whatever angle its sides make.
+      // Take the direction at right angles to the edge within the face, for any angle between its
+      // sides.
       const auto &along = t[dim - 2 - across];
       outward -= (outward * along / along.norm_square()) * along;
     }

@@ -4,25 +4,25 @@
 
 namespace snug::faces {
 namespace {
-/// A Gauss point of a face: its area is weight * |area|.
+/// A Gauss point of a face, whose area is weight * |area|.
 template <int dim>
 struct AreaPoint
 {
   const std::vector<unsigned int>        &nodes;
   const typename FaceShape<dim>::Values  &values;
   const typename FaceShape<dim>::Tangents t;
-  const dealii::Tensor<1, dim>            area; ///< vector
+  const dealii::Tensor<1, dim>            area; ///< area vector
   const double                            weight;
   const dealii::Tensor<1, dim>            weight_gradient;
 };
 
-/// work() gets every Gauss point of every face.
+/// Call work() for every Gauss point of every face.
 template <int dim, typename Work>
 void for_each_point(const TributaryFaces<dim>                &of,
                     const typename mesh::Surface<dim>::Field &positions,
                     const Work                               &work)
 {
-  // |area| is not a polynomial on curved faces: one point more than elements take.
+  // area| is not a polynomial on curved faces, so use one point more than elements do.
   const dealii::QGauss<dim - 1> quadrature(of.shape.degree() + 2);
   const auto                   &section = of.surface.idealization();
   for (const unsigned int f : of.faces)
@@ -53,8 +53,8 @@ std::vector<double> tributary_areas(const TributaryFaces<dim>                &of
       share[point.nodes[k]] += point.values.value[k] * point.weight * point.area.norm();
   });
   for (unsigned int node = 0; node < share.size(); ++node)
-    // u_hanging = sum w_m u_m, so a force that is lumped to a hanging node acts on its masters by
-    // w_m.
+    // u_hanging = sum w_m u_m, so a force that is lumped to a hanging node acts on its masters with
+    // the weights w_m.
     for (const auto &master : of.surface.masters(node))
       share[master.first] += master.second * share[node];
   return share;
@@ -106,13 +106,13 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
   std::vector<double> of_nodes(of.surface.n_nodes(), 0.);
   for (unsigned int i = 0; i < nodes.size(); ++i)
     of_nodes[nodes[i]] = factors[i];
-  // The transpose of the sharing in tributary_areas().
-  auto share = of_nodes; // what the integral of a node's function counts
+  // Apply the transpose of the sharing in tributary_areas().
+  auto share = of_nodes; // factors of the integrals of the shape functions
   for (unsigned int node = 0; node < share.size(); ++node)
     for (const auto &master : of.surface.masters(node))
       share[node] += master.second * of_nodes[master.first];
   for_each_point(of, positions, [&](const AreaPoint<dim> &point) {
-    // sum_k share_k N_k: the integral over all nodes' functions is differentiated at once.
+    // Differentiate sum_k share_k N_k, the sum over the functions of all nodes, at once.
     double factor = 0.;
     for (unsigned int k = 0; k < point.nodes.size(); ++k)
       factor += share[point.nodes[k]] * point.values.value[k];
@@ -122,7 +122,7 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
     for (unsigned int k = 0; k < point.nodes.size(); ++k)
       {
         auto &sum = gradient[point.nodes[k]];
-        // The weight of the section, 2 pi r in axisymmetric models, moves with the node.
+        // The weight of the section, which is 2 pi r in axisymmetric models, moves with the node.
         sum += factor * point.area.norm() * point.values.value[k] * point.weight_gradient;
         for (int i = 0; i < dim - 1; ++i)
           sum += point.values.gradient[k][i] * by_tangents[i];

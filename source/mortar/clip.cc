@@ -2,11 +2,12 @@
 
 namespace snug::mortar {
 namespace {
-/// Points nearer to a clipping line than this, of a slave face of size 1, count as on it: round-off
-/// must not make slivers where edges of the two sides coincide.
+/// Points that are nearer to a clipping line than this, relative to a slave face of size 1, count
+/// as points on the line. Otherwise round-off would make slivers where edges of the two sides
+/// coincide.
 const double on_boundary = 1e-11;
 
-/// (b - a) x (c - a)
+/// Return (b - a) x (c - a).
 template <typename Number>
 Number cross(const std::array<Number, 2> &a,
              const std::array<Number, 2> &b,
@@ -15,7 +16,7 @@ Number cross(const std::array<Number, 2> &a,
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// A point without its derivatives: decisions are made by values, never by slopes.
+/// Return a point without its derivatives, because decisions are made by values, never by slopes.
 template <std::size_t d, typename Number>
 std::array<double, d> values(const std::array<Number, d> &point)
 {
@@ -25,8 +26,9 @@ std::array<double, d> values(const std::array<Number, d> &point)
   return result;
 }
 
-/// The ends come from whichever cell bounds the overlap, with that cell's derivatives. Where both
-/// ends coincide the subject's is taken: it follows the slave face, as the quadrature does.
+/// Take each end from the cell that bounds the overlap, with the derivatives of that cell. Where
+/// both ends coincide, take the end of the subject, because it follows the slave face, as the
+/// quadrature does.
 template <typename Number>
 ConvexCell<1, Number> intersect(const ConvexCell<1, Number> &subject,
                                 const ConvexCell<1, Number> &clip)
@@ -41,7 +43,7 @@ ConvexCell<1, Number> intersect(const ConvexCell<1, Number> &subject,
   return result;
 }
 
-/// The part of @p cell to the left of the line from @p a to @p b.
+/// Return the part of @p cell to the left of the line from @p a to @p b.
 template <typename Number>
 ConvexCell<2, Number> left_part(const ConvexCell<2, Number> &cell,
                                 const std::array<Number, 2> &a,
@@ -71,7 +73,7 @@ ConvexCell<2, Number> left_part(const ConvexCell<2, Number> &cell,
   return result;
 }
 
-/// Sutherland and Hodgman, Commun. ACM 17, 1974: clip by one edge after the other.
+/// Clip by one edge after the other (Sutherland and Hodgman, Commun. ACM 17, 1974).
 template <typename Number>
 ConvexCell<2, Number> intersect(const ConvexCell<2, Number> &subject,
                                 const ConvexCell<2, Number> &clip)
@@ -107,7 +109,7 @@ double signed_measure(const ConvexCell<d, Number> &cell)
   return measure;
 }
 
-// A fan about vertex 0, whose index the zero-initialized arrays have already.
+// Build a fan about vertex 0. The zero-initialized arrays already contain the index of vertex 0.
 template <std::size_t d>
 std::vector<std::array<unsigned int, d + 1>> simplices(unsigned int n_vertices)
 {
@@ -122,7 +124,7 @@ std::vector<std::array<unsigned int, d + 1>> simplices(unsigned int n_vertices)
   return result;
 }
 
-// Numbers of derivatives: 1 along a velocity, else all coordinates of a pair of faces.
+// Number of derivatives: 1 along a velocity, otherwise all coordinates of a pair of faces.
 #define SNUG_INSTANTIATE(d, Number)                                           \
   template ConvexCell<d, Number> intersection(const ConvexCell<d, Number> &,  \
                                               const ConvexCell<d, Number> &); \

@@ -2,7 +2,7 @@
 
 namespace snug::mortar {
 namespace {
-/// Visits every number of integrals whose sizes are set, in one order.
+/// Visit all numbers of integrals whose sizes are set, always in the same order.
 template <typename Integrals, typename Visit>
 void for_each_number(Integrals &integrals, const Visit &visit)
 {

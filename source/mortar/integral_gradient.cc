@@ -2,24 +2,24 @@
 
 namespace snug::mortar {
 namespace {
-/// Derivatives of a scalar by the integrals of one pair of faces.
+/// Derivatives of a scalar with respect to the integrals of one pair of faces.
 struct PairWeights
 {
   const FaceIntegrals<double>    &whole;
   const dealii::Table<2, double> &P, &W;
 };
 
-/// A scalar f of the shape functions and offsets at one point and its
-/// derivatives with respect to the point's face coordinates.
+/// A scalar f of the shape functions and offsets at one point, with its derivatives with respect to
+/// the face coordinates of the point.
 template <int dim>
 struct Integrand
 {
   double                              value = 0.;
   faces::FaceCoordinates<dim, double> to_slave{}, to_master{};
-  std::array<double, dim>             to_offset{}; ///< by delta
+  std::array<double, dim>             to_offset{}; ///< with respect to delta
 
-  /// f = sum_j N_j (d_j + sum_l m_jl N_l + sum_k P_jk N_k + sum_c o_jc delta_c)
-  ///     + sum_jk W_jk (N_j N_k)^p
+  /// Compute f = sum_j N_j (d_j + sum_l m_jl N_l + sum_k P_jk N_k + sum_c o_jc delta_c)
+  ///             + sum_jk W_jk (N_j N_k)^p and its derivatives.
   Integrand(const PairWeights                    &weights,
             const faces::FaceValues<dim, double> &slave,
             const faces::FaceValues<dim, double> &master,
@@ -40,7 +40,8 @@ struct Integrand
           }
         for (unsigned int l = 0; l < n; ++l)
           {
-            // of (N_j N_l)^p, p = 2: by N_j and N_l twice the half
+            // For p = 2, the derivative of (N_j N_l)^p with respect to N_j or N_l is twice the half
+            // factor.
             const double product = slave.value[j] * master.value[l];
             const double W       = weights.W(j, l) * (linear ? 1. : 2. * product);
             const double PW      = weights.P(j, l) + W;
@@ -57,7 +58,7 @@ struct Integrand
   }
 };
 
-/// @p nodes as independent variables, the first of which is @p first.
+/// Return @p nodes as independent variables, the first of which has the index @p first.
 template <int n, int dim>
 FaceNodes<dim, faces::Differential<n>> independent(const FaceNodes<dim, double> &nodes,
                                                    unsigned int                  first)
@@ -72,8 +73,9 @@ FaceNodes<dim, faces::Differential<n>> independent(const FaceNodes<dim, double> 
   return result;
 }
 
-/// By the coordinates of a point, and by the offsets at the samples, of a scalar whose derivative
-/// by the offset there is @p to_offset.
+/// Add the derivatives of a scalar with respect to the coordinates of a point and to the offsets at
+/// the samples. @p to_offset is the derivative of the scalar with respect to the offset at the
+/// point.
 template <int dim>
 void add_offset_slopes(const OffsetPoint<dim, double>      &at,
                        const std::array<double, dim>       &to_offset,
@@ -90,8 +92,9 @@ void add_offset_slopes(const OffsetPoint<dim, double>      &at,
     }
 }
 
-/// int f of one pair of faces, differentiated by the positions of their
-/// nodes, those of the slave face first; by their offsets into @p to_slave and @p to_master.
+/// Return the gradient of int f of one pair of faces with respect to the positions of their nodes,
+/// those of the slave face first. Add the derivatives with respect to the offsets to @p to_slave
+/// and @p to_master.
 template <int n, int dim>
 std::array<double, n> pair_gradient(const SegmentQuadrature<dim>  &quadrature,
                                     const MortarFace<dim, double> &slave,
@@ -116,7 +119,7 @@ std::array<double, n> pair_gradient(const SegmentQuadrature<dim>  &quadrature,
         delta[d] -= on_slave.offset[d];
       Integrand<dim> f(weights, quadrature.shape(xi), quadrature.shape(eta), delta);
       add_offset_slopes<dim>(on_master, f.to_offset, point.weight.value, f.to_master, to_master);
-      // The slave's offset counts with a minus.
+      // The offset of the slave has a minus sign in delta.
       for (double &slope : f.to_offset)
         slope = -slope;
       add_offset_slopes<dim>(on_slave, f.to_offset, point.weight.value, f.to_slave, to_slave);
@@ -132,8 +135,8 @@ std::array<double, n> pair_gradient(const SegmentQuadrature<dim>  &quadrature,
   return gradient;
 }
 
-/// The gradient of one slave face with all its masters; n independent variables per pair of faces,
-/// half of them the slave's.
+/// Return the gradient of one slave face with all its masters. Each pair of faces has n independent
+/// variables, and half of them belong to the slave.
 template <int n, int dim>
 FaceGradient<dim> face_gradient(const SegmentQuadrature<dim>               &quadrature,
                                 const MortarFace<dim, double>              &slave,
@@ -170,8 +173,8 @@ FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>              
                                       const std::vector<MortarFace<dim, double>> &masters,
                                       const FaceIntegrals<double>                &gradient)
 {
-  // The number of derivatives is a template argument: faces of degree 1 and 2 have 2 or 3 nodes in
-  // 2D, 4 or 9 in 3D, dim coordinates each, on two faces.
+  // The number of derivatives is a template argument. Faces of degree 1 and 2 have 2 or 3 nodes in
+  // 2D and 4 or 9 nodes in 3D, with dim coordinates each, on two faces.
   const int linear = dim == 2 ? 8 : 24, quadratic = dim == 2 ? 12 : 54;
   if (2 * dim * slave.nodes.size() == linear)
     return face_gradient<linear, dim>(quadrature, slave, masters, gradient);

@@ -4,7 +4,7 @@
 
 namespace snug::mortar {
 namespace {
-/// a + factor b
+/// Add factor b to a.
 template <typename Number, std::size_t dim>
 void add(const Number &factor, const std::array<Number, dim> &b, std::array<Number, dim> &a)
 {
@@ -12,7 +12,7 @@ void add(const Number &factor, const std::array<Number, dim> &b, std::array<Numb
     a[i] += factor * b[i];
 }
 
-/// v without its part along the unit vector @p n.
+/// Return v without its part along the unit vector @p n.
 template <typename Number, std::size_t dim>
 std::array<Number, dim> tangential(std::array<Number, dim> v, const std::array<Number, dim> &n)
 {
@@ -20,7 +20,7 @@ std::array<Number, dim> tangential(std::array<Number, dim> v, const std::array<N
   return v;
 }
 
-/// A^-1 b of a positive definite matrix by elimination.
+/// Return A^-1 b of a positive definite matrix by elimination.
 template <typename Number, std::size_t dim>
 std::array<Number, dim> solve(std::vector<std::array<Number, dim>> A, std::array<Number, dim> b)
 {
@@ -40,7 +40,7 @@ std::array<Number, dim> solve(std::vector<std::array<Number, dim>> A, std::array
   return b;
 }
 
-/// The mean of the x_k by weight.
+/// Return the weighted mean of the x_k.
 template <typename Number, std::size_t dim>
 std::array<Number, dim> mean(const std::vector<std::array<Number, dim>> &x,
                              const std::vector<Number>                  &weights,
@@ -52,11 +52,11 @@ std::array<Number, dim> mean(const std::vector<std::array<Number, dim>> &x,
   return result;
 }
 
-/// Directions in which the nodes are apart by less than this part of their largest distance,
-/// squared, are none.
+/// Directions in which the spread of the nodes is less than this fraction of the maximum spread, in
+/// squared distances, do not count.
 const double least_spread = 1e-8;
 
-/// Is the tangential part of A, whose trace @p trace stands in for the normal, regular?
+/// Return whether the tangential part of A is regular. The normal entry of A is its trace @p trace.
 bool is_regular(const std::vector<std::array<double, 2>> &, double trace)
 {
   return trace > 0.;
@@ -106,7 +106,7 @@ void MomentCorrection<dim, Number>::solve_for_c()
         add(weights[k] * t[i], t, A[i]);
       trace += weights[k] * faces::dot(t, t);
     }
-  // c is at right angles to n whatever stands there in that direction.
+  // Fill the normal direction of A, because c is at right angles to n for any value there.
   for (int i = 0; i < dim; ++i)
     add(trace * n[i], n, A[i]);
   std::vector<std::array<double, dim>> values(dim);
@@ -123,8 +123,8 @@ void MomentCorrection<dim, Number>::solve_for_c()
     component *= -1.;
 }
 
-/// With b = sum_k w_k q_k d_k and e = -A^+ P b the scalar is b . c = e . G, and
-///   d(b . c) = c . db + e . dG + e' dS c, the turn of P included in the last lines.
+/// Differentiate the scalar. With b = sum_k w_k q_k d_k and e = -A^+ P b it is b . c = e . G, and
+/// d(b . c) = c . db + e . dG + e' dS c. The last lines include the rotation of P.
 template <int dim, typename Number>
 typename MomentCorrection<dim, Number>::Gradient
 MomentCorrection<dim, Number>::gradient(const std::vector<Number> &q) const

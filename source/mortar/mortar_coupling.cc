@@ -7,7 +7,7 @@ namespace {
 template <typename Number>
 using Matrix = dealii::Table<2, Number>;
 
-/// The inverse of a symmetric positive definite matrix.
+/// Return the inverse of a symmetric positive definite matrix.
 template <typename Number>
 Matrix<Number> inverse(Matrix<Number> m)
 {
@@ -18,7 +18,7 @@ Matrix<Number> inverse(Matrix<Number> m)
   for (unsigned int p = 0; p < n; ++p)
     {
       // Gauss-Jordan without pivoting is safe for the Gram matrix of shape functions. A pivot that
-      // is not positive means that they are dependent on what is left of the covered part.
+      // is not positive means that the shape functions are dependent on the remaining covered part.
       if (!(faces::value_of(m(p, p)) > 0.))
         throw TangledMesh("the master side has moved away from a slave "
                           "face that it was opposite to");
@@ -42,9 +42,9 @@ Matrix<Number> inverse(Matrix<Number> m)
   return result;
 }
 
-/// A with psi_j = sum_l A_jl N_l, biorthogonal.
-/// Wohlmuth, SIAM J. Numer. Anal. 38, 2000: A = diag(d) m^-1 makes int psi_j N_l = delta_jl d_j, so
-/// that each multiplier's row has the displacement of one slave node only.
+/// Return A with psi_j = sum_l A_jl N_l, biorthogonal. A = diag(d) m^-1 makes
+/// int psi_j N_l = delta_jl d_j (Wohlmuth, SIAM J. Numer. Anal. 38, 2000). So the row of each
+/// multiplier has the displacement of one slave node only.
 template <typename Number>
 Matrix<Number> dual_coefficients(const FaceIntegrals<Number> &integrals)
 {
@@ -55,7 +55,7 @@ Matrix<Number> dual_coefficients(const FaceIntegrals<Number> &integrals)
   return A;
 }
 
-/// dealii::FullMatrix knows no Differential; these are small.
+/// Return A B of small matrices, because dealii::FullMatrix does not support Differential.
 template <typename NumberA, typename NumberB>
 auto product(const Matrix<NumberA> &A, const Matrix<NumberB> &B)
 {
@@ -76,7 +76,7 @@ Matrix<double> transpose(const Matrix<double> &A)
   return result;
 }
 
-/// The offset at @p xi, whose first derivatives value and slopes carry exactly.
+/// Return the offset at @p xi. Value and slopes of the point carry the first derivatives exactly.
 template <int dim, typename Number>
 std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &offsets,
                                   const faces::FaceCoordinates<dim, Number> &xi)
@@ -94,7 +94,7 @@ std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &off
   return result;
 }
 
-/// Is there nothing to build dual functions on?
+/// Return whether the covered part is empty, so that there are no dual functions.
 template <typename Number>
 bool uncovered(const FaceIntegrals<Number> &integrals)
 {
@@ -234,10 +234,9 @@ FaceCoupling<Number> couple(const FaceIntegrals<Number> &of_nodes,
 }
 
 namespace {
-/// Reverse mode of couple() for biorthogonal functions: a star marks the derivative of the scalar
-/// by a matrix.
-/// with M = A P: P* = A' M*, A* = sum M* P', as for the offset; with A = diag(d) m^-1:
-/// d* = diag(A* m^-1), m* = -A' A* m^-1
+/// Apply the reverse mode of couple() for biorthogonal functions. A star marks the derivative of
+/// the scalar with respect to a matrix. With M = A P: P* = A' M*, A* = sum M* P', and the offset
+/// likewise. With A = diag(d) m^-1: d* = diag(A* m^-1), m* = -A' A* m^-1.
 FaceIntegrals<double> dual_transpose(const FaceIntegrals<double> &integrals,
                                      const MultiplierFunctions   &functions,
                                      const FaceCoupling<double>  &gradient)
@@ -290,7 +289,7 @@ FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
   auto to_box = dual_transpose(in_box(integrals, functions), functions, gradient);
   if (functions.are_nodal())
     return to_box;
-  // in_box() with C is linear; backwards it is the same with C'.
+  // in_box() is linear with the matrix C, so its transpose is in_box() with the matrix C'.
   MultiplierFunctions backwards;
   backwards.box = transpose(functions.box);
   return in_box(to_box, backwards);

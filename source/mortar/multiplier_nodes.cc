@@ -8,10 +8,10 @@
 
 namespace snug::mortar {
 namespace {
-/// Nodes covered less than this on each of their faces are weak.
+/// Nodes of which less than this fraction is covered on each of their faces are weak.
 const double least_cover = 0.25;
 
-/// Who has the multiplier function of a node, by surface node.
+/// Surface nodes that own parts of the multiplier function of a node, with their shares.
 using Owners = std::map<unsigned int, double>;
 
 template <int dim>
@@ -29,10 +29,11 @@ public:
     set_order(covers);
   }
 
-  /// A held node has no displacement along the normal, so its own row would demand what nobody can
-  /// give; a weak one would nearly repeat its neighbour's. Held ones go first, since a weak node
-  /// may then give to whoever a held one gave to. A held node without free neighbours keeps its
-  /// row: the master may still move.
+  /// Choose the owners. A held node has no displacement along the normal, so its own row could not
+  /// be satisfied. The row of a weak node would nearly repeat that of its neighbour. Held nodes are
+  /// treated first, because a weak node may then give its function to the owners of a held node's
+  /// function. A held node without free neighbours keeps its row, because the master may still
+  /// move.
   void choose(const std::vector<bool> &held)
   {
     std::vector<unsigned int> left;
@@ -49,7 +50,8 @@ public:
     give_away(held_nodes);
     for (const unsigned int node : held_nodes)
       candidates[node].owners = {{node, 1.}};
-    // Weak nodes far from good ones are reached in sweeps. Where all are weak the best is kept.
+    // Weak nodes far from good ones are reached in sweeps. Where all nodes are weak, the best is
+    // kept.
     while (!left.empty())
       if (!give_away(left))
         {
@@ -76,7 +78,8 @@ public:
     for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       {
         std::map<unsigned int, double> shares;
-        // The shares of hanging nodes go through their masters to those masters' owners.
+        // The shares of hanging nodes go through their masters to the owners of the masters'
+        // functions.
         for (const auto &master : masters(node))
           {
             const auto found = candidates.find(master.first);
@@ -90,14 +93,14 @@ public:
   }
 
 private:
-  /// A node that does not hang.
+  /// A node that does not hang, with its cover.
   struct Candidate
   {
-    double                    covered       = 0.; ///< of all faces
-    double                    best_part     = 0.; ///< of one face
+    double                    covered       = 0.; ///< sum over all faces
+    double                    best_part     = 0.; ///< maximum of all faces
     double                    largest_whole = 0.;
     bool                      without_area  = false;
-    std::vector<unsigned int> neighbours; ///< on its faces
+    std::vector<unsigned int> neighbours; ///< nodes on the same faces
     Owners                    owners;
 
     bool is_weak() const
@@ -108,13 +111,14 @@ private:
 
   const mesh::Surface<dim>         &surface;
   const Field                      &positions;
-  std::vector<unsigned int>         order; ///< of the candidates
+  std::vector<unsigned int>         order; ///< candidates in the order of set_order()
   std::map<unsigned int, Candidate> candidates;
 
-  /// The node itself, or its masters and weights if it hangs.
+  /// Return the node itself with weight 1, or its masters and weights if it hangs.
   Owners masters(unsigned int node) const
   {
-    // A hanging node's function belongs to its masters in the displacement, and so in the rows.
+    // The function of a hanging node belongs to its masters in the displacement, and so in the
+    // rows.
     const auto &of_node = surface.masters(node);
     if (of_node.empty())
       return {{node, 1.}};
@@ -137,8 +141,8 @@ private:
             }
         for (const auto &node : covered)
           {
-            // Functions of degree 2 may integrate to zero or less at corners in 3D: such a node is
-            // judged by the sum over its faces alone.
+            // Functions of degree 2 may have an integral of zero or less at corners in 3D. Such a
+            // node is judged by the sum over its faces alone.
             Candidate   &candidate = candidates[node.first];
             const double most      = whole[node.first];
             candidate.without_area = faces::is_without_area(surface, degree, positions[node.first]);
@@ -155,8 +159,8 @@ private:
       }
   }
 
-  /// Candidates as the faces name them, then those only hanging nodes reach
-  /// by position: an order that does not depend on the numbering of nodes.
+  /// Order the candidates as the faces name them, then candidates that only hanging nodes reach by
+  /// position. So the order does not depend on the numbering of nodes.
   void set_order(const std::vector<FaceCover> &covers)
   {
     std::set<unsigned int> left;
@@ -174,12 +178,13 @@ private:
     });
   }
 
-  /// The mean of the owners of the nearest neighbours among @p eligible,
-  /// which is sorted; empty if there are none.
+  /// Return the mean of the owners of the nearest neighbours among @p eligible, which is sorted;
+  /// empty if there are no such neighbours.
   Owners owners_of_nearest(unsigned int node, const std::vector<unsigned int> &eligible) const
   {
-    // Distances this close are one distance: on symmetric meshes a node gives to all its nearest
-    // neighbours alike, or the pressure would lose the symmetry of the mesh.
+    // Distances that differ by less than this factor count as equal. On symmetric meshes a node
+    // gives equal shares to all its nearest neighbours, because otherwise the pressure would lose
+    // the symmetry of the mesh.
     const double              equal   = 1. + 1e-6;
     double                    nearest = std::numeric_limits<double>::max();
     std::vector<unsigned int> found;
@@ -206,9 +211,9 @@ private:
     return result;
   }
 
-  /// Let all nodes of @p left with neighbours that have owners take the same; false if there are
-  /// none. All shares of a sweep are found before any is given: the result must not depend on the
-  /// order.
+  /// Give all nodes of @p left with neighbours that have owners the same owners. Return false if
+  /// there are no such nodes. All shares of a sweep are computed before any is assigned, because
+  /// the result must not depend on the order.
   bool give_away(std::vector<unsigned int> &left)
   {
     std::vector<unsigned int> settled;

@@ -11,7 +11,7 @@ namespace {
 template <int dim, typename Number>
 using Vectors = std::array<std::array<Number, dim>, dim - 1>;
 
-/// x,_1 (and x,_2) of a face.
+/// Return the tangents x,_1 (and x,_2) of a face.
 template <int dim, typename Number, typename ShapeNumber>
 Vectors<dim, Number> tangents(const faces::FaceValues<dim, ShapeNumber> &shape,
                               const FaceNodes<dim, Number>              &nodes)
@@ -39,7 +39,7 @@ Number area(const Vectors<3, Number> &t)
   return sqrt(faces::dot(t[0], t[0]) * faces::dot(t[1], t[1]) - mixed * mixed);
 }
 
-/// sum_k values_k points_k
+/// Return sum_k values_k points_k.
 template <typename Values, typename Points>
 auto combined(const Values &values, const Points &points)
 {
@@ -50,7 +50,7 @@ auto combined(const Values &values, const Points &points)
   return sum;
 }
 
-/// Idealization::weight(), which is linear, at @p x.
+/// Return Idealization::weight(), which is linear, at @p x.
 template <typename Number, std::size_t dim>
 Number section_weight(const mesh::Idealization &idealization, const std::array<Number, dim> &x)
 {
@@ -64,13 +64,13 @@ Number section_weight(const mesh::Idealization &idealization, const std::array<N
   return weight;
 }
 
-/// Coordinates in the plane of a slave face, centre 0 and size 1.
+/// Coordinates in the plane of a slave face, with the centre at 0 and size 1.
 template <int dim, typename Number>
 class FacePlane
 {
 public:
-  // t.(x - c) alone would depend on units and on the angle of the tangents; times (t.t)^-1 the
-  // face has size 1 whatever its shape, and tolerances are parts of it.
+  // t.(x - c) alone would depend on units and on the angle of the tangents. With the factor
+  // (t.t)^-1 the face has size 1 for any shape, and tolerances are fractions of the face.
   FacePlane(unsigned int degree, const FaceNodes<dim, Number> &face)
   {
     faces::FaceCoordinates<dim, double> middle;
@@ -114,7 +114,7 @@ private:
   }
 };
 
-/// A face seen along the normal of @p plane.
+/// Return a face projected along the normal of @p plane.
 template <int dim, typename Number>
 faces::PlaneFace<dim, Number> projected(unsigned int                  degree,
                                         const FacePlane<dim, Number> &plane,
@@ -126,12 +126,11 @@ faces::PlaneFace<dim, Number> projected(unsigned int                  degree,
   return {degree, nodes};
 }
 
-/// The cells between neighbouring nodes, oriented positively; without
-/// those that are not.
+/// Return the cells between neighbouring nodes with positive orientation; other cells are left out.
+/// A quadratic face has curved edges in the plane. The convex cells between its nodes replace the
+/// face in the intersection only. A master faces the other way, so its cells are @p reversed.
 template <int dim, typename Number>
 std::vector<ConvexCell<dim - 1, Number>>
-/// A quadratic face has curved edges in the plane; the cells between its nodes are convex and take
-/// their place in the intersection only. A master faces the other way: its cells are @p reversed.
 cells(unsigned int degree, const faces::PlaneFace<dim, Number> &face, bool reversed)
 {
   std::vector<ConvexCell<dim - 1, Number>> result;
@@ -154,7 +153,7 @@ cells(unsigned int degree, const faces::PlaneFace<dim, Number> &face, bool rever
   return result;
 }
 
-/// Twice (2D) or once (1D) the signed size of a simplex.
+/// Return twice (2D) or once (1D) the signed size of a simplex.
 template <typename Number>
 Number determinant(const std::array<std::array<Number, 1>, 2> &simplex)
 {
@@ -174,8 +173,8 @@ SegmentQuadrature<dim>::SegmentQuadrature(unsigned int              degree,
                                           const mesh::Idealization &idealization)
   : degree(degree), idealization(idealization)
 {
-  // Gauss points of a square, one side of which shrinks to a corner: n
-  // per direction are exact for polynomials of degree 2 n - 2
+  // Use Gauss points of a square, one side of which shrinks to a corner. With n points per
+  // direction they are exact for polynomials of degree 2 n - 2.
   const dealii::QGauss<dim - 1> gauss(degree + 2);
   for (unsigned int q = 0; q < gauss.size(); ++q)
     {
@@ -205,7 +204,8 @@ SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
   for (const auto &slave_cell : cells<dim>(degree, on_slave, false))
     for (const auto &master_cell : master_cells)
       {
-        // Clip in the plane, integrate on the slave face: its pieces must cover it without a gap.
+        // Clip in the plane and integrate on the slave face, because the pieces must cover the
+        // slave face without a gap.
         auto piece = intersection<dim - 1>(slave_cell, master_cell);
         for (auto &vertex : piece)
           vertex = on_slave.coordinates(vertex);
@@ -223,7 +223,8 @@ SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
                 point.weight = size * area(tangents<dim>(shape, slave)) *
                                section_weight(idealization, combined(shape.value, slave)) *
                                q.weight;
-                // Along n_0, not to the closest point: the same for all points of a slave face.
+                // Project along n_0 and not to the closest point: n_0 is the same for all points of
+                // a slave face.
                 point.master = on_master.coordinates(combined(shape.value, on_slave.nodes()));
                 result.push_back(point);
               }
@@ -262,7 +263,7 @@ bool SegmentQuadrature<dim>::overlap(const FaceNodes<dim, double> &slave,
   auto                         nodes = projected<dim>(degree, plane, slave).nodes();
   for (auto &node : nodes)
     for (double &coordinate : node)
-      // the plane's origin is the face's centre
+      // Scale about the origin of the plane, which is the centre of the face.
       coordinate *= 1. + 2. * margin;
   const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master), true);
   for (const auto &slave_cell :

@@ -8,11 +8,11 @@
 
 namespace snug::state {
 namespace {
-/// Nodes of a compact subdomain over those of a cube of as many cells: slabs of 5 x 5 x 2 cells
-/// have 1.05, parts of METIS 1.1 and more.
+/// Maximum number of nodes of a compact subdomain over those of a cube of as many cells. Slabs of 5
+/// x 5 x 2 cells have 1.05, and parts of METIS have 1.1 and more.
 const double most_nodes_of_cube = 1.025;
 
-/// In the plane, over those of a square; parts of METIS have 1.02.
+/// Maximum number of nodes in the plane over those of a square. Parts of METIS have 1.02.
 const double most_nodes_of_square = 1.01;
 } // namespace
 
@@ -37,7 +37,7 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
       if (std::binary_search(cells.begin(), cells.end(), face.cell) &&
           std::any_of(model.load_cases.begin(), model.load_cases.end(), is_loaded))
         {
-          // Faces with a load in any load case are kept, so that one index serves for all of them.
+          // Keep faces with a load in any load case, so that one index serves all load cases.
           faces.push_back(f);
           face_reach.emplace_back(mesh, face.nodes, subdomain.nodes);
         }
@@ -45,8 +45,8 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
   build_pattern();
 }
 
-/// Nodes are neighbours if a cell reaches both. Through a hanging node a cell also reaches masters
-/// that are not among its own nodes.
+/// Find the neighbours of each node. Nodes are neighbours if a cell reaches both nodes. Through a
+/// hanging node a cell also reaches masters that are not among its own nodes.
 template <int dim>
 void Assembler<dim>::build_pattern()
 {
@@ -61,7 +61,7 @@ void Assembler<dim>::build_pattern()
     }
   for (const mesh::NodeReach<dim> &cell : cell_reach)
     {
-      // Looked up once: K is assembled for each design with the same pattern.
+      // Look the places up once, because K is assembled for each design with the same pattern.
       places.emplace_back();
       for (const unsigned int a : cell.slots())
         for (const unsigned int b : cell.slots())
@@ -71,7 +71,7 @@ void Assembler<dim>::build_pattern()
     }
 }
 
-/// Hanging nodes have none: Subdomain::nodes holds their masters instead.
+/// Return no rows for hanging nodes, because Subdomain::nodes contains their masters instead.
 template <int dim>
 feti::CsrMatrix Assembler<dim>::sparsity() const
 {
@@ -91,7 +91,7 @@ feti::CsrMatrix Assembler<dim>::sparsity() const
 template <int dim>
 void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
 {
-  // Values only: K has the pattern of sparsity().
+  // Compute the values only, because K has the pattern of sparsity().
   std::fill(K.values.begin(), K.values.end(), 0.);
   std::vector<double> cell_matrix;
   for (unsigned int i = 0; i < cell_reach.size(); ++i)
@@ -99,7 +99,7 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
       const mesh::NodeReach<dim> &cell = cell_reach[i];
       the_element.stiffness(cell_field(i, positions), material(i), cell_matrix);
       const unsigned int m = cell.slots().size();
-      // Also adapts the size: m slots may be more than the nodes of the cell.
+      // condense() also adapts the size, because m slots may be more than the nodes of the cell.
       cell.condense(cell_matrix);
       for (unsigned int a = 0; a < m; ++a)
         for (unsigned int c = 0; c < dim; ++c)
@@ -114,8 +114,8 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
     }
 }
 
-/// Of this subdomain alone: a node with several copies has its load in parts on all of them, and
-/// B'lambda balances the copies.
+/// Assemble the load of this subdomain alone. A node with several copies has parts of its load on
+/// all copies, and B'lambda balances the copies.
 template <int dim>
 std::vector<double> Assembler<dim>::load(const Field     &positions,
                                          unsigned int     load_case,
@@ -137,8 +137,9 @@ std::vector<double> Assembler<dim>::load(const Field     &positions,
   return f;
 }
 
-/// About a far centre a rotation is nearly a translation, and making it orthogonal to them would
-/// cost digits. Over the radius all modes are of size one.
+/// Compute the modes about the centre of the subdomain, because about a far centre a rotation is
+/// nearly a translation, and orthogonalization would lose digits. Divided by the radius, all modes
+/// are of size one.
 template <int dim>
 void Assembler<dim>::rigid_modes(const Field                  &positions,
                                  const dealii::Tensor<1, dim> &centre,
@@ -159,12 +160,12 @@ void Assembler<dim>::rigid_modes(const Field                  &positions,
   R = rigid_motions<dim>(mesh.idealization(), x, mean, radius);
   orthonormalise(R);
   const auto whole = rigid_motions<dim>(mesh.idealization(), x, centre, length);
-  // R is orthonormal and spans the body's modes as well: R Z = whole gives Z = R'whole.
+  // R is orthonormal and also spans the modes of the body, so R Z = whole gives Z = R'whole.
   Z = qp::inner_products(R, whole, MPI_COMM_SELF);
 }
 
-/// Farthest point sampling: each next node is the one farthest from all nodes chosen. Close or, in
-/// space, collinear nodes would leave R_f'R_f nearly or exactly singular.
+/// Choose nodes by farthest point sampling: each next node is the one farthest from all chosen
+/// nodes. Close nodes or, in space, collinear nodes would make R_f'R_f nearly or exactly singular.
 template <int dim>
 std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) const
 {
@@ -181,7 +182,8 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
   std::vector<unsigned int> dofs;
   for (unsigned int k = 0; k < std::min(n_fixing, n); ++k)
     {
-      // The first of those that are as far but for rounding: of congruent subdomains the same.
+      // Take the first of the nodes that are equally far up to round-off, so that congruent
+      // subdomains choose the same nodes.
       const double       least = (1. - 1e-9) * *std::max_element(distance.begin(), distance.end());
       const unsigned int farthest =
         std::find_if(distance.begin(), distance.end(), [&](const double d) { return d >= least; }) -
@@ -192,7 +194,7 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
         {
           const double d =
             (positions[subdomain.nodes[a]] - positions[subdomain.nodes[farthest]]).norm();
-          // The mean only served to choose the first node.
+          // The mean only serves to choose the first node.
           distance[a] = k == 0 ? d : std::min(distance[a], d);
         }
     }
@@ -203,7 +205,7 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
 template <int dim>
 bool Assembler<dim>::is_compact(const Field &positions) const
 {
-  // Of cubes of m^dim cells of degree p: (m p + 1)^dim nodes; ragged parts have more.
+  // Cubes of m^dim cells of degree p have (m p + 1)^dim nodes; ragged parts have more nodes.
   const double edge  = std::pow(cells().size(), 1. / dim) * mesh.degree() + 1.;
   const double usual = std::pow(edge, dim);
   if (subdomain.nodes.size() > (dim == 2 ? most_nodes_of_square : most_nodes_of_cube) * usual)
@@ -268,7 +270,7 @@ elasticity::FaceLoadValues<dim> Assembler<dim>::face_load_values(unsigned int   
   const auto                     *load = boundary_load(i, load_case);
   if (load == nullptr)
     return values;
-  // Formulas are of the reference position: the value goes with the material point.
+  // Formulas depend on the reference position, so the value moves with the material point.
   const auto reference = face_load.quadrature_points(face_field(i, mesh.reference_positions()));
   for (const auto &x : reference)
     {
@@ -277,8 +279,8 @@ elasticity::FaceLoadValues<dim> Assembler<dim>::face_load_values(unsigned int   
       if (load->traction)
         values.traction.push_back(load->traction(dealii::Point<dim>(x)));
     }
-  // That of a resultant depends on where the whole loaded face is, also on other ranks, and comes
-  // from ResultantLoads.
+  // The traction of a resultant depends on the positions of the whole loaded boundary, also on
+  // other ranks, and comes from ResultantLoads.
   values.linear = linear_traction(i, load_case, tractions);
   return values;
 }
@@ -293,7 +295,7 @@ elasticity::LinearTraction<dim> Assembler<dim>::linear_traction(unsigned int    
   return found == tractions[load_case].end() ? elasticity::LinearTraction<dim>() : found->second;
 }
 
-/// The load then has to be assembled anew even where no node of this subdomain has moved.
+/// Return whether the load must be assembled again even if no node of this subdomain has moved.
 template <int dim>
 bool Assembler<dim>::has_resultants() const
 {
@@ -307,7 +309,7 @@ bool Assembler<dim>::has_resultants() const
   return false;
 }
 
-/// Of the load case, whatever its values: formulas are not looked into.
+/// Check only whether the load case has a body force, because formulas are not evaluated.
 template <int dim>
 bool Assembler<dim>::has_body_force(unsigned int load_case) const
 {
@@ -323,7 +325,7 @@ typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
   Nodes b(the_element.n_nodes(), material(i).density * of_body.gravity);
   if (!of_body.body_force)
     return b;
-  // As for faces: the value goes with the material point.
+  // The formula depends on the reference position, so the value moves with the material point.
   const auto reference = the_element.quadrature_points(cell_field(i, mesh.reference_positions()));
   for (unsigned int q = 0; q < b.size(); ++q)
     b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));

@@ -10,9 +10,9 @@
 
 namespace snug::state {
 namespace {
-/// The matrix G that fits u = u_mean + G (x - x_mean) best at the nodes.
-/// Least squares: G = (sum_a du_a dx_a') (sum_a dx_a dx_a')^-1 with the differences du, dx from the
-/// means over the nodes: the exact gradient of displacements that are linear in x.
+/// Return the matrix G that fits u = u_mean + G (x - x_mean) best at the nodes. The least squares
+/// fit is G = (sum_a du_a dx_a') (sum_a dx_a dx_a')^-1 with the differences du, dx from the means
+/// over the nodes. It is the exact gradient of displacements that are linear in x.
 template <int dim>
 dealii::Tensor<2, dim> fitted_gradient(const std::vector<unsigned int>           &nodes,
                                        const std::vector<dealii::Tensor<1, dim>> &x,
@@ -40,7 +40,8 @@ line(const std::string &what, double value, const std::string &unit, const std::
   return text.str();
 }
 
-/// Of nodes that meet, gaps and normals have no facets between them.
+/// Return the height of the facets that gaps and normals of pair @p p contain. Gaps and normals of
+/// nodes that meet have no facets between the nodes.
 template <int dim>
 double seen_facets(const StateSolver<dim> &solver, const unsigned int p)
 {
@@ -91,8 +92,8 @@ Assumptions assess(const StateSolver<dim>               &solver,
       {
         const auto G = fitted_gradient<dim>(solver.mesh().cells()[cell].nodes, state.positions,
                                             state.displacement);
-        // Symmetric and antisymmetric part. That of a rotation by the small angle w has the norm
-        // sqrt(2) w.
+        // Compute the symmetric and the antisymmetric part. The antisymmetric part of a rotation by
+        // the small angle w has the norm sqrt(2) w.
         const auto part = [&](double sign) { return (0.5 * (G + sign * transpose(G))).norm(); };
         result.strain   = std::max(result.strain, part(1.));
         result.rotation = std::max(result.rotation, part(-1.) / std::sqrt(2.));
@@ -114,9 +115,9 @@ Assumptions assess(const StateSolver<dim>               &solver,
   const auto  drifts  = solver.contact().drifts(x, contact_rows);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
     {
-      // Of open contacts as well: they would close at the wrong point.
+      // Open contacts count as well, because they would close at the wrong point.
       result.drift = std::max(result.drift, drifts[i]);
-      // Rows without force may slide: there is no force whose place would matter.
+      // Rows without force may slide, because there is no force whose place would matter.
       if (state.contact[i].strong)
         result.slip = std::max(result.slip, slips[i]);
     }
@@ -163,7 +164,7 @@ std::vector<std::string> warnings(const Assumptions &assumptions)
 }
 
 namespace {
-/// ", 0.3 of a face"
+/// Return a text like ", 0.3 of a face".
 std::string of_a_face(const contact::PairedGaps &gaps)
 {
   std::ostringstream text;
@@ -177,7 +178,7 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
                     const std::vector<contact::PairedGaps> &gaps)
 {
   for (unsigned int p = 0; p < pairs.size(); ++p)
-    // Gaps are replicated like all contact data: all ranks throw, or none.
+    // Gaps are replicated like all contact data, so all ranks throw, or none.
     if (gaps[p].overlap > absurd_overlap && !pairs[p].parameters.interference)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
                       line("the sides overlap at first by", -gaps[p].least, of_a_face(gaps[p]),

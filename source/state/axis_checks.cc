@@ -11,8 +11,8 @@ namespace snug::state {
 template <int dim>
 void check_radii(const mesh::BodyMesh<dim> &mesh, const std::vector<std::string> &body_names)
 {
-  // At most 0, so that only negative radii show. They are exact: BodyMesh puts nodes on the axis at
-  // x = 0 without round-off.
+  // Start from 0, so that only negative radii appear. Radii are exact, because BodyMesh puts nodes
+  // on the axis at x = 0 without round-off.
   std::vector<double> smallest(mesh.n_bodies(), 0.);
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     {
@@ -36,17 +36,19 @@ void check_axis(const mesh::BodyMesh<dim>                 &mesh,
                 const typename mesh::BodyMesh<dim>::Field &positions,
                 const std::vector<BodyBox<dim>>           &boxes)
 {
-  // Relative to the body: a design that keeps the axis moves its nodes by rounding at most.
+  // The tolerance is relative to the body. A design that keeps the axis moves its nodes by
+  // round-off at most.
   const double round_off = 1e-10;
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-    // u_r = 0 is held at the nodes that begin on the axis: off it, that would be a support.
+    // u_r = 0 is held at the nodes that are on the axis in the reference geometry. For a node off
+    // the axis, this constraint would be a support.
     if (mesh.reference_positions()[node][0] == 0. &&
         std::abs(positions[node][0]) > round_off * boxes[mesh.body_of_node(node)].length)
       {
         std::ostringstream text;
         text << "the design moves the node at (" << mesh.reference_positions()[node]
              << ") off the axis of the axisymmetric model";
-        // An optimizer steps back from it, as from tangled cells.
+        // An optimizer steps back from this error, as from tangled cells.
         throw TangledMesh(text.str());
       }
 }

@@ -11,7 +11,8 @@ template <int dim>
 std::vector<BodyBox<dim>> body_boxes(const mesh::BodyMesh<dim> &mesh)
 {
   const unsigned int n = mesh.n_bodies();
-  // Of x and of -x: one reduction finds both ends. Ranks without a body leave the lowest number.
+  // Store the maxima of x and of -x, so that one reduction finds both ends. Ranks without a body
+  // keep the lowest number.
   std::vector<double> largest(2 * dim * n, -std::numeric_limits<double>::max());
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     for (unsigned int c = 0; c < dim; ++c)

@@ -6,8 +6,8 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-/// Hanging nodes count as independent positions, here and below: ShapeBasis::transpose() hands
-/// their share on to the masters.
+/// Add values at nodes to the gradient. Hanging nodes count as independent positions, here and
+/// below, because ShapeBasis::transpose() passes their share on to the masters.
 template <int dim>
 void add_to_nodes(const std::vector<unsigned int>     &nodes,
                   const Nodes<dim>                    &values,
@@ -17,8 +17,8 @@ void add_to_nodes(const std::vector<unsigned int>     &nodes,
     gradient[nodes[a]] += values[a];
 }
 
-/// Add what add(s, i, values) adds to the values at the nodes of every
-/// loaded face i of every subdomain s of this rank.
+/// Call add(s, i, values) for every loaded face i of every subdomain s of this rank, and add its
+/// values at the nodes of the face to the gradient.
 template <int dim, typename Add>
 void add_loaded_faces(const state::StateSolver<dim>       &solver,
                       const Add                           &add,
@@ -38,7 +38,7 @@ void add_loaded_faces(const state::StateSolver<dim>       &solver,
 }
 } // namespace
 
-/// In the order of subdomains and cells, without communication.
+/// Visit the cells in the order of subdomains and cells, without communication.
 template <int dim>
 void for_each_cell(const state::StateSolver<dim>                             &solver,
                    const std::string                                         &body,
@@ -74,7 +74,7 @@ void add_stiffness_gradient(const state::StateSolver<dim>       &solver,
 {
   const auto add = [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
-    // From the subdomain's own vector, in which the masters of hanging nodes act for them.
+    // Take u from the vector of the subdomain, in which masters act for hanging nodes.
     const auto u = assembler.cell_values(i, state.u[s].column(0));
     Nodes<dim> values(u.size());
     assembler.element().add_energy_gradient(assembler.cell_field(i, state.positions),
@@ -106,8 +106,8 @@ void add_load_gradient(const state::StateSolver<dim>       &solver,
   };
   for_each_cell<dim>(solver, "", add);
 
-  // The share of pressures, tractions and body forces is each cell's own; a resultant is spread
-  // over the whole face, so that each node changes the load on all of it: add_work_gradient().
+  // Pressures, tractions and body forces contribute per cell. A resultant is spread over the whole
+  // boundary, so each node changes the load on all of it; see add_work_gradient().
   const auto tractions = solver.resultants().tractions(state.positions);
   const auto add_face  = [&](unsigned int s, unsigned int i, Nodes<dim> &values) {
     const auto &assembler = *solver.assemblers()[s];
@@ -129,13 +129,14 @@ void add_constraint_gradient(const state::StateSolver<dim>       &solver,
   std::vector<double> forces;
   for (const auto &point : state.contact)
     forces.push_back(point.force);
-  // Contact data are replicated, and the gradient at surface nodes is whole on all ranks: each rank
-  // adds its own nodes only, or the sum over ranks would count it repeatedly.
+  // Contact data are replicated, and the gradient at surface nodes is complete on all ranks. Each
+  // rank adds its own nodes only, because otherwise the sum over ranks would count the gradient
+  // repeatedly.
   const auto at_surface =
     solver.contact().energy_gradient(surface.gather(state.positions),
                                      surface.gather(state.displacement), forces);
   surface.add_owned(at_surface, gradient);
-  // reactions() counts contact rows as if they were not projected off the held directions, as
+  // reactions() treats contact rows as if they were not projected off the held directions, as
   // energy_gradient() above does.
   if (solver.held().follow_positions())
     solver.held().add_energy_gradient(state.positions, state.displacement,

@@ -6,24 +6,24 @@
 
 namespace snug::state {
 namespace {
-/// Errors below this part of the terms they are differences of are zero:
-/// where prescribed displacements move a body, nothing else measures
-/// them.
+/// Errors are differences of terms. Errors below this fraction of the terms count as zero. Where
+/// prescribed displacements move a body, no other quantity measures the errors.
 const double round_off = 128. * std::numeric_limits<double>::epsilon();
 
-/// a / b, 0 for 0 / 0; NaN stays NaN.
+/// Return a / b, or 0 for 0 / 0; NaN stays NaN.
 double relative(double a, double b)
 {
   return a == 0. ? 0. : a / b;
 }
 
-/// The larger of both; infinity instead of NaN, which std::max passes over and MPI_MAX may.
+/// Return the larger of both, or infinity instead of NaN, because std::max ignores NaN and MPI_MAX
+/// may ignore it.
 double larger(double a, double b)
 {
   return b <= a ? a : std::isnan(b) ? INFINITY : b;
 }
 
-/// sum_j |K_ij| |u_j|: what the rounding of (K u)_i is a part of.
+/// Return sum_j |K_ij| |u_j|, to which the round-off of (K u)_i is proportional.
 double absolute_product(const feti::CsrMatrix &K, const qp::MultiVector &u, unsigned int i)
 {
   double sum = 0.;
@@ -32,8 +32,8 @@ double absolute_product(const feti::CsrMatrix &K, const qp::MultiVector &u, unsi
   return sum;
 }
 
-/// The worst over bodies of ||Ku - f + B'lambda|| / (||f|| +
-/// ||B'lambda||), zero where it is round-off of K u.
+/// Return the maximum over bodies of ||Ku - f + B'lambda|| / (||f|| + ||B'lambda||). The error of a
+/// body is zero where it is round-off of K u.
 double equilibrium_error(const feti::TotalFeti     &feti,
                          const qp::MultiVector     &lambda,
                          const feti::PrimalVectors &u)
@@ -54,7 +54,7 @@ double equilibrium_error(const feti::TotalFeti     &feti,
           of[0] += error * error;
           of[1] += system.f[i] * system.f[i];
           of[2] += forces[s](i) * forces[s](i);
-          // what rounding of (K u)_i is measured by
+          // scale of the round-off of (K u)_i
           const double terms = absolute_product(system.K, u[s], i);
           of[3] += terms * terms;
         }
@@ -67,7 +67,7 @@ double equilibrium_error(const feti::TotalFeti     &feti,
   for (unsigned int body = 0; body < n_bodies; ++body)
     {
       const double *of = &squares[4 * body];
-      // A body that is only moved, or that the others do not press on, has residuals of rounding
+      // A body that is only moved, or on which the others do not press, has residuals of round-off
       // and no forces to compare them with.
       if (std::sqrt(of[0]) <= round_off * std::sqrt(std::max(of[3], largest)))
         continue;
@@ -76,16 +76,16 @@ double equilibrium_error(const feti::TotalFeti     &feti,
     }
   return worst;
 }
-/// F_ii |lambda_i| of the row with the largest estimate, @p largest, of
-/// it: exact for that row, so a lower bound of the maximum over rows.
+/// Return F_ii |lambda_i| of the row whose estimate of it is the maximum, @p largest. The product
+/// is exact for that row, so it is a lower bound of the maximum over rows.
 double largest_product(const feti::TotalFeti &feti, const qp::MultiVector &lambda, double largest)
 {
   const MPI_Comm comm = feti.context().communicator();
   int            rank = feti.context().rank(), owner = feti.context().n_ranks();
   unsigned int   row = feti.n_owned();
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
-    // Exact comparison: the maximum over ranks is one of these products, bit for bit. Of equal ones
-    // the first row of the lowest rank counts.
+    // The comparison is exact, because the maximum over ranks is one of these products, bit for
+    // bit. Of equal products, the first row of the lowest rank counts.
     if (feti.diagonal()[i] * std::abs(lambda(i)) == largest)
       row = std::min(row, i);
   const int candidate = row < feti.n_owned() ? rank : owner;
@@ -93,15 +93,15 @@ double largest_product(const feti::TotalFeti &feti, const qp::MultiVector &lambd
   qp::MultiVector unit(feti.n_owned());
   if (rank == owner)
     unit(row) = 1.;
-  // Not apply(): F-mults count the work of solvers.
+  // Do not call apply(), because F-mults count the work of solvers.
   const auto column  = feti.multiply_B(feti.apply_inverse(feti.multiply_Bt(unit)));
   double     product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
   MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
   return product;
 }
 
-/// |f_i| / K_ii of the node loads, their largest: how far they deform the bodies where these hold
-/// them without contact or gluing.
+/// Return the maximum of |f_i| / K_ii over the node loads. It measures how far the loads deform the
+/// bodies where the bodies carry them without contact or gluing.
 double largest_load_product(const feti::TotalFeti &feti)
 {
   double largest = 0.;
@@ -112,8 +112,8 @@ double largest_load_product(const feti::TotalFeti &feti)
   return largest;
 }
 
-/// w_i <- 0 where it is round-off of B u - g; rows of B have lengths of
-/// about one, and the coarse problem spreads round-off over all of them.
+/// Set w_i to 0 where it is round-off of B u - g. Rows of B have lengths of about one, and the
+/// coarse problem spreads round-off over all rows.
 void set_round_off_to_zero(const feti::TotalFeti     &feti,
                            const feti::PrimalVectors &u,
                            qp::MultiVector           &w)
@@ -126,8 +126,8 @@ void set_round_off_to_zero(const feti::TotalFeti     &feti,
     largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
   for (unsigned int i = 0; i < w.n_rows(); ++i)
-    // u may be far larger than the lengths F_ii lambda_i that w is compared with later, as where
-    // prescribed displacements move a body.
+    // u may be far larger than the lengths F_ii lambda_i that w is compared with later, for example
+    // where prescribed displacements move a body.
     if (std::abs(w(i)) <= round_off * (largest[0] + largest[1]))
       w(i) = 0.;
 }
@@ -138,7 +138,7 @@ double Certificate::worst() const
   double worst = 0.;
   for (const double error :
        {equilibrium, continuity, penetration, negative_pressure, complementarity})
-    // Written so that NaN counts: it must not pass as small.
+    // The condition is written so that NaN counts, because NaN must not pass as small.
     if (!(error <= worst))
       worst = std::isnan(error) ? INFINITY : error;
   return worst;
@@ -150,8 +150,7 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
   auto w = feti.multiply_B(u);
   w.add(-1., feti.g());
   set_round_off_to_zero(feti, u, w);
-  // continuity, penetration, most negative and largest contact force,
-  // largest F_ii |lambda_i|
+  // maxima of continuity, penetration, negative and positive contact force, and F_ii |lambda_i|
   double largest[5] = {0., 0., 0., 0., 0.};
   double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
@@ -164,7 +163,8 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
         }
       largest[1] = larger(largest[1], w(i));
       largest[2] = larger(largest[2], -lambda(i));
-      // A pull is compared with the largest push, not with the multipliers of gluing.
+      // Negative contact forces are compared with the maximum contact force, not with multipliers
+      // of gluing.
       largest[3] = larger(largest[3], lambda(i));
       sums[0] += lambda(i) * w(i);
     }
@@ -178,7 +178,8 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
   const MPI_Comm comm = feti.context().communicator();
   MPI_Allreduce(MPI_IN_PLACE, largest, 5, MPI_DOUBLE, MPI_MAX, comm);
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
-  // A length by which forces deform the bodies: |u| would contain rigid motions, however large.
+  // The size is a length by which forces deform the bodies. |u| would contain rigid motions,
+  // however large.
   const double size =
     std::max(largest_product(feti, lambda, largest[4]), largest_load_product(feti));
   Certificate certificate;
@@ -186,7 +187,7 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
   certificate.continuity        = relative(largest[0], size);
   certificate.penetration       = relative(largest[1], size);
   certificate.negative_pressure = relative(largest[2], largest[3]);
-  // Energies on both sides. Without any strain the work of contact has to vanish exactly.
+  // Compare energies. Without any strain the work of contact has to vanish exactly.
   certificate.complementarity = relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
   return certificate;
 }
@@ -197,12 +198,12 @@ bool is_nearly_unloaded(const feti::TotalFeti &feti, const qp::MultiVector &lamb
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
     {
       largest[0] = std::max(largest[0], feti.diagonal()[i] * std::abs(lambda(i)));
-      // Gaps far from where bodies touch, however wide, do not tell how much they deform.
+      // Gaps far from where bodies touch, however wide, do not show how much the bodies deform.
       if (!feti.bounded()[i] || lambda(i) != 0.)
         largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
     }
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
-  // By the estimates F_ii, which are of the right size but for nearly incompressible bodies.
+  // Use the estimates F_ii, which are of the right size except for nearly incompressible bodies.
   return largest[0] < 1e-3 * largest[1];
 }
 } // namespace snug::state

@@ -7,7 +7,7 @@
 
 namespace snug::state {
 namespace {
-/// Rows with a force by the first of those they hang together with, pair by pair.
+/// Return connected sets of rows with a force, pair by pair, keyed by the first row of each set.
 template <int dim>
 std::map<unsigned int, std::vector<unsigned int>> connected_rows(const StateSolver<dim>  &solver,
                                                                  const ContactState<dim> &state)
@@ -20,7 +20,7 @@ std::map<unsigned int, std::vector<unsigned int>> connected_rows(const StateSolv
       row = first[row] = first[first[row]];
     return row;
   };
-  // Several pairs may have rows at one node.
+  // Use pair and node as the key, because several pairs may have rows at one node.
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> row_at;
   for (unsigned int i = 0; i < places.size(); ++i)
     if (state.contact[i].strong)
@@ -44,7 +44,7 @@ std::map<unsigned int, std::vector<unsigned int>> connected_rows(const StateSolv
   return result;
 }
 
-/// See ContactPatch::width.
+/// Return ContactPatch::width.
 template <int dim>
 double width(const StateSolver<dim>                   &solver,
              const std::vector<unsigned int>          &rows,
@@ -64,7 +64,8 @@ double width(const StateSolver<dim>                   &solver,
   dealii::SymmetricTensor<2, dim> spread;
   for (const unsigned int row : rows)
     spread += symmetrize(outer_product(x[node(row)] - mean, x[node(row)] - mean));
-  // In descending order: in 2D along the line, in 3D the shorter one in the face.
+  // Eigenvalues are in descending order. The axis is along the line in 2D, and the shorter axis in
+  // the face in 3D.
   const auto axis  = eigenvectors(spread)[dim - 2].second;
   double     lower = 0., upper = 0.;
   for (const unsigned int row : rows)

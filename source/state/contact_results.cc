@@ -19,7 +19,7 @@ typename mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim>    &solv
     {
       const auto &nodes = solver.tearing().subdomains[s].nodes;
       for (unsigned int a = 0; a < nodes.size(); ++a)
-        // Copies of a solution agree up to the continuity error of the certificate.
+        // Take the first copy, because copies agree up to the continuity error of the certificate.
         if (!set[nodes[a]])
           {
             set[nodes[a]] = true;
@@ -32,12 +32,13 @@ typename mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim>    &solv
 }
 
 namespace {
-/// A contact force above this part of the largest is strong; below, and
-/// with a gap below the same part of the largest F_ii lambda_i, weak.
+/// A contact force above this fraction of the maximum is strong. Below it, and with a gap below the
+/// same fraction of the maximum F_ii lambda_i, the contact is weak.
 const double strong_part = 1e-6;
 
-/// The energy is the dual value -(1/2 lambda'F lambda - lambda'd) - 1/2 f'K^+f. With the residual
-/// d - F lambda this is 1/2 lambda'(d + residual) - 1/2 f'K^+f and takes no F-mult.
+/// Compute the energies. The energy is the dual value -(1/2 lambda'F lambda - lambda'd) - 1/2
+/// f'K^+f. With the residual d - F lambda this value is 1/2 lambda'(d + residual) - 1/2 f'K^+f and
+/// needs no F-mult.
 template <int dim>
 void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
 {
@@ -62,7 +63,7 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, solver.context().communicator());
   state.strain_energy = sums[0] / 2;
   state.compliance    = sums[1];
-  // dual value: its error is the square of the residual's
+  // The error of this dual value is the square of the error of the residual.
   state.energy = sums[3] / 2 - sums[2] / 2;
 }
 
@@ -73,7 +74,7 @@ void describe_contact(const StateSolver<dim>     &solver,
 {
   const auto &feti  = solver.feti(state);
   auto        slack = feti.g();
-  // g - B u, the gap that is left, in the units of the scaled rows
+  // g - B u is the remaining gap, in the units of the scaled rows.
   slack.add(-1., feti.multiply_B(state.u));
   const std::vector<double> flags(state.dual.active.begin(), state.dual.active.end());
   const auto               &gluing = solver.gluing();
@@ -82,7 +83,7 @@ void describe_contact(const StateSolver<dim>     &solver,
   const auto                F_ii   = gluing.gather_contact(feti.diagonal().data());
   const auto                active = gluing.gather_contact(flags.data());
   const auto areas = solver.contact().areas(solver.surface().gather(state.positions));
-  // Largest lambda_i, largest F_ii lambda_i, the length it is measured by, and largest area.
+  // Maximum lambda_i, maximum F_ii lambda_i, with which gaps are compared, and maximum area.
   double largest = 0., largest_gap = 0., largest_area = 0.;
   for (unsigned int i = 0; i < lambda.size(); ++i)
     {
@@ -96,19 +97,19 @@ void describe_contact(const StateSolver<dim>     &solver,
       ContactPoint &point = state.contact[i];
       const double  scale = gluing.contact_scales()[i];
       point.area          = areas[i];
-      // A row divided by nr has its gap divided and its force multiplied by nr: both are undone
-      // here. A row that supports hold entirely has no multiplier, and its gap is fixed.
+      // A row divided by nr has its gap divided and its force multiplied by nr, so undo both here.
+      // A row that supports hold entirely has no multiplier, and its gap is fixed.
       point.gap = scale == 0. ? gluing.gap(i, rows, state.load_case) : gaps[i] * scale;
       if (scale == 0.)
         continue;
       point.force = lambda[i] / scale;
-      // an area may be round-off, as on the axis with degree 2
+      // The area may be round-off, as on the axis with degree 2.
       if (areas[i] > 1e-10 * largest_area)
         point.pressure = point.force / areas[i];
       point.active = active[i] != 0.;
-      // By size, not by the active set: a contact in the set may carry no force.
+      // Decide by size, not by the active set, because a contact in the set may carry no force.
       point.strong = lambda[i] > strong_part * largest;
-      // It opens along one direction of the design and presses along the opposite one.
+      // A weak contact opens along one direction of the design and presses along the opposite one.
       point.weak = !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
       if (largest > 0.)
         state.degeneracy_distance =
@@ -128,13 +129,14 @@ std::vector<std::string> free_bodies(const StateSolver<dim> &solver, const Conta
   return feti.free_bodies(rows);
 }
 
-/// Contact points are replicated: the same sums on all ranks without communication.
+/// Sum up the contact points, which are replicated, so all ranks get the same sums without
+/// communication.
 template <int dim>
 void sum_up_contact(const contact::Contact<dim> &contact,
                     const RowCoefficients<dim>  &rows,
                     ContactState<dim>           &state)
 {
-  std::vector<double> pressures; // that shared nodes show, by their first row
+  std::vector<double> pressures; // of shared nodes, by their first row
   pressures.assign(state.contact.size(), 0.);
   for (const auto &node : contact.shared_nodes())
     {

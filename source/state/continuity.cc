@@ -8,7 +8,7 @@
 namespace snug::state {
 std::vector<double> energy_norms(const feti::TotalFeti &feti, const feti::PrimalVectors &u)
 {
-  // a rank may have no subdomain
+  // A rank may have no subdomain, so take the number of columns from all ranks.
   const unsigned int  n = u.empty() ? 0 : u.front().n_columns();
   std::vector<double> squares(dealii::Utilities::MPI::max(n, feti.context().communicator()), 0.);
   for (unsigned int s = 0; s < u.size(); ++s)

@@ -7,21 +7,22 @@
 
 namespace snug::state {
 namespace {
-/// c: a set of up to thrice the rows takes hardly more F-mults than the right one, one with too few
-/// as many as all rows.
+/// The constant c. A set of up to three times the rows of the exact set takes hardly more F-mults
+/// than the exact set. A set with too few rows takes as many F-mults as the set of all rows.
 const double generosity = 2.;
 
-/// Part of the approach that the gap at the edge of a contact is: of spheres.
+/// Gap at the edge of a contact as a fraction of the approach; the value holds for spheres.
 const double edge_gap = 0.5;
 
-/// Bisections of delta, to a thousandth of the widest gap.
+/// Number of bisections of delta, which reach a thousandth of the maximum gap.
 const unsigned int n_bisections = 10;
 
-/// Motions slower than this part of the fastest are rounding.
+/// Motions slower than this fraction of the fastest motion are round-off.
 const double slow = 1e-8;
 
-/// g of the owned rows after the motion that the loads begin where only contacts hold a body, up
-/// to its first touch: of a shaft in its bore, the side that it falls on is near.
+/// Return g of the owned rows after the motion that the loads begin where only contacts hold a
+/// body, up to its first touch. For a shaft in its bore, gaps are then small on the side where it
+/// falls.
 std::vector<double> gaps_after_fall(const feti::TotalFeti &feti)
 {
   qp::RowSet equality(feti.n_owned());
@@ -30,7 +31,7 @@ std::vector<double> gaps_after_fall(const feti::TotalFeti &feti)
   if (feti.free_bodies(equality).empty())
     return std::vector<double>(feti.g().column(0), feti.g().column(0) + feti.n_owned());
   const auto rates       = feti.free_set(equality)->gap_closing_rates(feti.e());
-  double     extremes[2] = {0., HUGE_VAL}; // fastest, time until the first touch
+  double     extremes[2] = {0., HUGE_VAL}; // maximum rate, time until the first touch
   for (const double rate : rates)
     extremes[0] = std::max(extremes[0], std::abs(rate));
   const MPI_Comm comm = feti.context().communicator();
@@ -50,16 +51,16 @@ std::vector<double> gaps_after_fall(const feti::TotalFeti &feti)
   return gaps;
 }
 
-/// Part of the loads that a set may leave unbalanced.
+/// Fraction of the loads that a set may leave unbalanced.
 const double balance_tolerance = 1e-8;
 
-/// Changes of the set after which it is taken as it is.
+/// Maximum number of changes of the set, after which the set is taken as it is.
 const unsigned int most_changes = 20;
 
 /**
- * Of the contacts in @p rows those that press where subdomains are rigid and rows are springs of
- * equal stiffness, pulling ones let go: forces G_M'(G_M G_M')^+ e on the set M. Where a slender
- * body lifts off, balance alone tells about where.
+ * Return the contacts in @p rows that press where subdomains are rigid and rows are springs of
+ * equal stiffness, and where pulling rows are released. The forces are G_M'(G_M G_M')^+ e on the
+ * set M. Where a slender body lifts off, equilibrium alone determines approximately where.
  */
 qp::RowSet pressing_rows(const feti::TotalFeti &feti, const qp::RowSet &rows)
 {
@@ -91,12 +92,12 @@ qp::RowSet pressing_rows(const feti::TotalFeti &feti, const qp::RowSet &rows)
   return result;
 }
 
-/// What is known of the pairs, equal on all ranks.
+/// Known data of the pairs, equal on all ranks.
 struct PairLoads
 {
   std::vector<double> force;           ///< P
-  std::vector<double> least, greatest; ///< gaps
-  double              held = 0.;       ///< largest held displacement
+  std::vector<double> least, greatest; ///< minimum and maximum gap
+  double              held = 0.;       ///< maximum held displacement
 };
 
 PairLoads pair_loads(const feti::TotalFeti           &feti,
@@ -139,7 +140,7 @@ qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
 {
   const auto      gaps  = gaps_after_fall(feti);
   const PairLoads loads = pair_loads(feti, gaps, pair_of_row, n_pairs);
-  // The largest gap of a row in the set lies between these.
+  // The maximum gap of a row in the set lies between low and high.
   std::vector<double> low(n_pairs), high(n_pairs);
   for (unsigned int p = 0; p < n_pairs; ++p)
     {
@@ -148,7 +149,7 @@ qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
     }
   for (unsigned int step = 0; step < n_bisections; ++step)
     {
-      std::vector<double> middle(n_pairs), sums(2 * n_pairs, 0.); // rows within it, their F_ii
+      std::vector<double> middle(n_pairs), sums(2 * n_pairs, 0.); // number of rows, sum of F_ii
       for (unsigned int p = 0; p < n_pairs; ++p)
         middle[p] = (low[p] + high[p]) / 2;
       for (unsigned int i = 0; i < feti.n_owned(); ++i)
@@ -173,7 +174,7 @@ qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
     {
       const unsigned int pair = pair_of_row[i];
-      // Pairs that nothing is known to press together keep all their rows.
+      // Pairs without a known force that presses them together keep all their rows.
       if (pair < n_pairs && (loads.force[pair] > 0. || low[pair] > loads.least[pair]))
         expected[i] = gaps[i] <= high[pair];
     }

@@ -2,7 +2,7 @@
 
 namespace snug::state {
 namespace {
-/// One direction held at a node, q . u = s, with its derivatives.
+/// A direction held at a node, q . u = s, with its derivatives.
 template <int dim>
 struct HeldDirection
 {
@@ -10,7 +10,8 @@ struct HeldDirection
   double                 s, ds;
 };
 
-/// Empty derivative frames stand for zero: directions that do not follow the positions.
+/// Return the held directions with their derivatives. Empty derivative frames stand for zero, for
+/// directions that do not follow the positions.
 template <int dim>
 std::vector<HeldDirection<dim>> held_directions(const supports::ConstraintFrame<dim> &frame,
                                                 const supports::ConstraintFrame<dim> &derivative,
@@ -38,11 +39,11 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
   : held(held), rows(mesh, tearing, surface, held, reference)
 {
   for (const auto &row : rows.owned)
-    // n_contact_rows() for rows of gluing and supports
+    // n_contact_rows() stands for rows of gluing and supports.
     owned_contact.push_back(row.source == Source::contact ? row.index : n_contact_rows());
 }
 
-/// scale_rows() sets the scale of such rows to zero.
+/// Return the rows with the scale zero, which scale_rows() sets for vanished rows.
 template <int dim>
 std::vector<unsigned int> Gluing<dim>::vanished_rows() const
 {
@@ -53,8 +54,8 @@ std::vector<unsigned int> Gluing<dim>::vanished_rows() const
   return vanished;
 }
 
-/// The entries are those of the reference geometry, also where a value happens to be zero at this
-/// one: the pattern of B does not depend on the design.
+/// Fill the entries of the reference geometry, also where a value happens to be zero at this
+/// geometry, because the pattern of B must not depend on the design.
 template <int dim>
 void Gluing<dim>::fill_B(unsigned int                s,
                          const RowCoefficients<dim> &now,
@@ -94,8 +95,9 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
           auto               result = dc;
           const unsigned int h      = rows.held_of_surface[c.first];
           if (h < held.n_nodes())
-            // c <- c - sum_k (c . q_k) q_k by the product rule. 1 / nr in the factor is a constant
-            // of the reference. The values s of the load case, any of them, do not enter B.
+            // Differentiate c <- c - sum_k (c . q_k) q_k by the product rule. 1 / nr in the factor
+            // is a constant of the reference geometry. The values s do not enter B, so any load
+            // case serves.
             for (const auto &d : held_directions(now.held[h], derivative.held[h], 0))
               result -= (dc * d.q + c.second * d.dq) * d.q + (c.second * d.q) * d.dq;
           value = result[entry.dof % dim];
@@ -137,7 +139,7 @@ double Gluing<dim>::gap_derivative(unsigned int                i,
       if (h == held.n_nodes())
         continue;
       for (const auto &d : held_directions(now.held[h], derivative.held[h], load_case))
-        // the derivative of the term of gap() by the product rule
+        // Differentiate the term of gap() by the product rule.
         result -= (dc * d.q + c.second * d.dq) * d.s + (c.second * d.q) * d.ds;
     }
   return result;
@@ -152,7 +154,7 @@ qp::MultiVector Gluing<dim>::right_hand_side(const RowCoefficients<dim> &now,
     {
       const auto &row = rows.owned[i];
       if (row.source == Source::contact)
-        // factor 1 / nr, as of the row itself
+        // The factor is 1 / nr, as that of the row itself.
         g(i) = row.factor * gap(row.index, now, load_case);
       else if (row.source == Source::held)
         g(i) = row.factor * now.held[row.index].values[row.item][load_case];
@@ -171,7 +173,8 @@ qp::MultiVector Gluing<dim>::right_hand_side_derivative(const RowCoefficients<di
       const auto &row = rows.owned[i];
       if (row.source == Source::contact)
         g(i) = row.factor * gap_derivative(row.index, now, derivative, load_case);
-      // Prescribed displacements go with the material point; s' comes from the frame that turns.
+      // Prescribed displacements move with the material point, and s' comes from the rotating
+      // frame.
       else if (row.source == Source::held && held.follows_positions(row.index))
         g(i) = row.factor * derivative.held[row.index].values[row.item][load_case];
     }
@@ -185,8 +188,8 @@ std::vector<double> Gluing<dim>::gather_contact(const double *owned_values) cons
   for (unsigned int row = 0; row < rows.layout->n_owned(); ++row)
     if (owned_contact[row] < rows.scales.size())
       values[owned_contact[row]] = owned_values[row];
-  // Each row has one owner, so every sum has one term besides zeros: the result is exact and does
-  // not depend on the number of ranks.
+  // Each row has one owner, so every sum has one nonzero term. The result is exact and does not
+  // depend on the number of ranks.
   MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
                 rows.layout->communicator());
   return values;
@@ -199,14 +202,14 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const double            
   std::vector<double> values(dim * held.n_nodes(), 0.);
   for (unsigned int row = 0; row < rows.owned.size(); ++row)
     if (rows.owned[row].source == Source::held)
-      // Row and right-hand side have the factor sqrt(m) on q . u = s, once the copies are equal.
+      // Once the copies are equal, row and right-hand side are sqrt(m) times q . u = s.
       values[dim * rows.owned[row].index + rows.owned[row].item] =
         rows.owned[row].factor * owned_lambda[row];
   MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
                 rows.layout->communicator());
-  // lambda_i / nr_i (projected c . u - projected gap) holds -(c . q_k) (q_k . u - s_k) besides
-  // c . u - gap: that part goes to the supports. After the sum over ranks, since gathered
-  // multipliers are the same on all of them.
+  // lambda_i / nr_i (projected c . u - projected gap) contains -(c . q_k) (q_k . u - s_k) in
+  // addition to c . u - gap, and this part goes to the supports. Add it after the sum over ranks,
+  // because gathered multipliers are the same on all ranks.
   const auto lambda = gather_contact(owned_lambda);
   for (unsigned int i = 0; i < lambda.size(); ++i)
     for (const auto &c : now.contact[i].coefficients)

@@ -17,7 +17,8 @@ struct GluingRows<dim>::Message
 
   static const unsigned int size = 6 + dim;
 
-  /// Indices travel as doubles beside the factors, which are exact up to 2^53.
+  /// Append the message to @p buffer. Indices are sent as doubles with the factors, and doubles
+  /// represent them exactly up to 2^53.
   void append_to(std::vector<double> &buffer) const
   {
     for (const unsigned int n :
@@ -52,8 +53,8 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
                             const RowCoefficients<dim>                &reference)
   : mesh(mesh), surface(surface), held(held)
 {
-  // The order matters: scales need the copies of the surface nodes, the numbers of contact rows
-  // come after those of gluing and supports on the same rank.
+  // The order matters, because scales need the copies of the surface nodes, and the numbers of
+  // contact rows come after those of gluing and supports on the same rank.
   collect_surface(tearing);
   scale_rows(reference);
   const auto           ranks = cluster_ranks(reference.contact);
@@ -72,19 +73,19 @@ GluingRows<dim>::projected(unsigned int                                       su
 {
   dealii::Tensor<1, dim> result = coefficient;
   if (held_of_surface[surface_node] < frames.size())
-    // The q are orthonormal, so one after the other is the projection off all of them.
+    // The q are orthonormal, so successive projections are the projection off all of them.
     for (const auto &q : frames[held_of_surface[surface_node]].directions)
       result -= (result * q) * q;
   return result;
 }
 
-/// A coefficient c spread evenly over m copies has the square |c|^2 / m: rows get unit length. At
-/// the reference geometry only, so that nr is no function of the design; a node held in the
-/// direction of a row leaves nothing to divide by.
+/// Compute the scales. A coefficient c spread evenly over m copies has the square |c|^2 / m, so
+/// scaled rows have unit length. Use the reference geometry only, so that nr does not depend on the
+/// design. A row whose nodes are held in its direction has the scale 0.
 template <int dim>
 void GluingRows<dim>::scale_rows(const RowCoefficients<dim> &reference)
 {
-  // a row whose projection is round-off of a unit normal has vanished
+  // A row whose projection is round-off of a unit normal has vanished.
   const double vanishing = 1e-12;
   for (const auto &row : reference.contact)
     {
@@ -104,7 +105,8 @@ void GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
       surface_of_global[surface.global_node(i)] = i;
       held_of_surface.push_back(held.find(surface.global_node(i)));
     }
-  // How many subdomains, of all ranks, reach each surface node; hanging ones are reached by none.
+  // Count the subdomains of all ranks that reach each surface node. No subdomain reaches hanging
+  // nodes.
   copies.assign(surface.n_nodes(), 0);
   for (const auto &subdomain : tearing.subdomains)
     for (const unsigned int node : subdomain.nodes)
@@ -121,9 +123,8 @@ template <int dim>
 std::vector<unsigned int>
 GluingRows<dim>::cluster_ranks(const std::vector<contact::Row<dim>> &contact_rows) const
 {
-  // Contact rows that share nodes form clusters; the rank of a cluster's
-  // first node owns all rows at its nodes, so that B D^-1 B' is block
-  // diagonal over ranks.
+  // Contact rows that share nodes form clusters. The rank of the first node of a cluster owns all
+  // rows at the nodes of the cluster, so that B D^-1 B' is block diagonal over ranks.
   std::vector<unsigned int> root(surface.n_nodes());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](unsigned int i) {
@@ -136,7 +137,7 @@ GluingRows<dim>::cluster_ranks(const std::vector<contact::Row<dim>> &contact_row
       {
         const unsigned int a = find(row.coefficients.front().first);
         const unsigned int b = find(c.first);
-        // The root is the first node of its cluster, in whatever order rows come.
+        // The root is the first node of its cluster, for any order of the rows.
         root[std::max(a, b)] = std::min(a, b);
       }
   std::vector<unsigned int> ranks;
@@ -150,11 +151,12 @@ typename GluingRows<dim>::Copies
 GluingRows<dim>::collect_copies(const mesh::Tearing             &tearing,
                                 const std::vector<unsigned int> &rank_of_contact) const
 {
-  // Nodes of contact surfaces go to the rank of their cluster, all others to their owner.
+  // Nodes of contact surfaces go to the rank of their cluster, and all other nodes go to their
+  // owner.
   std::map<unsigned int, unsigned int> special;
   for (unsigned int i = 0; i < surface.n_nodes(); ++i)
     special[surface.global_node(i)] = rank_of_contact[i];
-  // to the rank that owns the node's rows: (node, subdomain)
+  // pairs (node, subdomain) for the rank that owns the rows of the node
   std::map<unsigned int, std::vector<unsigned int>> out;
   for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
     for (const unsigned int local : tearing.subdomains[s].nodes)
@@ -168,8 +170,8 @@ GluingRows<dim>::collect_copies(const mesh::Tearing             &tearing,
   for (const auto &message : dealii::Utilities::MPI::some_to_some(mesh.communicator(), out))
     for (std::size_t i = 0; i < message.second.size(); i += 2)
       nodes[message.second[i]].push_back(message.second[i + 1]);
-  // Messages come rank by rank. In ascending order the Helmert rows of a node depend on the numbers
-  // of its subdomains alone.
+  // Sort, because messages come rank by rank. In ascending order the Helmert rows of a node depend
+  // on the numbers of its subdomains alone.
   for (auto &node : nodes)
     std::sort(node.second.begin(), node.second.end());
   return nodes;
@@ -188,22 +190,22 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int i = 1; i < m; ++i)
           {
-            // Helmert row i: the mean of the first i copies against copy i. Rows of differences of
-            // pairs would do as well but are not orthogonal to each other.
+            // Helmert row i is the mean of the first i copies against copy i. Rows of differences
+            // of pairs would glue the copies as well but are not orthogonal to each other.
             const double norm = std::sqrt(i * (i + 1.));
             for (unsigned int j = 0; j <= i; ++j)
               {
                 messages.emplace_back(subdomains[j], node, owned.size());
                 messages.back().factor[c] = (j < i ? 1. : -1. * i) / norm;
               }
-            // copies are equal: right-hand side 0
+            // Copies are equal, so the right-hand side is 0.
             owned.push_back({Source::constant, 0, 0, 0.});
           }
       const unsigned int h = held.find(node);
       if (h == held.n_nodes())
         continue;
-      // One row holds the sum of the copies, not each of them: with the gluing that is the same,
-      // and the rows stay orthonormal.
+      // One row holds the sum of the copies instead of each copy. With the gluing the effect is the
+      // same, and the rows stay orthonormal.
       const auto &directions = reference.held[h].directions;
       for (unsigned int k = 0; k < directions.size(); ++k)
         {
@@ -212,7 +214,7 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
               messages.emplace_back(subdomain, node, owned.size());
               Message &message = messages.back();
               // A direction that follows the design has entries for all components, also where it
-              // is zero at the reference: another design may turn it.
+              // is zero at the reference geometry, because another design may rotate it.
               message.source = held.follows_positions(h) ? Source::held : Source::constant;
               message.index  = h;
               message.item   = k;
@@ -235,8 +237,8 @@ void GluingRows<dim>::number_contact_rows(const Copies                         &
   for (unsigned int i = 0; i < reference_rows.size(); ++i)
     {
       const auto &coefficients = reference_rows[i].coefficients;
-      // A vanished row would be a zero row of B; its gap is checked by StateProblem instead. All
-      // nodes of a row are in one cluster, so the first names the owner.
+      // A vanished row would be a zero row of B, so StateProblem checks its gap instead. All nodes
+      // of a row are in one cluster, so the first node determines the owner.
       if (scales[i] == 0. || rank_of_contact[coefficients.front().first] != my_rank)
         continue;
       for (unsigned int k = 0; k < coefficients.size(); ++k)
@@ -251,7 +253,7 @@ void GluingRows<dim>::number_contact_rows(const Copies                         &
               message.index    = i;
               message.item     = k;
               for (unsigned int c = 0; c < dim; ++c)
-                // 1 / (nr m): the coefficient itself is multiplied when B is filled.
+                // The factor is 1 / (nr m). It is multiplied by the coefficient when B is filled.
                 message.factor[c] = 1. / (scales[i] * subdomains.size());
             }
         }
@@ -266,7 +268,7 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
   const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(comm);
   const auto         counts =
     dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(owned.size()));
-  // Owned rows are numbered from 0; globally, those of lower ranks come first.
+  // Owned rows are numbered from 0. In the global numbers, the rows of lower ranks come first.
   const unsigned int first_row = std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
   n_global                     = std::accumulate(counts.begin(), counts.end(), 0u);
 
@@ -276,7 +278,8 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
     {
       message.row += first_row;
       const unsigned int rank =
-        // A rank without subdomains has the first id of the next one: the last of equals has it.
+        // A rank without subdomains has the first id of the next rank, so the last of equal ids
+        // counts.
         std::upper_bound(first.begin(), first.end(), message.subdomain) - first.begin() - 1;
       message.append_to(out[rank]);
     }
@@ -293,7 +296,7 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
           nodes.begin();
         for (unsigned int c = 0; c < dim; ++c)
           {
-            // components that the row does not have, see number_node_rows()
+            // Skip components that the row does not have, see number_node_rows().
             if (message.factor[c] == 0.)
               continue;
             layout_entries[s].push_back({message.row, dim * slot + c});
@@ -303,12 +306,12 @@ void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::
       }
   qp::RowSet bounded;
   for (const OwnedRow &row : owned)
-    // lambda_i >= 0 for contact, the multipliers of gluing and supports have any sign
+    // lambda_i >= 0 for contact, while multipliers of gluing and supports have any sign.
     bounded.push_back(row.source == Source::contact);
   layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id);
   for (auto &of_subdomain : entries)
     for (Entry &entry : of_subdomain)
-      // global until here: local rows are known once the layout has seen all entries
+      // local_row is global until here: local rows are known once the layout has all entries.
       entry.local_row = layout->local_row(entry.local_row);
 }
 

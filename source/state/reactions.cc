@@ -5,7 +5,7 @@
 
 namespace snug::state {
 namespace {
-/// A force at a place.
+/// A place and the force that acts there.
 template <int dim>
 using Force = std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>;
 
@@ -19,7 +19,8 @@ dealii::Tensor<1, 3> moment_about(const dealii::Tensor<1, dim>  &centre,
   return sum;
 }
 
-/// Radial forces on a section of revolution cancel over the circumference.
+/// Return the resultant, where radial forces on a section of revolution cancel over the
+/// circumference.
 template <int dim>
 dealii::Tensor<1, dim> resultant(const StateSolver<dim> &solver, dealii::Tensor<1, dim> force)
 {
@@ -75,8 +76,8 @@ void add_loads(const StateSolver<dim> &solver, ContactState<dim> &state)
   state.load = resultant(solver, state.load);
 }
 
-/// Where the force of a row acts on the slave side: at its node, but where others of the side take
-/// part, as in mortar rows at the end of the master side.
+/// Return the place where the force of a row acts on the slave side. This place is the slave node,
+/// unless other nodes of the side take part, as in mortar rows at the end of the master side.
 template <int dim>
 dealii::Tensor<1, dim> place(const contact::Row<dim>                  &row,
                              const unsigned int                        slave,
@@ -96,7 +97,8 @@ dealii::Tensor<1, dim> place(const contact::Row<dim>                  &row,
   return n == 1 ? x[slave] : sum / weights;
 }
 
-/// Contact points are replicated.
+/// Compute the places where pairs press, without communication, because contact points are
+/// replicated.
 template <int dim>
 void add_places(const StateSolver<dim>     &solver,
                 const RowCoefficients<dim> &rows,

@@ -4,7 +4,7 @@
 
 namespace snug::state {
 namespace {
-/// Sum over ranks of moments in a row: one reduction for all boundaries.
+/// Sum the moments over ranks in one reduction for all boundaries.
 template <int dim>
 void add_up(std::vector<elasticity::AreaMoments<dim>> &moments, MPI_Comm comm)
 {
@@ -39,7 +39,8 @@ ResultantLoads<dim>::ResultantLoads(const mesh::BodyMesh<dim>        &mesh,
                                     const std::vector<LoadCase<dim>> &load_cases)
   : mesh(mesh), face_load(face_load), load_cases(load_cases)
 {
-  // A set, so that the boundaries come in one order on all ranks: sums over ranks rely on it.
+  // Use a set, so that the boundaries have one order on all ranks, because sums over ranks rely on
+  // it.
   std::set<Boundary> boundaries;
   for (const auto &load_case : load_cases)
     for (unsigned int b = 0; b < load_case.bodies.size(); ++b)
@@ -49,15 +50,15 @@ ResultantLoads<dim>::ResultantLoads(const mesh::BodyMesh<dim>        &mesh,
   for (const auto &boundary : boundaries)
     {
       loaded.push_back({boundary, {}, {}});
-      // Faces of owned cells: each is on one rank, so that sums over ranks count it once.
+      // Take faces of owned cells. Each face is on one rank, so sums over ranks count it once.
       for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
         if (mesh.boundary_faces()[f].body == boundary.first &&
             mesh.boundary_faces()[f].boundary == boundary.second)
           loaded.back().faces.push_back(f);
     }
   const auto &X = mesh.reference_positions();
-  // Origins are zero as yet, which gives the centroid of the reference. Moments about a point far
-  // from the face would make I a difference of large numbers.
+  // The origins are still zero, which gives the centroid of the reference geometry. Moments about a
+  // point far from the boundary would make I a difference of large numbers.
   const auto about = moments([&](unsigned int f, const auto &origin) {
     return this->face_load.moments(at_face(f, X), origin);
   });
@@ -75,7 +76,7 @@ typename ResultantLoads<dim>::Nodes ResultantLoads<dim>::at_face(unsigned int fa
   return values;
 }
 
-/// Sums of compute(face, origin) over each boundary.
+/// Return the sums of compute(face, origin) over each boundary.
 template <int dim>
 template <typename Compute>
 std::vector<elasticity::AreaMoments<dim>> ResultantLoads<dim>::moments(const Compute &compute) const
@@ -89,13 +90,13 @@ std::vector<elasticity::AreaMoments<dim>> ResultantLoads<dim>::moments(const Com
         result[i].first += of_face.first;
         result[i].second += of_face.second;
       }
-  // The same on all ranks, as load cases are.
+  // The condition is the same on all ranks, because load cases are.
   if (!loaded.empty())
     add_up<dim>(result, mesh.communicator());
   return result;
 }
 
-/// Of each load case by index into loaded.
+/// Return the spread resultants of each load case, by index into loaded.
 template <int dim>
 std::vector<std::map<unsigned int, elasticity::SpreadResultant<dim>>>
 ResultantLoads<dim>::spread(const Field &positions) const
@@ -132,7 +133,7 @@ typename ResultantLoads<dim>::Tractions
 ResultantLoads<dim>::traction_derivatives(const Field &positions, const Field &velocity) const
 {
   const auto now = spread(positions);
-  // A', c' and I' are sums over the whole face: a node moves the traction on all of it.
+  // A', c' and I' are sums over the whole boundary, so a node changes the traction on all of it.
   const auto changes = moments([&](unsigned int f, const auto &origin) {
     return face_load.moment_derivatives(at_face(f, positions), at_face(f, velocity), origin);
   });
@@ -143,8 +144,9 @@ ResultantLoads<dim>::traction_derivatives(const Field &positions, const Field &v
   return result;
 }
 
-/// f . u = F . U / A + M . y with U = int u dA and y = I^-1 int r x u dA over the whole face. A
-/// first pass sums them up over all ranks, a second adds what they and the faces' own places make.
+/// Differentiate f . u = F . U / A + M . y with U = int u dA and y = I^-1 int r x u dA over the
+/// whole boundary. A first pass sums U and the moment over all ranks. A second pass adds the
+/// derivatives of these sums and of the positions of the faces.
 template <int dim>
 void ResultantLoads<dim>::add_work_gradient(unsigned int load_case,
                                             const Field &positions,

@@ -14,7 +14,7 @@ qp::MultiVector rigid_motions(const mesh::Idealization                  &idealiz
   if (idealization.is_axisymmetric())
     {
       for (unsigned int a = 0; a < positions.size(); ++a)
-        // A rotation about the axis leaves the section; a move along r would strain the hoops.
+        // A rotation about the axis leaves the section, and a move along r would strain the hoops.
         modes(dim * a + 1, 0) = 1.;
       return modes;
     }
@@ -31,7 +31,8 @@ qp::MultiVector rigid_motions(const mesh::Idealization                  &idealiz
         }
       for (unsigned int axis = 0; axis < 3; ++axis)
         {
-          // e_axis x x, with (axis, b, c) a right-handed system. "% dim" is for the compiler in 2D.
+          // e_axis x x, with (axis, b, c) a right-handed system. "% dim" satisfies the compiler in
+          // 2D.
           const unsigned int b = (axis + 1) % 3, c = (axis + 2) % 3;
           modes(dim * a + b, dim + axis) = -x[c % dim];
           modes(dim * a + c, dim + axis) = x[b % dim];
@@ -40,7 +41,8 @@ qp::MultiVector rigid_motions(const mesh::Idealization                  &idealiz
   return modes;
 }
 
-/// Each column less its parts along those before (k < j), then divided by its length (k = j).
+/// Subtract from each column its parts along the columns before (k < j), then divide the column by
+/// its length (k = j).
 void orthonormalise(qp::MultiVector &R)
 {
   for (unsigned int sweep = 0; sweep < 2; ++sweep)

@@ -15,7 +15,7 @@ namespace {
 /// Cells below this quality are not solved (see Element::quality).
 const double least_quality = 0.02;
 
-/// What is wrong with a cell at @p x of these numbers; empty: nothing.
+/// Return the flaw of a cell at @p x with these numbers, or an empty text if there is none.
 template <int dim>
 std::string flaw(const std::string            &body,
                  const dealii::Tensor<1, dim> &x,
@@ -35,7 +35,7 @@ std::string flaw(const std::string            &body,
   return text.str();
 }
 
-/// What no design has moved is the input's fault.
+/// Check the reference mesh. Its flaws are input errors, because no design has moved it.
 template <int dim>
 void check_reference(const StateProblem<dim> &problem)
 {
@@ -96,7 +96,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   glue(positions);
 }
 
-/// Everything that depends on which nodes are paired.
+/// Build everything that depends on which nodes are paired.
 template <int dim>
 void StateProblem<dim>::glue(const Field &positions)
 {
@@ -134,8 +134,8 @@ std::vector<bool> StateProblem<dim>::moved_subdomains(const Field &positions) co
   return moved;
 }
 
-/// The least scaled Jacobian of each subdomain. Those known are left as
-/// they are: a later subdomain may be tangled, and the geometry not taken.
+/// Return the minimum scaled Jacobian of each subdomain. The stored values stay unchanged, because
+/// a later subdomain may be tangled, and the geometry is then not taken.
 template <int dim>
 std::vector<double> StateProblem<dim>::checked_jacobians(const Field             &positions,
                                                          const std::vector<bool> &moved)
@@ -164,18 +164,18 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
   return result;
 }
 
-/// Matrices, rows and loads of a geometry.
+/// Assemble the matrices, rows and loads of a geometry.
 template <int dim>
 void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool> &moved)
 {
   const RunContext::Timer timer(context, "assembly");
   std::vector<double>     jacobians;
   everywhere(context.communicator(), [&]() { jacobians = checked_jacobians(positions, moved); });
-  // what throws from here on leaves matrices of no geometry
+  // An exception from here on leaves matrices of no geometry, so forget the geometry first.
   geometry.positions.clear();
   loaded_case.reset();
   scaled_jacobians = jacobians;
-  jacobians.push_back(1.); // of a rank without cells
+  jacobians.push_back(1.); // for a rank without cells
   geometry.least_scaled_jacobian =
     dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
                                 context.communicator());
@@ -223,8 +223,8 @@ const Geometry<dim> &StateProblem<dim>::set(const Field &positions, const unsign
 {
   if (feti->misses_soft_modes())
     {
-      // Where contact was paired, and not where states happen to be asked for: a run that was
-      // interrupted finds the same ones again.
+      // Use the positions of the pairing, and not those at which states happen to be requested, so
+      // that a run that was interrupted finds the same soft modes again.
       set_geometry(paired_at);
       feti->find_soft_modes();
     }

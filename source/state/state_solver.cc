@@ -9,11 +9,11 @@
 
 namespace snug::state {
 namespace {
-/// The KKT residual is a norm over all rows, the certificate a maximum:
-/// solving this much below the tolerance meets it at once, as a rule.
+/// The KKT residual is a norm over all rows, the certificate a maximum. A solution to this fraction
+/// of the tolerance usually meets the certificate at once.
 const double certificate_margin = 0.25;
 
-/// The tolerance is not lowered by more than this at once.
+/// Minimum factor by which the error of the certificate lowers the tolerance in one attempt.
 const double largest_step = 1e-4;
 } // namespace
 

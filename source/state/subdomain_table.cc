@@ -13,7 +13,7 @@ feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim>      &mesh,
   table.body.assign(tearing.n_global, 0);
   for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
     table.body[tearing.first_id + s] = tearing.subdomains[s].body;
-  // Each subdomain has one rank, the others say 0: the maximum is its body.
+  // Each subdomain has one rank, and the other ranks contribute 0, so the maximum is its body.
   MPI_Allreduce(MPI_IN_PLACE, table.body.data(), table.body.size(), MPI_UNSIGNED, MPI_MAX,
                 mesh.communicator());
   return table;

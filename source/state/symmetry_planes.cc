@@ -11,14 +11,14 @@
 
 namespace snug::state {
 namespace {
-/// Cosines of the angle between a curved face and a plane: round-off of mesh files is below the
-/// first one; above the second one the face is a fillet that touches the plane.
+/// Cosines of the angle between a curved face and a plane. Round-off of mesh files is below the
+/// first cosine. Above the second cosine, the face is a fillet that touches the plane.
 constexpr double least_cosine = 1e-3, most_cosine = 0.99;
 
-/// A boundary all of whose supports are at a displacement of zero.
+/// A boundary with the components that supports hold; is_at_rest if all displacements are zero.
 struct Boundary
 {
-  std::string            name; ///< body.boundary
+  std::string            name; ///< "body.boundary"
   std::set<unsigned int> components;
   bool                   is_at_rest = true;
 };
@@ -30,7 +30,7 @@ struct Plane
   std::string            name;
   unsigned int           body;
   dealii::Tensor<1, dim> normal;
-  std::set<unsigned int> nodes; ///< of the surface
+  std::set<unsigned int> nodes; ///< surface nodes
 };
 
 using Boundaries = std::map<contact::Boundary, Boundary>;
@@ -44,7 +44,7 @@ Boundaries held_boundaries(const std::vector<supports::Support<dim>> &supports)
       auto &of = result[{support.body, support.boundary}];
       of.name  = support.face;
       of.components.insert(support.component);
-      // A formula may be zero here and there: it is not evaluated.
+      // A formula counts as nonzero without evaluation, because it may be zero at some points only.
       for (const auto &value : support.values)
         of.is_at_rest = of.is_at_rest && !value;
     }
@@ -90,8 +90,8 @@ std::set<unsigned int> nodes_on_axis(const mesh::Surface<dim> &surface)
   return nodes;
 }
 
-/// Return whether a plane of the same body is opposite: a body between two of them is one that is
-/// confined, whose apex may well be in the middle.
+/// Return whether a plane of the same body is opposite. A body between two opposite planes is
+/// confined, and its apex may well be in the middle.
 template <int dim>
 bool is_opposed(const Plane<dim> &plane, const std::vector<Plane<dim>> &planes)
 {

@@ -3,9 +3,10 @@
 #include <algorithm>
 
 namespace snug::supports {
-// Gram-Schmidt keeps the order: the first direction stays as given, so that axes stay axes. What is
-// prescribed is transformed with the directions, since q_k . u = s_k must say the same as d_j . u =
-// v_j. L holds the factors, d = L q, for derivatives and for going back.
+// Gram-Schmidt keeps the order: the first direction stays as given, so that axes stay axes. The
+// prescribed values are transformed with the directions, because q_k . u = s_k must be equivalent
+// to d_j . u = v_j. L holds the factors, d = L q, for the derivatives and for the inverse
+// transformation.
 template <int dim>
 Orthonormalised<dim>::Orthonormalised(const ConstraintFrame<dim> &given)
 {
@@ -31,7 +32,7 @@ Orthonormalised<dim>::Orthonormalised(const ConstraintFrame<dim> &given)
     }
 }
 
-// The diagonal of L is the sine of the angle between a direction and those before it.
+// The diagonal of L is the sine of the angle between a direction and the span of those before it.
 template <int dim>
 double Orthonormalised<dim>::independence() const
 {
@@ -51,7 +52,7 @@ ConstraintFrame<dim> Orthonormalised<dim>::derivative(const ConstraintFrame<dim>
   auto                &ds = result.values;
   for (unsigned int j = 0; j < q.size(); ++j)
     {
-      // d_j as given, from its parts
+      // d_j as given, reconstructed from its parts
       dealii::Tensor<1, dim> d = L[j][j] * q[j];
       for (unsigned int k = 0; k < j; ++k)
         d += L[j][k] * q[k];
@@ -59,7 +60,7 @@ ConstraintFrame<dim> Orthonormalised<dim>::derivative(const ConstraintFrame<dim>
       auto dvalue = given.values[j];
       for (unsigned int k = 0; k < j; ++k)
         {
-          // L_jk = d_j . q_k, both of which move
+          // L_jk = d_j . q_k, where both factors change
           const double dL = given.directions[j] * q[k] + d * dq[k];
           dv -= dL * q[k] + L[j][k] * dq[k];
           for (unsigned int c = 0; c < dvalue.size(); ++c)
@@ -74,7 +75,8 @@ ConstraintFrame<dim> Orthonormalised<dim>::derivative(const ConstraintFrame<dim>
   return result;
 }
 
-// L' m = mu by back substitution: sum_k mu_k (q_k . u - s_k) = sum_j m_j (d_j . u - v_j).
+// Solve L' m = mu by back substitution, because
+// sum_k mu_k (q_k . u - s_k) = sum_j m_j (d_j . u - v_j).
 template <int dim>
 std::vector<double> Orthonormalised<dim>::given_multipliers(std::vector<double> multipliers) const
 {

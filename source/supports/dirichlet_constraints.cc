@@ -9,15 +9,16 @@
 
 namespace snug::supports {
 namespace {
-/// Sine of the angle below which a direction is held already.
+/// A direction is held already if the sine of its angle to the held directions is below this value.
 const double dependent_sine = 1e-6;
 
-/// Prescribed values that differ by less, relative to the largest, agree.
+/// Prescribed values agree if they differ by less than this fraction of the maximum value.
 const double same_value = 1e-10;
 
 using Boundary = std::pair<unsigned int, unsigned int>;
 
-/// Boundaries with supports; all of them where the axis may be.
+/// Return the boundaries with supports; in axisymmetric models all boundaries, because each may
+/// contain nodes on the axis.
 template <int dim>
 std::vector<Boundary> held_boundaries(const mesh::BodyMesh<dim>       &mesh,
                                       const std::vector<Support<dim>> &supports)
@@ -32,7 +33,8 @@ std::vector<Boundary> held_boundaries(const mesh::BodyMesh<dim>       &mesh,
   return boundaries;
 }
 
-/// A design's fault, unlike dependent supports of the reference mesh: the optimizer steps back.
+/// Return the error of a design whose supports have become dependent: the optimizer steps back.
+/// Supports that are dependent in the constructor are left out instead.
 template <int dim>
 TangledMesh dependent_error(const dealii::Tensor<1, dim> &x)
 {
@@ -42,7 +44,7 @@ TangledMesh dependent_error(const dealii::Tensor<1, dim> &x)
   return TangledMesh(text.str());
 }
 
-/// Names and values of two supports that exclude each other.
+/// Return the error that names two conflicting supports and their values.
 template <int dim>
 InputError conflict(const dealii::Tensor<1, dim>         &x,
                     const std::pair<std::string, double> &a,
@@ -85,11 +87,13 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
 {
   std::map<unsigned int, Node> found;
   const auto                   add = [&](unsigned int node, const Hold &hold) {
-    // A hanging node is held as far as its masters are; a row of its own would repeat theirs.
+    // A hanging node is held as far as its masters are, so a row of its own would repeat their
+    // rows.
     if (!surface.masters(node).empty())
       return;
     auto &holds = found[node].holds;
-    // A node is on several faces of a boundary, and of a side: one constraint for all.
+    // A node is on several faces of a boundary and of a side, but has one constraint for all of
+    // them.
     const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
       return other.name == hold.name && other.component == hold.component &&
              other.side == hold.side;
@@ -102,7 +106,8 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
     {
       const auto &face = surface.faces()[f];
       for (const unsigned int node : face.nodes)
-        // Exactly zero: meshes of revolution are made so, and any other radius is off the axis.
+        // The comparison with zero is exact: meshes of revolution have exact zeros, and any other
+        // radius is off the axis.
         if (axis && reference[node][0] == 0.)
           add(node, {"the axis of rotation", "", 0, 0, std::vector<double>(n_load_cases)});
     }
@@ -127,8 +132,8 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
     {
       nodes.push_back(entry.second);
       nodes.back().surface_node = entry.first;
-      // Axes first: orthonormalising leaves the first directions as they are, and those of axes
-      // are constant, which keeps rows without derivatives.
+      // Sort axes first, because orthonormalization keeps the first directions as they are.
+      // Directions of axes are constant, so their rows have no derivatives.
       std::stable_sort(nodes.back().holds.begin(), nodes.back().holds.end(),
                        [](const Hold &a, const Hold &b) {
                          const unsigned int normal = Support<dim>::normal;
@@ -148,8 +153,8 @@ double DirichletConstraints<dim>::largest_value() const
   return largest;
 }
 
-// Two supports may hold a node along one direction, such as faces that meet at an edge. The row
-// would be there twice and B rank deficient, so the later one goes, if it demands the same.
+// Two supports may hold a node along one direction, such as faces that meet at an edge. With both
+// rows B would be rank deficient, so the later row is left out, if it prescribes the same value.
 template <int dim>
 void DirichletConstraints<dim>::leave_out_dependent(const SurfaceField &positions)
 {
@@ -168,7 +173,7 @@ void DirichletConstraints<dim>::leave_out_dependent(const SurfaceField &position
           if (with.independence() > dependent_sine)
             continue;
           node.holds.pop_back();
-          // what the others make of the same direction
+          // displacement that the other constraints imply in the same direction
           const auto &frame   = before.frame();
           unsigned    nearest = 0;
           auto        implied = std::vector<double>(n_load_cases, 0.);
@@ -244,7 +249,7 @@ DirichletConstraints<dim>::frames(const Field &positions) const
     if (nodes[i].follows)
       {
         const Orthonormalised<dim> constraints(given_frame(nodes[i], n));
-        // written so that it holds for NaN as well
+        // The condition is written so that it also catches NaN.
         if (!(constraints.independence() > dependent_sine))
           throw dependent_error(x[nodes[i].surface_node]);
         result[i] = constraints.frame();
@@ -289,7 +294,8 @@ DirichletConstraints<dim>::frame_derivatives(const Field &positions, const Field
             derivative.directions.push_back(hold.component == Support<dim>::normal
                                               ? dn[hold.side][nodes[i].surface_node]
                                               : dealii::Tensor<1, dim>());
-            // prescribed displacements are functions of the reference position
+            // Prescribed displacements are functions of the reference position, so their
+            // derivatives are 0.
             derivative.values.emplace_back(n_load_cases, 0.);
           }
         result[i] = Orthonormalised<dim>(given_frame(nodes[i], n)).derivative(derivative);
@@ -314,8 +320,8 @@ void DirichletConstraints<dim>::add_energy_gradient(
     if (nodes[i].follows)
       {
         const Node &node = nodes[i];
-        // Reactions belong to orthonormal directions; normals are among the given ones.
-        // of d_j . u - v_j, with constant v_j and d_j = the normals
+        // Reactions belong to orthonormal directions, but normals are among the given directions.
+        // Add the derivative of d_j . u - v_j with constant v_j, where d_j are the normals.
         const auto multipliers =
           Orthonormalised<dim>(given_frame(node, n)).given_multipliers(reactions[i]);
         for (unsigned int j = 0; j < node.holds.size(); ++j)
@@ -329,7 +335,8 @@ void DirichletConstraints<dim>::add_energy_gradient(
   surface.add_owned(at_surface, gradient);
 }
 
-/// Reactions belong to orthonormal directions; those of the supports are found from them.
+/// Convert the reactions, which belong to orthonormal directions, to the directions of the
+/// supports.
 template <int dim>
 std::vector<typename DirichletConstraints<dim>::Force>
 DirichletConstraints<dim>::forces(const Field                            &positions,
@@ -343,7 +350,7 @@ DirichletConstraints<dim>::forces(const Field                            &positi
       const auto frame       = given_frame(nodes[i], n);
       const auto multipliers = Orthonormalised<dim>(frame).given_multipliers(reactions[i]);
       for (unsigned int j = 0; j < multipliers.size(); ++j)
-        // K u + B'lambda = f: a multiplier acts against its direction.
+        // From K u + B'lambda = f, a multiplier acts against its direction.
         result.push_back({nodes[i].holds[j].face, x[nodes[i].surface_node],
                           -multipliers[j] * frame.directions[j]});
     }

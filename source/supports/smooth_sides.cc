@@ -8,12 +8,12 @@ namespace snug::supports {
 namespace {
 const double smooth_cosine = 0.766; // 40 degrees
 
-/// Normals of a flat boundary differ by less than this.
+/// Maximum difference between the normals of a flat boundary.
 const double flat_angle = 1e-6;
 
 using Boundary = std::pair<unsigned int, unsigned int>;
 
-/// A node of a face with the unit normal of the face there.
+/// A node of a face with the unit normal of the face at this node.
 template <int dim>
 struct Corner
 {
@@ -21,7 +21,7 @@ struct Corner
   dealii::Tensor<1, dim> normal;
 };
 
-/// Sets that are joined one by one.
+/// Disjoint sets that are joined one by one.
 class DisjointSets
 {
 public:
@@ -52,7 +52,7 @@ smooth_sides(const mesh::Surface<dim>                 &surface,
              const faces::FaceShape<dim>              &shape,
              const typename mesh::Surface<dim>::Field &positions)
 {
-  std::map<unsigned int, std::vector<Corner<dim>>> corners; // by node
+  std::map<unsigned int, std::vector<Corner<dim>>> corners; // keyed by node
   std::map<Boundary, dealii::Tensor<1, dim>>       first_normal;
   std::map<Boundary, bool>                         is_flat;
   std::vector<Boundary>                            of_face;
@@ -79,8 +79,8 @@ smooth_sides(const mesh::Surface<dim>                 &surface,
       for (const auto &b : node.second)
         {
           const Boundary &of_a = of_face[a.face], &of_b = of_face[b.face];
-          // A shallow edge between two flat faces is an edge all the same; between curved faces a
-          // small angle is what faceting makes of one smooth surface.
+          // A shallow edge between two flat faces is an edge nevertheless. Between curved faces, a
+          // small angle results from the faceting of one smooth surface.
           const bool edge = of_a != of_b && is_flat.at(of_a) && is_flat.at(of_b);
           if (!edge && a.normal * b.normal > smooth_cosine)
             patches.join(a.face, b.face);
@@ -88,7 +88,7 @@ smooth_sides(const mesh::Surface<dim>                 &surface,
   std::map<unsigned int, std::vector<unsigned int>> by_root;
   for (unsigned int f = 0; f < surface.faces().size(); ++f)
     if (is_flat.count(of_face[f]) == 1)
-      // roots are the least faces of their sets, so sides come in the order of faces
+      // Roots are the minimum faces of their sets, so sides are in the order of faces.
       by_root[patches.find(f)].push_back(f);
   std::vector<std::vector<unsigned int>> sides;
   for (const auto &patch : by_root)

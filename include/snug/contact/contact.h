@@ -10,41 +10,42 @@
 #include <limits>
 
 namespace snug::contact {
-/// Where a row stands.
+/// Place of a contact row: its pair, its slave node and its named pair.
 struct RowPlace
 {
-  unsigned int pair;      ///< of Contact::pairs()
-  unsigned int slave;     ///< surface node
-  unsigned int named = 0; ///< of Contact::named_pairs(), the one with the largest share
+  unsigned int pair;      ///< index into Contact::pairs()
+  unsigned int slave;     ///< surface node of the slave side
+  unsigned int named = 0; ///< index into Contact::named_pairs() of the pair with the largest share
 };
 
-/// A pair as the scene names it, and the rows that count as its own.
+/// A pair as the scene names it, with the rows that belong to it.
 struct NamedPair
 {
   std::string                       slave_name, master_name; ///< after the choice of the slave
   std::optional<ObstacleParameters> obstacle;
-  /// ascending rows and their shares: parts of the force and of the area that belong to this pair
+  /// ascending row indices with shares: the parts of the force and of the area of each row that
+  /// belong to this pair
   std::vector<std::pair<unsigned int, double>> rows;
 
-  /// "slave: master"
+  /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }
 };
 
-/// The gaps of a pair, without the motion of an obstacle.
+/// Gaps of a pair at its pairing, without the motion of an obstacle.
 struct PairedGaps
 {
-  double least   = std::numeric_limits<double>::infinity();  ///< below 0: an overlap [length]
-  double largest = -std::numeric_limits<double>::infinity(); ///< [length]
-  double overlap = 0.; ///< the deepest as a part of the slave node's largest face
+  double least   = std::numeric_limits<double>::infinity();  ///< minimum; below 0: overlap [length]
+  double largest = -std::numeric_limits<double>::infinity(); ///< maximum [length]
+  double overlap = 0.; ///< maximum overlap over the size of the largest face at the slave node
 };
 
 /**
- * All contact rows of a scene: one group per joined pair (JoinedPair), in
- * the order of pairs(), with the pair's gap formula at the slave nodes added
- * to the gaps of the group. A slave node that touches the same surface by
- * several groups has a row in the group whose side faces that surface best.
- * Pairing, of nodes with faces, is done by the constructor and pair() and
- * frozen in between; see RowGroup for the meaning of the functions.
+ * This class holds all contact rows of a scene. There is one group of rows per joined pair
+ * (JoinedPair), in the order of pairs(). The gap formula of a pair, evaluated at the slave nodes,
+ * is added to the gaps of its group. If several groups connect a slave node to the same surface,
+ * the node has a row only in the group whose side faces that surface best. The constructor and
+ * pair() pair nodes with faces, and the pairing is frozen between these calls. See RowGroup for the
+ * meaning of the functions.
  */
 template <int dim>
 class Contact
@@ -52,8 +53,8 @@ class Contact
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// Pair at @p positions, where supports hold @p held. @p surface must
-  /// outlive this object.
+  /// Pair at @p positions, where the supports hold the directions @p held. @p surface must outlive
+  /// this object.
   /// @throws InputError naming a pair that is left without rows.
   Contact(const mesh::Surface<dim>         &surface,
           const std::vector<Pair>          &pairs,
@@ -61,76 +62,79 @@ public:
           const Field                      &positions,
           const faces::HeldDirections<dim> &held);
 
-  /// Pair anew at @p positions, with the slaves chosen before.
-  /// @throws InputError as the constructor does.
+  /// Pair again at @p positions, with the slave sides that the constructor has chosen.
+  /// @throws InputError like the constructor.
   void pair(const Field &positions, const faces::HeldDirections<dim> &held);
 
-  /// Groups refer to the shape.
+  /// Disable copying, because the groups refer to the member shape.
   Contact(const Contact &)            = delete;
   Contact &operator=(const Contact &) = delete;
 
-  /// The joined pairs with their slaves chosen, which come first, and their methods.
+  /// Return the joined pairs with the chosen methods and slave sides. The slave side comes first.
   const std::vector<Pair> &pairs() const { return chosen; }
-  /// The same with the boundaries that each pair of the scene brings together.
+  /// Return the joined pairs with the boundaries that each pair of the scene brings together.
   const std::vector<JoinedPair> &joined_pairs() const { return joined; }
-  /// The pairs as the scene names them, in its order. Shares are those where contact was paired.
+  /// Return the pairs as the scene names them, in the order of the scene. The shares are those at
+  /// the positions of the pairing.
   const std::vector<NamedPair> &named_pairs() const { return named; }
-  /// Of each pair when it was first paired; nothing of obstacles.
+  /// Return the matching of each pair at its first pairing; an empty Matching for obstacles.
   const std::vector<Matching> &matchings() const { return matching_of; }
   unsigned int                 n_rows() const { return row_places.size(); }
   const std::vector<RowPlace> &places() const { return row_places; }
-  /// Of all groups; rows count through.
+  /// Return the shared nodes of all groups, with row indices that count through all groups.
   const std::vector<SharedNode> &shared_nodes() const { return shared; }
 
   std::vector<Row<dim>> rows(const Field &positions) const;
   std::vector<Row<dim>> row_derivatives(const Field &positions, const Field &velocity) const;
-  /// Contact part of the energy gradient for forces of all rows.
+  /// Return the contact part of the energy gradient for the forces of all rows.
   Field               energy_gradient(const Field               &positions,
                                       const Field               &displacement,
                                       const std::vector<double> &forces) const;
   std::vector<double> areas(const Field &positions) const;
-  /// d/dX sum_i factors_i areas_i for factors of all rows.
+  /// Return d/dX sum_i factors_i areas_i for the factors of all rows.
   Field area_gradient(const Field &positions, const std::vector<double> &factors) const;
 
-  /// The gaps of pair @p p between its rows. The arguments must outlive it.
+  /// Return the gaps of pair @p p at points between its rows. The arguments must outlive the
+  /// result.
   std::unique_ptr<PointGaps<dim>>
   point_gaps(unsigned int p, const Field &positions, const faces::HeldDirections<dim> &held) const;
 
-  /// @name What the rows do not see, as parts of the slave node's largest
-  /// face
+  /// @name Motions along the master that the rows do not constrain, as fractions of the size of the
+  /// slave node's largest face
   /// @{
-  /// Displacement of the slave nodes along the master, at right angles to
-  /// the normals, for @p rows at @p positions.
+  /// Return the displacement of the slave nodes along the master, at right angles to the normals,
+  /// for @p rows at @p positions.
   std::vector<double>
   slips(const Field &positions, const std::vector<Row<dim>> &rows, const Field &displacement) const;
-  /// How far slave nodes have moved along the master off the points they
-  /// were paired with. Feet of nodal rows follow within their faces: of them
-  /// only the way off the face counts. 0 for obstacles, whose points follow.
+  /// Return how far the slave nodes have moved along the master off the points they were paired
+  /// with. The feet of nodal rows follow the nodes within their faces, so only the distance off the
+  /// face counts for these rows. For obstacles the value is 0, because the closest point follows
+  /// the node.
   std::vector<double> drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
-  /// Of each pair where it was paired.
+  /// Return the gaps of each pair at its pairing.
   const std::vector<PairedGaps> &paired_gaps() const { return gaps; }
   /// @}
 
 private:
-  /// The rows of a pair and what is added to their gaps, if anything.
+  /// Rows of a pair and the formula that is added to their gaps, if the pair has one.
   struct Group
   {
     std::unique_ptr<RowGroup<dim>>          rows;
     std::unique_ptr<geometry::Formula<dim>> offset;
-    double                                  step; ///< of its differences
+    double step; ///< step of the difference quotients of offset [length]
   };
 
   const mesh::Surface<dim>   &surface;
   const faces::FaceShape<dim> shape;
   std::vector<JoinedPair>     joined;
-  std::vector<Pair>           chosen; ///< those of joined
+  std::vector<Pair>           chosen; ///< the pairs of joined
   std::vector<NamedPair>      named;
-  std::vector<Matching>       matching_of; ///< each pair
+  std::vector<Matching>       matching_of; ///< one per pair
   std::vector<Group>          groups;      ///< one per pair
   std::vector<RowPlace>       row_places;
   std::vector<SharedNode>     shared;
-  Field                       paired_offsets; ///< of each row, when paired
-  std::vector<PairedGaps>     gaps;           ///< of each pair, when paired
+  Field                       paired_offsets; ///< one per row, at the pairing
+  std::vector<PairedGaps>     gaps;           ///< one per pair, at the pairing
 
   PairGeometry<dim> geometry(unsigned int                      p,
                              const Field                      &positions,

@@ -8,43 +8,43 @@
 #include <deal.II/numerics/rtree.h>
 
 namespace snug::contact {
-/// Positions of the nodes of a face.
+/// Return the positions of the nodes of a face.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> face_nodes(const mesh::Surface<dim>                 &surface,
                                                unsigned int                              face,
                                                const typename mesh::Surface<dim>::Field &positions);
 
-/// The side of a pair that is searched: a tree of boxes that contain its
-/// faces, so that none is missed.
+/// This class searches the faces of one side of a pair with a tree of boxes. Each box contains its
+/// face, so that the search misses no face.
 template <int dim>
 class FaceTree
 {
 public:
   using Box = dealii::BoundingBox<dim>;
 
-  /// @p faces of @p surface; the shape must outlive this.
+  /// Build the tree of @p faces of @p surface. The shape must outlive this object.
   FaceTree(const mesh::Surface<dim>                 &surface,
            const std::vector<unsigned int>          &faces,
            const faces::FaceShape<dim>              &shape,
            const typename mesh::Surface<dim>::Field &positions);
 
-  /// The tree refers to the boxes.
+  /// Disable copying, because the tree refers to the boxes.
   FaceTree(const FaceTree &)            = delete;
   FaceTree &operator=(const FaceTree &) = delete;
 
-  /// Of the nodes of the face @p i of the side.
+  /// Return the positions of the nodes of face @p i of the side.
   const std::vector<dealii::Tensor<1, dim>> &nodes(std::size_t i) const { return face_points[i]; }
 
-  /// The diagonal of its box [length].
+  /// Return the diagonal of the box of face @p i of the side [length].
   double extent(std::size_t i) const;
 
-  /// No face is nearer to @p x than a face that is at least as near as this [length].
+  /// Return an upper bound of the distance between @p x and the nearest face [length].
   double bound(const dealii::Tensor<1, dim> &x) const;
 
-  /// The face whose box is nearest.
+  /// Return the face whose box is nearest to @p x.
   std::size_t nearest_box(const dealii::Tensor<1, dim> &x) const;
 
-  /// The faces whose boxes meet @p box, ascending.
+  /// Return the faces whose boxes intersect @p box, ascending.
   std::vector<std::size_t> meeting(const Box &box) const;
 
 private:
@@ -57,7 +57,7 @@ private:
   const decltype(dealii::pack_rtree_of_indices(std::declval<const Boxes &>())) tree;
 };
 
-/// The diagonal of a box [length].
+/// Return the diagonal of a box [length].
 template <int dim>
 double diameter(const dealii::BoundingBox<dim> &box)
 {

@@ -13,23 +13,23 @@
 
 namespace snug::contact {
 /**
- * Mortar contact of one pair: the pressure sum_i p_i psi_i n_i acts between
- * the faces, psi_i the functions of the multiplier nodes (FaceCoupling,
- * MultiplierNodes), n_i the slave side's SupportedNormals there. Row i is
- * the mean gap weighted by psi_i, c_l = n_i D_il / a_i, c_k = -n_i (M_ik +
- * dM_ik) / a_i, gap = n_i . int psi_i (x_master - x_slave) / a_i, D_il = int
- * psi_i N_l, M_ik = int psi_i N_k, a_i = int psi_i, over the part of the
- * slave side that lies opposite to the master side, so that its force over
- * the area a_i is p_i. Positions in the gap are those of the true surfaces;
- * dM frees the row of its moment (MomentCorrection) with the weights
- * int (N_i N_k)^p, p the degree. Hanging nodes are replaced by their masters.
+ * This class provides the mortar contact of one pair. The pressure sum_i p_i psi_i n_i acts between
+ * the faces. psi_i are the functions of the multiplier nodes (FaceCoupling, MultiplierNodes), and
+ * n_i are the SupportedNormals of the slave side at these nodes. Row i is the mean gap weighted by
+ * psi_i:
+ *   c_l = n_i D_il / a_i,  c_k = -n_i (M_ik + dM_ik) / a_i,
+ *   gap = n_i . int psi_i (x_master - x_slave) / a_i,
+ *   D_il = int psi_i N_l,  M_ik = int psi_i N_k,  a_i = int psi_i.
+ * The integrals cover the part of the slave side that lies opposite to the master side, so that the
+ * force of row i over the area a_i is p_i. Positions in the gap are those of the true surfaces. dM
+ * frees the row of its moment (MomentCorrection) with the weights int (N_i N_k)^p, where p is the
+ * degree. Hanging nodes are replaced by their masters.
  *
- * Which faces lie opposite to each other, which nodes carry multipliers and
- * the MultiplierFunctions of faces stay; cut
- * faces, weights, normals and gaps follow the positions. Derivatives are
- * exact; where the end of one side lies on an edge or corner of the other,
- * those of moves that keep the slave face covered. Rows whose gap is beyond
- * the pair's search distance are left out.
+ * The constructor fixes which faces lie opposite to each other, which nodes carry multipliers, and
+ * the MultiplierFunctions of the faces. Cut faces, weights, normals and gaps follow the positions.
+ * Derivatives are exact. Where the end of one side lies on an edge or corner of the other, the
+ * derivatives are those of moves that keep the slave face covered. Rows whose gap is beyond the
+ * search distance of the pair are left out.
  */
 template <int dim>
 class MortarRows : public RowGroup<dim>
@@ -56,14 +56,14 @@ public:
 private:
   struct SlaveFace
   {
-    unsigned int                face;    ///< indices into the surface
-    std::vector<unsigned int>   masters; ///< opposite to it
+    unsigned int                face;    ///< index of the surface face
+    std::vector<unsigned int>   masters; ///< indices of the opposite surface faces
     mortar::MultiplierFunctions functions;
   };
 
-  /// a_i times the coefficients of row i without n_i and dM, and the weights
-  /// of its correction, by the nodes of the row; the integral of psi_i
-  /// (x_master - x_slave), and a_i.
+  /// Sums of row i over the slave faces. The coefficients are a_i times those of the row, without
+  /// n_i and dM. The weights are those of the moment correction. Both have one entry per node of
+  /// the row. The offset is the integral of psi_i (x_master - x_slave), and the area is a_i.
   template <typename Number>
   struct RowSum
   {
@@ -79,7 +79,7 @@ private:
   std::vector<SlaveFace>                 faces;
   faces::HeldDirections<dim>             held;
   mortar::MultiplierNodes                multipliers;
-  std::vector<std::vector<unsigned int>> row_nodes; ///< ascending
+  std::vector<std::vector<unsigned int>> row_nodes; ///< per row, ascending
 
   void                  choose_multipliers(const PairGeometry<dim> &pair);
   mortar::FaceCover     choose_functions(SlaveFace                           &face,
@@ -94,18 +94,18 @@ private:
   template <typename Number>
   mortar::FaceIntegrals<Number> integrals(const SlaveFace                      &face,
                                           const mortar::FaceNodes<dim, Number> &x) const;
-  /// Of all faces. Collective.
+  /// Compute the integrals of all slave faces. Collective.
   template <typename Number>
   std::vector<mortar::FaceIntegrals<Number>>
   all_integrals(const mortar::FaceNodes<dim, Number> &x) const;
-  /// visit(place in row_nodes[row], weight) for a node, or the masters of a
-  /// hanging one.
+  /// Call visit(place in row_nodes[row], weight) for @p node, or for each of its masters if @p node
+  /// hangs.
   template <typename Visit>
   void for_each_place(unsigned int row, unsigned int node, const Visit &visit) const
   {
     const auto at = [&](unsigned int wanted, double weight) {
       const auto &nodes = row_nodes[row];
-      // Found always: collect_row_nodes() has seen the same faces.
+      // The search always succeeds, because collect_row_nodes() has visited the same faces.
       visit(std::lower_bound(nodes.begin(), nodes.end(), wanted) - nodes.begin(), weight);
     };
     if (surface.masters(node).empty())
@@ -121,22 +121,22 @@ private:
                 std::vector<RowSum<Number>>          &sums) const;
   template <typename Number>
   std::vector<RowSum<Number>> row_sums(const mortar::FaceNodes<dim, Number> &x) const;
-  /// The correction of row @p i with the normal @p n.
+  /// Return the moment correction of row @p i with the normal @p n.
   template <typename Number>
   mortar::MomentCorrection<dim, Number> correction(unsigned int                          i,
                                                    const RowSum<Number>                 &sum,
                                                    const mortar::FaceNodes<dim, Number> &x,
                                                    const std::array<Number, dim>        &n) const;
 
-  /// The energy of the rows, sum_i force_i / a_i n_i . r_i with r_i the
-  /// integral of psi_i (y_slave - y_master), y = x + u.
+  /// Energy of the rows, sum_i force_i / a_i n_i . r_i, where r_i is the integral of psi_i (y_slave
+  /// - y_master) and y = x + u.
   struct Energy
   {
     Field               positions, deformed; ///< x, y
     Field               directions;          ///< force_i n_i / a_i per row
-    std::vector<double> area_slopes;         ///< derivatives by a_i
-    /// of the corrections by the coefficients and weights of RowSum, per row;
-    /// empty where there are none
+    std::vector<double> area_slopes;         ///< derivatives with respect to a_i
+    /// derivatives of the moment corrections with respect to the coefficients and weights of
+    /// RowSum, per row; empty where there are no corrections
     std::vector<std::vector<double>> coefficient_slopes, weight_slopes;
   };
 

@@ -5,18 +5,19 @@
 #include <snug/faces/closest_point.h>
 
 namespace snug::contact {
-/// The nearest of the faces of one side of a pair.
+/// This class finds the nearest of the faces of one side of a pair.
 template <int dim>
 class NearestFace
 {
 public:
   struct Found
   {
-    unsigned int             face; ///< surface index
+    unsigned int             face; ///< index of the surface face
     faces::ClosestPoint<dim> point;
   };
 
-  /// @p faces of @p surface, at least one; the shape must outlive this.
+  /// Prepare the search among @p faces of @p surface, at least one face. The shape must outlive
+  /// this object.
   NearestFace(const mesh::Surface<dim>                 &surface,
               const std::vector<unsigned int>          &faces,
               const faces::FaceShape<dim>              &shape,
@@ -24,7 +25,7 @@ public:
     : shape(shape), faces(faces), tree(surface, faces, shape, positions)
   {}
 
-  /// Of faces that are equally close, the one with the lowest index.
+  /// Return the face closest to @p p. Of equally close faces, return the one with the lowest index.
   Found closest(const dealii::Tensor<1, dim> &p) const;
 
 private:

@@ -10,27 +10,28 @@
 
 namespace snug::contact {
 /**
- * Which equations give the foot of a ray: T F = 0 for its residual F =
- * x(xi) + t v(xi) - p, without those of the coordinates that are fixed.
+ * Equations for the foot of a ray: T F = 0 for the residual F = x(xi) + t v(xi) - p. Equations of
+ * fixed coordinates are left out.
  */
 template <int dim>
 struct RayEquations
 {
   std::array<bool, dim - 1> fixed{};
-  /// T: of row a that of xi_a, the last one that of t
+  /// T: row a is the equation of xi_a, the last row is the equation of t
   dealii::Tensor<2, dim> rows = dealii::unit_symmetric_tensor<dim>();
 
-  /// T F, 0 for fixed coordinates.
+  /// Return T F, with 0 for fixed coordinates.
   dealii::Tensor<1, dim> residual(const dealii::Tensor<1, dim> &F) const;
-  /// Its derivative by xi and t, @p slope that of F; of fixed coordinates dxi_a itself.
+  /// Return the derivative of residual() with respect to xi and t, where @p slope is the derivative
+  /// of F. The row of a fixed coordinate is that of dxi_a itself.
   dealii::Tensor<2, dim> matrix(const dealii::Tensor<2, dim> &slope) const;
-  /// The transpose of residual().
+  /// Apply the transpose of residual().
   dealii::Tensor<1, dim> residual_transpose(dealii::Tensor<1, dim> factors) const;
 };
 
 /**
- * The rays x(xi) + t v(xi) of a master face, v(xi) = sum_k N_k(xi) n_k with
- * the nodal normals n_k, at given positions.
+ * This class provides the rays x(xi) + t v(xi) of a master face at given positions, where
+ * v(xi) = sum_k N_k(xi) n_k with the nodal normals n_k.
  */
 template <int dim>
 class NormalRays
@@ -40,25 +41,25 @@ public:
   using Face  = typename mesh::Surface<dim>::Face;
   using Xi    = typename faces::FaceShape<dim>::Coordinates;
 
-  /// A point of a ray; lengths from an origin.
+  /// A point of a ray, with x measured from an origin.
   struct Point
   {
     typename faces::FaceShape<dim>::Values values; ///< N_k(xi)
     double                                 t = 0.;
     dealii::Tensor<1, dim>                 x, v;
-    dealii::Tensor<2, dim>                 slope; ///< by xi and t: columns x,_a + t v,_a and v
+    dealii::Tensor<2, dim>                 slope; ///< d/d(xi, t): columns x,_a + t v,_a and v
   };
 
-  /// Where a ray meets the true surface: y(zeta) = x + s v.
+  /// Intersection of a ray with the true surface: y(zeta) = x + s v.
   struct Hit
   {
-    typename faces::FaceShape<dim>::Values values; ///< of the samples at zeta
+    typename faces::FaceShape<dim>::Values values; ///< shape functions of the samples at zeta
     double                                 s = 0.;
-    dealii::Tensor<2, dim>                 slope;      ///< of y - x - s v by zeta and s
-    dealii::Tensor<2, dim>                 foot_slope; ///< of x + s v, as of Point
+    dealii::Tensor<2, dim> slope;      ///< derivative of y - x - s v with respect to zeta and s
+    dealii::Tensor<2, dim> foot_slope; ///< derivative of x + s v, like slope of Point
   };
 
-  /// The references must outlive this.
+  /// Prepare the rays of @p face. The references must outlive this object.
   NormalRays(const Face                  &face,
              const faces::FaceShape<dim> &shape,
              const Field                 &positions,
@@ -66,17 +67,18 @@ public:
     : face(face), shape(shape), positions(positions), normals(normals)
   {}
 
-  /// The point at @p xi and @p t; no t: the one of the ray closest to the origin.
+  /// Return the point at @p xi and @p t. Without @p t, return the point of the ray closest to the
+  /// origin.
   Point at(const Xi &xi, const dealii::Tensor<1, dim> &origin, std::optional<double> t = {}) const;
 
-  /// The ray that leads to @p p, by Newton's method from @p xi, at any
-  /// coordinates; none where it does not converge.
+  /// Return the ray that leads to @p p, by Newton's method from @p xi. The coordinates of the
+  /// result may lie outside of the face. Return nothing where the method does not converge.
   std::optional<Point>
   to(const dealii::Tensor<1, dim> &p, const Xi &xi, const RayEquations<dim> &equations = {}) const;
 
-  /// Where the ray from @p xi meets the polynomial of the face's samples,
-  /// by Newton's method.
-  /// @throws TangledMesh where it does not.
+  /// Compute where the ray from @p xi meets the polynomial of the face's samples, by Newton's
+  /// method.
+  /// @throws TangledMesh where the ray does not meet the polynomial.
   Hit on_surface(const Xi &xi) const;
 
 private:

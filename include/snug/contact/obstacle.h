@@ -17,8 +17,7 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::contact {
-/// Entries of `subsection Obstacle NAME`; lists have a number per
-/// dimension.
+/// Entries of `subsection Obstacle NAME`. Lists have one number per dimension.
 struct ObstacleParameters
 {
   std::string         name;
@@ -26,13 +25,13 @@ struct ObstacleParameters
   std::vector<double> point;           ///< [length]
   std::vector<double> normal, axis;    ///< directions of any length
   double              radius = 1.;     ///< [length]
-  std::string         formula;         ///< of x, y, z
+  std::string         formula;         ///< in x, y, z
   std::vector<double> displacement;    ///< [length]
 
   std::string section() const { return "Obstacle " + name; }
 
   void declare(Entries &entries);
-  /// Give lists that were left empty their defaults.
+  /// Set lists that were left empty to their defaults.
   void complete(unsigned int dimension);
   void check(const SectionCheck &section) const;
 };
@@ -46,15 +45,15 @@ struct ObstacleDistance
   dealii::Tensor<2, dim> hessian;  ///< [1 / length]
 };
 
-/// A rigid body without a mesh.
+/// This class is the interface of a rigid body without a mesh.
 template <int dim>
 class Obstacle
 {
 public:
   virtual ~Obstacle() = default;
 
-  /// Nothing where the closest point is not unique, like at the centre of
-  /// a sphere, or cannot be found.
+  /// Return the distance of @p x. Return nothing where the closest point is not unique, as at the
+  /// centre of a sphere, or cannot be found.
   virtual std::optional<ObstacleDistance<dim>> distance(const dealii::Point<dim> &x) const = 0;
 };
 
@@ -62,8 +61,8 @@ template <int dim>
 dealii::Point<dim> to_point(const std::vector<double> &coordinates);
 
 /**
- * The shapes of obstacles. What is made of them may take derivatives of
- * formulas by differences over a part of @p element_size [length].
+ * Return the table of the shapes of obstacles. Obstacles made by the table may differentiate
+ * formulas by difference quotients over a fraction of @p element_size [length].
  */
 template <int dim>
 const ChoiceTable<std::unique_ptr<Obstacle<dim>>(const ObstacleParameters &parameters,

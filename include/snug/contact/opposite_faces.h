@@ -6,21 +6,21 @@
 
 namespace snug::contact {
 /**
- * A slave face widened by this part of its size on all sides decides which
- * master faces it is paired with: so far may they slide on each other
- * before a part of it has no partner.
+ * A slave face is widened by this fraction of its size on all sides before the search for opposite
+ * master faces. The two sides may slide on each other by this distance before a part of the slave
+ * face has no partner.
  */
 constexpr double pairing_margin = 0.1;
 
-/// Faces are projected onto each other up to this angle [degrees].
+/// Maximum angle between faces that are projected onto each other [degrees].
 constexpr double steepest_angle = 60.;
 
 /**
- * For each slave face the master faces, ascending, that lie opposite to it:
- * their normals at the centres are opposite up to the pair's largest angle
- * (and steepest_angle), they overlap along the slave's normal, and their
- * distance is at most 1.5 times that of the closest master face plus the
- * slave face's diameter, so that nothing behind it is taken.
+ * Return, for each slave face, the opposite master faces in ascending order. Faces are opposite
+ * under three conditions. Their normals at the centres are opposite up to the pair's largest angle
+ * (and steepest_angle). The faces overlap along the slave's normal. Their distance is at most 1.5
+ * times that of the closest master face plus the slave face's diameter, which excludes faces behind
+ * the closest one.
  */
 template <int dim>
 std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &pair);

@@ -14,7 +14,7 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::contact {
-/// How two faces meet.
+/// Method of contact between two faces.
 enum class Method
 {
   nodal,
@@ -32,32 +32,32 @@ inline Names names(Method)
 
 enum class Slave
 {
-  finer, ///< the side of the smaller faces, of mortar rows where they differ that of the larger
-  first  ///< the side that is named first
+  finer, ///< side of the smaller faces; of unequal faces with mortar rows, side of the larger faces
+  first  ///< side that is named first
 };
 inline Names names(Slave)
 {
   return {{"finer"}, {"first"}};
 }
 
-/// How two sides meet: entries of `subsection Contact`, for all pairs, and
-/// of `subsection Pair SLAVE: MASTER`.
+/// Parameters of the contact of two sides: entries of `subsection Contact`, for all pairs, and of
+/// `subsection Pair SLAVE: MASTER`.
 struct PairParameters
 {
-  std::optional<Method> method; ///< none: by whether the meshes match
+  std::optional<Method> method; ///< empty: chosen by whether the meshes match
   Slave                 slave = Slave::finer;
-  /// slave nodes farther from the master carry no row [length]; 0: any
+  /// maximum distance of slave nodes with a row from the master [length]; 0: no limit
   double search_distance = 0.;
-  /// between the slave's normal and the row's [degrees]
+  /// maximum angle between the slave's normal and the row's normal [degrees]
   double      largest_angle = 90.;
-  std::string gap           = "0";   ///< added to gaps, of x, y, z [length]
-  bool        interference  = false; ///< initial overlap is wanted
+  std::string gap           = "0";   ///< formula in x, y, z that is added to gaps [length]
+  bool        interference  = false; ///< true: initial overlap is intended
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;
 };
 
-/// The faces that the side of a pair names: "body.boundary + body.boundary" has two.
+/// Return the faces that a side of a pair names: "body.boundary + body.boundary" has two.
 std::vector<std::string> faces_of_side(const std::string &side);
 
 /// Entries of `subsection Contact`.
@@ -76,13 +76,13 @@ struct ContactParameters
 
   PairParameters     defaults;
   std::vector<Entry> pairs;
-  /// how often an optimization goes on with contact paired anew
+  /// maximum number of new contact searches after which an optimization continues
   unsigned int update_pairing = 0;
 
   void declare(Entries &entries);
 };
 
-/// Body and boundary.
+/// Index of a body and id of one of its boundaries.
 using Boundary = std::pair<unsigned int, unsigned int>;
 
 /// One side of a pair: one or several boundaries of a body.
@@ -93,9 +93,9 @@ public:
   Side(unsigned int body, unsigned int boundary) : members({{body, boundary}}) {}
   Side(const Boundary &boundary) : members({boundary}) {}
 
-  /// Ascending.
+  /// Return the boundaries, ascending.
   const std::vector<Boundary> &boundaries() const { return members; }
-  /// Of a side that has a boundary.
+  /// Return the body of a side that has at least one boundary.
   unsigned int body() const { return members.front().first; }
   void         add(const Boundary &boundary);
   bool         has(const Boundary &boundary) const;
@@ -104,7 +104,7 @@ private:
   std::vector<Boundary> members;
 };
 
-/// Whether a face of a mesh or of a surface lies on @p side.
+/// Return whether a face of a mesh or of a surface lies on @p side.
 template <typename Face>
 bool is_on(const Face &face, const Side &side)
 {
@@ -118,14 +118,15 @@ struct Pair
   std::string                       slave_name = {}, master_name = {};
   PairParameters                    parameters = {};
   std::optional<ObstacleParameters> obstacle   = {};
-  /// the larger of Young's moduli of the two bodies, of their softest materials, over the other
+  /// ratio of Young's moduli of the softest materials of the two bodies, the larger over the
+  /// smaller
   double contrast = 1.;
 
-  /// "slave: master"
+  /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }
 };
 
-/// Of all sides of @p pairs, ascending.
+/// Return the boundaries of all sides of @p pairs, ascending.
 std::vector<Boundary> boundaries_of(const std::vector<Pair> &pairs);
 } // namespace snug::contact
 

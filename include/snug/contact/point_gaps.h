@@ -8,34 +8,36 @@
 #include <snug/geometry/formula.h>
 
 namespace snug::contact {
-/// What a row would be at a point x of a slave side: n . (u(x) - sum_k w_k u_k) <= gap.
+/// Contact row at a point x of a slave side: n . (u(x) - sum_k w_k u_k) <= gap.
 template <int dim>
 struct PointGap
 {
-  dealii::Tensor<1, dim> normal;          ///< n, of length 1, into the master
-  double                 gap = 0.;        ///< between the true surfaces [length]
-  Weights                masters;         ///< w_k; none of obstacles
-  Boundary               master_boundary; ///< {} of obstacles
+  dealii::Tensor<1, dim> normal;          ///< n, unit vector into the master
+  double                 gap = 0.;        ///< gap between the true surfaces [length]
+  Weights                masters;         ///< w_k; empty for obstacles
+  Boundary               master_boundary; ///< {} for obstacles
 };
 
-/// The gaps of a pair at any points of its slave side, as NodalRows and ObstacleRows have
-/// them at nodes, by normals of the master, and MortarRows between them, by those of the slave.
+/// This class computes the gaps of a pair at any points of its slave side. Nodal and obstacle
+/// contact measure gaps along normals of the master, as NodalRows and ObstacleRows do at nodes.
+/// Mortar contact measures gaps along normals of the slave, as MortarRows do between nodes.
 template <int dim>
 class PointGaps
 {
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// Surface, shape, positions and what is held must outlive this.
+  /// Prepare the gaps of @p pair. The surface, the shape, the positions and the held directions
+  /// must outlive this object.
   explicit PointGaps(const PairGeometry<dim> &pair);
   ~PointGaps();
 
-  /// At the point @p x of the slave's true surface, of a face of which its nodes have the weights
-  /// @p slave there; nothing beyond the end of the master side.
+  /// Return the gap at the point @p x of the slave's true surface, where the nodes of the slave
+  /// face have the weights @p slave. Return nothing beyond the end of the master side.
   std::optional<PointGap<dim>> at(const dealii::Tensor<1, dim> &x, const Weights &slave) const;
 
-  /// The part of the gap at @p x that is given by formulas [length]: `Gap`, and the distance of an
-  /// obstacle, where there is one.
+  /// Return the part of the gap at @p x that is given by formulas [length]: `Gap`, and the distance
+  /// to the obstacle, if the pair has one.
   double given(const dealii::Tensor<1, dim> &x) const;
 
 private:
@@ -48,11 +50,11 @@ private:
   const Field                            &positions;
   std::unique_ptr<geometry::Formula<dim>> offset;
   std::unique_ptr<Obstacle<dim>>          obstacle;
-  dealii::Tensor<1, dim>                  shift; ///< of the obstacle
+  dealii::Tensor<1, dim>                  shift; ///< displacement of the obstacle
   const mesh::Surface<dim>               &surface;
   std::vector<unsigned int>               master_faces, slave_faces;
-  Normals                                 normals, slave_normals; ///< the latter of mortar
-  std::unique_ptr<Projector<dim>>         projector;
+  Normals normals, slave_normals; ///< slave_normals: only for mortar contact
+  std::unique_ptr<Projector<dim>> projector;
 };
 } // namespace snug::contact
 

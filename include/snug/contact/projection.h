@@ -12,30 +12,29 @@
 #include <vector>
 
 namespace snug::contact {
-/// Surface nodes or points, ascending, and weights, which sum to 1.
+/// Ascending surface nodes or points with their weights, which sum to 1.
 using Weights = std::vector<std::pair<unsigned int, double>>;
 
 /**
- * A point p against a master face: its foot, the point x(xi) =
- * sum_k w_k x_k of the face from which the normal of the master side leads
- * to it,
+ * Projection of a point p to a master face. The foot of p is the point x(xi) = sum_k w_k x_k of the
+ * face from which the normal of the master side leads to p,
  *   p = x(xi) + t v(xi),  v(xi) = sum_k w_k n_k,  w_k = N_k(xi),
- * with the nodal normals n_k. On a circle or a sphere v is radial to
- * rounding, so that rows have no lever about its centre, as they would have
- * from the point of the facet that is closest to the node.
+ * with the nodal normals n_k. On a circle or a sphere v is radial up to round-off, so that rows
+ * have no lever about its centre. The point of the facet that is closest to the node would give
+ * rows such a lever.
  */
 template <int dim>
 struct PointProjection
 {
-  unsigned int           face;    ///< of the surface
-  dealii::Point<dim - 1> xi;      ///< of the foot
+  unsigned int           face;    ///< index of the surface face
+  dealii::Point<dim - 1> xi;      ///< coordinates of the foot
   bool                   is_ray;  ///< false: the closest point, as no ray leads to the node
-  Weights                masters; ///< the nodes of the face
-  Weights                surface; ///< the points that give the true surface where the ray meets it
+  Weights                masters; ///< nodes of the face
+  Weights                surface; ///< points that give the true surface where the ray meets it
   double relief; ///< edge_relief() beyond the end of the master side, else 0 [length]
 };
 
-/// That of a slave node, found once.
+/// Projection of a slave node, computed once per pairing.
 template <int dim>
 struct Projection : PointProjection<dim>
 {
@@ -43,19 +42,19 @@ struct Projection : PointProjection<dim>
 };
 
 /**
- * A slave node whose closest point lies on the outer edge of the master
- * side is paired if it is beyond that edge by less than this fraction of
- * the master face's extent.
+ * Maximum distance of a slave node beyond the outer edge of the master side, as a fraction of the
+ * master face's extent. A slave node whose closest point lies on the outer edge is paired only if
+ * it is beyond that edge by less than this fraction.
  */
 constexpr double edge_tolerance = 0.05;
 
 /**
- * How far the master gives way to a node that is beyond its edge by
- * @p excess, a part of the face, of size h [length]:
+ * Return the additional gap of a node that is beyond the edge of the master side by @p excess, a
+ * fraction of the face, of size h [length]:
  *   r t^4 / (2 (1 - t^2)),  t = excess / edge_tolerance,  r = edge_tolerance h.
- * Next to nothing where sides end together but for their facets, without a
- * kink, and infinite where nodes carry no row any more, so that forces fade
- * as nodes leave the master side.
+ * The additional gap is negligible where the two sides end together except for their facets. It has
+ * no kink, and it is infinite where nodes cease to carry a row. So forces fade as nodes leave the
+ * master side.
  */
 constexpr double edge_relief(double excess, double h)
 {
@@ -64,11 +63,11 @@ constexpr double edge_relief(double excess, double h)
 }
 
 /**
- * Projects points onto a master side by the @p normals of its nodes. The search starts
- * from the closest point, which is taken where no ray is found, as beyond the
- * edge. The faces to be tried come from a tree of boxes
- * that contain them, so none is missed. Where faces are equally close, the
- * one with the lowest index is taken; weights below 1e-12 become 0.
+ * This class projects points onto a master side along the @p normals of its nodes. The search
+ * starts from the closest point. The closest point is taken where no ray is found, as beyond the
+ * edge. The candidate faces come from a tree of boxes that contain the faces, so that no face is
+ * missed. Of equally close faces, the one with the lowest index is taken. Weights below 1e-12
+ * become 0.
  */
 template <int dim>
 class Projector
@@ -76,14 +75,15 @@ class Projector
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// @p master: at least one face. The references must outlive this.
+  /// Prepare the projection to the faces @p master, at least one face. The references must outlive
+  /// this object.
   Projector(const mesh::Surface<dim>        &surface,
             const std::vector<unsigned int> &master,
             const faces::FaceShape<dim>     &shape,
             const Field                     &positions,
             const Field                     &normals);
 
-  /// Nothing beyond the edge of the master side.
+  /// Return the projection of @p p, or nothing beyond the edge of the master side.
   std::optional<PointProjection<dim>> onto(const dealii::Tensor<1, dim> &p) const;
 
 private:
@@ -99,17 +99,16 @@ private:
     return {surface.faces()[face], shape, positions, normals};
   }
 
-  /// Face and coordinates where the ray to @p p begins, near those of the closest point; none
-  /// where the side ends.
+  /// Return the face and the coordinates where the ray to @p p begins, searched near the closest
+  /// point. Return nothing where the side ends.
   std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
   find_ray(const dealii::Tensor<1, dim> &p,
            unsigned int                  face,
            const dealii::Point<dim - 1> &closest) const;
 };
 
-/// Projections of the slave nodes that do not hang, in the order of the
-/// slave faces and their nodes, without the nodes beyond the edge of the
-/// master side.
+/// Return the projections of the slave nodes that do not hang, in the order of the slave faces and
+/// their nodes. Nodes beyond the edge of the master side are left out.
 template <int dim>
 std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &surface,
                                      const PairFaces                          &sides,

@@ -6,12 +6,13 @@
 
 namespace snug::contact {
 /**
- * Nodal normals that respect symmetry planes: where supports hold
- * directions q that a normal n leaves by less than 25 degrees,
+ * This class computes nodal normals that respect symmetry planes. The correction applies where
+ * supports hold directions q and the normal n deviates by less than 25 degrees from the directions
+ * at right angles to all q:
  *   n <- v / |v|, v = n - sum_q (q.n) q.
- * At the edge of a curved side the mean over its faces is one-sided, so it
- * would tilt off a symmetry plane by half of the angle between two faces.
- * The directions q are constants.
+ * At the edge of a curved side the mean normal over the faces is one-sided. Without the correction,
+ * the mean normal would tilt off a symmetry plane by half of the angle between two faces. The
+ * directions q are constants.
  */
 template <int dim>
 class SupportedNormals
@@ -19,7 +20,8 @@ class SupportedNormals
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// Arguments as of NodalNormals. The references must outlive this.
+  /// Compute the normals, with the arguments of NodalNormals. The references must outlive this
+  /// object.
   /// @throws TangledMesh.
   SupportedNormals(const mesh::Surface<dim>         &surface,
                    const std::vector<unsigned int>  &faces,
@@ -29,10 +31,10 @@ public:
 
   const Field &normals() const { return unit; }
 
-  /// n' along @p velocity of the positions.
+  /// Return the derivative n' along @p velocity of the positions.
   Field derivative(const Field &velocity) const;
 
-  /// gradient += (dn/dx)' @p normal_gradient.
+  /// Add (dn/dx)' @p normal_gradient to @p gradient.
   void add_transpose(const Field &normal_gradient, Field &gradient) const;
 
 private:

@@ -4,7 +4,7 @@
 #include <snug/faces/face_shape.h>
 
 namespace snug::faces {
-/// The point of a face closest to a given one.
+/// Closest point projection of a given point onto a face.
 template <int dim>
 struct ClosestPoint
 {
@@ -14,14 +14,13 @@ struct ClosestPoint
 };
 
 /**
- * Closest point to @p p of the face with node positions @p nodes:
- *   min 1/2 |x(xi) - p|^2,  xi in [0,1]^(dim-1),
- * by Newton's method projected onto the bounds, with the Gauss-Newton
- * matrix where the Hessian is not positive definite (Bertsekas, SIAM J.
- * Control Optim. 20, 1982), from each local minimum of a grid of
- * 2 degree + 1 samples per direction. Accurate to round-off; a quadratic
- * face whose radius of curvature is below its distance to @p p may have
- * minima that the grid misses.
+ * Return the closest point to @p p of the face with node positions @p nodes:
+ *   min 1/2 |x(xi) - p|^2,  xi in [0,1]^(dim-1).
+ * The minimum is found by Newton's method projected onto the bounds, with the Gauss-Newton matrix
+ * where the Hessian is not positive definite (Bertsekas, SIAM J. Control Optim. 20, 1982). The
+ * method starts from each local minimum of a grid of 2 degree + 1 samples per direction. The result
+ * is accurate to round-off. A quadratic face whose radius of curvature is below its distance to
+ * @p p may have minima that the grid misses.
  */
 template <int dim>
 ClosestPoint<dim> closest_point(const FaceShape<dim>                      &shape,

@@ -6,10 +6,9 @@
 
 namespace snug::faces {
 /**
- * A number and its derivatives along n directions: forward mode of
- * algorithmic differentiation (Griewank, Walther, Evaluating Derivatives,
- * SIAM, 2008). Functions templated on their number type are differentiated
- * exactly; comparisons are to be made of value_of().
+ * A number with its derivatives along n directions, for the forward mode of algorithmic
+ * differentiation (Griewank, Walther, Evaluating Derivatives, SIAM, 2008). Functions templated on
+ * their number type are differentiated exactly. Comparisons must use value_of().
  */
 template <int n>
 struct Differential
@@ -19,7 +18,7 @@ struct Differential
 
   Differential() = default;
 
-  /// A constant.
+  /// Construct a constant.
   Differential(double value) : value(value) {}
 
   Differential &operator+=(const Differential &b)
@@ -96,7 +95,7 @@ inline double value_of(double a)
   return a;
 }
 
-/// The inner product of two vectors of such numbers.
+/// Return the inner product of two vectors of numbers.
 template <typename Number, std::size_t n>
 Number dot(const std::array<Number, n> &a, const std::array<Number, n> &b)
 {

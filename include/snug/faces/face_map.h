@@ -7,12 +7,12 @@
 #include <vector>
 
 namespace snug::faces {
-/// Coordinates xi in [0,1]^(dim-1) of a face, or in a plane.
+/// Coordinates xi in [0,1]^(dim-1) of a face, or coordinates in a plane.
 template <int dim, typename Number>
 using FaceCoordinates = std::array<Number, dim - 1>;
 
-/// The shape functions of FaceShape and their derivatives at one point,
-/// also where its coordinates are differentiated, up to a degree.
+/// Shape functions of FaceShape and their derivatives at one point, up to a maximum degree. The
+/// coordinates of the point may carry derivatives.
 template <int dim, typename Number, unsigned int max_degree = 2>
 struct FaceValues
 {
@@ -26,22 +26,21 @@ struct FaceValues
   std::array<FaceCoordinates<dim, Number>, max_nodes> gradient;
 };
 
-/// A face of degree @p degree projected into a plane.
+/// This class is a face of degree @p degree projected into a plane.
 template <int dim, typename Number>
 class PlaneFace
 {
 public:
   using Point = FaceCoordinates<dim, Number>;
 
-  /// The nodes y_k in the plane, in units of about the face's size.
+  /// Set the nodes y_k in the plane, in units of about the size of the face.
   PlaneFace(unsigned int degree, const std::vector<Point> &nodes);
 
   const std::vector<Point> &nodes() const { return points; }
 
   /**
-   * The coordinates xi with sum_k N_k(xi) y_k = @p y, which may lie a
-   * little outside the face: Newton's method for the values, then one step
-   * of it for the derivatives.
+   * Return the coordinates xi with sum_k N_k(xi) y_k = @p y, which may lie a little outside the
+   * face. Newton's method computes the values, and one more step computes the derivatives.
    * @throws TangledMesh where the face is folded.
    */
   Point coordinates(const Point &y) const;
@@ -49,7 +48,7 @@ public:
 private:
   unsigned int                              degree;
   std::vector<Point>                        points;
-  std::vector<FaceCoordinates<dim, double>> values; ///< of points
+  std::vector<FaceCoordinates<dim, double>> values; ///< values of points
 };
 } // namespace snug::faces
 

@@ -9,10 +9,9 @@
 
 namespace snug::faces {
 /**
- * Lagrange shape functions with equispaced nodes of a boundary face,
- * coordinates xi in [0,1]^(dim-1), nodes in tensor order, the first
- * coordinate fastest: linear or quadratic segments in 2D, bilinear or
- * biquadratic quadrilaterals in 3D.
+ * This class provides the Lagrange shape functions with equispaced nodes of a boundary face. The
+ * coordinates are xi in [0,1]^(dim-1). The nodes are in tensor order, the first coordinate fastest.
+ * Faces are linear or quadratic segments in 2D, and bilinear or biquadratic quadrilaterals in 3D.
  */
 template <int dim>
 class FaceShape
@@ -39,18 +38,18 @@ public:
   unsigned int n_nodes() const { return nodes.size(); }
   unsigned int degree() const { return p; }
 
-  /// Coordinates of node @p k.
+  /// Return the coordinates of node @p k.
   Coordinates node(unsigned int k) const { return nodes[k].point; }
 
   Values at(const Coordinates &xi) const { return mesh::lagrange_point<dim - 1>(p, xi); }
 
-  /// Values at node @p k.
+  /// Return the values at node @p k.
   const Values &at_node(unsigned int k) const { return nodes[k]; }
 
-  /// Values on an even grid of 2p + 1 points per direction, the first one fastest.
+  /// Return the values on an even grid of 2p + 1 points per direction, the first one fastest.
   const std::vector<Values> &grid() const { return grid_values; }
 
-  /// @name The functions of a face's samples, which describe its true surface
+  /// @name Shape functions of the samples of a face, which describe its true surface
   /// @{
   static Values samples_at(const Coordinates &xi)
   {
@@ -60,7 +59,7 @@ public:
   const Values &samples_at_node(unsigned int k) const { return samples_at_nodes[k]; }
   /// @}
 
-  /// The shape functions at sample @p k.
+  /// Return the shape functions at sample @p k.
   const Values &at_sample(unsigned int k) const { return nodes_at_samples[k]; }
 
 private:
@@ -68,15 +67,15 @@ private:
   std::vector<Values> nodes, samples_at_nodes, nodes_at_samples, grid_values;
 };
 
-/// The points and functions that describe the true surface of a face: its
-/// samples, or without any its nodes.
+/// Points and shape functions that describe the true surface of a face: its samples, or its nodes
+/// if it has no samples.
 template <int dim>
 struct TrueSurface
 {
-  const std::vector<unsigned int>       &points; ///< of the surface
+  const std::vector<unsigned int>       &points; ///< indices of surface points
   const typename FaceShape<dim>::Values &at_node;
 
-  /// At node @p k of @p face.
+  /// Evaluate at node @p k of @p face.
   TrueSurface(const FaceShape<dim>                    &shape,
               const typename mesh::Surface<dim>::Face &face,
               unsigned int                             k)
@@ -85,23 +84,23 @@ struct TrueSurface
   {}
 };
 
-/// x,_1 and x,_2 of the face with @p nodes at a point with shape @p values.
+/// Return x,_1 and x,_2 of the face with @p nodes at a point with shape @p values.
 template <int dim>
 typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values    &values,
                                            const std::vector<unsigned int>          &nodes,
                                            const typename mesh::Surface<dim>::Field &field);
 
-/// t1 x t2 in 3D, (t_y, -t_x) in 2D: the outward area vector.
+/// Return the outward area vector: t1 x t2 in 3D, (t_y, -t_x) in 2D.
 dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t);
 dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t);
 
-/// Derivative of area_vector() at @p t along @p dt.
+/// Return the derivative of area_vector() at @p t along @p dt.
 dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &t,
                                             const std::array<dealii::Tensor<1, 2>, 1> &dt);
 dealii::Tensor<1, 3> area_vector_derivative(const std::array<dealii::Tensor<1, 3>, 2> &t,
                                             const std::array<dealii::Tensor<1, 3>, 2> &dt);
 
-/// Its transpose: b . area_vector_derivative(t, dt) = sum_i result_i . dt_i
+/// Return the transpose applied to @p b: b . area_vector_derivative(t, dt) = sum_i result_i . dt_i.
 std::array<dealii::Tensor<1, 2>, 1>
 area_vector_transpose(const std::array<dealii::Tensor<1, 2>, 1> &t, const dealii::Tensor<1, 2> &b);
 std::array<dealii::Tensor<1, 3>, 2>

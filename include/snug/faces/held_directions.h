@@ -10,7 +10,7 @@ namespace snug::faces {
 template <int dim>
 using HeldDirections = std::vector<std::vector<dealii::Tensor<1, dim>>>;
 
-/// @p v without its components along @p held.
+/// Return @p v without its components along @p held.
 template <int dim>
 dealii::Tensor<1, dim> free_part(dealii::Tensor<1, dim>                     v,
                                  const std::vector<dealii::Tensor<1, dim>> &held)

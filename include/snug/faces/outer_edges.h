@@ -7,24 +7,23 @@
 
 namespace snug::faces {
 /**
- * Where a set of faces ends: their edges (2D: end points) that no other
- * face of the set shares, neither whole nor as the half of a coarser
- * face's edge.
+ * This class finds the end of a set of faces: the edges (2D: end points) that no other face of the
+ * set shares, neither as a whole edge nor as the half of the edge of a coarser face.
  */
 template <int dim>
 class OuterEdges
 {
 public:
-  /// @p faces: indices into @p surface. The references must outlive this.
+  /// Find the outer edges of @p faces, which are indices into @p surface. The references must
+  /// outlive this object.
   OuterEdges(const mesh::Surface<dim>        &surface,
              const std::vector<unsigned int> &faces,
              const FaceShape<dim>            &shape);
 
   /**
-   * How far x(xi) + @p offset lies beyond the outer edges that contain
-   * x(xi), measured within the face at right angles to the edge, as a
-   * fraction of the face's extent in that direction. 0 if x(xi) is on no
-   * outer edge. @p face is an index into the surface.
+   * Return how far x(xi) + @p offset lies beyond the outer edges that contain x(xi), as a fraction
+   * of the face's extent in that direction. The distance is measured within the face at right
+   * angles to the edge. It is 0 if x(xi) is on no outer edge. @p face is an index into the surface.
    */
   double excess(unsigned int                              face,
                 const dealii::Point<dim - 1>             &xi,
@@ -34,7 +33,7 @@ public:
 private:
   const mesh::Surface<dim> &surface;
   const FaceShape<dim>     &shape;
-  /// {face, edge}; edge 2i+s is where coordinate i is s
+  /// Pair {face, edge}; on edge 2i+s the coordinate i is s.
   using Edge = std::pair<unsigned int, unsigned int>;
   std::vector<Edge>                         outer;
   std::map<unsigned int, std::vector<Edge>> outer_at_vertex;

@@ -4,7 +4,7 @@
 #include <snug/faces/face_shape.h>
 
 namespace snug::faces {
-/// The faces that areas are taken over.
+/// Faces over which areas are integrated.
 template <int dim>
 struct TributaryFaces
 {
@@ -13,16 +13,9 @@ struct TributaryFaces
   const FaceShape<dim>            &shape;
 };
 
-/**
- * Tributary area of each surface node over some faces at @p positions
- * [length^2]: the integral of its shape function with the weight of the
- * idealization (thickness, circumference). Hanging nodes give their share
- * to their masters and keep it, too, so it is the sum over nodes that do
- * not hang which is the area.
- */
-/// Whether the area of a node is zero but for curvature: on the axis of
-/// revolution, int N r dr = 0 of the corner nodes of degree 2. A pressure
-/// makes no force there, and a force no pressure.
+/// Return whether the area of a node is zero except for curvature. For corner nodes of degree 2 on
+/// the axis of revolution, int N r dr = 0. A pressure causes no force there, and a force causes no
+/// pressure.
 template <int dim>
 bool is_without_area(const mesh::Surface<dim>     &surface,
                      unsigned int                  degree,
@@ -31,11 +24,17 @@ bool is_without_area(const mesh::Surface<dim>     &surface,
   return surface.idealization().is_axisymmetric() && degree == 2 && position[0] == 0.;
 }
 
+/**
+ * Return the tributary area of each surface node over some faces at @p positions [length^2]. The
+ * area is the integral of the shape function of the node with the weight of the idealization
+ * (thickness, circumference). Hanging nodes give their share to their masters and keep it, too.
+ * Therefore only the sum over nodes that do not hang is the area of the faces.
+ */
 template <int dim>
 std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
                                     const typename mesh::Surface<dim>::Field &positions);
 
-/// Those of @p nodes alone.
+/// Return the tributary areas of @p nodes alone.
 template <int dim>
 std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
                                     const std::vector<unsigned int>          &nodes,
@@ -49,8 +48,8 @@ std::vector<double> shape_integrals(const mesh::Surface<dim>                 &su
                                     const FaceShape<dim>                     &shape,
                                     const typename mesh::Surface<dim>::Field &positions);
 
-/// gradient_a += d/dX_a sum_i factors_i area_i over @p nodes i, for all
-/// surface nodes a: hanging ones count as independent positions.
+/// Add gradient_a += d/dX_a sum_i factors_i area_i over @p nodes i, for all surface nodes a.
+/// Hanging nodes count as independent positions.
 template <int dim>
 void add_tributary_gradient(const TributaryFaces<dim>                &of,
                             const std::vector<unsigned int>          &nodes,

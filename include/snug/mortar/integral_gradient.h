@@ -4,8 +4,7 @@
 #include <snug/mortar/mortar_coupling.h>
 
 namespace snug::mortar {
-/// Gradient with respect to the nodes and offsets of a slave and some
-/// master faces.
+/// Gradient with respect to the nodes and offsets of a slave face and of its master faces.
 template <int dim>
 struct FaceGradient
 {
@@ -13,8 +12,8 @@ struct FaceGradient
   std::vector<MortarFace<dim, double>> masters;
 };
 
-/// The transpose of the derivative of integrate(): from the gradient of a
-/// scalar with respect to the integrals, that to nodes and offsets.
+/// Apply the transpose of the derivative of integrate(). From the gradient of a scalar with respect
+/// to the integrals, compute its gradient with respect to nodes and offsets.
 template <int dim>
 FaceGradient<dim> integrate_transpose(const SegmentQuadrature<dim>               &quadrature,
                                       const MortarFace<dim, double>              &slave,

@@ -8,14 +8,13 @@
 
 namespace snug::mortar {
 /**
- * What makes a mortar row free of moment. Its forces coefficient_k n at the
- * places x_k of its nodes have the sum 0, but on curved faces the moment
- * n x G, G = -sum_k coefficient_k x_k, of third order in the size of the
- * faces, which round bodies that turn freely in each other could not
- * balance. The master's coefficients are changed by
+ * This class frees a mortar row of its moment. The forces coefficient_k n of the row at the places
+ * x_k of its nodes have the sum 0. On curved faces these forces have the moment n x G, G = -sum_k
+ * coefficient_k x_k, of third order in the size of the faces. Round bodies that turn freely in each
+ * other could not balance such a moment. The coefficients of the master are changed by
  *   -dM_k,  dM_k = w_k c . d_k,  d_k = x_k - sum_l w_l x_l / sum_l w_l,
- * with w_k >= 0, zero at slave nodes, and c at right angles to n such that
- * G + sum_k dM_k x_k is parallel to n:
+ * with w_k >= 0, zero at slave nodes, and c at right angles to n such that G + sum_k dM_k x_k is
+ * parallel to n:
  *   c = -A^+ P G,  A = P S P,  S = sum_k w_k d_k d_k',  P = I - n n'.
  * Where the weighted nodes lie on a line along which P G does not act, c = 0.
  */
@@ -25,16 +24,17 @@ class MomentCorrection
 public:
   using Vector = std::array<Number, dim>;
 
-  /// @p x: relative to a point near them, for their digits.
+  /// Compute the correction. @p x is relative to a point near the nodes, to preserve the digits of
+  /// differences.
   MomentCorrection(const std::vector<Vector> &x,
                    const std::vector<Number> &coefficients,
                    const std::vector<Number> &weights,
                    const Vector              &n);
 
-  /// dM_k
+  /// Return dM_k.
   const std::vector<Number> &masses() const { return dM; }
 
-  /// Derivatives of a scalar with respect to what the correction is made of.
+  /// Derivatives of a scalar with respect to the arguments of the constructor.
   struct Gradient
   {
     std::vector<Vector> x;
@@ -42,7 +42,7 @@ public:
     Vector              n{};
   };
 
-  /// Those of sum_k q_k dM_k for constant q.
+  /// Return the derivatives of sum_k q_k dM_k for constant q.
   Gradient gradient(const std::vector<Number> &q) const;
 
 private:

@@ -5,11 +5,11 @@
 #include <snug/mesh/idealization.h>
 
 namespace snug::mortar {
-/// Where a point of the slave face meets the master face.
+/// A point of the slave face and the point of the master face that it meets.
 template <int dim, typename Number>
 struct SegmentPoint
 {
-  Number                              weight; ///< of slave area [length^2]
+  Number                              weight; ///< slave area [length^2]
   faces::FaceCoordinates<dim, Number> slave, master;
 };
 
@@ -17,16 +17,16 @@ struct SegmentPoint
 template <int dim, typename Number>
 using FaceNodes = std::vector<std::array<Number, dim>>;
 
-/// A face as the integrals need it.
+/// A face with the data of the integrals.
 template <int dim, typename Number>
 struct MortarFace
 {
   FaceNodes<dim, Number> nodes;
-  /// from the face to its true surface, at its samples; empty: none
+  /// offsets from the face to its true surface, at the samples of the face; empty: none
   FaceNodes<dim, Number> offsets;
 };
 
-/// A box in the coordinates of a face; empty: lower > upper.
+/// A box in the coordinates of a face; lower > upper if the box is empty.
 template <int dim>
 struct CoverBox
 {
@@ -40,14 +40,13 @@ struct CoverBox
 };
 
 /**
- * Quadrature of the part of a slave face that lies opposite to a master
- * face (Puso, Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004).
- * Both are projected along the slave face's normal n_0 at its centre into
- * coordinates y = (t.t)^-1 t.(x - c) of the plane of the tangents t there;
- * the faces' cells (halves along each coordinate of quadratic faces) are
- * intersected; the vertices are mapped back to the slave face, where the
- * pieces are triangulated: they cover it without a gap and polynomials on
- * it are integrated exactly. Quadrature points go to the master along n_0.
+ * This class is a quadrature of the part of a slave face that lies opposite to a master face (Puso,
+ * Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004). Both faces are projected along the normal
+ * n_0 at the centre of the slave face into coordinates y = (t.t)^-1 t.(x - c) of the plane of the
+ * tangents t there. The cells of the faces (halves along each coordinate for quadratic faces) are
+ * intersected. The vertices are mapped back to the slave face, where the pieces are triangulated.
+ * The pieces cover the slave face without a gap, and polynomials on it are integrated exactly.
+ * Quadrature points are projected to the master along n_0.
  */
 template <int dim>
 class SegmentQuadrature
@@ -55,32 +54,33 @@ class SegmentQuadrature
 public:
   SegmentQuadrature(unsigned int degree, const mesh::Idealization &idealization);
 
-  /// All points; none if the faces do not overlap. Exact for shape
+  /// Return all points; none if the faces do not overlap. The quadrature is exact for shape
   /// functions times linear functions where faces are parallelograms.
   template <typename Number>
   std::vector<SegmentPoint<dim, Number>> points(const FaceNodes<dim, Number> &slave,
                                                 const FaceNodes<dim, Number> &master) const;
 
-  /// Widen @p box to hold the part of the slave face opposite to the master.
+  /// Widen @p box to contain the part of the slave face opposite to the master.
   void add_cover(const FaceNodes<dim, double> &slave,
                  const FaceNodes<dim, double> &master,
                  CoverBox<dim>                &box) const;
 
-  /// The shape functions of both faces.
+  /// Return the shape functions of both faces at @p xi.
   template <typename Number>
   faces::FaceValues<dim, Number> shape(const faces::FaceCoordinates<dim, Number> &xi) const
   {
     return {degree, xi};
   }
 
-  /// Do the faces overlap if the slave face is widened by @p margin, a part
-  /// of its size, on all sides?
+  /// Return whether the faces overlap if the slave face is widened by @p margin, a fraction of its
+  /// size, on all sides.
   bool overlap(const FaceNodes<dim, double> &slave,
                const FaceNodes<dim, double> &master,
                double                        margin) const;
 
 private:
-  /// Barycentric coordinates in a simplex and a part of its measure.
+  /// Barycentric coordinates in a simplex with the weight, a fraction of the measure of the
+  /// simplex.
   struct Point
   {
     std::array<double, dim> barycentric;

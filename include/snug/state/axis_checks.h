@@ -7,13 +7,13 @@
 #include <vector>
 
 namespace snug::state {
-/// Bodies of an axisymmetric model must not reach negative radii.
-/// Collective. @throws InputError on all ranks.
+/// Check that bodies of an axisymmetric model do not reach negative radii. Collective.
+/// @throws InputError on all ranks.
 template <int dim>
 void check_radii(const mesh::BodyMesh<dim> &mesh, const std::vector<std::string> &body_names);
 
-/// Nodes on the axis are held there.
-/// @throws TangledMesh, on this rank, if a design moves one away.
+/// Check that nodes on the axis stay there, because they are held there.
+/// @throws TangledMesh, on this rank, if a design moves a node away from the axis.
 template <int dim>
 void check_axis(const mesh::BodyMesh<dim>                 &mesh,
                 const typename mesh::BodyMesh<dim>::Field &positions,

@@ -12,7 +12,7 @@ struct BodyBox
   double                 length; ///< half of the diagonal
 };
 
-/// The boxes of all bodies. Collective.
+/// Return the boxes of all bodies. Collective.
 template <int dim>
 std::vector<BodyBox<dim>> body_boxes(const mesh::BodyMesh<dim> &mesh);
 } // namespace snug::state

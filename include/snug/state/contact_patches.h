@@ -4,23 +4,26 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::state {
-/// Nodes of one slave side that carry force and hang together over its faces.
+/// Nodes of one slave side that carry force and are connected over its faces.
 struct ContactPatch
 {
   unsigned int              pair;
   std::vector<unsigned int> rows;
-  /// across, where it is narrowest, in faces: the extent of the nodes along the axis of least
-  /// extent within the face, and half a face at each end. Where they reach a symmetry plane or
-  /// another support, as much lies beyond it. Infinite where all of the side is in contact.
+  /// Minimum width in faces: the extent of the nodes along the axis of minimum extent within the
+  /// face, plus half a face at each end. The extent is doubled where the nodes reach a symmetry
+  /// plane or another support, because the contact continues beyond it. The width is infinite where
+  /// all of the side is in contact.
   double width = 0.;
-  /// carries less than light_patch of the force of its pair
+  /// true if the patch carries less than light_patch of the force of its pair
   bool is_light = false;
 };
 
-/// As single nodes at edges and in rough gaps may.
+/// Maximum part of the force of a pair in a light patch. Single nodes at edges and in rough gaps
+/// may be light patches.
 constexpr double light_patch = 0.05;
 
-/// Of all pairs, in the order of their first rows; the same on all ranks. Collective.
+/// Return the patches of all pairs, in the order of their first rows. The result is the same on all
+/// ranks. Collective.
 template <int dim>
 std::vector<ContactPatch> contact_patches(const StateSolver<dim>  &solver,
                                           const ContactState<dim> &state);

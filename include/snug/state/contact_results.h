@@ -4,15 +4,14 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::state {
-/// Values at the local nodes of one column of primal vectors: those of the
-/// first copy on this rank, hanging nodes interpolated.
+/// Return the values at the local nodes of one column of primal vectors. The values are those of
+/// the first copy on this rank. Hanging nodes are interpolated.
 template <int dim>
 typename mesh::BodyMesh<dim>::Field
 nodal_values(const StateSolver<dim> &solver, const feti::PrimalVectors &u, unsigned int column);
 
-/// Fill in displacement, energies and contact points of a state from its
-/// u and dual solution. @p rows are those of its geometry.
-/// Collective.
+/// Set displacement, energies and contact points of a state from its u and dual solution. @p rows
+/// are the rows at the geometry of the state. Collective.
 template <int dim>
 void recover_contact_results(const StateSolver<dim>     &solver,
                              const RowCoefficients<dim> &rows,

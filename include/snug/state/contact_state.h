@@ -10,11 +10,12 @@
 
 namespace snug::state {
 /**
- * Errors of a solution, recomputed from K, f, B and g, all relative:
- * equilibrium ||K u - f + B' lambda|| / (||f|| + ||B' lambda||), the worst
- * body; continuity max|B_E u - g_E| and penetration max(B_I u - g_I)+
- * over max_i(F_ii |lambda_i|, |f_i| / K_ii); negative pressure max(-lambda_I)+ over
- * max lambda_I; complementarity |lambda' w| over the strain energy.
+ * Relative errors of a solution, recomputed from K, f, B and g:
+ * - Equilibrium is ||K u - f + B' lambda|| / (||f|| + ||B' lambda||), the maximum over bodies.
+ * - Continuity is max|B_E u - g_E| and penetration is max(B_I u - g_I)+, both over
+ *   max_i(F_ii |lambda_i|, |f_i| / K_ii).
+ * - Negative pressure is max(-lambda_I)+ over max lambda_I.
+ * - Complementarity is |lambda' w| over the strain energy.
  */
 struct Certificate
 {
@@ -27,37 +28,37 @@ struct Certificate
   double worst() const;
 };
 
-/// One contact row of a state; physical units.
+/// One contact row of a state, in physical units.
 struct ContactPoint
 {
-  double force    = 0.;    ///< lambda_i / nr_i [force], >= 0 pushes apart
+  double force    = 0.;    ///< lambda_i / nr_i [force]; forces >= 0 push apart
   double pressure = 0.;    ///< force / tributary area [force/length^(dim-1)]
-  double gap      = 0.;    ///< left after deformation [length], >= 0
-  double area     = 0.;    ///< tributary [length^(dim-1)]
+  double gap      = 0.;    ///< remaining gap after deformation [length], >= 0
+  double area     = 0.;    ///< tributary area [length^(dim-1)]
   bool   active   = false; ///< in the active set
   bool   strong   = false; ///< force above the strong tolerance
-  bool   weak     = false; ///< neither force nor gap
+  bool   weak     = false; ///< neither force nor gap, within tolerances
 };
 
-/// How far a state goes where the model is linear; see assumptions.h.
+/// Quantities that show how far a state leaves the range of the linear model; see assumptions.h.
 struct Assumptions
 {
-  double rotation = 0.; ///< largest of a cell [rad]
-  double strain   = 0.; ///< largest of a cell
-  double slip     = 0.; ///< largest of an active contact, in faces
-  double drift    = 0.; ///< largest of a design off its pairing, in faces
-  /// least of a patch that is not light, see ContactPatch
+  double rotation = 0.; ///< maximum over cells [rad]
+  double strain   = 0.; ///< maximum over cells
+  double slip     = 0.; ///< maximum over active contacts, in faces
+  double drift    = 0.; ///< maximum of the design off its pairing, in faces
+  /// minimum over patches that are not light, see ContactPatch
   double width = std::numeric_limits<double>::infinity();
-  /// of the pair that sees the highest facets instead of what they stand for, by the gaps it
-  /// closes: their height and these [length]
+  /// height of unsmoothed facets and maximum gap closed [length], of the pair with the maximum
+  /// ratio of this height to this gap
   double facet_height = 0., closed_gap = 0.;
-  /// largest of a node, as a part of the largest distance of a node from the origin, whose
-  /// rounding gaps may have
+  /// maximum over nodes, as a fraction of the maximum distance of a node from the origin, because
+  /// gaps may have the round-off of this distance
   double displacement = 0.;
 };
 
-/// A force and a moment, which in the plane has one component, the last
-/// [force length], about a centre.
+/// Force and moment about a centre. In the plane the moment [force length] has one component, the
+/// last one.
 template <int dim>
 struct Reaction
 {
@@ -66,25 +67,24 @@ struct Reaction
   dealii::Tensor<1, 3>   moment;
 };
 
-/// The contact rows of one pair, summed up.
+/// Sums over the contact rows of one pair.
 template <int dim>
 struct PairState
 {
-  std::string            name;              ///< "slave: master"
-  dealii::Tensor<1, dim> force;             ///< on the slave side [force]
-  dealii::Tensor<1, 3>   moment;            ///< the same, about the centre
-  dealii::Tensor<1, dim> centre;            ///< the point of an obstacle, else mean place by force
-  dealii::Tensor<1, dim> peak;              ///< where the pressure is largest
-  double                 peak_size    = 0.; ///< of the slave faces there [length]
-  double                 contact_area = 0.; ///< of active rows [length^2]
+  std::string            name;   ///< "slave: master"
+  dealii::Tensor<1, dim> force;  ///< force on the slave side [force]
+  dealii::Tensor<1, 3>   moment; ///< moment on the slave side about the centre
+  dealii::Tensor<1, dim> centre; ///< point of an obstacle, else mean place weighted by force
+  dealii::Tensor<1, dim> peak;   ///< position of the maximum pressure
+  double                 peak_size    = 0.; ///< size of the slave faces at the peak [length]
+  double                 contact_area = 0.; ///< area of active rows [length^2]
   double                 max_pressure = 0.;
   unsigned int           rows = 0, active_contacts = 0;
 };
 
 /**
- * The solution of the contact problem at one geometry. Fields are on the
- * local nodes (valid at nodes of owned cells), contact points on all
- * ranks in the order of the contact rows.
+ * Solution of the contact problem at one geometry. Fields are given on the local nodes (valid at
+ * nodes of owned cells). Contact points are given on all ranks in the order of the contact rows.
  */
 template <int dim>
 struct ContactState
@@ -92,39 +92,39 @@ struct ContactState
   using Field = typename mesh::BodyMesh<dim>::Field;
 
   unsigned int                load_case = 0;
-  unsigned int                pairing   = 0; ///< how often contact was paired anew before
+  unsigned int                pairing   = 0; ///< number of new contact searches before this state
   Field                       positions;     ///< [length]
   Field                       displacement;  ///< continuous, see make_continuous() [length]
   feti::PrimalVectors         u;             ///< per subdomain
   qp::DualSolution            dual;
   std::vector<ContactPoint>   contact;
   std::vector<PairState<dim>> pairs;
-  /// of the supports on the bodies, about the means of their nodes; of
-  /// sections of revolution, the force along the axis
+  /// reactions of the supports on the bodies, about the means of their nodes; for sections of
+  /// revolution, the force along the axis
   std::vector<Reaction<dim>> reactions;
-  dealii::Tensor<1, dim>     load;    ///< all loads together [force]
-  dealii::Tensor<1, dim>     balance; ///< with what supports and obstacles do
+  dealii::Tensor<1, dim>     load;    ///< sum of all loads [force]
+  dealii::Tensor<1, dim>     balance; ///< sum of loads, reactions and obstacle forces
 
-  double                 least_scaled_jacobian = 1.; ///< of all cells
+  double                 least_scaled_jacobian = 1.; ///< minimum over all cells
   double                 energy                = 0.; ///< 1/2 u'Ku - f'u
   double                 compliance            = 0.; ///< f'u
   double                 strain_energy         = 0.; ///< 1/2 u'Ku
   dealii::Tensor<1, dim> contact_force;              ///< on the slave sides [force]
-  double                 contact_area    = 0.;       ///< of active rows
+  double                 contact_area    = 0.;       ///< area of active rows
   double                 max_pressure    = 0.;
   unsigned int           active_contacts = 0;
   unsigned int           weak_contacts   = 0;
-  /// least of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), the
-  /// distance from a weakly active contact; infinite without contacts
+  /// minimum of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), which is the distance from
+  /// a weakly active contact; infinite without contacts
   double        degeneracy_distance = std::numeric_limits<double>::infinity();
-  double        solved_to           = 0.; ///< relative KKT residual asked of the solver
-  double        tolerance           = 0.; ///< relative, that the certificate meets
-  unsigned long f_mults             = 0;  ///< of the contact solve
-  unsigned long linear_f_mults      = 0;  ///< 0: not asked for
+  double        solved_to           = 0.; ///< relative KKT residual requested from the solver
+  double        tolerance           = 0.; ///< relative tolerance that the certificate meets
+  unsigned long f_mults             = 0;  ///< F-mults of the contact solve
+  unsigned long linear_f_mults      = 0;  ///< F-mults of a linear solve; 0: not requested
   Certificate   certificate;
   Assumptions   assumptions;
-  /// one line per body that supports and strong contacts leave free to move:
-  /// balanced, but where it is along these motions is not determined
+  /// one line per body that supports and strong contacts leave free to move; the body is in
+  /// equilibrium, but its position along these motions is not determined
   std::vector<std::string> free_bodies;
 };
 } // namespace snug::state

@@ -5,10 +5,10 @@
 
 namespace snug::state {
 /**
- * Make displacements @p u, a column each, continuous between subdomains and exact at supports. The
- * smallest change with that effect is
+ * Make the displacements in the columns of @p u continuous between subdomains and exact at
+ * supports. The smallest change with that effect is
  *   -B_E'(B_E u - g_E),
- * where the rows B_E of gluing and supports are orthonormal: copies of a node become their mean.
+ * where the rows B_E of gluing and supports are orthonormal, so copies of a node become their mean.
  * @param g right-hand side of all owned rows; null: zero. Collective.
  */
 void make_continuous(const feti::TotalFeti &feti, const qp::MultiVector *g, feti::PrimalVectors &u);

@@ -11,8 +11,8 @@
 #include <memory>
 
 namespace snug::state {
-/// What the rows of B are made of at a geometry; or its derivative, where
-/// empty frames are zero.
+/// Data of the rows of B at a geometry, or the derivative of these data, where empty frames are
+/// zero.
 template <int dim>
 struct RowCoefficients
 {
@@ -21,18 +21,18 @@ struct RowCoefficients
 };
 
 /**
- * Who owns which row of B and which copies of which nodes it joins: the
- * topology of Gluing. Each node's copies meet on one rank, which numbers
- * the rows and sends their entries to the subdomains.
+ * This class is the topology of Gluing: the owner of each row of B, and the copies of nodes that
+ * the row joins. The copies of each node meet on one rank, which numbers the rows and sends their
+ * entries to the subdomains.
  */
 template <int dim>
 class GluingRows
 {
 public:
-  /// What the value of an entry follows.
+  /// Quantity that the value of an entry follows.
   enum class Source : unsigned int
   {
-    constant, ///< nothing
+    constant, ///< no quantity
     contact,  ///< coefficient `item` of contact row `index`
     held      ///< direction `item` of held node `index`
   };
@@ -45,23 +45,23 @@ public:
     unsigned int index, item;
   };
 
-  /// What an owned row is, in the same terms.
+  /// Meaning of an owned row, in the terms of Entry.
   struct OwnedRow
   {
     Source       source;
     unsigned int index, item;
-    double       factor; ///< of its right-hand side
+    double       factor; ///< factor of the right-hand side
   };
 
-  /// See Gluing. Collective.
+  /// Build the rows; see Gluing. Collective.
   GluingRows(const mesh::BodyMesh<dim>                 &mesh,
              const mesh::Tearing                       &tearing,
              const mesh::Surface<dim>                  &surface,
              const supports::DirichletConstraints<dim> &held,
              const RowCoefficients<dim>                &reference);
 
-  /// The part of a coefficient at a surface node that what is held there
-  /// leaves.
+  /// Return the part of a coefficient at a surface node that remains after projecting it off the
+  /// directions held there.
   dealii::Tensor<1, dim> projected(unsigned int                                       surface_node,
                                    const dealii::Tensor<1, dim>                      &coefficient,
                                    const std::vector<supports::ConstraintFrame<dim>> &frames) const;
@@ -76,11 +76,11 @@ public:
   unsigned int              n_global = 0;
 
 private:
-  /// Subdomains of one node's copies, ascending, by global node: known to
-  /// the owner of its rows.
+  /// Subdomains of the copies of a node, ascending, by global node. Only the owner of the rows of
+  /// the node knows them.
   using Copies = std::map<unsigned int, std::vector<unsigned int>>;
 
-  /// One entry on its way from the owner of the row to the subdomain.
+  /// An entry that the owner of a row sends to a subdomain.
   struct Message;
 
   void                      collect_surface(const mesh::Tearing &tearing);

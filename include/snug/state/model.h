@@ -29,8 +29,8 @@ struct BodyModel
   }
 };
 
-/// Dead loads on one boundary. Pressure and traction [force / length^2]
-/// are functions of the reference position; empty: none.
+/// Dead loads on one boundary. Pressure and traction [force / length^2] are functions of the
+/// reference position; empty functions stand for no load.
 template <int dim>
 struct BoundaryLoad
 {
@@ -45,20 +45,20 @@ struct BoundaryLoad
 template <int dim>
 struct BodyLoads
 {
-  /// [force / length^3], of the reference position; empty: none
+  /// [force / length^3], function of the reference position; empty: none
   std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> body_force;
   dealii::Tensor<1, dim>                                            gravity; ///< [length / time^2]
-  std::map<unsigned int, BoundaryLoad<dim>>                         boundaries; ///< by index
+  std::map<unsigned int, BoundaryLoad<dim>>                         boundaries; ///< by boundary
 };
 
 template <int dim>
 struct LoadCase
 {
-  std::string                 name;   ///< may be empty if it is the only one
-  std::vector<BodyLoads<dim>> bodies; ///< as many as bodies
+  std::string                 name;   ///< may be empty for a single load case
+  std::vector<BodyLoads<dim>> bodies; ///< one per body
 };
 
-/// What a state problem is made of; indices, not names.
+/// Definition of a state problem, in indices and not in names.
 template <int dim>
 struct Model
 {
@@ -67,7 +67,7 @@ struct Model
   std::vector<LoadCase<dim>>          load_cases; ///< at least one
   std::vector<supports::Support<dim>> supports;
   std::vector<contact::Pair>          pairs;
-  /// meshes and designs with a cell of less are refused
+  /// minimum of a cell; meshes and designs with a cell below it are rejected
   double               least_scaled_jacobian = 0.;
   feti::FetiParameters feti;
   qp::SolverParameters solver;

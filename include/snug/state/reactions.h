@@ -4,10 +4,9 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::state {
-/// Sum up what supports do to the bodies and where each pair presses: the
-/// reactions and the load of @p state, and of its pairs moment, centre and
-/// peak. With all forces on bodies the reactions are in equilibrium.
-/// Collective.
+/// Compute the forces of supports on the bodies and the places where each pair presses. Set the
+/// reactions and the load of @p state, and moment, centre and peak of its pairs. The reactions are
+/// in equilibrium with all forces on bodies. Collective.
 template <int dim>
 void add_reactions(const StateSolver<dim>     &solver,
                    const RowCoefficients<dim> &rows,

@@ -6,31 +6,31 @@
 
 namespace snug::state {
 /**
- * The total forces and moments on boundaries, spread over faces that move
- * (SpreadResultant): their tractions depend on the whole loaded boundary.
- * All members with positions are collective.
+ * This class spreads the total forces and moments on boundaries over faces that move
+ * (SpreadResultant). The tractions depend on the whole loaded boundary. All members with positions
+ * are collective.
  */
 template <int dim>
 class ResultantLoads
 {
 public:
   using Field    = typename mesh::BodyMesh<dim>::Field;
-  using Boundary = std::pair<unsigned int, unsigned int>; ///< of a body
-  /// Traction of each load case and loaded boundary.
+  using Boundary = std::pair<unsigned int, unsigned int>; ///< body and boundary
+  /// Tractions of each load case and loaded boundary.
   using Tractions = std::vector<std::map<Boundary, elasticity::LinearTraction<dim>>>;
 
-  /// References must outlive this object. Collective.
+  /// Collect the loaded boundaries. References must outlive this object. Collective.
   ResultantLoads(const mesh::BodyMesh<dim>        &mesh,
                  const elasticity::FaceLoad<dim>  &face_load,
                  const std::vector<LoadCase<dim>> &load_cases);
 
   Tractions tractions(const Field &positions) const;
 
-  /// Their derivatives along @p velocity, exact.
+  /// Return the exact derivatives of the tractions along @p velocity.
   Tractions traction_derivatives(const Field &positions, const Field &velocity) const;
 
-  /// gradient += factor * d/dX (f . u), f the loads of the resultants of a
-  /// load case: this rank's share.
+  /// Add factor * d/dX (f . u) to the gradient, where f are the loads of the resultants of a load
+  /// case. Add the share of this rank only.
   void add_work_gradient(unsigned int load_case,
                          const Field &positions,
                          const Field &displacement,
@@ -42,12 +42,12 @@ private:
   using Moments = elasticity::AreaMoments<dim>;
   using Spread  = elasticity::SpreadResultant<dim>;
 
-  /// One boundary with a resultant in some load case.
+  /// Boundary with a resultant in some load case.
   struct LoadedBoundary
   {
     Boundary                  boundary;
-    std::vector<unsigned int> faces;  ///< of this rank
-    dealii::Tensor<1, dim>    origin; ///< near its centroid
+    std::vector<unsigned int> faces;  ///< faces of this rank
+    dealii::Tensor<1, dim>    origin; ///< near the centroid of the boundary
   };
 
   Nodes at_face(unsigned int face, const Field &field) const;

@@ -9,16 +9,16 @@
 #include <vector>
 
 namespace snug::state {
-/// Translations and rotations about @p centre over @p length at
-/// @p positions, one mode per column: 6 of a solid, 3 in plane sections,
-/// and the translation along the axis in axisymmetric ones.
+/// Return translations and rotations about @p centre over @p length at @p positions, one mode per
+/// column: 6 modes of a solid, 3 modes in plane sections, and the translation along the axis in
+/// axisymmetric sections.
 template <int dim>
 qp::MultiVector rigid_motions(const mesh::Idealization                  &idealization,
                               const std::vector<dealii::Tensor<1, dim>> &positions,
                               const dealii::Tensor<1, dim>              &centre,
                               double                                     length);
 
-/// Orthonormalise the columns by Gram-Schmidt, twice for round-off.
+/// Orthonormalise the columns by Gram-Schmidt, in two sweeps because of round-off.
 void orthonormalise(qp::MultiVector &R);
 } // namespace snug::state
 

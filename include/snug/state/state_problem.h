@@ -11,19 +11,19 @@
 #include <optional>
 
 namespace snug::state {
-/// A geometry and what its matrices were made with.
+/// A geometry with the data from which its matrices were made.
 template <int dim>
 struct Geometry
 {
   typename mesh::BodyMesh<dim>::Field positions;
-  RowCoefficients<dim>                rows;                       ///< what B is made of
-  double                              least_scaled_jacobian = 1.; ///< of all cells
+  RowCoefficients<dim>                rows;                       ///< data of the rows of B
+  double                              least_scaled_jacobian = 1.; ///< minimum over all cells
 };
 
 /**
- * The state problem of Total FETI. Topology, pairing, gluing and symbolic
- * factorizations are made once, at the geometry given to the constructor;
- * set() makes the numbers. The members below are its parts, to be read.
+ * This class is the state problem of Total FETI. Topology, pairing, gluing and symbolic
+ * factorizations are made once, at the geometry given to the constructor. set() computes the
+ * numbers. The members below are the parts of the problem, for reading only.
  */
 template <int dim>
 class StateProblem
@@ -31,27 +31,25 @@ class StateProblem
 public:
   using Field = typename mesh::BodyMesh<dim>::Field;
 
-  /// References must outlive this object. Collective.
+  /// Build the problem. References must outlive this object. Collective.
   StateProblem(const mesh::BodyMesh<dim> &mesh,
                const mesh::Tearing       &tearing,
                const Model<dim>          &model,
                const Field               &positions,
                RunContext                &context);
 
-  /// Pair contact anew at @p positions; feti has no numbers until set().
-  /// Collective.
+  /// Run a new contact search at @p positions. feti has no numbers until set(). Collective.
   void pair(const Field &positions);
 
   /**
-   * Give feti the matrices, the rows and, of a load case, the loads at
-   * @p positions. Only subdomains whose nodes moved since the last call are
-   * assembled and factorized. @return valid until the next call. Collective.
-   * @throws TangledMesh; SolveError where held displacements press bodies
-   *   into another.
+   * Set the matrices, the rows and the loads of a load case of feti at @p positions. Only
+   * subdomains whose nodes moved since the last call are assembled and factorized.
+   * Collective. @return the geometry, valid until the next call.
+   * @throws TangledMesh; SolveError where held displacements press bodies into another.
    */
   const Geometry<dim> &set(const Field &positions, unsigned int load_case);
 
-  /// What the rows of B are made of at @p positions. Collective.
+  /// Return the data of the rows of B at @p positions. Collective.
   RowCoefficients<dim> rows(const Field &positions) const;
 
   const mesh::BodyMesh<dim>                           &mesh;
@@ -78,11 +76,11 @@ private:
   void                check_vanished_rows(unsigned int load_case) const;
 
   std::vector<BodyBox<dim>> boxes;
-  std::vector<double>       scaled_jacobians; ///< least, per subdomain
-  /// of the matrices in systems and feti; no positions: none
+  std::vector<double>       scaled_jacobians; ///< minimum per subdomain
+  /// geometry of the matrices in systems and feti; empty positions: none
   Geometry<dim>               geometry;
   Field                       paired_at;   ///< positions of the last pairing
-  std::optional<unsigned int> loaded_case; ///< of feti's loads
+  std::optional<unsigned int> loaded_case; ///< load case of the loads in feti
   /// f per load case and subdomain
   std::vector<std::vector<std::vector<double>>> loads;
 };

@@ -5,48 +5,48 @@
 #include <snug/state/state_problem.h>
 
 namespace snug::state {
-/// The bridge from bodies at a geometry to Total FETI (StateProblem) and
-/// back: a geometry and a load case give a state.
+/// This class connects bodies at a geometry with Total FETI (StateProblem): it computes a state
+/// from a geometry and a load case.
 template <int dim>
 class StateSolver
 {
 public:
   using Field = typename mesh::BodyMesh<dim>::Field;
 
-  /// References must outlive this object. Collective.
-  /// @throws InputError for loads, supports or pairs that cannot be.
+  /// Build the problem. References must outlive this object. Collective.
+  /// @throws InputError for loads, supports or pairs that are not possible.
   StateSolver(const mesh::BodyMesh<dim> &mesh,
               const mesh::Tearing       &tearing,
               const Model<dim>          &model,
               const Field               &positions,
               RunContext                &context);
 
-  /// Pair contact anew at @p positions; contact rows, states and warm starts
-  /// of before are no longer valid. Collective. @throws InputError.
+  /// Run a new contact search at @p positions. Contact rows, states and warm starts from before
+  /// become invalid. Collective. @throws InputError.
   void pair(const Field &positions);
 
   /**
-   * The state of a load case at @p positions. Solves on until the
-   * certificate meets the tolerance. All load cases of one geometry share
-   * its matrices and factorizations. Collective.
+   * Return the state of a load case at @p positions. The solver iterates until the certificate
+   * meets the tolerance. All load cases of one geometry share its matrices and factorizations.
+   * Collective.
    * @throws TangledMesh, SolveError.
    */
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
-  /// @p state solved on, from its own forces, until its certificate meets @p tolerance.
-  /// Collective. @throws SolveError.
+  /// Return @p state after further iterations from its own forces, until its certificate meets
+  /// @p tolerance. Collective. @throws SolveError.
   ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
 
   /**
-   * The dual problem of @p state, of the present pairing: its matrices and
-   * loads are made again where the solver has been at another geometry or
-   * load case since. Valid until the solver goes elsewhere. Collective.
+   * Return the dual problem of @p state, which must belong to the present pairing. Its matrices and
+   * loads are computed again if the solver has been at another geometry or load case since. The
+   * result is valid until the solver goes to another geometry or load case. Collective.
    */
   const feti::TotalFeti &feti(const ContactState<dim> &state) const;
 
-  /// F-mults of one linear TFETI solve on the active set of @p state, from
-  /// zero at the same tolerance. Collective.
+  /// Return the F-mults of one linear TFETI solve on the active set of @p state, from zero at the
+  /// same tolerance. Collective.
   unsigned long linear_f_mults(const ContactState<dim> &state) const;
 
   const mesh::BodyMesh<dim>                 &mesh() const { return problem->mesh; }
@@ -55,21 +55,21 @@ public:
   const mesh::Surface<dim>                  &surface() const { return problem->surface; }
   const contact::Contact<dim>               &contact() const { return *problem->contact; }
   const supports::DirichletConstraints<dim> &held() const { return *problem->held; }
-  /// What the rows of B are made of at @p positions. Collective.
+  /// Return the data of the rows of B at @p positions. Collective.
   RowCoefficients<dim> rows(const Field &positions) const { return problem->rows(positions); }
-  /// Its derivative along @p velocity, exact. Collective.
+  /// Return the exact derivative of the data of the rows of B along @p velocity. Collective.
   RowCoefficients<dim>       row_derivatives(const Field &positions, const Field &velocity) const;
   const ResultantLoads<dim> &resultants() const { return problem->resultants; }
-  /// f of a load case at @p positions. Collective.
+  /// Return f of a load case at @p positions. Collective.
   feti::PrimalVectors              loads(const Field &positions, unsigned int load_case) const;
   const elasticity::FaceLoad<dim> &face_load() const { return problem->face_load; }
-  /// Assemblers of this rank's subdomains.
+  /// Return the assemblers of the subdomains of this rank.
   const std::vector<std::unique_ptr<Assembler<dim>>> &assemblers() const
   {
     return problem->assemblers;
   }
   const Gluing<dim> &gluing() const { return *problem->gluing; }
-  /// Rigid body modes of all subdomains.
+  /// Return the number of rigid body modes of all subdomains.
   unsigned int n_kernel() const { return problem->feti->n_kernel(); }
   RunContext  &context() const { return problem->context; }
 
@@ -80,7 +80,7 @@ private:
                           double               tolerance) const;
   void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
 
-  /// Its matrices are a cache: states depend on positions alone.
+  /// The matrices of the problem are a cache, because states depend on positions alone.
   std::unique_ptr<StateProblem<dim>> problem;
   unsigned int                       n_pairings = 0;
 };

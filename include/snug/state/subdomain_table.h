@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace snug::state {
-/// The bodies of all subdomains, on all ranks. Collective.
+/// Return the bodies of all subdomains, on all ranks. Collective.
 template <int dim>
 feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim>      &mesh,
                                      const mesh::Tearing            &tearing,

@@ -7,11 +7,10 @@
 
 namespace snug::state {
 /**
- * Return one line for each contact side on a sphere, a cylinder or another
- * known surface that does not meet a plane of symmetry at a right angle. A
- * plane of symmetry is a plane boundary held along its normal alone, at a
- * displacement of zero, unless the opposite one is as well, or the axis of an
- * axisymmetric model. Collective.
+ * Return one line for each contact side on a sphere, a cylinder or another known surface that does
+ * not meet a plane of symmetry at a right angle. A plane of symmetry is a plane boundary held along
+ * its normal alone, at a displacement of zero, unless an opposite boundary is such a plane as well.
+ * The axis of an axisymmetric model is also a plane of symmetry. Collective.
  */
 template <int dim>
 std::vector<std::string> symmetry_warnings(const mesh::BodyMesh<dim>                 &mesh,

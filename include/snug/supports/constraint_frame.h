@@ -7,9 +7,8 @@
 
 namespace snug::supports {
 /**
- * The constraints d_j . u = v_j on the displacement of one node: linearly
- * independent unit vectors d_j and, per load case, values v_j [length].
- * As a derivative: d_j' and v_j'.
+ * Constraints d_j . u = v_j on the displacement of one node: linearly independent unit vectors d_j
+ * and, per load case, values v_j [length]. A frame of derivatives contains d_j' and v_j'.
  */
 template <int dim>
 struct ConstraintFrame
@@ -19,8 +18,8 @@ struct ConstraintFrame
 };
 
 /**
- * The same constraints as q_k . u = s_k with orthonormal q_k, by
- * Gram-Schmidt in the given order: d_j = sum_k<=j L_jk q_k, q_0 = d_0.
+ * This class states the same constraints as q_k . u = s_k with orthonormal q_k, by Gram-Schmidt in
+ * the given order: d_j = sum_k<=j L_jk q_k, q_0 = d_0.
  */
 template <int dim>
 class Orthonormalised
@@ -28,19 +27,19 @@ class Orthonormalised
 public:
   explicit Orthonormalised(const ConstraintFrame<dim> &given);
 
-  /// q_k and s_k.
+  /// Return q_k and s_k.
   const ConstraintFrame<dim> &frame() const { return orthonormal; }
 
-  /// The smallest L_jj: the sine of the smallest angle between a d_j and
-  /// the span of those before it. Zero: dependent, and frame() is not
+  /// Return the minimum L_jj, which is the sine of the minimum angle between a d_j and the span of
+  /// the directions before it. Zero means that the directions are dependent and frame() is not
   /// usable.
   double independence() const;
 
-  /// q_k' and s_k' where the given constraints have derivatives @p given'.
+  /// Return q_k' and s_k' where the given constraints have derivatives @p given'.
   ConstraintFrame<dim> derivative(const ConstraintFrame<dim> &given_derivative) const;
 
-  /// Multipliers of the given constraints that do the same as
-  /// @p multipliers of the orthonormal ones: L' m = multipliers.
+  /// Return the multipliers m of the given constraints that are equivalent to @p multipliers of the
+  /// orthonormal ones: L' m = multipliers.
   std::vector<double> given_multipliers(std::vector<double> multipliers) const;
 
 private:

@@ -5,10 +5,9 @@
 
 namespace snug::supports {
 /**
- * The faces of (body, boundary) pairs in smooth patches: two faces that
- * share a node are in one patch if their normals there are less than 40
- * degrees apart, unless they lie on different boundaries that are both
- * flat. Each patch: ascending indices of surface.faces().
+ * Return the faces of (body, boundary) pairs in smooth patches. Two faces that share a node are in
+ * one patch if their normals there are less than 40 degrees apart, unless they lie on different
+ * boundaries that are both flat. A patch consists of ascending indices of surface.faces().
  */
 template <int dim>
 std::vector<std::vector<unsigned int>>

@@ -8,19 +8,19 @@
 #include <vector>
 
 namespace snug::supports {
-/// One displacement component held on one boundary of a body.
+/// Displacement component held on one boundary of a body.
 template <int dim>
 struct Support
 {
-  /// Component number of the nodal normal, which points outwards.
+  /// Component number that stands for the nodal normal, which points outwards.
   static constexpr unsigned int normal = dim;
 
   unsigned int body, boundary;
   unsigned int component; ///< 0, 1, 2: x, y, z; or normal
-  /// Prescribed displacement [length] per load case as a function of the
-  /// reference position; zero where there is none.
+  /// Prescribed displacement [length] per load case as a function of the reference position. An
+  /// empty function means zero.
   std::vector<std::function<double(const dealii::Point<dim> &)>> values;
-  std::string name;      ///< of what the user wrote, for messages
+  std::string name;      ///< name as the user wrote it, for messages
   std::string face = {}; ///< "body.boundary", for results
 };
 } // namespace snug::supports
