@@ -4,24 +4,24 @@
 
 namespace snug::geometry {
 namespace {
-/// (q^s - 1) / (q - 1), s where q = 1.
-/// With expm1, or the differences would cancel for q near 1.
+/// Return (q^s - 1) / (q - 1), or s if q = 1.
+/// The function expm1 avoids the cancellation of the differences for q near 1.
 double geometric_sum(double log_q, double s)
 {
   return std::abs(log_q) < 1e-12 ? s : std::expm1(log_q * s) / std::expm1(log_q);
 }
 
-/// log q with q (q^k - 1) / (q - 1) = sum: k sizes that grow by q from
-/// 1 (not counted) have this sum. By bisection: the left side grows
+/// Return log q with q (q^k - 1) / (q - 1) = sum. The left side is the sum of k sizes that grow by
+/// q from the size 1, which is not counted. Bisection finds q, because the left side grows
 /// with q.
 double growth(unsigned int k, double sum)
 {
-  // ratios of neighbouring cells between e^-50 and e^50 are more than any mesh has
+  // The ratio of neighbouring cells of any mesh lies between e^-50 and e^50.
   double lower = -50., upper = 50.;
   while (upper - lower > 1e-15 * (1. + std::abs(lower)))
     {
       const double middle = 0.5 * (lower + upper);
-      // the ends are neighbouring doubles
+      // The ends are adjacent doubles.
       if (middle == lower || middle == upper)
         break;
       if (std::exp(middle) * geometric_sum(middle, k) < sum)
@@ -37,7 +37,7 @@ AxisSpacing AxisSpacing::graded(unsigned int n_cells, double ratio)
 {
   AxisSpacing spacing(n_cells);
   if (ratio != 1.)
-    // n cells have n - 1 steps from the first size to the last
+    // n cells have n - 1 ratios between the first size and the last size.
     spacing.log_q = std::log(ratio) / (n_cells - 1);
   return spacing;
 }
@@ -47,7 +47,7 @@ AxisSpacing AxisSpacing::with_fine_part(unsigned int n_cells, double fine)
   AxisSpacing spacing(n_cells);
   spacing.m     = (n_cells + 1) / 2;
   spacing.first = fine;
-  // the rest of the axis, in units of the size c / m of the fine cells
+  // The sum is the rest of the axis in units of the size c / m of the fine cells.
   spacing.log_q = growth(n_cells - spacing.m, (1. - fine) / (fine / spacing.m));
   return spacing;
 }

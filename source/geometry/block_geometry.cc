@@ -6,7 +6,7 @@
 
 namespace snug::geometry {
 namespace {
-/// From the lower to the upper end in the coordinates of the block.
+/// Return the vertices of an edge, from the lower to the upper end in the coordinates of the block.
 template <int dim>
 Vertices edge_of(const Vertices &block, unsigned int edge)
 {
@@ -14,8 +14,8 @@ Vertices edge_of(const Vertices &block, unsigned int edge)
   return {block[Info::line_to_cell_vertices(edge, 0)], block[Info::line_to_cell_vertices(edge, 1)]};
 }
 
-/// Multilinear weights of the vertices of a cell at @p u.
-/// They do for manifolds as well: get_new_point() takes the same weights as a mean of points.
+/// Return the multilinear weights of the vertices of a cell at @p u.
+/// Manifolds use the same weights, because get_new_point() computes a weighted mean of points.
 template <int dim>
 std::vector<double> weights(const dealii::Point<dim> &u)
 {
@@ -25,11 +25,11 @@ std::vector<double> weights(const dealii::Point<dim> &u)
   return result;
 }
 
-/// A point of the grids of blocks: vertices of its block and their
-/// weights, times the numbers of cells of the axes it lies within. Equal
-/// in all blocks that have it.
-/// As integers, they are compared without a tolerance; that needs equally many cells along the
-/// axes that neighbours share.
+/// A point of the grids of blocks, given by vertices of a block and their weights. The weights are
+/// multiplied by the numbers of cells of all axes at whose ends the point does not lie. All blocks
+/// with the point have the same vertices and weights.
+/// The weights are integers, so that they are compared without a tolerance. This comparison
+/// requires the same number of cells along the axes that neighbours share.
 using GridPoint = std::vector<std::pair<unsigned int, unsigned int>>;
 
 template <int dim>
@@ -40,7 +40,7 @@ GridPoint grid_point(const Vertices                      &block,
   GridPoint result;
   for (unsigned int v = 0; v < block.size(); ++v)
     {
-      // On a side of the block only the vertices of that side count.
+      // On a side of the block only the vertices of the side have nonzero weights.
       unsigned int weight = 1;
       for (unsigned int d = 0; d < dim; ++d)
         if (place[d] == 0 || place[d] == n[d])
@@ -60,9 +60,9 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
   : mesh(std::move(block_mesh)), is_curved(mesh->blocks.size(), false)
 {
   using Info = dealii::GeometryInfo<dim>;
-  // Edges of curved faces are kept by themselves: blocks that have only such an edge must follow
-  // it too, or gaps would open. An edge of two curved faces lies on the one that comes first,
-  // and the other face bends to it, see face_position().
+  // Edges of curved faces are stored separately, because blocks that have only such an edge must
+  // follow the edge as well. Otherwise the mesh would have gaps. An edge of two curved faces lies
+  // on the surface that is found first, and the other face bends to the edge, see face_position().
   for (const Vertices &block : mesh->blocks)
     for (const unsigned int f : Info::face_indices())
       {
@@ -115,7 +115,7 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
         Vertices   cell(Info::vertices_per_cell);
         for (unsigned int v = 0; v < cell.size(); ++v)
           {
-            // bit d of v: the upper end of axis d
+            // Bit d of v is 1 at the upper end of axis d.
             auto  place = index;
             Point u;
             for (unsigned int d = 0; d < dim; ++d)
@@ -126,13 +126,13 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
             const auto entry =
               numbers.emplace(grid_point<dim>(mesh->blocks[b], place, n), result.vertices.size());
             if (entry.second)
-              // the first block decides; the others have the same point up to round-off
+              // The first block sets the vertex, which is equal up to round-off in other blocks.
               result.vertices.push_back(block_position(b, u));
             cell[v] = entry.first->second;
           }
         result.cells.push_back(cell);
         for (const unsigned int f : Info::face_indices())
-          // only cells at this side of the block
+          // Only cells at this side of the block have boundary faces there.
           if (index[f / 2] == (f % 2 == 1 ? n[f / 2] - 1 : 0))
             {
               const auto found = mesh->boundaries.find(sorted(face_of<dim>(mesh->blocks[b], f)));
@@ -198,7 +198,7 @@ BlockGeometry<dim>::piece_position(const Vertices            &vertices,
   return std::make_unique<Point>(found->second.patch->position(at));
 }
 
-/// t goes from the first to the second vertex.
+/// The coordinate t increases from the first to the second vertex.
 template <int dim>
 dealii::Point<dim> BlockGeometry<dim>::edge_position(const Vertices &vertices, double t) const
 {
@@ -216,30 +216,32 @@ dealii::Point<dim> BlockGeometry<dim>::face_position(const Vertices         &ver
     return *x;
   const auto found = curved.find(sorted(vertices));
   Manifold  *own   = found == curved.end() ? nullptr : found->second;
-  // Of a flat face, each vertex is counted by two edges, so it is taken away once (Coons patch).
+  // In a Coons patch each vertex is counted by two edges, so the bilinear interpolation of the
+  // vertices is subtracted once. A face on a surface of its own starts from this surface instead.
   Point result = (own == nullptr ? -1. : 1.) * interpolated(vertices, weights<2>(u), own);
   for (unsigned int e = 0; e < 4; ++e)
     {
-      // edges 0 and 1 of a face run along its second tangent, 2 and 3 along the first
+      // Edges 0 and 1 of a face are parallel to the second tangent, edges 2 and 3 to the first.
       const unsigned int normal = e / 2;
       const double       w = e % 2 == 1 ? u[normal] : 1. - u[normal], t = u[1 - normal];
       const Vertices     edge = edge_of<2>(vertices, e);
       if (own == nullptr)
         result += w * edge_position(edge, t);
       else if (curved.at(sorted(edge)) != own)
-        // another boundary's edge: blocks that have only the edge follow it there
+        // The edge lies on the surface of another boundary. The face is corrected by the
+        // difference, so that the face meets blocks that have only the edge.
         result += w * (edge_position(edge, t) - interpolated(edge, {1. - t, t}, own));
     }
   return result;
 }
 
-// see BlockGeometry for the formula
+// BlockGeometry states the formula.
 template <>
 dealii::Point<2> BlockGeometry<2>::block_position(unsigned int            block,
                                                   const dealii::Point<2> &u) const
 {
   const Vertices &vertices = mesh->blocks[block];
-  // inside: of a spherical shell, whose layers are spheres and whose radii are straight
+  // Spherical shells set inside, in which layers are spheres and radii are straight.
   if (mesh->inside || !is_curved[block])
     return interpolated(vertices, weights<2>(u), mesh->inside.get());
   return face_position(vertices, u);
@@ -253,15 +255,16 @@ dealii::Point<3> BlockGeometry<3>::block_position(unsigned int            block,
   if (mesh->inside || !is_curved[block])
     return interpolated(vertices, weights<3>(u), mesh->inside.get());
   const auto on_face = [&](unsigned int f) {
-    // tangents of deal.II's faces: y z, z x, x y
+    // The tangents of the faces of deal.II are y z, z x, x y.
     const dealii::Point<2> t(u[(f / 2 + 1) % 3], u[(f / 2 + 2) % 3]);
     return face_position(face_of<3>(vertices, f), t);
   };
-  // most points asked for; the sum is the same
+  // Most evaluated points lie on faces, where a single face gives the same result as the full sum.
   for (unsigned int f = 0; f < 6; ++f)
     if (u[f / 2] == f % 2)
       return on_face(f);
-  // faces count edges twice, and with them gone vertices not at all: x = faces - edges + vertices
+  // The sum over faces counts edges twice. After subtraction of the edges, vertices are not counted
+  // at all, so the vertices are added: x = faces - edges + vertices.
   const auto side   = [&](unsigned int d, unsigned int s) { return s == 1 ? u[d] : 1. - u[d]; };
   Point      result = interpolated(vertices, weights<3>(u), nullptr);
   for (unsigned int f = 0; f < 6; ++f)
@@ -270,7 +273,7 @@ dealii::Point<3> BlockGeometry<3>::block_position(unsigned int            block,
     for (unsigned int k = 0; k < 4; ++k)
       {
         const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
-        // the lower end of the edge along axis d; the upper one has bit d
+        // first is the lower end of the edge along axis d; the upper end has bit d set.
         const unsigned int first = (k & 1) << a | (k >> 1) << b;
         result -= side(a, k & 1) * side(b, k >> 1) *
                   edge_position({vertices[first], vertices[first | 1 << d]}, u[d]);

@@ -13,7 +13,8 @@ template <int dim>
 void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name)
 {
   using Face = typename BlockMesh<dim>::Face;
-  // Exact: round_blocks.cc sets such coordinates to 0 and only scales them.
+  // The comparison is exact, because round_blocks.cc sets these coordinates to 0 and only scales
+  // them.
   const auto is_on_plane = [&](unsigned int vertex) { return mesh.vertices[vertex][axis] == 0.; };
   std::vector<unsigned int> image;
   const unsigned int        n_vertices = mesh.vertices.size();
@@ -28,18 +29,18 @@ void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name)
   const unsigned int n_blocks = mesh.blocks.size();
   for (unsigned int b = 0; b < n_blocks; ++b)
     {
-      // the first axis of a block turns round to keep it right-handed
+      // The first axis of a mirrored block is reversed, so that the block stays right-handed.
       std::vector<unsigned int> block(mesh.blocks[b].size());
       for (unsigned int v = 0; v < block.size(); ++v)
         block[v] = image[mesh.blocks[b][v ^ 1]];
       mesh.blocks.push_back(block);
       mesh.regions.push_back(mesh.regions[b]);
     }
-  // a copy, as the loop adds and erases entries
+  // The loop runs over a copy, because it adds and erases entries.
   const auto old = mesh.boundaries;
   for (const auto &face : old)
     {
-      // The faces of the plane lie inside the whole.
+      // The faces in the mirror plane are interior faces of the whole body.
       if (mesh.boundary_names[face.second] == name)
         {
           mesh.boundaries.erase(face.first);
@@ -72,7 +73,7 @@ void remove_unused_boundaries(BlockMesh<dim> &mesh)
   std::map<unsigned int, typename BlockMesh<dim>::Surface> surfaces;
   for (auto &entry : number)
     {
-      // std::map goes through the old indices in ascending order, so names keep theirs
+      // std::map visits the old indices in ascending order, so the order of the names is kept.
       entry.second = names.size();
       names.push_back(mesh.boundary_names[entry.first]);
       if (mesh.surfaces.count(entry.first) > 0)
@@ -85,7 +86,7 @@ void remove_unused_boundaries(BlockMesh<dim> &mesh)
 }
 
 namespace {
-/// Whether no edge occurs in both directions.
+/// Return whether no edge occurs in both directions.
 template <int dim>
 bool is_consistent(const std::vector<dealii::CellData<dim>> &cells)
 {
@@ -99,7 +100,8 @@ bool is_consistent(const std::vector<dealii::CellData<dim>> &cells)
                       [&](const auto &edge) { return edges.count({edge.second, edge.first}) > 0; });
 }
 
-/// Of the blocks; for dim = 2 and blocks in 3D, the quadrilaterals at their bottoms.
+/// Return the cells of the first 2^dim vertices of the blocks. For dim = 2 and blocks in 3D, the
+/// cells are the quadrilaterals at the bottoms of the blocks.
 template <int dim>
 std::vector<dealii::CellData<dim>>
 first_vertices(const std::vector<std::vector<unsigned int>> &blocks)
@@ -118,7 +120,7 @@ template <int dim>
 bool order_consistently(BlockMesh<dim> &mesh)
 {
   // Algorithm: Agelek, Anderson, Bangerth, Barth, ACM Trans. Math. Software 44, 2017. Some 3D
-  // meshes have no such order, for one a ring of hexahedra whose section turns by 90 degrees.
+  // meshes have no such order, for example a ring of hexahedra whose section turns by 90 degrees.
   auto cells = first_vertices<dim>(mesh.blocks);
   if (is_consistent(cells))
     return true;
@@ -130,7 +132,7 @@ bool order_consistently(BlockMesh<dim> &mesh)
     {
       return false;
     }
-  // In 3D, deal.II leaves the cells as they are if there is no order, and does not say so.
+  // In 3D, deal.II does not change the cells if there is no order, and reports no error.
   if (!is_consistent(cells))
     return false;
   for (unsigned int b = 0; b < cells.size(); ++b)
@@ -144,7 +146,7 @@ void order_layer_consistently(BlockMesh<3> &mesh)
   dealii::GridTools::consistently_order_cells(cells);
   for (unsigned int b = 0; b < cells.size(); ++b)
     {
-      // the vertex above one of the bottom, 4 places behind it, goes with it
+      // The vertex above a bottom vertex is 4 positions behind it and is moved with it.
       const auto old = mesh.blocks[b];
       for (unsigned int v = 0; v < 4; ++v)
         {

@@ -5,7 +5,7 @@
 
 namespace snug::geometry {
 namespace {
-/// Of 3^dim points, first axis fastest.
+/// Return the multi-index of one of 3^dim points, first axis fastest.
 template <int dim>
 std::array<unsigned int, dim> place(unsigned int point)
 {
@@ -19,7 +19,8 @@ unsigned int power(const unsigned int dim)
   return dim == 2 ? 9 : 27;
 }
 
-/// Vertices of the edge, face or block whose middle is at @p at; of a vertex itself.
+/// Return the vertices of the edge, face or block whose middle is at @p at, or the vertex at
+/// @p at.
 template <int dim>
 Vertices around(const Vertices &block, const std::array<unsigned int, dim> &at)
 {
@@ -38,8 +39,8 @@ Vertices around(const Vertices &block, const std::array<unsigned int, dim> &at)
 template <int dim>
 using Lattice = std::vector<dealii::Point<dim>>;
 
-/// The middle of what spans @p axes by transfinite interpolation of its parts: (-1)^(j+1) / 2^j
-/// times those with j axes less.
+/// Return the middle of the edge, face or block at @p at by transfinite interpolation. The middle
+/// of each part that spans j axes less has the weight (-1)^(j+1) / 2^j.
 template <int dim>
 dealii::Point<dim> interpolated(const Lattice<dim> &x, const std::array<unsigned int, dim> &at)
 {
@@ -61,7 +62,8 @@ dealii::Point<dim> interpolated(const Lattice<dim> &x, const std::array<unsigned
   return result;
 }
 
-/// In ascending order of the axes that points span, as each needs those before.
+/// Return the 3^dim points of a block. Middles of edges are computed before middles of faces and
+/// blocks, because each middle depends on the middles of its parts.
 template <int dim>
 Lattice<dim>
 lattice(const std::vector<dealii::Point<dim>>                                         &vertices,
@@ -102,7 +104,7 @@ double least_scaled_jacobian(
   const auto   x       = lattice<dim>(vertices, block, pieces);
   double       least   = 1.;
   unsigned int step[3] = {1, 3, 9};
-  // derivatives of parabolas through three points at each of them
+  // Derivatives of a parabola through three points, at each of the three points.
   const double slope[3][3] = {{-3., 4., -1.}, {-1., 0., 1.}, {1., -4., 3.}};
   for (unsigned int p = 0; p < x.size(); ++p)
     {

@@ -45,13 +45,13 @@ std::unique_ptr<BodyGeometry<dim>> made(const BodyMeshParameters &parameters)
       case Source::file:
         return make_imported<dim>(parameters);
     }
-  // of two and three dimensions, the other one
+  // The body exists only in the other dimension, which is 5 - dim.
   throw bad_entry("Mesh", to_text(parameters.source),
                   "is for Dimension = " + std::to_string(5 - dim));
 }
 } // namespace
 
-/// The parameter reference shows these texts.
+/// The parameter reference prints these texts.
 Names names(Source)
 {
   return {
@@ -75,7 +75,7 @@ Names names(Source)
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_geometry(const BodyMeshParameters &parameters)
 {
-  // Regions after the placement: their formulas are of placed positions.
+  // Regions are added after the placement, because their formulas take placed positions.
   return with_regions(placed(made<dim>(parameters), parameters), parameters);
 }
 
@@ -85,7 +85,7 @@ unsigned int boundary_index(const BodyGeometry<dim> &geometry, const std::string
   const auto        &names = geometry.boundary_names();
   const unsigned int index = index_of(names, name);
   if (index == names.size())
-    // without the entry, which callers know
+    // The message does not name the entry, because only the callers know the entry.
     throw InputError("'" + name + "' is no face; the faces are " + to_text(names));
   return index;
 }

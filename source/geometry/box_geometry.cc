@@ -10,19 +10,19 @@
 namespace snug::geometry {
 namespace {
 /**
- * Inner nodes of equal cells, apart by a length that keeps few enough digits for sums to be exact:
- * all cells, and subdomains, then have the same K to the last bit, and subdomains share a
- * factorization. Nodes move by rounding.
+ * Positions of the inner nodes of equal cells along an axis. The distance of the nodes is rounded
+ * to so few digits that sums of distances are exact. All cells, and subdomains, then have the same
+ * K to the last bit, so that subdomains share a factorization. Nodes move only by round-off.
  */
 class EqualSteps
 {
 public:
-  /// Of an axis that is graded: no nodes.
+  /// Construct an object without nodes, for a graded axis.
   EqualSteps() = default;
 
   EqualSteps(const double corner, const double size, const unsigned int the_n) : n(the_n)
   {
-    // of the last digit that all nodes have
+    // value of the last binary digit that all node coordinates have
     const double unit =
       std::ldexp(1., std::ilogb(std::abs(corner) + size) + 1 - std::numeric_limits<double>::digits);
     first  = std::round(corner / unit) * unit;
@@ -39,7 +39,8 @@ public:
   double node(const double fraction) const { return first + nearest(fraction * n) * length; }
 
 private:
-  /// Of a cell: degree 2, or two refinements, or both once.
+  /// Parts of a cell at whose ends nodes lie. Four parts suffice for degree 2, for two refinements,
+  /// and for degree 2 with one refinement.
   static constexpr double parts = 4.;
 
   static double nearest(const double place) { return std::round(place * parts) / parts; }
@@ -47,7 +48,7 @@ private:
   double n = 0., first = 0., length = 0.;
 };
 
-/// In the order of boundaries 2d + s.
+/// Return the names of the faces in the order of boundaries 2d + s.
 template <int dim>
 std::vector<std::string> box_faces()
 {
@@ -57,9 +58,9 @@ std::vector<std::string> box_faces()
 }
 
 /**
- * A box with graded cells and curved faces. Logical coordinate xi of an
- * axis is the fraction f(xi) of its length (AxisSpacing). Each curved
- * face moves along its outward normal; the movement fades linearly with
+ * A box with graded cells and curved faces. The logical coordinate xi of an
+ * axis is mapped to the fraction f(xi) of the length of the axis (AxisSpacing). Each curved
+ * face moves along its outward normal. The displacement decreases linearly with
  * f to zero at the opposite face.
  */
 template <int dim>
@@ -75,8 +76,8 @@ public:
     set_spacing(parameters);
     for (const auto &face : parameters.curved_faces)
       add_curved_face(face.first, face.second);
-    // Formulas without a finite value are found here, on all ranks alike,
-    // unless that happens between the vertices of the coarse mesh.
+    // All ranks find here formulas that have no finite value at a vertex of the coarse mesh.
+    // Formulas without a finite value between these vertices are not found here.
     if (!curved_faces.empty())
       for (const auto &point : this->coarse_mesh().vertices)
         grid_position(point);
@@ -116,8 +117,8 @@ public:
       {
         const unsigned int axis  = face.boundary() / 2;
         const bool         upper = face.boundary() % 2 == 1;
-        // Displacements are those at the flat point, so that the order of faces does not matter,
-        // and opposite faces do not move each other.
+        // Displacements are evaluated at the flat point, so that the result does not depend on the
+        // order of faces and opposite faces do not move each other.
         const double blend = upper ? fraction[axis] : 1. - fraction[axis];
         result[axis] += (upper ? 1. : -1.) * blend * face.displacement(flat);
       }
@@ -160,7 +161,8 @@ private:
   std::array<EqualSteps, dim>  steps;
   std::vector<CurvedFace<dim>> curved_faces;
 
-  /// Faces beside it that are curved move it off its shape, opposite ones do not.
+  /// Return whether the face has a known shape. Adjacent curved faces move points of the face off
+  /// the shape, but an opposite curved face does not.
   bool is_known(const CurvedFace<dim> &face) const
   {
     return face.known() &&
@@ -175,7 +177,8 @@ private:
     const auto fine = per_axis<dim, double>("Box fine length", parameters.fine_length, 0., false);
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // the ratio of neighbours is the (n - 1)-th root of the grading
+        // The ratio of neighbouring sizes is the (n - 1)-th root of the grading, so n must
+        // exceed 1.
         if (cells[d] == 1 && grading[d] != 1.)
           throw bad_entry("Box grading", to_text(parameters.grading),
                           "must be 1 along an axis with a single cell");
@@ -198,7 +201,7 @@ private:
     flat.name     = face;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // along the normal it is not used
+        // The half size along the normal is not used.
         flat.half_size[d] = 0.5 * size[d];
         flat.centre[d]    = corner[d] + 0.5 * size[d];
       }

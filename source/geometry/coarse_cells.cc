@@ -16,7 +16,7 @@ MeshPoint<dim> CoarseCells<dim>::point(const dealii::CellId     &cell,
                                        const dealii::Point<dim> &unit) const
 {
   MeshPoint<dim> result{coarse_cell(cell), unit};
-  // from the cell up to its coarse cell: the last child of the path comes first
+  // The loop goes from the cell up to the coarse cell, beginning with the last child of the path.
   const auto path = cell.get_child_indices();
   for (unsigned int level = path.size(); level > 0; --level)
     result.unit =

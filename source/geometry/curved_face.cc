@@ -23,7 +23,7 @@ CurvedFace<dim>::CurvedFace(const FlatFace<dim> &flat, const std::string &value)
   const std::size_t              at    = value.find(" at ");
   const std::vector<std::string> word  = words(value.substr(0, at));
   const std::string              shape = word.empty() ? "" : word[0];
-  // no formula begins with these words, as muParser knows neither
+  // No formula begins with these words, because muParser knows neither word.
   if (shape != "sphere" && shape != "cylinder")
     {
       formula = std::make_unique<Formula<dim>>(curved_entry, value);
@@ -45,7 +45,7 @@ template <int dim>
 void CurvedFace<dim>::set_axis(const std::string &axis, const std::string &value)
 {
   const unsigned int index = axis_called(axis);
-  // In 2D the axis z is no coordinate, so that squared_distance() drops none.
+  // In 2D the axis z is no coordinate, so squared_distance() omits no coordinate for the axis.
   const bool tangent = dim == 2 ? index == 2 : index < 3 && index != flat.boundary / 2;
   if (!tangent)
     throw bad_entry(curved_entry, flat.name + ": " + value,
@@ -88,7 +88,8 @@ template <int dim>
 void CurvedFace<dim>::set_radius(const std::string &number, const std::string &value)
 {
   std::istringstream stream(number);
-  // the farthest corner of the face must still lie below the surface, or R^2 - r^2 < 0
+  // The radius must exceed the distance of the farthest corner from the apex, because otherwise
+  // R^2 - r^2 <= 0.
   dealii::Point<dim> farthest = flat.half_size;
   for (unsigned int d = 0; d < dim; ++d)
     farthest[d] += std::abs(apex[d] - flat.centre[d]);
@@ -102,14 +103,15 @@ void CurvedFace<dim>::set_radius(const std::string &number, const std::string &v
     }
 }
 
-/// Return whether the surface is curved along @p axis: it is no normal and no cylinder's axis.
+/// Return whether the surface is curved along @p axis, which is neither the face normal nor the
+/// axis of a cylinder.
 template <int dim>
 bool CurvedFace<dim>::is_across(const unsigned int axis) const
 {
   return axis != flat.boundary / 2 && axis != straight_axis;
 }
 
-/// r^2: without the normal of the face and the axis of a cylinder.
+/// Return r^2, without the components along the face normal and the axis of a cylinder.
 template <int dim>
 double CurvedFace<dim>::squared_distance(const dealii::Point<dim> &offset) const
 {
@@ -125,16 +127,17 @@ double CurvedFace<dim>::displacement(const dealii::Point<dim> &point) const
 {
   if (formula)
     {
-      // one displacement for all points below, so that lines across the body stay straight
+      // All points below a point of the face have the same displacement, so that lines normal to
+      // the face stay straight.
       dealii::Point<dim> on_face = point;
       on_face[flat.boundary / 2] = flat.centre[flat.boundary / 2];
       return formula->value(on_face);
     }
   const double r2 = squared_distance(dealii::Point<dim>(point - apex));
-  // |R| - sqrt(R^2 - r^2) without cancellation for r << |R|
+  // This form of |R| - sqrt(R^2 - r^2) has no cancellation for r << |R|.
   const double R      = std::abs(radius);
   const double recede = r2 / (R + std::sqrt(R * R - r2));
-  // the face touches at the apex: a convex one recedes from there
+  // The curved face touches the flat face at the apex, and a convex face recedes elsewhere.
   return radius > 0. ? -recede : recede;
 }
 
@@ -145,7 +148,7 @@ std::optional<KnownSurface<dim>> CurvedFace<dim>::known() const
     return {};
   KnownSurface<dim> result;
   result.centre = apex;
-  // R > 0: the centre is inside
+  // For R > 0 the centre is inside of the body.
   result.centre[flat.boundary / 2] -= (flat.boundary % 2 == 1 ? 1. : -1.) * radius;
   result.radius = std::abs(radius);
   result.convex = radius > 0.;

@@ -5,7 +5,7 @@
 
 namespace snug::geometry {
 namespace {
-/// Direction of "cylinder AXIS", 0 of a sphere.
+/// Return the direction of "cylinder AXIS", or 0 for a sphere.
 template <int dim>
 dealii::Tensor<1, dim> read_axis(const std::string &boundary, const std::string &value)
 {
@@ -31,7 +31,7 @@ double SurfaceSample<dim>::largest_distance(const KnownSurface<dim> &surface) co
   for (const auto &point : points)
     {
       const double distance = std::abs(surface.distance(point));
-      // also of surfaces that failed
+      // The distance from a surface of a failed fit is not finite.
       largest = std::isfinite(distance) ? std::max(largest, distance) : HUGE_VAL;
     }
   return largest;
@@ -48,7 +48,8 @@ KnownSurface<dim> SurfaceSample<dim>::faced(KnownSurface<dim> surface) const
   return surface;
 }
 
-// deal.II's inverse asserts a regular matrix in Debug and divides by zero in Release.
+// The shift is needed because the inverse of deal.II asserts a regular matrix in Debug mode and
+// divides by zero in Release mode.
 dealii::FullMatrix<double> inverse_of_squares(dealii::FullMatrix<double> A)
 {
   const double shift = 1e-14 * A.trace();
@@ -63,8 +64,9 @@ dealii::FullMatrix<double> inverse_of_squares(dealii::FullMatrix<double> A)
 template <int dim>
 KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::Tensor<1, dim> &axis)
 {
-  // Coordinates from the mean in units of the size: the normal equations, of squares of them,
-  // stay well conditioned for small surfaces far from the origin.
+  // Coordinates are relative to the mean and in units of the size. The normal equations contain
+  // squares of the coordinates and thus stay well conditioned for small surfaces far from the
+  // origin.
   const auto        &points = sample.points;
   dealii::Point<dim> mean;
   for (const auto &point : points)
@@ -72,7 +74,7 @@ KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::T
   double size = 0.;
   for (const auto &point : points)
     size = std::max(size, mean.distance(point));
-  // unknowns: the centre, of which the part along the axis is held at 0, and R^2 - |c|^2
+  // The unknowns are the centre, whose component along the axis is kept at 0, and R^2 - |c|^2.
   dealii::FullMatrix<double> A(dim + 1, dim + 1);
   dealii::Vector<double>     b(dim + 1), x(dim + 1);
   for (const auto &point : points)
@@ -90,15 +92,15 @@ KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::T
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
       A(i, j) += axis[i] * axis[j] * points.size();
-  // A x = b: the normal equations of 2 c.y + (R^2 - |c|^2) = |y|^2 over all points. Of flat
-  // boundaries A is singular, and callers reject what comes of it.
+  // A x = b are the normal equations of 2 c.y + (R^2 - |c|^2) = |y|^2 over all points. For flat
+  // boundaries A is singular, and callers reject the result.
   inverse_of_squares(A).vmult(x, b);
   KnownSurface<dim> result;
   result.kind =
     axis.norm() > 0. ? KnownSurface<dim>::Kind::cylinder : KnownSurface<dim>::Kind::sphere;
   result.axis   = axis;
   result.centre = mean;
-  // R^2 = (R^2 - |c|^2) + |c|^2
+  // The radius follows from R^2 = (R^2 - |c|^2) + |c|^2.
   double square = x(dim);
   for (unsigned int d = 0; d < dim; ++d)
     {
@@ -117,8 +119,9 @@ KnownSurface<dim> fitted_surface(const std::string        &boundary,
   const auto   axis    = read_axis<dim>(boundary, value);
   const auto   surface = fitted_round(sample, axis);
   const double largest = sample.largest_distance(surface);
-  // 1e-4: files with 5 or 6 digits pass, nodes on chords or of another face do not. A radius of
-  // 1000 distances is a plane up to that: there is no sphere to be found.
+  // With the tolerance 1e-4, files with 5 or 6 digits are accepted, but nodes on chords or of
+  // another face are rejected. A surface with a radius of 1000 distances between points is a plane
+  // within the tolerance, so no sphere can be found.
   const double allowed = 1e-4, flat = 1e3;
   const double length = sample.points.front().distance(sample.points.back());
   if (!(largest <= allowed * surface.radius && surface.radius < flat * length))

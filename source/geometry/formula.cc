@@ -9,8 +9,8 @@
 
 namespace snug::geometry {
 namespace {
-/// Keeps std::cerr silent: deal.II 9.4 prints each parser error there,
-/// on every rank, before it throws it.
+/// This class silences std::cerr, because deal.II 9.4 prints each parser error to std::cerr on
+/// every rank before throwing the error.
 class SilentErrors
 {
 public:
@@ -29,7 +29,7 @@ private:
   std::streambuf *saved;
 };
 
-/// muParser's own words within deal.II's message, in one line.
+/// Return the message of muParser within the message of deal.II, in one line.
 std::string parser_message(const dealii::ExceptionBase &error)
 {
   std::ostringstream stream;
@@ -42,8 +42,8 @@ std::string parser_message(const dealii::ExceptionBase &error)
   message = message.substr(found + mark.size());
   return message.substr(0, message.find_last_not_of(" .\n") + 1);
 }
-/// f'(0) of sixth order.
-/// Central, with the weights (45, -9, 1) / 60 h (B. Fornberg, Math. Comp. 51, 1988).
+/// Return f'(0) by central differences of sixth order,
+/// with the weights (45, -9, 1) / 60 h (B. Fornberg, Math. Comp. 51, 1988).
 template <typename Function>
 double difference(const Function &f, const double h)
 {
@@ -54,8 +54,8 @@ double difference(const Function &f, const double h)
   return sum / (60. * h);
 }
 
-/// f''(0) of sixth order.
-/// Central, with the weights (-490; 270, -27, 2) / 180 h^2 (ibid.).
+/// Return f''(0) by central differences of sixth order,
+/// with the weights (-490; 270, -27, 2) / 180 h^2 (ibid.).
 template <typename Function>
 double second_difference(const Function &f, const double h)
 {
@@ -76,7 +76,7 @@ Formula<dim>::Formula(const std::string &entry, const std::string &text)
     {
       const SilentErrors guard;
       parser->initialize(variables, text, {});
-      // muParser finds unknown names only when it evaluates
+      // The formula is evaluated once, because muParser finds unknown names only on evaluation.
       parser->value(dealii::Point<dim>());
     }
   catch (const dealii::ExceptionBase &error)
@@ -86,7 +86,7 @@ Formula<dim>::Formula(const std::string &entry, const std::string &text)
     }
 }
 
-// here, where dealii::FunctionParser is complete
+// The destructor is defined in this file, because dealii::FunctionParser is complete only here.
 template <int dim>
 Formula<dim>::~Formula() = default;
 
@@ -97,8 +97,8 @@ template <int dim>
 double Formula<dim>::value(const dealii::Point<dim> &point) const
 {
   const double value = parser->value(point);
-  // 1/0 or sqrt(-1): muParser returns inf or nan without an error. Beyond 1e60, what is computed
-  // from it overflows.
+  // For 1/0 or sqrt(-1), muParser returns inf or nan without an error. Values beyond 1e60 would
+  // overflow in later computations.
   if (!(std::abs(value) <= 1e60))
     {
       std::ostringstream where;
@@ -138,7 +138,7 @@ dealii::Tensor<2, dim> Formula<dim>::hessian(const dealii::Point<dim> &point,
       };
       result[i][i] = second_difference(along, step);
       for (unsigned int j = 0; j < i; ++j)
-        // a difference of differences: 36 values
+        // The mixed derivative is a difference of differences and takes 36 values.
         result[i][j] = result[j][i] = difference(
           [&](const double s) {
             return difference(

@@ -8,12 +8,12 @@ GridGeometry<dim>::GridGeometry(const Counts                   &cells,
   : cells(cells), names(names), closed(closed)
 {}
 
-/// The last axis is the slowest: if it is closed, numbers just end one layer earlier.
+/// The last axis is the slowest. If the last axis is closed, the numbers end one layer earlier.
 template <int dim>
 unsigned int GridGeometry<dim>::vertex(Counts place) const
 {
   if (closed)
-    // behind the last layer comes the first
+    // The first layer follows the last layer.
     place[dim - 1] %= cells[dim - 1];
   unsigned int index = 0;
   for (int d = dim - 1; d >= 0; --d)
@@ -34,8 +34,8 @@ typename BodyGeometry<dim>::CoarseMesh GridGeometry<dim>::coarse_mesh() const
       dealii::Point<dim> logical;
       for (unsigned int d = 0; d < dim; ++d)
         logical[d] = static_cast<double>(place[d]) / cells[d];
-      // Logical points tell cells apart, but the last layer of a closed axis would reach back over
-      // all others, inverted.
+      // Logical points suffice to identify cells. With a closed axis, however, the last layer of
+      // cells would be inverted and would overlap all other layers in logical coordinates.
       mesh.vertices.push_back(closed ? grid_position(logical) : logical);
     }
   for (unsigned int c = 0; c < n_coarse_cells(); ++c)
@@ -50,7 +50,7 @@ typename BodyGeometry<dim>::CoarseMesh GridGeometry<dim>::coarse_mesh() const
           cell[v] = vertex(place);
         }
       mesh.cells.push_back(cell);
-      // a closed axis, being the last, has no sides and no names
+      // A closed axis is the last axis and has no sides and no names.
       for (unsigned int f = 0; f < names.size(); ++f)
         if (index[f / 2] == (f % 2 == 1 ? cells[f / 2] - 1 : 0))
           mesh.boundary_faces.emplace_back(face_of<dim>(cell, f), f);

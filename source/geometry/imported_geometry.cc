@@ -7,7 +7,8 @@ namespace snug::geometry {
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_imported(const BodyMeshParameters &parameters)
 {
-  // Files are read by the scene, which knows their directory and the lines of the entries.
+  // The scene reads the files, because only the scene knows the directory of the files and the
+  // lines of the entries.
   if (!parameters.imported)
     throw bad_entry("Mesh file", parameters.file, "must be read before a mesh is made of it");
   if constexpr (dim == 2)

@@ -38,10 +38,10 @@ typename KnownSurface<dim>::Vector KnownSurface<dim>::normal(const Point &x) con
 {
   Vector       n      = lever(x);
   const double length = n.norm();
-  // At the apex of a cone, and in the middle of others, no direction is closest.
+  // At the apex of a cone, and in the middle of other surfaces, the closest point is not unique.
   if (length > 0.)
     n /= length;
-  // At right angles to the line of the cone, cos(angle) axis + sin(angle) n.
+  // The normal is orthogonal to the line of the cone, cos(angle) axis + sin(angle) n.
   if (kind == Kind::cone)
     n = std::cos(angle) * n - std::sin(angle) * axis;
   return convex ? n : -n;

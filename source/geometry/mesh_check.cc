@@ -7,7 +7,8 @@
 
 namespace snug::geometry {
 namespace {
-/// Every rank holds all coarse cells.
+/// Check that the number of coarse cells is not too large, because every rank holds all coarse
+/// cells.
 void require_coarse(const SectionCheck &section,
                     const double        cells,
                     const std::string  &entry,
@@ -33,7 +34,7 @@ void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, con
   const bool file = mesh.source == Source::file;
   require_coarse(section, cells, file ? "Mesh file" : "Cells",
                  file ? mesh.file : to_text(mesh.round_cells));
-  // p4est numbers at most 2^31 nodes.
+  // p4est can number at most 2^31 nodes.
   section.require(mesh.refinements < 30 &&
                     cells * std::pow(2., section.dimension * mesh.refinements) <= 1e9,
                   "Refinements", to_text(mesh.refinements), "must give at most 1e9 cells");
@@ -51,9 +52,10 @@ void check_radius(const SectionCheck &section, const BodyMeshParameters &mesh, c
   section.require(least >= 0., "Mesh", to_text(mesh.source), allowed);
 }
 
-/// The least x, the radius, of the vertices, or of two in each cell, which are
-/// most; 0 if only round-off is below. @throws InputError where a formula is
-/// not finite. What lies between vertices is checked once there is a mesh.
+/// Return the minimum x, the radius, over all vertices of the coarse cells (@p all), or over two
+/// vertices of each cell, which include most vertices. Return 0 if the minimum is negative only by
+/// round-off. @throws InputError if a formula is not finite. Points between vertices are checked
+/// when the mesh is made.
 template <int dim>
 double least_radius(const BodyGeometry<dim> &geometry, const bool all)
 {

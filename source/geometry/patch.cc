@@ -8,7 +8,8 @@ template <int dim>
 dealii::Point<dim> Guides<dim>::onto(dealii::Point<dim> x) const
 {
   using Vector = dealii::Tensor<1, dim>;
-  // Surfaces at a smaller angle (6 degrees) leave where they meet to their last digits.
+  // For surfaces at an angle below 6 degrees, the last digits of the surfaces would determine their
+  // intersection.
   const double touching = 0.1;
   for (unsigned int turn = 0; turn < 30; ++turn)
     {
@@ -24,7 +25,7 @@ dealii::Point<dim> Guides<dim>::onto(dealii::Point<dim> x) const
       for (const auto &n : planes)
         add(n);
       const std::size_t n_planes = directions.size();
-      // In the basis of the directions, the normals are a triangular matrix.
+      // In the basis of the directions, the matrix of the normals is triangular.
       Vector step;
       double largest = 0.;
       for (const auto &surface : surfaces)
@@ -37,7 +38,8 @@ dealii::Point<dim> Guides<dim>::onto(dealii::Point<dim> x) const
           step -= d / (n * directions.back()) * directions.back();
         }
       x += step;
-      // One step onto a single surface is exact; after a step of 1e-8 so are others.
+      // One step onto a single surface is exact. With several surfaces or planes, the point is
+      // exact up to round-off after a step of relative size 1e-8.
       if ((surfaces.size() == 1 && n_planes == 0) || largest < 1e-8)
         break;
     }
@@ -89,7 +91,7 @@ FacetPatch::blended(const dealii::Point<2>                            &at,
   for (unsigned int i = 0; i < 3; ++i)
     {
       const double a = lambda[i], b = lambda[(i + 1) % 3], rest = 0.5 * lambda[(i + 2) % 3];
-      // 0 / 0 at the ends, where the offset is 0 as well
+      // The ends would give 0 / 0 and are skipped, because the offset is 0 at the ends.
       if (a > 0. && b > 0.)
         result += a * b / ((a + rest) * (b + rest)) * offsets(i, b + rest);
     }
@@ -105,7 +107,7 @@ FacetPatch::Point FacetPatch::position(const dealii::Point<2> &at) const
   x += blended(at, [&](const unsigned int side, const double t) { return offset(side, t); });
   if (surface)
     {
-      // Curves that do not lie on the surface stay where they are.
+      // The blended term keeps the positions of curves that do not lie on the surface.
       const Point on = surface->project(x) + blended(at, [&](const unsigned int e, const double t) {
                          const Point own = on_chord(e, t) + offset(e, t);
                          return own - surface->project(own);

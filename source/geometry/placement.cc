@@ -10,9 +10,9 @@ namespace snug::geometry {
 namespace {
 const std::string rotate_entry = "Rotate";
 
-/// Rotation by @p degrees about an axis; exact for multiples of 90.
-/// Counterclockwise when the axis points to the viewer. With the round-off of cos 90, faces
-/// would not quite lie in the planes of axes, nor an axis of revolution at x = 0.
+/// Return the rotation by @p degrees about an axis, counterclockwise if the axis points to the
+/// viewer. Multiples of 90 degrees are exact, because with the round-off of cos 90 faces would not
+/// lie exactly in coordinate planes, and an axis of revolution would not lie exactly at x = 0.
 dealii::Tensor<2, 3> rotation(unsigned int axis, double degrees)
 {
   const double         turn  = std::remainder(degrees, 360.);
@@ -47,10 +47,10 @@ dealii::Tensor<2, dim> rotation(const BodyMeshParameters &parameters)
                         dim == 2 ? "must be 'z: degrees'"
                                  : "must be 'axis: degrees, ...', axes "
                                    "x, y, z");
-      // rotations act in the order in which they are written
+      // Rotations are applied in the order in which they are written.
       whole = rotation(axis, degrees) * whole;
     }
-  // in 2D only turns about z occur, which leave x and y to themselves
+  // In 2D all rotations are about z, so the block of x and y is the complete rotation.
   dealii::Tensor<2, dim> result;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
@@ -58,7 +58,7 @@ dealii::Tensor<2, dim> rotation(const BodyMeshParameters &parameters)
   return result;
 }
 
-/// x' = Q s (x + w(x)) + t of a body's positions; logical coordinates stay.
+/// A geometry with positions x' = Q s (x + w(x)) + t. Logical coordinates are not changed.
 template <int dim>
 class PlacedGeometry : public WrappedGeometry<dim>
 {
@@ -68,7 +68,7 @@ public:
   PlacedGeometry(std::unique_ptr<BodyGeometry<dim>> body, const BodyMeshParameters &parameters)
     : WrappedGeometry<dim>(std::move(body)), scale(parameters.scale)
   {
-    // a negative scale would mirror the body and invert its cells
+    // A negative scale would mirror the body and invert the cells.
     if (!(std::isfinite(scale) && scale > 0.))
       throw bad_entry("Scale", to_text(scale), "must be positive");
     const auto shifts = per_axis<dim, double>("Shift", parameters.shift, 0., false);
@@ -87,7 +87,7 @@ public:
     return place(this->body->position(point));
   }
 
-  // A warp leaves no shape as it was.
+  // A warp changes all shapes, so a warped body has no known surfaces, see known_surface().
   std::vector<KnownSurface<dim>> known_surfaces() const override
   {
     std::vector<KnownSurface<dim>> result;
@@ -107,7 +107,7 @@ public:
     return {(warp.empty() ? "" : "warped ") + shape.name, scale * shape.facet_height};
   }
 
-  // Interiors follow faces by lengths in the frame, so it is placed like the body.
+  // The frame is placed like the body, because interiors of shapes use lengths in the frame.
   Point box_position(const Point &fraction) const override
   {
     return place(this->body->box_position(fraction));
@@ -121,7 +121,7 @@ private:
 
   Point place(const Point &position) const
   {
-    // all formulas see the position before the warp
+    // All formulas are evaluated at the position before the warp.
     Point warped = position;
     for (unsigned int d = 0; d < warp.size(); ++d)
       warped[d] += warp[d].value(position);

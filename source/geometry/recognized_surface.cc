@@ -12,13 +12,13 @@ using Kind   = typename KnownSurface<dim>::Kind;
 using Vector = dealii::Tensor<1, 3>;
 using Point  = dealii::Point<3>;
 
-/// The vector with the least x'Ax, of length 1: inverse iteration.
+/// Return the vector of length 1 with the minimum x'Ax, found by inverse iteration.
 dealii::Vector<double> smallest_eigenvector(const dealii::FullMatrix<double> &A)
 {
   const unsigned int     n = A.m();
   dealii::Vector<double> x(n), next(n);
   for (unsigned int i = 0; i < n; ++i)
-    x(i) = 1. + 0.3 * i; // in no symmetry plane of likely parts
+    x(i) = 1. + 0.3 * i; // lies in no symmetry plane of common parts
   const auto inverse = inverse_of_squares(A);
   for (unsigned int turn = 0; turn < 30; ++turn)
     {
@@ -42,7 +42,8 @@ dealii::FullMatrix<double> sum_of_squares(const std::vector<dealii::Vector<doubl
   return A;
 }
 
-/// The direction of which all normals have the same part, about the one @p mean has.
+/// Return the direction along which the components of all normals are nearly equal to the
+/// component of @p mean.
 Vector common_direction(const std::vector<Vector> &normals, const Vector &mean)
 {
   std::vector<dealii::Vector<double>> rows;
@@ -71,7 +72,7 @@ KnownSurface<3> start_cylinder(const SurfaceSample<3> &sample)
   return fitted_round(sample, common_direction(sample.normals, Vector()));
 }
 
-/// Tangent planes meet at the apex.
+/// Return the start of the fit of a cone. The tangent planes of a cone meet at the apex.
 KnownSurface<3> start_cone(const SurfaceSample<3> &sample)
 {
   KnownSurface<3> cone;
@@ -100,9 +101,10 @@ KnownSurface<3> start_cone(const SurfaceSample<3> &sample)
   return cone;
 }
 
-/// All normals of a surface of revolution meet its axis: n.m + (x x n).a = 0 of the axis'
-/// direction a and moment m (Pottmann, Wallner, Computational Line Geometry, 2001). The points
-/// turned into a plane through it lie on a circle.
+/// Return the start of the fit of a torus. The normals of a surface of revolution meet its axis:
+/// n.m + (x x n).a = 0 with the direction a and the moment m of the axis (Pottmann, Wallner,
+/// Computational Line Geometry, 2001). Points rotated into a plane through the axis lie on a
+/// circle.
 KnownSurface<3> start_torus(const SurfaceSample<3> &sample)
 {
   const Point                         mean = mean_of(sample.points);
@@ -137,7 +139,7 @@ KnownSurface<3> start_torus(const SurfaceSample<3> &sample)
   return torus;
 }
 
-/// @p surface with its numbers moved by @p step: centre, axis, radius, tube, angle.
+/// Return @p surface with centre, axis, radius, tube and angle moved by @p step, in this order.
 template <int dim>
 KnownSurface<dim> moved(KnownSurface<dim> surface, const dealii::Vector<double> &step)
 {
@@ -154,7 +156,8 @@ KnownSurface<dim> moved(KnownSurface<dim> surface, const dealii::Vector<double> 
   return surface;
 }
 
-/// Least squares of the distances, by Gauss and Newton; numbers that do not matter stay.
+/// Return the least-squares fit of the distances by the Gauss-Newton method, started at @p surface.
+/// Parameters that have no influence on the distances are not changed.
 template <int dim>
 KnownSurface<dim> polished(const SurfaceSample<dim> &sample, KnownSurface<dim> surface)
 {
@@ -162,13 +165,13 @@ KnownSurface<dim> polished(const SurfaceSample<dim> &sample, KnownSurface<dim> s
   const double       size = surface.kind == Kind<dim>::cone
                               ? surface.centre.distance(sample.points.front())
                               : surface.radius + surface.tube;
-  // none from a start that failed
+  // A failed start has no finite distances, and no step is made.
   for (unsigned int turn = 0; turn < 20 && std::isfinite(sample.largest_distance(surface)); ++turn)
     {
       dealii::FullMatrix<double> J(sample.points.size(), n);
       dealii::Vector<double>     step(n), b(n);
       std::vector<double>        unit(n, size);
-      // radians of the axis and the angle
+      // The units of the axis and the angle are radians.
       std::fill_n(unit.begin() + dim, dim, 1.);
       unit[n - 1] = 1.;
       for (unsigned int j = 0; j < n; ++j)
@@ -199,7 +202,7 @@ KnownSurface<dim> polished(const SurfaceSample<dim> &sample, KnownSurface<dim> s
   return surface;
 }
 
-/// Every n-th point, for the first steps.
+/// Return every n-th point and normal, for the first steps of the fit.
 template <int dim>
 SurfaceSample<dim> thinned(const SurfaceSample<dim> &sample)
 {

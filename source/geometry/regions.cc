@@ -7,7 +7,8 @@ namespace snug::geometry {
 namespace {
 const std::string formulas_entry = "Region formulas";
 
-/// Formulas may add cells to a region of the mesh file or make new regions.
+/// A geometry with regions by formulas. A formula adds cells to a region of the mesh file or makes
+/// a further region.
 template <int dim>
 class GeometryWithRegions : public WrappedGeometry<dim>
 {
@@ -32,7 +33,7 @@ public:
 
   unsigned int region(unsigned int coarse_cell) const override
   {
-    // Of coarse cells, so that refinement does not change the materials.
+    // Formulas are evaluated at coarse cells, so that refinement does not change the materials.
     const auto position = this->position({coarse_cell, unit_centre<dim>()});
     for (const auto &[index, formula] : formulas)
       if (formula.value(position) > 0.)
@@ -55,7 +56,7 @@ std::unique_ptr<BodyGeometry<dim>> with_regions(std::unique_ptr<BodyGeometry<dim
   return std::make_unique<GeometryWithRegions<dim>>(std::move(geometry), parameters);
 }
 
-/// On the coarse mesh, so that a region without cells is found before anything is refined.
+/// Coarse cells are counted, so that a region without cells is found before refinement.
 template <int dim>
 std::vector<unsigned long> cells_of_regions(const BodyGeometry<dim> &geometry)
 {

@@ -7,8 +7,9 @@
 
 namespace snug::geometry {
 namespace {
-/// From the order of the entry (around, across, along) to that of the axes. Two cells around a
-/// full ring would be flat: all their vertices lie on one line.
+/// Return the numbers of cells in the order of the axes, from the order of the entry (around,
+/// across, along). Two cells around a full ring would be flat, because all vertices of a cell would
+/// lie on one line.
 template <int dim>
 std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
 {
@@ -23,7 +24,7 @@ std::array<unsigned int, dim> ring_cells(const BodyMeshParameters &parameters)
   return cells;
 }
 
-/// In the order of boundaries 2d + s.
+/// Return the names of the faces in the order of boundaries 2d + s.
 template <int dim>
 std::vector<std::string> ring_faces(const Part part)
 {
@@ -37,8 +38,8 @@ std::vector<std::string> ring_faces(const Part part)
 }
 
 /**
- * Logical axes: 2D radius, angle; 3D height, radius, angle. The angle,
- * last, is closed in a full ring, which has no frame then.
+ * A ring or hollow cylinder. The logical axes are radius, angle in 2D and height, radius, angle in
+ * 3D. The axis of the angle, the last axis, is closed in a full ring, which has no frame.
  */
 template <int dim>
 class RingGeometry : public GridGeometry<dim>
@@ -53,7 +54,7 @@ public:
     , length(parameters.length)
     , angle(2. * dealii::numbers::PI / n_of_part(parameters, 4))
   {
-    // the checks come after the initialization, which takes any numbers
+    // The initialization accepts any numbers, so the numbers are checked afterwards.
     require_radii(parameters);
     if (dim == 3)
       require_positive("Length", length);
@@ -62,10 +63,10 @@ public:
   dealii::Tensor<1, dim> extent() const override
   {
     dealii::Tensor<1, dim> result;
-    // 3D; in 2D axis 0 is the radius, set next
+    // This is the height in 3D. In 2D axis 0 is the radius, which the next line sets.
     result[0]       = length;
     result[dim - 2] = outer - inner;
-    // the arc halfway between the circles
+    // The length along the angle is the arc halfway between the circles.
     result[dim - 1] = angle * (inner + outer) / 2.;
     return result;
   }
@@ -77,7 +78,7 @@ public:
 
   dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const override
   {
-    // axes in this order make right-handed cells: (r, phi) in 2D, (z, r, phi) in 3D
+    // The axes (r, phi) in 2D and (z, r, phi) in 3D, in this order, give right-handed cells.
     const double       r   = inner + (outer - inner) * fraction[dim - 2];
     const double       phi = angle * fraction[dim - 1];
     dealii::Point<dim> position;

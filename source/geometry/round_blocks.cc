@@ -21,7 +21,7 @@ void set_boundary(BlockMesh<dim> &mesh,
   mesh.boundaries[sorted(face_of<dim>(mesh.blocks[block], face))] = boundary;
 }
 
-/// Boundary of the faces in the planes x_d = 0: @p first + d.
+/// Set the boundary of the faces in the planes x_d = 0 to @p first + d.
 template <int dim>
 void set_cut_planes(BlockMesh<dim> &mesh, unsigned int first)
 {
@@ -36,18 +36,19 @@ void set_cut_planes(BlockMesh<dim> &mesh, unsigned int first)
         }
 }
 
-/// Blocks between the origin and the unit sphere where all coordinates
-/// are positive. The inner block ends at the distances @p reach from the
-/// origin along an axis, a diagonal of two and one of three axes.
+/// Add the blocks between the origin and the unit sphere in the part with positive coordinates.
+/// The inner block ends at the distances @p reach from the
+/// origin along an axis, a diagonal of two axes and a diagonal of three axes.
 ///
-/// A square or cube would reach 1 : 1.41 : 1.73, a ball 1 : 1 : 1. In between, the
-/// corner of the inner block is obtuse, as those of the outer blocks beside it need room as well.
+/// A square or cube has the ratios 1 : 1.41 : 1.73, a ball has 1 : 1 : 1. With ratios between these
+/// values, the corner of the inner block is obtuse and leaves angles for the corners of the
+/// adjacent outer blocks.
 template <int dim>
 void add_solid_blocks(BlockMesh<dim> &mesh, const std::array<double, 3> &reach)
 {
   const unsigned int n = 1u << dim;
-  // vertex v of the inner block has the coordinates in its bits; outer
-  // ones follow
+  // The bits of vertex v of the inner block are its coordinates. The outer vertices follow the
+  // inner vertices.
   mesh.vertices.resize(2 * n - 1);
   for (unsigned int v = 1; v < n; ++v)
     {
@@ -59,7 +60,7 @@ void add_solid_blocks(BlockMesh<dim> &mesh, const std::array<double, 3> &reach)
             direction[d] = 1.;
             ++n_axes;
           }
-      // coordinates that are 0 stay exactly 0, as mirror() and set_cut_planes() need
+      // Zero coordinates stay exactly 0, as mirror() and set_cut_planes() require.
       direction /= direction.norm();
       mesh.vertices[v]         = reach[n_axes - 1] * direction;
       mesh.vertices[n - 1 + v] = direction;
@@ -70,7 +71,7 @@ void add_solid_blocks(BlockMesh<dim> &mesh, const std::array<double, 3> &reach)
   mesh.blocks.push_back(inner);
   for (unsigned int d = 0; d < dim; ++d)
     {
-      // the face x_d = 1 of the inner block, pushed outwards
+      // The outer block extends from the face x_d = 1 of the inner block to the sphere.
       std::vector<unsigned int> block(n);
       for (unsigned int v = 0; v < n; ++v)
         {
@@ -83,7 +84,7 @@ void add_solid_blocks(BlockMesh<dim> &mesh, const std::array<double, 3> &reach)
     set_boundary(mesh, d + 1, 2 * d + 1, 0);
 }
 
-/// Scale from the unit sphere; there is one region.
+/// Scale the mesh of the unit sphere by @p radius, and set the single region.
 template <int dim>
 void finish(BlockMesh<dim> &mesh, double radius)
 {
@@ -93,7 +94,7 @@ void finish(BlockMesh<dim> &mesh, double radius)
   mesh.region_names = {"body"};
 }
 
-/// The boundary 0, outer, of all of these bodies.
+/// Set the known surface of boundary 0, which is outer in all of these bodies.
 template <int dim>
 void set_outer(BlockMesh<dim> &mesh, const double radius)
 {
@@ -107,14 +108,14 @@ BlockMesh<2> disc_mesh(const BodyMeshParameters &parameters, unsigned int n_cell
   require_positive("Radius", parameters.radius);
   const unsigned int parts = n_of_part(parameters, 4);
   BlockMesh<2>       mesh;
-  // the cut at x = 0, then that at y = 0, as set_cut_planes() numbers them
+  // The names are in the order of set_cut_planes(): the cut at x = 0, then the cut at y = 0.
   mesh.boundary_names = {"outer", "left", "bottom"};
   mesh.surfaces[0]    = std::make_shared<dealii::SphericalManifold<2>>();
   mesh.cells.fill(n_cells);
   add_solid_blocks(mesh, {{0.5, 0.6, 0.}});
   set_cut_planes(mesh, 1);
   finish(mesh, parameters.radius);
-  // a quarter is mirrored to x < 0, the half to y < 0
+  // The quarter is mirrored to x < 0, and the resulting half is mirrored to y < 0.
   if (parts <= 2)
     mirror(mesh, 0, "left");
   if (parts == 1)
@@ -125,7 +126,7 @@ BlockMesh<2> disc_mesh(const BodyMeshParameters &parameters, unsigned int n_cell
   return mesh;
 }
 
-/// The disc of @p flat between z = 0 and z = @p length.
+/// Return the disc of @p flat, extruded from z = 0 to z = @p length.
 BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_cells)
 {
   BlockMesh<3>       mesh;
@@ -134,7 +135,7 @@ BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_ce
     for (const auto &vertex : flat.vertices)
       mesh.vertices.emplace_back(vertex[0], vertex[1], z);
   mesh.boundary_names = flat.boundary_names;
-  // in 3D, bottom is the side z = 0
+  // The cut at y = 0 is called front, because bottom is the side z = 0 in 3D.
   std::replace(mesh.boundary_names.begin(), mesh.boundary_names.end(), std::string("bottom"),
                std::string("front"));
   const unsigned int bottom = mesh.boundary_names.size();
@@ -148,10 +149,10 @@ BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_ce
       set_boundary(mesh, mesh.blocks.size() - 1, 5, bottom + 1);
     }
   for (const auto &edge : flat.boundaries)
-    // ascending, as keys are: upper vertices have larger numbers
+    // The key is ascending as required, because upper vertices have larger numbers.
     mesh.boundaries[{edge.first[0], edge.first[1], edge.first[0] + n, edge.first[1] + n}] =
       edge.second;
-  // outer is boundary 0, as every part of a disc has it; the axis is z
+  // Boundary 0 is outer, because every part of a disc has this boundary. The axis is z.
   mesh.surfaces[0] = std::make_shared<dealii::CylindricalManifold<3>>(2);
   mesh.cells       = {{flat.cells[0], flat.cells[1], n_cells}};
   finish(mesh, 1.);
@@ -163,7 +164,8 @@ BlockMesh<3> extruded(const BlockMesh<2> &flat, double length, unsigned int n_ce
   return mesh;
 }
 
-/// Full bodies are mirrored three times, halves at x and y = 0, quarters at x = 0.
+/// Mirror an octant to the wanted part. Full bodies are mirrored three times, halves at x = 0 and
+/// y = 0, quarters at x = 0.
 void mirror_octant(BlockMesh<3> &mesh, unsigned int parts)
 {
   const std::array<std::string, 3> cut = {{"left", "front", "bottom"}};
@@ -200,15 +202,17 @@ BlockMesh<3> shell_mesh(const BodyMeshParameters &parameters)
   mesh.inside         = std::make_shared<dealii::SphericalManifold<3>>();
   mesh.surfaces[0] = mesh.surfaces[1] = mesh.inside;
   mesh.cells                          = {{cells[0], cells[0], cells[1]}};
-  // the outer blocks of a solid with an inner sphere
+  // The blocks of the shell are the outer blocks of a solid whose inner block is bounded by a
+  // sphere.
   const double ratio = parameters.inner_radius / parameters.radius;
   add_solid_blocks(mesh, {{ratio, ratio, ratio}});
-  // without the inner block; numbers of the others change, and so do their boundaries
+  // The inner block is removed, which changes the numbers of the other blocks. The loop sets the
+  // boundaries of these blocks with their radial axis as the last axis.
   mesh.boundaries.clear();
   mesh.blocks.erase(mesh.blocks.begin());
   for (unsigned int d = 0; d < 3; ++d)
     {
-      // axes of the block: two along the sphere, then outwards
+      // The first two axes of the block are tangential to the sphere, the last axis is radial.
       auto      &block = mesh.blocks[d];
       const auto old   = block;
       for (unsigned int v = 0; v < 8; ++v)
@@ -224,7 +228,7 @@ BlockMesh<3> shell_mesh(const BodyMeshParameters &parameters)
   inner.radius = parameters.inner_radius;
   inner.convex = false;
   set_known(mesh, 1, inner);
-  // the axis across must stay the last, since it has its own number of cells
+  // The radial axis must stay the last axis, because it has its own number of cells.
   order_layer_consistently(mesh);
   return mesh;
 }

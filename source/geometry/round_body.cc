@@ -5,7 +5,7 @@ namespace snug::geometry {
 std::vector<unsigned int> round_cells(const BodyMeshParameters &parameters, unsigned int n)
 {
   const auto &given = parameters.round_cells;
-  // 4 cells each are the default of the entry Cells
+  // The default of the entry Cells is 4 cells each.
   if (given.empty())
     return std::vector<unsigned int>(n, 4);
   if (given.size() != n || std::count(given.begin(), given.end(), 0u) > 0)

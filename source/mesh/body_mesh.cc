@@ -19,7 +19,7 @@
 #include <numeric>
 
 namespace snug::mesh {
-/// What deal.II knows of the cells and nodes, while the mesh is made of it.
+/// The deal.II objects from which the mesh is made. They are destroyed when the mesh is complete.
 template <int dim>
 struct BodyMesh<dim>::Source
 {
@@ -30,16 +30,16 @@ struct BodyMesh<dim>::Source
     , order(dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree))
   {}
 
-  // Destroyed from the bottom up: the nodes must go before the triangulation and the element.
+  // Members are destroyed in reverse order: the nodes before the triangulation and the element.
   dealii::FE_Q<dim>                                      fe;
   dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
   dealii::DoFHandler<dim>                                nodes;
   std::vector<unsigned int>                              parts; ///< of the owned cells
-  /// deal.II numbers nodes at vertices, on lines, faces and inside; ours are in tensor-product
-  /// order
+  /// Permutation from tensor-product order to the order of deal.II, which numbers nodes at
+  /// vertices, on lines, on faces and inside.
   std::vector<unsigned int> order;
 
-  /// Nodes of a cell by their places in the set of local ones.
+  /// Return the nodes of a cell as positions in the set of local nodes.
   std::vector<unsigned int>
   nodes_of(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
            const dealii::IndexSet                                       &relevant) const
@@ -53,7 +53,7 @@ struct BodyMesh<dim>::Source
   }
 };
 
-/// p4est only refines; its cells then go to the ranks part by part. Collective.
+/// p4est only refines the mesh. The cells are then distributed to the ranks by parts. Collective.
 template <int dim>
 void BodyMesh<dim>::triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
                                 const TearingParameters                         &tearing,
@@ -76,7 +76,7 @@ void BodyMesh<dim>::triangulate(const std::vector<geometry::BodyMeshParameters> 
   n_cells = source.triangulation.n_global_active_cells();
 }
 
-/// Every rank owns a range of global nodes, the ranges ascending with the rank. Collective.
+/// Every rank owns a range of global nodes. The ranges ascend with the rank. Collective.
 template <int dim>
 void BodyMesh<dim>::number_nodes(Source &source)
 {
@@ -91,8 +91,8 @@ void BodyMesh<dim>::number_nodes(Source &source)
     first_node_of_rank.push_back(first_node_of_rank.back() + n);
 }
 
-/// Positions come from the geometry, so that no rank has to send any. Also nodes of ghost cells
-/// have them. Where cells differ by round-off, the first one that has the node decides.
+/// Positions are evaluated from the geometry at all nodes, including nodes of ghost cells, so that
+/// ranks send no positions. If cells differ by round-off, the first cell with the node decides.
 template <int dim>
 void BodyMesh<dim>::collect_nodes(const Source &source)
 {
@@ -109,7 +109,7 @@ void BodyMesh<dim>::collect_nodes(const Source &source)
         for (unsigned int i = 0; i < indices.size(); ++i)
           {
             const unsigned int node = local_node(indices[i]);
-            // nodes are scalar unknowns of FE_Q; bodies share none, so each has one body
+            // Bodies share no nodes, so each node belongs to one body.
             if (done[node])
               continue;
             const auto point = places.point(cell->id(), source.fe.unit_support_point(i));
@@ -121,14 +121,14 @@ void BodyMesh<dim>::collect_nodes(const Source &source)
       }
 }
 
-/// Masters of masters are resolved by close(). Collective.
+/// The function close() resolves masters of masters. Collective.
 template <int dim>
 void BodyMesh<dim>::collect_hanging(const Source &source)
 {
   auto constraints = deal_ii_compat::constraints(source.nodes.locally_owned_dofs(), relevant);
   dealii::DoFTools::make_hanging_node_constraints(source.nodes, constraints);
   constraints.close();
-  // above all indices, as is_hanging() expects
+  // is_hanging() requires that the value of other nodes exceeds all indices.
   hanging_of_node.assign(relevant.n_elements(), static_cast<unsigned int>(-1));
   unsigned long owned_hanging = 0;
   for (unsigned int node = 0; node < relevant.n_elements(); ++node)
@@ -136,9 +136,9 @@ void BodyMesh<dim>::collect_hanging(const Source &source)
       const unsigned int global = relevant.nth_index_in_set(node);
       if (!constraints.is_constrained(global))
         continue;
-      // each by its owner only, for the sum over ranks
+      // Only the owner counts a node, so that the sum over ranks counts each node once.
       owned_hanging += source.nodes.locally_owned_dofs().is_element(global);
-      // weights are values of the shape functions of the coarse face at the node
+      // The weights are the values of the shape functions of the coarse face at the node.
       Hanging entry{node, {}};
       bool    reachable = true;
       for (const auto &master : *constraints.get_constraint_entries(global))
@@ -146,17 +146,17 @@ void BodyMesh<dim>::collect_hanging(const Source &source)
           entry.masters.emplace_back(local_node(master.first), master.second);
         else
           reachable = false;
-      // Masters out of reach belong to hanging nodes of ghost cells only.
+      // Only hanging nodes of ghost cells have masters that are not relevant on this rank.
       if (!reachable)
         continue;
-      // in ascending order, as close() leaves them
+      // The masters are in ascending order, because close() sorts the masters.
       hanging_of_node[node] = hanging_nodes.size();
       hanging_nodes.push_back(entry);
     }
   n_free_nodes = source.nodes.n_dofs() - dealii::Utilities::MPI::sum(owned_hanging, comm);
 }
 
-/// The list of parts has the order of the owned active cells, in which cells are numbered here.
+/// Cells are numbered in the order of the owned active cells, as in the list of parts.
 template <int dim>
 void BodyMesh<dim>::collect_cells(const Source &source)
 {
@@ -170,7 +170,7 @@ void BodyMesh<dim>::collect_cells(const Source &source)
         cell_ids.push_back(cell->id());
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
-            // boundary ids are indices of the body's names, see CoarseMesh
+            // Boundary ids are indices among the boundary names of the body, see CoarseMesh.
             mesh_faces.push_back(
               {body,
                cell->face(f)->boundary_id(),
@@ -183,7 +183,7 @@ void BodyMesh<dim>::collect_cells(const Source &source)
   neighbours = owned_neighbours(source.triangulation);
 }
 
-/// Nodes of ghost cells are relevant ones.
+/// All nodes of ghost cells are relevant, so nodes_of() finds a local index for each node.
 template <int dim>
 void BodyMesh<dim>::collect_interior_faces(const Source &source)
 {
@@ -205,8 +205,8 @@ void BodyMesh<dim>::collect_interior_faces(const Source &source)
     }
 }
 
-/// Faces come in the order in which collect_cells() met them. Points of shared edges are samples of
-/// both faces.
+/// The loop visits faces in the same order as collect_cells(). A point of an edge shared by two
+/// faces is a separate sample of each face.
 template <int dim>
 void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParameters> &bodies,
                                     const Source                                    &source)
@@ -253,7 +253,7 @@ void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParamete
       node_body[sample] = sampled.body;
 }
 
-/// Do the samples lie where the nodes interpolate them?
+/// Return whether the samples of a face coincide with the interpolation of the face nodes.
 template <int dim>
 bool BodyMesh<dim>::is_flat(const Face &face) const
 {
@@ -263,14 +263,14 @@ bool BodyMesh<dim>::is_flat(const Face &face) const
       auto offset = reference[face.samples[k]];
       for (unsigned int a = 0; a < face.nodes.size(); ++a)
         offset -= sample_weights[k][a] * reference[face.nodes[a]];
-      // Rounding, also of faces far from the origin.
+      // The tolerance allows for round-off, also for faces far from the origin.
       if (offset.norm() > 1e-10 * size)
         return false;
     }
   return true;
 }
 
-/// Supports and checks ask for x == 0 exactly, but a ring has r cos(pi / 2) = 6e-17 r there.
+/// Supports and checks require x == 0 exactly on the axis, but a ring has r cos(pi / 2) = 6e-17 r.
 template <int dim>
 void BodyMesh<dim>::snap_to_axis()
 {
@@ -295,20 +295,21 @@ BodyMesh<dim>::BodyMesh(MPI_Comm                                         communi
   Source source(communicator, degree);
   triangulate(bodies, tearing, source);
   number_nodes(source);
-  // A formula may fail at a position that only one rank has.
+  // everywhere() is needed because a formula may fail at a position that only one rank has.
   everywhere(communicator, [&]() { collect_nodes(source); });
   collect_hanging(source);
   collect_cells(source);
   collect_interior_faces(source);
-  // Curved faces put hanging nodes off the polynomials of their masters, but the displacement
-  // there is interpolated, and so must the position be, or rigid motions would strain.
+  // On curved faces, positions of hanging nodes from the geometry differ from the interpolation of
+  // the masters. The displacement at hanging nodes is interpolated, so the position must be
+  // interpolated as well. Otherwise rigid motions would cause strains.
   interpolate_hanging(reference);
   everywhere(communicator, [&]() { collect_samples(bodies, source); });
   if (idealization.is_axisymmetric())
     snap_to_axis();
 }
 
-/// upper_bound passes over ranks without nodes, whose ranges are empty.
+/// upper_bound skips ranks without nodes, whose ranges are empty.
 template <int dim>
 unsigned int BodyMesh<dim>::owner_of_global(unsigned int global) const
 {
@@ -316,7 +317,7 @@ unsigned int BodyMesh<dim>::owner_of_global(unsigned int global) const
   return std::upper_bound(first.begin(), first.end(), global) - first.begin() - 1;
 }
 
-/// In any order, since masters are never hanging.
+/// The order of hanging nodes is arbitrary, because masters are never hanging.
 template <int dim>
 void BodyMesh<dim>::interpolate_hanging(Field &field) const
 {
@@ -329,7 +330,7 @@ void BodyMesh<dim>::interpolate_hanging(Field &field) const
     }
 }
 
-/// For derivatives: a node's share in a function goes to the masters that determine it.
+/// Derivatives of a function with respect to a hanging node are passed to the masters of the node.
 template <int dim>
 void BodyMesh<dim>::distribute_hanging(Field &field) const
 {

@@ -14,9 +14,9 @@ CellPairs owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation)
   unsigned int              n_owned = 0;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
-      // of owned cells only: ghost and artificial ones are active, too
+      // Only owned cells are numbered; ghost cells and artificial cells are active as well.
       number[cell->active_cell_index()] = n_owned++;
-  // Across a hanging face only the finer cell has an active neighbour there.
+  // At a face between cells of different levels, only the finer cell has an active neighbour.
   CellPairs pairs;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -50,7 +50,8 @@ CellGraph cell_graph(const std::vector<unsigned int> &cells, const CellPairs &pa
   return graph;
 }
 
-/// Seeds ascend, so pieces are numbered by their first cells, however the parts were numbered.
+/// The seeds ascend, so pieces are numbered in the order of their first cells for any numbering of
+/// the parts.
 unsigned int split_into_pieces(const CellGraph &graph, std::vector<unsigned int> &part)
 {
   const unsigned int        none = static_cast<unsigned int>(-1);
@@ -85,7 +86,7 @@ void merge_slivers(const CellGraph           &graph,
 {
   for (unsigned int sliver = 0; sliver < n_parts; ++sliver)
     {
-      // faces shared with each other part; a part that fills a body has none
+      // number of faces shared with each other part; empty if the part fills a body
       std::map<unsigned int, unsigned int> shared;
       unsigned int                         size = 0;
       for (unsigned int i = 0; i < graph.size(); ++i)
@@ -96,18 +97,18 @@ void merge_slivers(const CellGraph           &graph,
               if (part[j] != sliver)
                 ++shared[part[j]];
           }
-      // Sizes count what was merged before, so two slivers may make a part together.
+      // The size includes slivers merged before, so two slivers together may form a part.
       if (size >= 0.25 * cells_each || shared.empty())
         continue;
       const auto best =
-        // of equals the first, that with the smallest number, so that all runs decide alike
+        // Among equal maxima the part with the smallest number is taken, which is reproducible.
         std::max_element(shared.begin(), shared.end(),
                          [](const auto &a, const auto &b) { return a.second < b.second; });
       for (unsigned int &p : part)
         if (p == sliver)
           p = best->first;
     }
-  // numbers of the parts given away are free; number anew without gaps
+  // Merging leaves gaps in the numbers of parts, so parts are numbered again.
   split_into_pieces(graph, part);
 }
 

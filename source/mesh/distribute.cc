@@ -22,9 +22,9 @@ namespace {
 template <int dim>
 using Refined = dealii::parallel::distributed::Triangulation<dim>;
 
-/// {level and coarse cell, path of children}
+/// Return the key {level and coarse cell, path of children} of a cell.
 ///
-/// Each level adds dim bits to the path, so 64 bits are enough for 21 levels in 3D.
+/// Each level adds dim bits to the path, so 64 bits suffice for 21 levels in 3D.
 template <int dim>
 typename CellSet<dim>::Key key(const dealii::CellId &cell)
 {
@@ -35,12 +35,13 @@ typename CellSet<dim>::Key key(const dealii::CellId &cell)
   return {{std::uint64_t(children.size()) << 32 | cell.get_coarse_cell_id(), path}};
 }
 
-/// Whether the body is refined evenly, so that its cells lie in layers. Collective.
+/// Return whether all cells of the body have the same level, so that the cells lie in layers.
+/// Collective.
 template <int dim>
 bool has_one_level(unsigned int body, const Refined<dim> &refined)
 {
-  // -(smallest) is the largest of -level: one reduction does for both
-  int levels[2] = {-1, -100}; // largest, and smallest with a minus
+  // The maximum of -level is minus the minimum level, so one reduction finds both.
+  int levels[2] = {-1, -100}; // maximum level, and minus the minimum level
   for (const auto &cell : refined.active_cell_iterators())
     if (cell->is_locally_owned() && cell->material_id() == body)
       {
@@ -51,7 +52,7 @@ bool has_one_level(unsigned int body, const Refined<dim> &refined)
   return levels[0] == -levels[1];
 }
 
-/// Of the owned cells of a body in the order of active cells.
+/// Return the shapes of the owned cells of a body in the order of active cells.
 template <int dim>
 std::vector<CellShape<dim>> shapes_of(const CoarseMesh<dim> &coarse,
                                       unsigned int           body,
@@ -67,7 +68,7 @@ std::vector<CellShape<dim>> shapes_of(const CoarseMesh<dim> &coarse,
   return shapes;
 }
 
-/// The owned cells of a body in the order of active cells. Collective.
+/// Return the owned cells of a body in the order of active cells. Collective.
 template <int dim>
 CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
                       unsigned int                       body,
@@ -92,8 +93,9 @@ CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
           if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
             {
               const unsigned int other = cell->neighbor(f)->global_active_cell_index();
-              // One side enters the pair: of equal cells the one with the smaller number, else the
-              // finer one. The other may belong to another rank.
+              // Only one of the two cells adds the pair: the cell with the smaller number if both
+              // are equal in size, otherwise the finer cell. The other cell may belong to another
+              // rank.
               if (number < other || cell->neighbor_is_coarser(f))
                 {
                   set.neighbours.push_back({{number, other}});
@@ -107,8 +109,9 @@ CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
   return set;
 }
 
-/// The same description on every run: deal.II lists coarse cells in the order in which other ranks'
-/// messages arrive, and p4est's.
+/// Replace the cell ids of the forest by placed ids, and sort the coarse cells by these ids. The
+/// sort makes the description reproducible, because deal.II lists coarse cells in the order in
+/// which the messages of other ranks arrive.
 template <int dim>
 void order_coarse_cells(const PlacedIds<dim>                                    &ids,
                         dealii::TriangulationDescription::Description<dim, dim> &description)
@@ -131,10 +134,10 @@ void order_coarse_cells(const PlacedIds<dim>                                    
     }
 }
 
-/// A cell and its part, as ranks send it.
+/// A cell and its part, in the form in which ranks send them.
 using CellPart = std::pair<dealii::CellId::binary_type, unsigned int>;
 
-/// Parts of the owned cells of @p result, which other ranks have sent.
+/// Return the parts of the owned cells of @p result, which other ranks have sent.
 template <int dim>
 std::vector<unsigned int>
 received_parts(const dealii::parallel::fullydistributed::Triangulation<dim> &result,
@@ -173,7 +176,7 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
   const auto  ranks =
     ranks_of_parts(parts.cells,
                    dealii::Utilities::MPI::n_mpi_processes(deal_ii_compat::communicator(refined)));
-  // cell sets have the owned cells of a body in the order of this loop
+  // Cell sets list the owned cells of a body in the order of the loop below.
   std::vector<unsigned int>                          next(sets.size(), 0);
   dealii::LinearAlgebra::distributed::Vector<double> rank_of_cell(
     refined.global_active_cell_index_partitioner().lock());
@@ -185,10 +188,10 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
         const unsigned int part                        = parts.of_body[body].part[next[body]++];
         const unsigned int rank                        = ranks[body][part];
         rank_of_cell[cell->global_active_cell_index()] = rank;
-        // Parts travel apart from the description, which has no room for them.
+        // Parts are sent separately, because the description cannot hold the parts.
         sent[rank].push_back({ids.of(cell->id()).template to_binary<dim>(), part});
       }
-  // Takes the ranks as a vector of doubles, which are exact for them.
+  // The function takes the ranks as a vector of doubles, which represent ranks exactly.
   auto description =
     dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
       refined, rank_of_cell);

@@ -10,7 +10,7 @@
 
 namespace snug::mesh {
 namespace {
-/// A face of a coarse cell, told by its vertices.
+/// A face of a coarse cell, identified by the vertices of the face.
 template <int dim>
 struct CellFace
 {
@@ -18,7 +18,7 @@ struct CellFace
   unsigned int                             cell, number;
 };
 
-/// The faces of all cells, those that two cells share one behind the other.
+/// Return the faces of all cells, sorted so that the two entries of a shared face are adjacent.
 template <int dim>
 std::vector<CellFace<dim>> sorted_faces(const CoarseMesh<dim> &coarse)
 {
@@ -40,13 +40,13 @@ std::vector<CellFace<dim>> sorted_faces(const CoarseMesh<dim> &coarse)
   return faces;
 }
 
-/// What the faces say of the cells.
+/// The neighbours and the boundary faces of all coarse cells.
 template <int dim>
 struct Neighbourhood
 {
   CellPairs                 pairs; ///< of cells that share a face
-  std::vector<unsigned int> axes;  ///< of the first of them, across the face
-  /// of the cells' boundary faces: number of the face and index of the body's names
+  std::vector<unsigned int> axes;  ///< axis of the first cell of a pair, normal to the face
+  /// boundary faces of each cell: number of the face and index of the boundary
   std::vector<std::vector<std::pair<unsigned int, dealii::types::boundary_id>>> boundaries;
 
   explicit Neighbourhood(const CoarseMesh<dim> &coarse) : boundaries(coarse.cells.size())
@@ -60,7 +60,7 @@ struct Neighbourhood
           ++f;
         }
       else
-        // at() throws if a geometry has left a side without a boundary
+        // at() throws if a geometry gives a boundary face no boundary.
         boundaries[faces[f].cell].emplace_back(faces[f].number,
                                                coarse.boundary.at({faces[f].vertices.begin(),
                                                                    faces[f].vertices.end()}));
@@ -69,13 +69,13 @@ struct Neighbourhood
   }
 };
 
-/// The first of @p n cells that a rank holds before the parts are decided.
+/// Return the first of @p n cells that a rank holds before the parts are decided.
 unsigned int first_of_rank(const unsigned long n, const unsigned int rank, const MPI_Comm comm)
 {
   return static_cast<unsigned int>(n * rank / dealii::Utilities::MPI::n_mpi_processes(comm));
 }
 
-/// The cells of a body that a rank holds before the parts are decided.
+/// Range of cells of a body that a rank holds before the parts are decided.
 struct Run
 {
   unsigned int begin, end;
@@ -104,7 +104,7 @@ shapes_of(const CoarseMesh<dim> &coarse, const unsigned int body, const MPI_Comm
   return shapes;
 }
 
-/// A run of the cells of a body. Collective.
+/// Return the set of the cells of a body in the run of this rank. Collective.
 template <int dim>
 CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
                       const unsigned int                 body,
@@ -136,7 +136,7 @@ CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
   return set;
 }
 
-/// Of all cells on every rank. Collective.
+/// Parts and ranks of all cells, equal on every rank.
 struct Places
 {
   std::vector<unsigned int> part, rank;
@@ -171,7 +171,8 @@ Places decide_places(const CoarseMesh<dim>    &coarse,
   return places;
 }
 
-/// The cells that share a vertex with one of this rank, which deal.II needs as ghosts.
+/// Return the cells of @p rank and the cells that share a vertex with a cell of @p rank, which
+/// deal.II needs as ghost cells.
 template <int dim>
 std::vector<unsigned int>
 relevant_cells(const CoarseMesh<dim> &coarse, const Places &places, const unsigned int rank)
@@ -189,7 +190,7 @@ relevant_cells(const CoarseMesh<dim> &coarse, const Places &places, const unsign
   return result;
 }
 
-/// A cell without children, on straight lines between its vertices.
+/// Return the description of a cell without children and with straight edges.
 template <int dim>
 dealii::TriangulationDescription::CellData<dim> cell_info(const unsigned int cell,
                                                           const unsigned int rank)

@@ -11,21 +11,21 @@ std::vector<unsigned int> oriented_face_nodes(const std::vector<unsigned int> &c
   const unsigned int n      = degree + 1;
   const unsigned int normal = face / 2;
   const bool         upper  = face % 2 == 1;
-  // from a node to the next one along each axis of the cell
+  // index difference between neighbouring nodes along each axis of the cell
   const unsigned int        stride[3] = {1, n, n * n};
   const unsigned int        first     = upper ? degree * stride[normal] : 0;
   std::vector<unsigned int> nodes;
   if (dim == 2)
     {
-      // x+ has t = +y, y+ has t = -x, and the other sides the opposite
+      // The tangent is +y on side x+ and -x on side y+. Opposite sides have opposite tangents.
       const unsigned int axis    = 1 - normal;
       const bool         reverse = (normal == 0) != upper;
       for (unsigned int i = 0; i < n; ++i)
         nodes.push_back(cell_nodes[first + (reverse ? degree - i : i) * stride[axis]]);
       return nodes;
     }
-  // t_a x t_b is the positive axis, which points out of the upper side only. deal.II's own
-  // tangents are the same on both sides.
+  // t_a x t_b is the positive axis, which points outwards on the upper side only, so the tangents
+  // are swapped on the lower side. The tangents of deal.II are equal on both sides.
   unsigned int a = (normal + 1) % 3, b = (normal + 2) % 3;
   if (!upper)
     std::swap(a, b);
@@ -35,7 +35,7 @@ std::vector<unsigned int> oriented_face_nodes(const std::vector<unsigned int> &c
   return nodes;
 }
 
-/// By the same tangents.
+/// The tangents are the same as in oriented_face_nodes().
 template <int dim>
 dealii::Point<dim> point_on_face(const unsigned int face, const dealii::Point<dim - 1> &xi)
 {

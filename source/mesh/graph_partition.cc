@@ -14,7 +14,7 @@
 
 namespace snug::mesh {
 namespace {
-/// All ranks' entries on rank @p root, rank after rank; nothing on other ranks.
+/// Return the entries of all ranks on rank @p root, rank after rank, and nothing on other ranks.
 template <typename T>
 std::vector<T> on_rank(const unsigned int root, MPI_Comm communicator, const std::vector<T> &values)
 {
@@ -24,7 +24,7 @@ std::vector<T> on_rank(const unsigned int root, MPI_Comm communicator, const std
   return all;
 }
 
-/// The graph with the areas of the faces.
+/// The cell graph with the areas of the shared faces.
 using FaceAreas = std::vector<std::vector<std::pair<unsigned int, double>>>;
 
 FaceAreas face_areas(const std::vector<unsigned int> &cells,
@@ -41,21 +41,21 @@ FaceAreas face_areas(const std::vector<unsigned int> &cells,
       result[a].emplace_back(b, areas[p]);
       result[b].emplace_back(a, areas[p]);
     }
-  // pairs come rank by rank
+  // The pairs are listed rank by rank, so the neighbours of each cell are sorted.
   for (auto &of_cell : result)
     std::sort(of_cell.begin(), of_cell.end());
   return result;
 }
 
-/// Areas as METIS takes them, integers that are usual_weight on average.
+/// Return an area as an integer edge weight for METIS. The average weight is usual_weight.
 idx_t weight(const double area, const double mean)
 {
-  // METIS sums them in 32 bits: enough for 10 million cells.
+  // METIS sums the weights in 32 bits, which suffices for 10 million cells.
   const double usual_weight = 30., largest = 1e5;
   return narrow<idx_t>(std::lround(std::clamp(usual_weight * area / mean, 1., largest)));
 }
 
-/// METIS is deterministic: equal graphs, numbered alike, give equal parts.
+/// METIS is deterministic: equal graphs with the same numbering give equal parts.
 std::vector<unsigned int> metis_parts(const FaceAreas &graph, unsigned int n_parts)
 {
   std::vector<unsigned int> part(graph.size(), 0);
@@ -66,8 +66,8 @@ std::vector<unsigned int> metis_parts(const FaceAreas &graph, unsigned int n_par
       std::iota(part.begin(), part.end(), 0);
       return part;
     }
-  // Not through deal.II's SparsityTools: the diagonal that its square patterns store reaches METIS
-  // as loops, and worsens the cuts by up to a fifth.
+  // METIS is called without deal.II's SparsityTools. Square sparsity patterns of deal.II store the
+  // diagonal, which METIS receives as loops, and the loops worsen the cuts by up to a fifth.
   std::vector<idx_t> start(1, 0), neighbours, weights, parts(graph.size());
   double             mean = 0.;
   for (const auto &of_cell : graph)
@@ -87,7 +87,7 @@ std::vector<unsigned int> metis_parts(const FaceAreas &graph, unsigned int n_par
   METIS_SetDefaultOptions(options);
   idx_t                n = narrow<idx_t>(graph.size()), k = n_parts, one = 1, cut = 0;
   const BlockedSignals during_call;
-  // The methods METIS recommends for few and for many parts.
+  // METIS recommends these methods for few and for many parts.
   const auto method = k <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
   if (method(&n, &one, start.data(), neighbours.data(), nullptr, nullptr, weights.data(), &k,
              nullptr, nullptr, options, &cut, parts.data()) != METIS_OK)
@@ -96,7 +96,7 @@ std::vector<unsigned int> metis_parts(const FaceAreas &graph, unsigned int n_par
   return part;
 }
 
-/// The positions of @p keys in ascending order.
+/// Return the positions of @p keys in ascending order of the keys.
 template <typename Key>
 std::vector<unsigned int> sorted_order(const std::vector<Key> &keys)
 {
@@ -107,24 +107,24 @@ std::vector<unsigned int> sorted_order(const std::vector<Key> &keys)
   return order;
 }
 
-/// Connected parts without slivers.
+/// Return connected parts without slivers.
 std::vector<unsigned int>
 parts_of_graph(const CellGraph &graph, const FaceAreas &areas, double cells_each)
 {
   const unsigned int n_parts = std::max(1l, std::lround(graph.size() / cells_each));
   auto               part    = metis_parts(areas, n_parts);
-  // METIS balances numbers of cells, but leaves parts in pieces; a piece of a few cells would be a
-  // subdomain with a factorization and kernel of its own.
+  // METIS balances the numbers of cells but may return disconnected parts. A piece of a few cells
+  // would be a subdomain with a factorization and a kernel of its own.
   merge_slivers(graph, part, split_into_pieces(graph, part), cells_each);
   return part;
 }
 
-/// A body's cells of all ranks on one of them.
+/// The cells of a body of all ranks, gathered on one rank.
 template <int dim>
 class GatheredCells
 {
 public:
-  /// Collective.
+  /// Gather the cells on rank @p root. Collective.
   GatheredCells(const CellSet<dim> &set, const unsigned int root)
     : keys(on_rank(root, set.communicator, set.keys))
     , numbers(on_rank(root, set.communicator, set.numbers))
@@ -132,10 +132,10 @@ public:
     , areas(on_rank(root, set.communicator, set.areas))
   {}
 
-  /// Of each cell, rank after rank.
+  /// Return the part of each cell, rank after rank.
   std::vector<unsigned int> parts(const double cells_each) const
   {
-    // The gathered order depends on the number of ranks, that by keys does not.
+    // The gathered order depends on the number of ranks, but the order of the keys does not.
     const auto                order = sorted_order(keys);
     std::vector<unsigned int> cells;
     for (const unsigned int i : order)
@@ -155,18 +155,19 @@ private:
   std::vector<double>                     areas;
 };
 
-/// The share of this rank in @p parts of @p root. Collective.
+/// Return the parts of the cells of this rank. @p parts holds the parts of all cells on rank
+/// @p root. Collective.
 template <int dim>
 Partition
 share(const CellSet<dim> &set, const std::vector<unsigned int> &parts, const unsigned int root)
 {
-  // all parts to all ranks: an integer per cell, where a scatter would need counts
+  // All ranks receive all parts, one integer per cell, because a scatter would need counts.
   const auto &comm = set.communicator;
   const auto  all  = dealii::Utilities::MPI::broadcast(comm, parts, root);
   const auto  counts =
     dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(set.numbers.size()));
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
-  // this rank's range, as on_rank() has joined them
+  // The range of this rank follows the ranges of lower ranks, as on_rank() has joined the ranges.
   const auto first = all.begin() + std::accumulate(counts.begin(), counts.begin() + rank, 0u);
   Partition  result;
   result.part.assign(first, first + counts[rank]);
@@ -175,7 +176,8 @@ share(const CellSet<dim> &set, const std::vector<unsigned int> &parts, const uns
 }
 } // namespace
 
-/// All are gathered before the first is partitioned, so that the ranks work at the same time.
+/// All bodies are gathered before the first body is partitioned, so that ranks partition
+/// concurrently.
 template <int dim>
 std::vector<Partition> graph_partitions(const std::vector<const CellSet<dim> *> &bodies,
                                         const std::vector<double>               &cells_each)

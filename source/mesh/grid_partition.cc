@@ -7,10 +7,11 @@
 
 namespace snug::mesh {
 namespace {
-/// Numbers of slabs per axis: pieces near cubes, their product near n.
+/// Return the numbers of slabs per axis. The pieces are near cubes, and the product is near n.
 ///
-/// All counts whose product is within 0.7 n and 1.4 n are rated by the ratio of the longest to
-/// the shortest edge and, half as much, by the product. {n, 1, 1} is among them.
+/// All counts with a product between 0.7 n and 1.4 n are rated by the logarithm of the ratio of
+/// the longest to the shortest edge and, with half the weight, by the logarithm of the product
+/// over n. The counts {n, 1, 1} are among the candidates.
 template <int dim>
 std::array<unsigned int, dim> slab_counts(const dealii::Tensor<1, dim> &size, double n)
 {
@@ -30,7 +31,7 @@ std::array<unsigned int, dim> slab_counts(const dealii::Tensor<1, dim> &size, do
     if (product > 1.4 * n || product < 0.7 * n)
       return;
     const double score = std::log(longest / shortest) + 0.5 * std::abs(std::log(product / n));
-    // of equals the first; round-off must not choose
+    // Among equal scores the first is taken, so that round-off does not decide.
     if (score < least - 1e-12)
       {
         least = score;
@@ -48,8 +49,8 @@ std::array<unsigned int, dim> slab_counts(const dealii::Tensor<1, dim> &size, do
   return best;
 }
 
-/// Numbers of cells in equal bins of logical coordinate @p axis, of all
-/// ranks, and the ends of the range. Collective.
+/// The numbers of cells of all ranks in bins of equal width along one logical coordinate, and the
+/// ends of the range.
 struct Histogram
 {
   std::vector<unsigned long> counts;
@@ -61,8 +62,9 @@ struct Histogram
   }
 };
 
-/// A histogram needs two reductions, where sorting the centres would need all on one rank. Layers
-/// stand apart in it if there are far fewer than bins.
+/// Return the histogram of the logical coordinate @p axis of the cell centres. A histogram needs
+/// two reductions, whereas a sort would need all centres on one rank. Empty bins separate layers of
+/// cells if there are far fewer layers than bins. Collective.
 template <int dim>
 Histogram histogram(const CellSet<dim> &set, unsigned int axis)
 {
@@ -76,7 +78,7 @@ Histogram histogram(const CellSet<dim> &set, unsigned int axis)
     }
   MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, set.communicator);
   Histogram bins{std::vector<unsigned long>(n_bins, 0), -ends[0], ends[1]};
-  // a single layer has no width, and goes to bin 0
+  // A single layer has zero width, and all its centres belong to bin 0.
   const double width = std::max(bins.upper - bins.lower, 1e-300);
   for (const auto &centre : set.centres)
     ++bins.counts[std::min<unsigned int>(n_bins - 1, (centre[axis] - bins.lower) / width * n_bins)];
@@ -86,9 +88,9 @@ Histogram histogram(const CellSet<dim> &set, unsigned int axis)
 }
 
 /**
- * Coordinates that cut a histogram into @p n slabs of about equal
- * numbers; a cut moves to the nearest gap between layers of cells if
- * one is within a quarter of a slab.
+ * Return the coordinates that cut a histogram into @p n slabs with about equal
+ * numbers of cells. A cut moves to the nearest gap between layers of cells if
+ * this gap is within a quarter of a slab.
  */
 std::vector<double> cuts(const Histogram &bins, unsigned int n)
 {
@@ -103,10 +105,10 @@ std::vector<double> cuts(const Histogram &bins, unsigned int n)
       for (unsigned int bin = 0; bin < bins.counts.size(); ++bin)
         {
           below += bins.counts[bin];
-          // An empty bin behind lies between two layers of cells: the centres of one share a bin.
+          // An empty next bin separates two layers, because the centres of a layer share a bin.
           const bool   gap = bin + 1 < bins.counts.size() && bins.counts[bin + 1] == 0;
           const double off = std::abs(below - wanted) / slab;
-          // any gap within a quarter of a slab is better than no gap at all
+          // A gap within a quarter of a slab has a better rating than any cut without a gap.
           const double rating = off + (gap && off <= 0.25 ? 0. : 1.);
           if (rating < best_rating - 1e-9)
             {
@@ -120,8 +122,8 @@ std::vector<double> cuts(const Histogram &bins, unsigned int n)
 }
 } // namespace
 
-/// Axis by axis: cuts of one axis are planes through the whole body, so that parts have flat
-/// sides and meet face to face. Collective.
+/// The body is cut axis by axis. The cuts of an axis are logical planes through the whole body, so
+/// that parts have flat sides and share whole faces. Collective.
 template <int dim>
 Partition grid_partition(const CellSet<dim> &set, double cells_each)
 {
@@ -134,7 +136,7 @@ Partition grid_partition(const CellSet<dim> &set, double cells_each)
       const auto at = cuts(histogram(set, axis), counts[axis]);
       result.n_parts *= counts[axis];
       for (unsigned int cell = 0; cell < set.centres.size(); ++cell)
-        // the number of the slab along this axis is the next digit of the part's number
+        // The number of the slab along this axis is the next digit of the number of the part.
         result.part[cell] =
           result.part[cell] * counts[axis] +
           (std::upper_bound(at.begin(), at.end(), set.centres[cell][axis]) - at.begin());

@@ -6,7 +6,7 @@ namespace snug::mesh {
 namespace {
 constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-/// Numbers of the cells a rank knows.
+/// Numbers of the owned cells and the required ghost cells of a rank.
 class CellNumbers
 {
 public:
@@ -19,7 +19,8 @@ public:
         numbers[cell->active_cell_index()] = next++;
   }
 
-  /// That of a cell, which may be one of another rank.
+  /// Return the number of a cell. A cell of another rank gets the next number and is added to
+  /// @p ghosts on the first call.
   unsigned int of(const unsigned int active_index, std::vector<unsigned int> &ghosts)
   {
     unsigned int &number = numbers[active_index];
@@ -36,8 +37,8 @@ private:
   unsigned int              next = 0;
 };
 
-/// Vertex of a cell that has the vertex @p v of a face at its lower end along all axes but
-/// @p along, where it is at the upper.
+/// Return the vertex of a cell on @p face that is at the lower end along all axes of the face
+/// except @p along, and at the upper end along @p along.
 template <int dim>
 unsigned int vertex_of_face(const unsigned int face, const unsigned int along)
 {
@@ -45,7 +46,7 @@ unsigned int vertex_of_face(const unsigned int face, const unsigned int along)
   return along == none ? side : side | (1u << along);
 }
 
-/// Number in @p cell of the vertex that has the number @p vertex in the mesh.
+/// Return the number in @p cell of the vertex with the number @p vertex in the mesh.
 template <typename Cell>
 unsigned int number_in(const Cell &cell, const unsigned int vertex)
 {
@@ -58,7 +59,8 @@ unsigned int number_in(const Cell &cell, const unsigned int vertex)
   return v;
 }
 
-/// @p whole: the cell or, if the neighbour is coarser, its parent.
+/// Set origin and axes of @p face. @p whole is the cell or, if the neighbour is coarser, the parent
+/// of the cell.
 template <int dim, typename Cell, typename Neighbour>
 void orient(const Cell &whole, const Neighbour &neighbour, InteriorFace<dim> &face)
 {
@@ -70,7 +72,7 @@ void orient(const Cell &whole, const Neighbour &neighbour, InteriorFace<dim> &fa
   for (unsigned int axis = 0; axis < dim; ++axis)
     if (axis != face.face / 2u)
       {
-        // vertices of an edge differ by the bit of its axis
+        // The numbers of the two vertices of an edge differ in the bit of the axis of the edge.
         const unsigned int step = in_neighbour(axis) ^ face.origin;
         face.axes[at++]         = step == 1 ? 0 : step == 2 ? 1 : 2;
       }
@@ -96,8 +98,8 @@ dealii::Point<dim> InteriorFace<dim>::in_neighbour(const dealii::Point<dim> &in_
   return result;
 }
 
-/// Across a face that hangs only the finer cell has an active neighbour, so each face comes up once
-/// from there and twice where cells are equal.
+/// At a face between cells of different levels, only the finer cell has an active neighbour, so the
+/// loop visits the face once. The loop visits a face between cells of equal size twice.
 template <int dim>
 std::vector<InteriorFace<dim>> interior_faces(const dealii::Triangulation<dim, dim> &triangulation,
                                               std::vector<unsigned int>             &ghosts)
@@ -116,7 +118,8 @@ std::vector<InteriorFace<dim>> interior_faces(const dealii::Triangulation<dim, d
           if (neighbour->is_artificial() ||
               !(cell->is_locally_owned() || neighbour->is_locally_owned()))
             continue;
-          // Of equals, one that is owned, and of two such the first.
+          // Of two cells of equal size, the owned cell lists the face. If both cells are owned, the
+          // first cell lists the face.
           if (!is_coarser && (!cell->is_locally_owned() ||
                               (neighbour->is_locally_owned() &&
                                neighbour->active_cell_index() < cell->active_cell_index())))

@@ -14,7 +14,7 @@ NodeReach<dim>::NodeReach(const BodyMesh<dim>             &mesh,
     return among.empty() ? node
                          : std::lower_bound(among.begin(), among.end(), node) - among.begin();
   };
-  // Most cells have no hanging node: T is left empty then, and stands for the identity.
+  // Most cells have no hanging node. T is empty for these cells, which means the identity.
   bool hanging = false;
   for (const unsigned int node : nodes)
     hanging = hanging || mesh.is_hanging(node);
@@ -29,7 +29,8 @@ NodeReach<dim>::NodeReach(const BodyMesh<dim>             &mesh,
     {
       rows.emplace_back();
       if (mesh.is_hanging(node))
-        // A master of several hanging nodes, or a node of the cell itself, has one slot.
+        // A master has one slot, even if several hanging nodes share the master or the master is a
+        // node of the cell.
         for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
           rows.back()[slot(master.first)] += master.second;
       else
@@ -59,7 +60,8 @@ typename NodeReach<dim>::Nodes NodeReach<dim>::values(const double *u) const
   return result;
 }
 
-/// The transpose of values(): a force at a hanging node acts on its masters by their weights.
+/// This is the transpose of values(): a force at a hanging node acts on the masters with their
+/// weights.
 template <int dim>
 void NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
 {
@@ -73,8 +75,8 @@ void NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
           u[dim * reached[s] + c] += factor * T[a * m + s] * r[a][c];
 }
 
-/// In two products, K T and T'(K T), over the nonzeros of T: of n^2 m and n m^2 terms at most
-/// instead of the n^2 m^2 of one.
+/// The two products K T and T'(K T) run over the nonzeros of T. They have at most n^2 m and n m^2
+/// terms, whereas a single triple product has n^2 m^2 terms.
 template <int dim>
 void NodeReach<dim>::condense(std::vector<double> &K) const
 {

@@ -4,12 +4,12 @@ namespace snug::mesh {
 template <int dim>
 const ChoiceTable<bool(const CellSet<dim> &)> &partition_table()
 {
-  // the texts are those of the parameter reference
+  // The parameter reference prints the texts of this table.
   static const ChoiceTable<bool(const CellSet<dim> &)> table = {
     {"auto",
      "grid for boxes and rings that are not refined locally, METIS for "
      "others",
-     // see partition_table() in the header for what ragged parts cost
+     // partition_table() in the header states the cost of ragged parts.
      [](const CellSet<dim> &set) { return set.layered; }},
     {"grid",
      "a grid of slabs along the axes, cut between layers of cells; near "

@@ -8,7 +8,7 @@
 
 namespace snug::mesh {
 namespace {
-/// Numbers of cells of the parts, of all ranks. Collective.
+/// Return the numbers of cells of the parts on all ranks. Collective.
 std::vector<unsigned long> cells_of_parts(const Partition &partition, MPI_Comm communicator)
 {
   std::vector<unsigned long> cells(partition.n_parts, 0);
@@ -18,7 +18,7 @@ std::vector<unsigned long> cells_of_parts(const Partition &partition, MPI_Comm c
   return cells;
 }
 
-/// Parts that have cells.
+/// Return the number of parts that have cells.
 unsigned int n_filled(const Parts &parts)
 {
   unsigned int n = 0;
@@ -27,7 +27,8 @@ unsigned int n_filled(const Parts &parts)
   return n;
 }
 
-/// Whether parts are cubes of nearly cubic cells, but for some.
+/// Return whether parts are cubes of cells that are nearly cubic, except for at most 10 percent
+/// of the cells.
 template <int dim>
 bool makes_cubes(const CellSet<dim> &set, const std::string &method)
 {
@@ -52,8 +53,8 @@ double larger_subdomains(const unsigned int dim)
   return dim == 3 ? 8. : 1.;
 }
 
-/// Parts are halved until every rank can have one; slabs may be empty, so the numbers are counted
-/// rather than computed. Collective.
+/// The sizes of parts are halved until every rank can have a part. Slabs may be empty, so the parts
+/// with cells are counted instead of computed. Collective.
 template <int dim>
 Parts decide_parts(const std::vector<CellSet<dim>> &sets,
                    const TearingParameters         &parameters,
@@ -102,12 +103,13 @@ ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned in
       all += own;
       std::vector<double> share;
       for (const double has : load)
-        // what the rank lacks for an equal share of all bodies so far
+        // number of cells that the rank lacks for an equal share of all bodies so far
         share.push_back(std::max(0., all / n_ranks - has));
       const double shares = std::accumulate(share.begin(), share.end(), 0.);
       unsigned int rank   = 0;
-      // The body's cells on a line: a part takes [before, before + part], and goes to the rank
-      // whose section, up to end, has the middle of that.
+      // The cells of the body are arranged on a line, on which each rank has a section that ends
+      // at end. A part occupies [before, before + part], and is assigned to the rank whose section
+      // contains the middle of this interval.
       double end = share[0] * own / shares, before = 0.;
       ranks.emplace_back();
       for (const unsigned long part : body)

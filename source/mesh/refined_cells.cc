@@ -26,7 +26,7 @@ void refine(const dealii::CellId &cell, std::set<dealii::CellId> &refined)
     above = parent(above);
 }
 
-/// Both dimensions pack ids alike, but for the bits per child, which are enough in 3D.
+/// Ids are packed with the bits per child of 3D, which suffice in 2D as well.
 std::vector<dealii::CellId> gather_cells(const std::vector<dealii::CellId> &mine,
                                          MPI_Comm                           communicator)
 {

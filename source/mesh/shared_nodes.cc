@@ -23,7 +23,8 @@ void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
   owned.add_indices(own.begin(), own.end());
   relevant.add_indices(all.begin(), all.end());
 
-  // compress() adds after all messages have come, in the order of ranks: sums repeat bit for bit
+  // compress() adds in the order of ranks after all messages have arrived, so that the sums are
+  // reproducible bit by bit.
   dealii::LinearAlgebra::distributed::Vector<double> sum(owned, relevant, comm);
   for (unsigned int c = 0; c < n_components; ++c)
     {

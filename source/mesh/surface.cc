@@ -12,11 +12,11 @@
 
 namespace snug::mesh {
 namespace {
-/// Entries of a face record before its nodes.
+/// Number of entries of a face record before the nodes.
 template <int dim>
 constexpr unsigned int n_leading = 4 + dim;
 
-/// Hanging global node and its masters.
+/// A hanging global node and its masters.
 using HangingRecord = std::pair<unsigned int, std::vector<std::pair<unsigned int, double>>>;
 
 template <int dim>
@@ -36,7 +36,8 @@ typename Surface<dim>::FaceRecord face_record(const BodyMesh<dim>               
   return record;
 }
 
-/// Masters may lie on faces of other ranks, so they are told by global numbers.
+/// Return the record of a hanging node. Masters are identified by global numbers, because masters
+/// may lie on faces of other ranks.
 template <int dim>
 HangingRecord hanging_record(const BodyMesh<dim> &mesh, unsigned int node)
 {
@@ -46,7 +47,7 @@ HangingRecord hanging_record(const BodyMesh<dim> &mesh, unsigned int node)
   return record;
 }
 
-/// Concatenation over ranks, sorted, each entry once. Collective.
+/// Return the entries of all ranks, sorted and without duplicates. Collective.
 template <typename T>
 std::vector<T> gathered(MPI_Comm communicator, const std::vector<T> &mine)
 {
@@ -58,8 +59,8 @@ std::vector<T> gathered(MPI_Comm communicator, const std::vector<T> &mine)
   return all;
 }
 
-/// The global nodes of all records, ascending.
-/// @p n_leading entries of a face record come before its nodes.
+/// Return the global nodes of all records, ascending.
+/// @p n_leading is the number of entries of a face record before the nodes.
 std::vector<unsigned int> nodes_of(const std::vector<std::vector<long long>> &faces,
                                    const std::vector<HangingRecord>          &hanging,
                                    unsigned int                               n_leading)
@@ -81,7 +82,7 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
                       const std::vector<std::pair<unsigned int, unsigned int>> &boundaries)
   : mesh(mesh)
 {
-  // A face belongs to the rank of its cell, but its nodes may be owned by others.
+  // A face belongs to the rank of its cell, but other ranks may own nodes of the face.
   std::vector<FaceRecord>    faces;
   std::vector<HangingRecord> hanging;
   OwnSamples                 samples;
@@ -96,12 +97,12 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
           if (mesh.is_hanging(node))
             hanging.push_back(hanging_record(mesh, node));
       }
-  // The same lists in the same order on all ranks: what is computed of a face by one of them is
-  // known to all by its number.
+  // All ranks have the same lists in the same order, so that the number of a face identifies the
+  // face on all ranks.
   faces   = gathered(mesh.communicator(), faces);
   hanging = gathered(mesh.communicator(), hanging);
 
-  // masters too, which need not be nodes of the given faces
+  // The surface nodes include masters, which need not be nodes of the given faces.
   global_nodes = nodes_of(faces, hanging, n_leading<dim>);
   std::map<unsigned int, unsigned int> index;
   for (unsigned int node = 0; node < global_nodes.size(); ++node)
@@ -111,7 +112,7 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
   for (const auto &record : hanging)
     {
       auto &masters = node_masters[index.at(record.first)];
-      // a node may occur twice, if the weights of two ranks differ by round-off
+      // A node may occur twice if the weights of two ranks differ by round-off.
       masters.clear();
       for (const auto &master : record.second)
         masters.emplace_back(index.at(master.first), master.second);
@@ -153,7 +154,7 @@ void Surface<dim>::add_faces(const std::vector<FaceRecord>              &records
   reference.resize(point);
 }
 
-/// Every surface node has one owner, so gather() gets each value once.
+/// Every surface node has one owner, so gather() receives each value once.
 template <int dim>
 void Surface<dim>::find_owned(const std::map<unsigned int, unsigned int> &index)
 {
@@ -173,17 +174,17 @@ typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::
 {
   Assert(field.size() == mesh.n_points() || field.size() == mesh.n_local_nodes(),
          dealii::ExcDimensionMismatch(field.size(), mesh.n_points()));
-  // On a rank without samples both sizes are the same: those with samples tell.
+  // On a rank without samples both sizes are equal, so the ranks with samples decide.
   const bool with_samples =
     n_points() > n_nodes() &&
     dealii::Utilities::MPI::min(int(field.size() == mesh.n_points()), mesh.communicator()) == 1;
-  // in ascending surface nodes, as owned is sorted
+  // The values are in the order of surface nodes, because owned is sorted.
   std::vector<double> mine;
   for (const auto &node : owned)
     for (unsigned int d = 0; d < dim; ++d)
       mine.push_back(field[node.second][d]);
-  // Ranks own ascending ranges of global nodes, so the parts in rank
-  // order are in the order of surface nodes.
+  // Ranks own ascending ranges of global nodes, so the concatenation in rank
+  // order is in the order of surface nodes.
   const auto   parts = dealii::Utilities::MPI::all_gather(mesh.communicator(), mine);
   Field        result(with_samples ? n_points() : n_nodes());
   unsigned int position = 0;
@@ -196,7 +197,7 @@ typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::
   AssertDimension(position, dim * n_nodes());
   if (with_samples)
     {
-      // One rank has each: the others add zeros.
+      // Each sample is on one rank, and the other ranks add zeros.
       std::vector<double> values(dim * (n_points() - n_nodes()), 0.);
       for (const auto &sample : owned_samples)
         for (unsigned int d = 0; d < dim; ++d)
@@ -235,7 +236,7 @@ std::vector<unsigned int> Surface<dim>::cells_of(const std::vector<unsigned int>
 template <int dim>
 void Surface<dim>::add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const
 {
-  // surface fields are equal on all ranks, so only owners add
+  // Surface fields are equal on all ranks, so only owners add values.
   for (const auto &node : owned)
     field[node.second] += surface_field[node.first];
   if (surface_field.size() > n_nodes())

@@ -6,7 +6,7 @@
 
 namespace snug::mesh {
 namespace {
-/// Nodes whose unknowns the cells act on: masters instead of hanging nodes.
+/// Return the nodes on whose unknowns the cells depend, with masters instead of hanging nodes.
 template <int dim>
 std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
                                         const std::vector<unsigned int> &cells)
@@ -14,7 +14,7 @@ std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
   std::vector<unsigned int> nodes;
   for (const unsigned int cell : cells)
     for (const unsigned int node : mesh.cells()[cell].nodes)
-      // a hanging node has no unknown of its own
+      // A hanging node has no unknown of its own.
       if (mesh.is_hanging(node))
         for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
           nodes.push_back(master.first);
@@ -26,8 +26,9 @@ std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
 }
 } // namespace
 
-/// Pieces joined only at a node or an edge could turn against each other; the stiffness matrix
-/// would have a larger kernel than the rigid motions, which FETI is given.
+/// Subdomains must be face-connected. Pieces joined only at a node or an edge could rotate relative
+/// to each other, and the kernel of the stiffness matrix would be larger than the rigid motions,
+/// which are the kernel given to FETI.
 template <int dim>
 Tearing tear(const BodyMesh<dim> &mesh)
 {
@@ -53,7 +54,7 @@ Tearing tear(const BodyMesh<dim> &mesh)
           tearing.subdomains.push_back(piece);
         }
     }
-  // ids in the order of the ranks, and on a rank in the order of bodies and first cells
+  // Ids ascend with the rank, and on a rank with the body and the first cell of the piece.
   const auto counts =
     dealii::Utilities::MPI::all_gather(mesh.communicator(),
                                        static_cast<unsigned int>(tearing.subdomains.size()));

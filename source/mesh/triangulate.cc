@@ -24,7 +24,7 @@ CoarseMesh<dim>::CoarseMesh(const Geometries<dim> &the_geometries) : geometries(
           cells.emplace_back(cell.size());
           for (unsigned int v = 0; v < cell.size(); ++v)
             cells.back().vertices[v] = cell[v] + offset;
-          // Refined cells inherit it. Regions are not kept here but come from coarse cells.
+          // Refined cells inherit the material id. Regions are found from coarse cells instead.
           cells.back().material_id = body;
         }
       for (const auto &face : mesh.boundary_faces)
@@ -59,12 +59,12 @@ void create_triangulation(const CoarseMesh<dim>                             &coa
           std::vector<unsigned int> key;
           for (const unsigned int v : cell->face(f)->vertex_indices())
             key.push_back(cell->face(f)->vertex_index(v));
-          // at() throws if a geometry has left a side without a boundary
+          // at() throws if a geometry gives a boundary face no boundary.
           cell->face(f)->set_boundary_id(coarse.boundary.at(geometry::sorted(key)));
         }
 }
 
-/// On level 0 every rank has all cells, so this needs no communication.
+/// Every rank has all cells of level 0, so the constructor needs no communication.
 template <int dim>
 PlacedIds<dim>::PlacedIds(const dealii::parallel::distributed::Triangulation<dim> &forest)
   : place(forest.n_cells(0))
@@ -82,8 +82,8 @@ dealii::CellId PlacedIds<dim>::of(const dealii::CellId &in_forest) const
 }
 
 namespace {
-/// One level for the cells that @p wanted names by body, cell and level; false where it names none.
-/// Collective.
+/// Refine the cells for which @p wanted returns true, given body, cell and level, by one level.
+/// Return false if there are no such cells. Collective.
 template <int dim>
 bool refine_step(
   dealii::parallel::distributed::Triangulation<dim>                             &triangulation,
@@ -92,7 +92,7 @@ bool refine_step(
   const MPI_Comm       communicator = deal_ii_compat::communicator(triangulation);
   const PlacedIds<dim> ids(triangulation);
   bool                 any = false;
-  // a formula may fail on the rank of one cell only
+  // everywhere() is needed because a formula may fail on the rank of one cell only.
   everywhere(communicator, [&]() {
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned() &&
@@ -103,7 +103,8 @@ bool refine_step(
         }
   });
   any = dealii::Utilities::MPI::logical_or(any, communicator);
-  // Balancing the trees takes as long where there is nothing to do.
+  // The refinement is skipped without wanted cells, because balancing the trees would take as long
+  // as with wanted cells.
   if (any)
     triangulation.execute_coarsening_and_refinement();
   return any;
@@ -127,8 +128,8 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
         local ? std::make_unique<geometry::Formula<dim>>("Refine where", body.refine_where)
               : nullptr);
     }
-  // Bodies share one triangulation, so all steps are common; a body that has enough levels sits
-  // the others out.
+  // Bodies share one triangulation, so all refinement steps are common. A body with enough levels
+  // is not refined in further steps.
   for (unsigned int step = 0; step < global_steps; ++step)
     refine_step<dim>(triangulation,
                      [&](unsigned int body, const dealii::CellId &, unsigned int level) {
@@ -137,12 +138,14 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
   for (unsigned int step = 0; step < local_steps; ++step)
     refine_step<dim>(triangulation, [&](unsigned int body, const dealii::CellId &cell,
                                         unsigned int level) {
-      // p4est keeps neighbours within one level and so may refine more than what is wanted
+      // p4est limits the level difference of neighbours to one and may refine more cells than
+      // wanted.
       return formulas[body] && level < bodies[body].refinements + bodies[body].local_refinements &&
              formulas[body]->value(coarse.geometries[body]->position(
                coarse.places.point(cell, geometry::unit_centre<dim>()))) > 0.;
     });
-  // Level by level; cells that p4est refines to keep neighbours within one may be named, too.
+  // Cells are refined level by level. The set may also contain cells that p4est has refined to
+  // limit the level difference of neighbours to one.
   while (refine_step<dim>(triangulation,
                           [&](unsigned int body, const dealii::CellId &cell, unsigned int) {
                             return bodies[body].refined && bodies[body].refined->count(cell) > 0;

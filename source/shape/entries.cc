@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace snug::shape {
-/// Of unit length, so that variables and bounds are lengths.
+/// The direction has unit length, so that variables and bounds are lengths.
 template <int dim>
 dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
 {
@@ -15,7 +15,7 @@ dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
     for (unsigned int d = 0; d < dim; ++d)
       direction[d] = components[d];
   const double length = direction.norm();
-  // Written so that NaN is refused as well.
+  // The negated comparison rejects NaN as well.
   if (!(length > 0.) || !std::isfinite(length))
     throw bad_entry(parameters.path("Direction"), to_text(components),
                     "must be empty or " + std::to_string(dim) + " numbers, not all zero");
@@ -35,7 +35,7 @@ spline_net(const ShapeParameters &parameters, const unsigned int n_axes, const u
                                 ", one per edge of the face or box");
   for (const unsigned int number : n)
     {
-      // Bernstein polynomials of higher degree lose all digits.
+      // Bernstein polynomials of higher degree lose all digits to round-off.
       require(degree > 0 || (number >= 1 && number <= 50), "must lie between 1 and 50 each");
       require(degree == 0 || number > degree, "must be at least one more than 'Degree' each");
     }
@@ -76,7 +76,7 @@ std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>> box_of(const ShapePara
           read("Box size", parameters.box_size, true)};
 }
 
-/// The error lists the bodies there are.
+/// The error message lists the names of all bodies.
 std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &parameters)
 {
   std::vector<bool> result(bodies.names.size(), parameters.bodies.empty());

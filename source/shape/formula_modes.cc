@@ -5,8 +5,9 @@
 
 namespace snug::shape {
 namespace {
-/// Rows of the fields at @p positions, where that is wanted. Formulas are evaluated once, at the
-/// reference: positions are linear in the design. Amplitudes of fields have no place.
+/// Return modes with the rows of the fields at those @p positions for which @p is_wanted is true.
+/// Formulas are evaluated once, at the reference positions, because positions are linear in the
+/// design. The modes have no controls, because amplitudes of fields have no position.
 template <int dim, typename Wanted>
 Modes<dim> modes_at(const std::vector<dealii::Tensor<1, dim>> &positions,
                     const Wanted                              &is_wanted,
@@ -70,7 +71,7 @@ Modes<dim> formula_modes(const mesh::BodyMesh<dim> &mesh,
 {
   const auto is_wanted = wanted_bodies(bodies, parameters);
   Modes<dim> modes;
-  // A formula may be without a value at a node that only one rank has: all have to throw then.
+  // A formula may have no finite value at a node that only one rank has. All ranks must throw then.
   everywhere(mesh.communicator(), [&]() {
     modes = modes_at<dim>(
       mesh.reference_positions(),

@@ -44,7 +44,7 @@ InteriorMatrix<dim>::of_cell(const typename mesh::BodyMesh<dim>::Cell &cell) con
     K = laplacian(X);
   else
     element.stiffness(X, {1. / element.volume(X), poissons_ratio}, K);
-  // on the masters of hanging nodes, which follow by interpolation
+  // Hanging nodes are interpolated from their masters, so the matrix is condensed to the masters.
   const mesh::NodeReach<dim> reach(mesh, cell.nodes);
   reach.condense(K);
   const unsigned int m = reach.slots().size();

@@ -10,8 +10,8 @@ namespace snug::shape {
 namespace {
 /**
  * The faces of a side of a box as rectangles of the logical square
- * [0,1]^(dim-1), which they cover, and the weights of their nodes at its
- * points.
+ * [0,1]^(dim-1). The rectangles cover the square. This class returns the weights of the face nodes
+ * at points of the square.
  */
 template <int dim>
 class LogicalFaces
@@ -24,7 +24,7 @@ public:
     , normal(face.boundary() / 2)
     , shape(face.mesh().degree())
     , positions(face.surface().gather(logical(face.mesh())))
-    // About as many bins as faces: a bin holds a few faces, however fine the mesh is.
+    // With about as many bins as faces, a bin holds a few faces on meshes of any element size.
     , n_bins(std::ceil(std::pow(face.surface().faces().size(), 1. / (dim - 1))))
     , bins(dealii::Utilities::pow(n_bins, dim - 1))
   {
@@ -36,7 +36,7 @@ public:
       }
   }
 
-  /// The tangential coordinates of a point of the logical box.
+  /// Return the tangential coordinates of a point of the logical box.
   Tangential tangential(const dealii::Tensor<1, dim> &point) const
   {
     Tangential   place;
@@ -47,14 +47,15 @@ public:
     return place;
   }
 
-  /// Surface nodes and their weights at @p place.
+  /// Return the surface nodes and their weights at @p place.
   std::vector<std::pair<unsigned int, double>> weights(const Tangential &place) const
   {
     unsigned int bin = 0;
     for (unsigned int t = dim - 1; t-- > 0;)
       bin = bin * n_bins + bin_along(place[t]);
-    // No bin is empty, as the faces cover the square. Of faces that meet at the place any will do:
-    // the field of the face is continuous. Rounding may put a place outside of all by a little.
+    // No bin is empty, because the faces cover the square. If several faces meet at the place, any
+    // of these faces is valid, because the field of the face is continuous. Round-off may put a
+    // place slightly outside of all faces, so the nearest face is taken.
     unsigned int nearest = bins[bin].front();
     for (const unsigned int f : bins[bin])
       if (distance(f, place) < distance(nearest, place))
@@ -73,7 +74,8 @@ private:
     return {mesh.logical_positions().begin(), mesh.logical_positions().end()};
   }
 
-  /// Cells are refined along their logical coordinates, so faces are axis-parallel there.
+  /// Return the rectangle of a face. Cells are refined along their logical coordinates, so faces
+  /// are axis-parallel in logical coordinates.
   Rectangle rectangle(const std::vector<unsigned int> &nodes) const
   {
     Rectangle result;
@@ -100,7 +102,8 @@ private:
     unsigned int first[2] = {0, 0}, last[2] = {0, 0};
     for (unsigned int t = 0; t < dim - 1; ++t)
       {
-        // A face at the edge of a bin goes to both: a place there may be rounded into either.
+        // A face at the edge between two bins belongs to both bins, because round-off may put a
+        // place at this edge into either bin.
         first[t] = bin_along(rectangles[f].lower[t] - 1e-9);
         last[t]  = bin_along(rectangles[f].upper[t] + 1e-9);
       }
@@ -109,7 +112,7 @@ private:
         bins[i + n_bins * j].push_back(f);
   }
 
-  /// How far @p place is outside of a rectangle.
+  /// Return the maximum over axes of the distance of @p place from a rectangle; zero inside.
   double distance(const unsigned int f, const Tangential &place) const
   {
     double largest = 0.;
@@ -130,11 +133,12 @@ private:
         result[t] = (at[t] - box.lower[t]) / (box.upper[t] - box.lower[t]);
       return result;
     };
-    // By the shape functions of the elements, so that nodes on the face follow it exactly and the
-    // interior bends as the face does between its nodes.
+    // The weights are the shape functions of the elements, so that nodes on the face keep their
+    // moves exactly and the interior bends as the face bends between the face nodes.
     const auto                                   values = shape.at(xi(place));
     std::vector<std::pair<unsigned int, double>> result;
-    // The faces' own coordinates may be turned against the box's.
+    // The coordinates of a face may be rotated relative to the coordinates of the box, so nodes
+    // are matched with shape functions by position.
     for (const unsigned int node : nodes)
       {
         const Tangential own = xi(tangential(positions[node]));
@@ -157,7 +161,7 @@ private:
   std::vector<Rectangle>                 rectangles;
 };
 
-/// b at a node of the box.
+/// Return the factor b at a node of the box.
 template <int dim>
 double
 blend_factor(const ShapedFace<dim> &face, const dealii::Point<dim> &logical, const double reach)
@@ -171,7 +175,7 @@ blend_factor(const ShapedFace<dim> &face, const dealii::Point<dim> &logical, con
   far[axis] = 1.;
   const double height =
     geometry.box_position(far).distance(geometry.box_position(dealii::Point<dim>()));
-  // Down to the opposite face, whatever the lengths.
+  // Without a reach the factor decreases to zero at the opposite face, for boxes of any height.
   if (reach == 0.)
     return 1. - depth;
   return std::max(0., 1. - depth * height / reach);
@@ -186,8 +190,8 @@ public:
   LinearBlending(const ShapedFace<dim> &face, const double reach) : face(face)
   {
     const auto &mesh = face.mesh();
-    // Boxes are axis-parallel in logical coordinates, also where they are curved, turned or graded:
-    // the point below or above a node has the same tangential coordinates.
+    // Curved, turned and graded boxes are axis-parallel in logical coordinates as well. The face
+    // point below or above a node therefore has the same tangential coordinates as the node.
     const LogicalFaces<dim> faces(face);
     for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
       {
@@ -195,7 +199,7 @@ public:
           continue;
         const auto  &logical = mesh.logical_positions()[node];
         const double b       = blend_factor(face, logical, reach);
-        // beyond the reach: the node stays
+        // The node is beyond the reach and stays.
         if (b == 0.)
           continue;
         rows.push_back({node, faces.weights(faces.tangential(logical))});
@@ -223,7 +227,7 @@ public:
   }
 
 private:
-  /// b times the weights of the face's nodes at one node of the body.
+  /// The weights of the face nodes at one node of the body, multiplied by b.
   struct NodeWeights
   {
     unsigned int                                 node; ///< local

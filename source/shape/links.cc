@@ -8,13 +8,14 @@
 
 namespace snug::shape {
 namespace {
-/// Two controls are images of each other if they differ by less,
-/// relative to the extent of all and to the length of directions.
+/// Two controls are images of each other if their differences do not exceed this tolerance. The
+/// difference of positions is relative to the extent of all controls, and the difference of
+/// directions is relative to the length of the directions.
 const double image_tolerance = 1e-6;
 
-/// "x: 0.5, y: 1" as users write the planes.
-/// Groups of numbers that are equal but for their signs: a forest, in which each number points to
-/// one of its group with a lower index and has the sign relative to it.
+/// Groups of numbers that are equal up to their signs. The groups form a forest: each number
+/// points to a number of the same group with a lower index and stores the sign relative to the
+/// number with the lower index. Roots point to themselves.
 class SignedGroups
 {
 public:
@@ -23,7 +24,7 @@ public:
     std::iota(parent.begin(), parent.end(), 0u);
   }
 
-  /// Number i is sign * number root(i).
+  /// Return the root and the sign of number i, with number i = sign * number root(i).
   std::pair<unsigned int, double> root(unsigned int i) const
   {
     double product = 1.;
@@ -35,7 +36,7 @@ public:
     return {i, product};
   }
 
-  /// Let number i be @p factor times number j.
+  /// Set number i equal to @p factor times number j.
   void tie(unsigned int i, unsigned int j, double factor)
   {
     const auto a = root(i), b = root(j);
@@ -43,20 +44,21 @@ public:
     // Signs are their own inverses: A = between * B and B = between * A.
     const double between = a.second * factor * b.second;
     if (a.first == b.first)
-      // x = -x: only 0 satisfies it.
+      // Only x = 0 satisfies x = -x.
       fixed[a.first] = fixed[a.first] || between < 0.;
     else
       {
         const unsigned int first = std::min(a.first, b.first);
         const unsigned int last  = std::max(a.first, b.first);
-        // Roots are the first of their groups: variables get numbers in the order of the controls.
+        // The root is the first number of the group, so that variables are numbered in the order
+        // of the controls.
         parent[last] = first;
         sign[last]   = between;
         fixed[first] = fixed[first] || fixed[last];
       }
   }
 
-  /// Fixes the whole group, as its numbers are equal up to signs.
+  /// Fix the whole group of number i, because the numbers of a group are equal up to signs.
   void fix(unsigned int i) { fixed[root(i).first] = true; }
 
   bool is_fixed(unsigned int i) const { return fixed[root(i).first]; }
@@ -67,7 +69,7 @@ private:
   std::vector<bool>         fixed;
 };
 
-/// Ties controls to their images across planes.
+/// This class ties controls to their images across mirror planes.
 template <int dim>
 class Mirrors
 {
@@ -76,13 +78,13 @@ public:
     : controls(controls), parameters(parameters), positions(places(controls)), near(positions)
   {
     for (const auto &position : positions)
-      // Length that the tolerance of places refers to.
+      // The tolerance of positions is relative to this length.
       extent = std::max(extent, (position - positions[0]).norm());
   }
 
   void tie(SignedGroups &groups) const
   {
-    // Planes one after the other: groups join the images of images.
+    // Planes are processed one after the other. Groups join the images of images.
     for (const auto &plane : parameters.symmetry)
       for (unsigned int i = 0; i < controls.size(); ++i)
         tie_image(groups, plane.first, plane.second, i);
@@ -102,7 +104,7 @@ private:
                  const double       coordinate,
                  const unsigned int i) const
   {
-    // Mirror image: the coordinate across the plane is reflected, and so is that component of the
+    // The mirror image reflects the coordinate normal to the plane and the same component of the
     // direction.
     const unsigned int d         = axis[0] - 'x';
     auto               position  = positions[i];
@@ -112,8 +114,8 @@ private:
     bool found                   = false;
     near.for_each(position, image_tolerance * extent, [&](unsigned int j, double) {
       const auto other = controls[j].direction;
-      // A control that moves the image point the other way is tied with the opposite sign; one
-      // across the direction, as the other axes of a box, is not tied.
+      // A control that moves the image point in the opposite direction is tied with the sign -1. A
+      // control with another direction, such as the other axes of a box, is not tied.
       for (const double sign : {1., -1.})
         if ((direction - sign * other).norm() <= image_tolerance * other.norm())
           {
@@ -121,7 +123,7 @@ private:
             found = true;
           }
     });
-    // A control without an image would break the symmetry of the others.
+    // A control without an image would break the symmetry of the other controls.
     if (found)
       return;
     std::ostringstream what;
@@ -137,8 +139,8 @@ private:
   double                              extent = 0.;
 };
 
-/// The index in an item of the entry Fixed, or false.
-/// Up to 9 digits, which fit an unsigned int.
+/// Read the index in an item of the entry Fixed. Return false if the item is no index. An index
+/// has at most 9 digits, which fit an unsigned int.
 bool read_index(const std::string &text, unsigned int &index)
 {
   if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
@@ -152,7 +154,7 @@ template <int dim>
 std::vector<bool> fixed_points(const std::vector<Control<dim>> &controls,
                                const ShapeParameters           &parameters)
 {
-  // Controls come in the order of their points; several may move one of them.
+  // Controls are sorted by their points, and several controls may move the same point.
   const unsigned int n_points = controls.empty() ? 0 : controls.back().point + 1;
   std::vector<bool>  listed_points(n_points, false);
   bool               border = false;
@@ -174,11 +176,11 @@ std::vector<bool> fixed_points(const std::vector<Control<dim>> &controls,
   return result;
 }
 
-/// For modes without control points: nothing to fix or to mirror.
+/// This constructor serves modes without control points, which cannot be fixed or mirrored.
 Links::Links(const unsigned int n) : size(n)
 {
   for (unsigned int i = 0; i < n; ++i)
-    // each is a variable of its own
+    // Each control is a variable of its own.
     ties.push_back({i, 1.});
 }
 
@@ -197,7 +199,7 @@ Links::Links(const std::vector<Control<dim>> &controls, const ShapeParameters &p
       const auto root = groups.root(i);
       if (root.first == i && !groups.is_fixed(i))
         variable[i] = size++;
-      // roots come first in their groups
+      // The root comes first in its group, so variable[root.first] is already set.
       ties.push_back({variable[root.first], groups.is_fixed(i) ? 0. : root.second});
     }
   if (size == 0)
@@ -206,7 +208,7 @@ Links::Links(const std::vector<Control<dim>> &controls, const ShapeParameters &p
                     "left to move");
 }
 
-/// Fixed controls have the sign 0, and an index that means nothing.
+/// Fixed controls have the sign 0, and the variable index of a fixed control has no meaning.
 std::vector<double> Links::expand(const std::vector<double> &alpha) const
 {
   AssertDimension(alpha.size(), size);
@@ -216,7 +218,7 @@ std::vector<double> Links::expand(const std::vector<double> &alpha) const
   return result;
 }
 
-/// Controls of one variable add up their parts of the gradient.
+/// The gradient with respect to a variable is the sum over the controls tied to the variable.
 std::vector<double> Links::collect(const std::vector<double> &gradient) const
 {
   AssertDimension(gradient.size(), ties.size());

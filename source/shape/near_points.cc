@@ -7,7 +7,7 @@ namespace snug::shape {
 template <int dim>
 NearPoints<dim>::NearPoints(const std::vector<Point> &points) : points(points), order(points.size())
 {
-  // Below zero, so that an axis is chosen also where all points coincide.
+  // The initial value is below zero, so that an axis is chosen even if all points coincide.
   double widest = -1.;
   for (unsigned int d = 0; d < dim && !points.empty(); ++d)
     {
@@ -22,8 +22,8 @@ NearPoints<dim>::NearPoints(const std::vector<Point> &points) : points(points), 
         }
     }
   std::iota(order.begin(), order.end(), 0u);
-  // Stable: points at the same coordinate are visited in the order given, so that sums over them
-  // are reproducible.
+  // The stable sort keeps the given order of points with the same coordinate, so that sums over
+  // points are reproducible.
   std::stable_sort(order.begin(), order.end(), [this](unsigned int a, unsigned int b) {
     return this->points[a][axis] < this->points[b][axis];
   });
@@ -34,7 +34,8 @@ void NearPoints<dim>::for_each(const Point                                     &
                                const double                                     radius,
                                const std::function<void(unsigned int, double)> &visit) const
 {
-  // Points within the radius along the axis, of which the distance then decides.
+  // The loop visits the points within the radius along the axis. The distance then selects the
+  // points within the sphere.
   auto next = std::lower_bound(order.begin(), order.end(), centre[axis] - radius,
                                [this](unsigned int i, double x) { return points[i][axis] < x; });
   for (; next != order.end() && points[*next][axis] <= centre[axis] + radius; ++next)
@@ -45,7 +46,7 @@ void NearPoints<dim>::for_each(const Point                                     &
     }
 }
 
-/// Bounded by the radius: callers only ask how far a node is within it.
+/// The distance is bounded by the radius, because callers need only distances below the radius.
 template <int dim>
 double NearPoints<dim>::distance(const Point &centre, const double radius) const
 {

@@ -9,24 +9,25 @@
 
 namespace snug::shape {
 namespace {
-/// Sine of the angle from which on two faces count as different planes
-/// and not as one curved surface.
+/// Sine of the minimum angle between two faces that are different planes. Faces at a smaller
+/// angle are one curved surface.
 const double least_edge_sine = 0.5;
 
-/// P <- P without the part along n, unless little of n is left in P.
+/// Remove the direction of n from P, unless the length of P n is below the threshold.
 template <int dim>
 void remove_direction(const dealii::Tensor<1, dim> &n, dealii::Tensor<2, dim> &P)
 {
-  // P is a projector: left is what the directions removed before have not taken of n. If n turns
-  // less than 30 degrees out of their span, it belongs to the same curved surface.
+  // P is a projector, so left is the part of n normal to all directions removed before. If the
+  // angle between n and the span of the removed directions is less than 30 degrees, n belongs to
+  // the same curved surface as the removed directions.
   const auto   left   = P * n;
   const double length = left.norm();
   if (length >= least_edge_sine)
     P -= outer_product(left, left) / (length * length);
 }
 
-/// Unit normals, one or several at a node, of the faces of a surface:
-/// faces that turn little are averaged.
+/// Return the unit normals at the nodes of a surface, one or several per node. Normals of faces
+/// at an angle below 30 degrees are averaged.
 template <int dim>
 std::vector<std::vector<dealii::Tensor<1, dim>>>
 plane_normals(const mesh::Surface<dim>                 &surface,
@@ -40,7 +41,7 @@ plane_normals(const mesh::Surface<dim>                 &surface,
       {
         const auto area =
           faces::area_vector(faces::tangents<dim>(shape.at_node(k), face.nodes, positions));
-        // At this node of this face: on a curved face the normal differs from node to node.
+        // The normal is evaluated at this node, because the normal of a curved face varies.
         auto      &planes = sums[face.nodes[k]];
         const auto same   = std::find_if(planes.begin(), planes.end(), [&area](const auto &plane) {
           const double cosine = plane * area / (plane.norm() * area.norm());
@@ -70,7 +71,7 @@ NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
       projectors[node] = 0.;
 }
 
-/// By global numbers: the face is gathered from all ranks.
+/// Nodes are found by their global numbers, because the face is gathered from all ranks.
 template <int dim>
 void NodeRoles<dim>::find_drivers()
 {
@@ -95,7 +96,7 @@ std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const 
       for (const unsigned int node : other.nodes)
         if (drivers[node] != none)
           touches[other.boundary] = 1;
-  // Faces that touch may be on other ranks only.
+  // The faces that touch the shaped face may be on other ranks only.
   dealii::Utilities::MPI::max(touches, mesh.communicator(), touches);
   std::vector<std::pair<unsigned int, unsigned int>> result;
   for (unsigned int boundary = 0; boundary < n; ++boundary)
@@ -104,7 +105,7 @@ std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const 
   return result;
 }
 
-/// Nodes of other bodies stay: bodies have no nodes in common.
+/// Nodes of other bodies stay, because bodies have no nodes in common.
 template <int dim>
 void NodeRoles<dim>::free_nodes(const double reach)
 {
@@ -116,7 +117,7 @@ void NodeRoles<dim>::free_nodes(const double reach)
       projectors[node] = dealii::unit_symmetric_tensor<dim>();
 }
 
-/// A node of a held boundary is held, also where a sliding one meets it.
+/// A node of both a held and a sliding boundary is held.
 template <int dim>
 void NodeRoles<dim>::hold_or_slide()
 {
@@ -133,13 +134,14 @@ void NodeRoles<dim>::hold_or_slide()
   for (unsigned int node = 0; node < projectors.size(); ++node)
     {
       const unsigned int global = mesh.global_node(node);
-      // Its projector is zero already when sliding planes are removed below.
+      // The zero projector of a held node stays zero when sliding planes are removed below.
       if (holds.count(global) != 0)
         projectors[node] = 0.;
       const auto found = slides.find(global);
       if (found != slides.end())
         for (const auto &normal : normals[found->second])
-          // One plane leaves its tangents, two leave the edge between them, three nothing.
+          // Removing one normal leaves the tangents of the plane, removing two normals leaves the
+          // edge between two planes, and removing three normals leaves no direction.
           remove_direction(normal, projectors[node]);
     }
 }

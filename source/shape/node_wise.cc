@@ -11,7 +11,7 @@ namespace {
 /// Variables of one node and their factors.
 using Weights = std::vector<std::pair<unsigned int, double>>;
 
-/// w_ij / sum_j w_ij
+/// Return the rows w_ij / sum_j w_ij.
 template <int dim>
 std::vector<Weights> filter_weights(const std::vector<dealii::Tensor<1, dim>> &places,
                                     const std::vector<double>                 &areas,
@@ -23,20 +23,21 @@ std::vector<Weights> filter_weights(const std::vector<dealii::Tensor<1, dim>> &p
     {
       double sum = 0.;
       near.for_each(places[i], radius, [&](unsigned int j, double r) {
-        // By area: a finer mesh has more nodes in the radius, not a stronger pull.
+        // The factor A_j keeps the weight of a part of the face independent of the element size: a
+        // finer mesh has more nodes within the radius, each with a smaller area.
         const double weight = areas[j] * (1. - r / radius);
         rows[i].emplace_back(j, weight);
         sum += weight;
       });
       for (auto &weight : rows[i])
-        // Equal alpha give equal heights: the filter keeps constants.
+        // The normalization keeps constants, so that equal alpha give equal heights.
         weight.second /= sum;
     }
   return rows;
 }
 
-/// Rows times c_i. Without c_i the filter would move a fixed node by its neighbours, or, if only
-/// its own row was zero, leave a step of one cell beside it.
+/// Multiply the rows by c_i. Without c_i the variables of neighbours would move a fixed node. If
+/// only the row of the fixed node was zero, the moves would jump across one cell.
 template <int dim>
 void lead_to_fixed(const std::vector<dealii::Tensor<1, dim>> &places,
                    const std::vector<bool>                   &fixed,
@@ -50,7 +51,7 @@ void lead_to_fixed(const std::vector<dealii::Tensor<1, dim>> &places,
   const NearPoints<dim> near(fixed_places);
   for (unsigned int i = 0; i < places.size(); ++i)
     {
-      // Without fixed nodes near.distance() gives the radius, and the factor is 1.
+      // Without fixed nodes near.distance() returns the radius, and the factor is 1.
       const double factor = near.distance(places[i], radius) / radius;
       for (auto &weight : rows[i])
         weight.second *= factor;
@@ -63,12 +64,13 @@ Modes<dim> node_wise(const ShapedFace<dim> &face, const ShapeParameters &paramet
 {
   const double radius = parameters.filter_radius;
   const auto   d      = face_directions(face, parameters);
-  // A radius below the distance of the nodes leaves each node its own weight: no filter.
+  // A positive radius below the distance of the nodes is valid and means no filter: the row of
+  // each node contains only the variable of the node.
   if (!(radius > 0.) || !std::isfinite(radius))
     throw bad_entry(parameters.path("Filter radius"), std::to_string(radius),
                     "must be positive for a node-wise shape");
   Modes<dim>                          modes;
-  std::vector<unsigned int>           nodes; // of the variables
+  std::vector<unsigned int>           nodes; // surface node of each variable
   std::vector<dealii::Tensor<1, dim>> places;
   std::vector<double>                 areas;
   for (unsigned int node = 0; node < face.surface().n_nodes(); ++node)

@@ -9,8 +9,8 @@
 
 namespace snug::shape {
 namespace {
-/// (body, boundary) of boundary faces with one of the local nodes marked,
-/// of all ranks, ascending. Collective.
+/// Return (body, boundary) of the boundary faces of all ranks that have a marked node, ascending.
+/// @p is_marked has one value per local node. Collective.
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const mesh::BodyMesh<dim> &mesh,
                                                                  const std::vector<bool> &is_marked)
@@ -22,13 +22,13 @@ std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const mesh::Bod
       if (is_marked[node])
         found.insert({face.body, face.boundary});
   const std::vector<Boundary> mine(found.begin(), found.end());
-  // A set: ascending, each boundary once, the same on all ranks.
+  // The set holds each boundary once in ascending order, and is the same on all ranks.
   for (const auto &of_rank : dealii::Utilities::MPI::all_gather(mesh.communicator(), mine))
     found.insert(of_rank.begin(), of_rank.end());
   return {found.begin(), found.end()};
 }
 
-/// The basis of modes of the entry Face, @p make(face).
+/// Return the basis of the face of the entry Face with the modes @p make(face).
 template <int dim, typename Make>
 std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
                                     const BodyNames           &bodies,
@@ -36,7 +36,7 @@ std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
                                     const Make                &make)
 {
   auto face = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
-  // Modes and interior refer to the face, which keeps its place when the pointer moves.
+  // Modes and interior refer to the face, whose address stays the same when the pointer is moved.
   auto modes    = make(*face);
   auto interior = parameters.interior == InteriorKind::linear_blending
                     ? linear_blending(*face, parameters)
@@ -44,7 +44,8 @@ std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
   return std::make_unique<Shape<dim>>(std::move(face), std::move(modes), std::move(interior));
 }
 
-/// Fields of whole bodies move the interior by themselves; on a face it has to follow.
+/// Make a shape of formula modes. Modes of whole bodies move the interior themselves, whereas
+/// modes of a face need an Interior.
 template <int dim>
 std::unique_ptr<Shape<dim>> of_formulas(const mesh::BodyMesh<dim> &mesh,
                                         const BodyNames           &bodies,
@@ -92,7 +93,8 @@ std::vector<double> Modes<dim>::transpose(const Field &gradient) const
 template <int dim>
 typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(unsigned int i) const
 {
-  // V is constant, and an interior costs a solve. Most columns move few nodes: only those are kept.
+  // The columns are cached, because V is constant and each apply() with a solved interior costs a
+  // linear solve. Only the nodes that move are stored, because most columns move few nodes.
   if (kept.count(i) == 0)
     {
       std::vector<double> alpha(n_variables(), 0.);
@@ -125,10 +127,11 @@ Shape<dim>::Shape(std::unique_ptr<ShapedFace<dim>> face,
   , interior(std::move(interior))
 {}
 
-/// Modes that know their moves anywhere on the face give those of its samples, others those of
-/// nodes, between which samples lie. Modes are free to move hanging nodes anywhere; C puts them
-/// back on the lines or faces of their masters, and H those of the mesh, or it would tear open
-/// there.
+/// Modes that are defined anywhere on the face give the moves of nodes and samples. Other modes
+/// give the moves of nodes only, and the moves of samples are interpolated from nodes. Modes may
+/// move hanging nodes anywhere. C moves the hanging nodes of the face back to the lines or faces of
+/// their masters, and H moves the hanging nodes of the mesh, because otherwise the mesh would have
+/// gaps.
 template <int dim>
 typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) const
 {
@@ -150,7 +153,7 @@ typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) c
   return moves;
 }
 
-/// V' = M'C'E'H': the transposes in reverse order.
+/// V' = M'C'E'H' applies the transposes in reverse order.
 template <int dim>
 std::vector<double> Shape<dim>::transpose(const Field &gradient) const
 {
@@ -173,7 +176,8 @@ std::vector<double> Shape<dim>::transpose(const Field &gradient) const
       std::copy_n(to_nodes.begin(), face->surface().n_nodes(), on_face.begin());
       at_points = on_face;
     }
-  // All of V' is linear, so that ranks add their shares at the end, where there are few numbers.
+  // V' is linear, so the contributions of the ranks are summed at the end, where the vector has
+  // only one number per variable.
   auto result = modes.transpose(at_points);
   dealii::Utilities::MPI::sum(result, mesh.communicator(), result);
   return result;
@@ -194,7 +198,7 @@ std::vector<std::pair<unsigned int, unsigned int>> Shape<dim>::faces() const
 {
   if (face)
     return {{face->body(), face->boundary()}};
-  // Nodes that no variable moves have no entries.
+  // The row of a node that no variable moves is empty.
   std::vector<bool> moves;
   for (unsigned int node = 0; node < modes.n_nodes; ++node)
     moves.push_back(!modes.row(node).empty());
@@ -225,7 +229,7 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
   const Names patch_entries = with(face_entries, {"Control points"});
   const Names box_entries   = {"Bodies",    "Box corner", "Box size", "Control points",
                                "Direction", "Symmetry",   "Fixed"};
-  // Degree 0 of spline_net() stands for Bernstein polynomials.
+  // The degree 0 of spline_net() stands for Bernstein polynomials.
   static const ChoiceTable<MakeShape<dim>> table = {
     {"none", "the shape is fixed",
      [](const auto &mesh, const auto &, const auto &) {

@@ -52,10 +52,10 @@ void declare_links(Entries &entries, ShapeParameters &shape)
               "their images: 'x: 0.5'.");
 }
 
-/// The entries its basis reads.
+/// Return the entries that the basis of @p shape reads.
 std::vector<std::string> entries_of(const ShapeParameters &shape)
 {
-  // The same in 2D and 3D.
+  // The bases and their entries are the same in 2D and 3D.
   auto       entries = choose(shape_basis_table<3>(), shape.basis).entries;
   const auto drop    = [&entries](const std::string &name) {
     entries.erase(std::remove(entries.begin(), entries.end(), name), entries.end());
@@ -73,8 +73,8 @@ std::vector<std::string> entries_of(const ShapeParameters &shape)
   return entries;
 }
 
-/// What the basis makes of its entries can be made, as far as no mesh is
-/// needed. @throws InputError naming the entry
+/// Check that the objects which the basis makes from the entries without a mesh can be made.
+/// @throws InputError naming the entry
 template <int dim>
 void make_parts(const ShapeParameters &shape)
 {

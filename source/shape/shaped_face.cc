@@ -13,10 +13,11 @@
 
 namespace snug::shape {
 namespace {
-/// Nodes this close to a plane, relative to its extent, lie in it.
+/// Maximum distance of a point of a plane from the plane, relative to the extent of the plane.
 const double in_plane = 1e-6;
 
-/// Sine of 25 degrees: a normal that leans more on a plane means it.
+/// Sine of 25 degrees. A normal that is inclined more to a plane keeps this inclination, because
+/// the inclination is intended.
 const double most_lean = 0.42;
 
 /// A plane boundary.
@@ -24,8 +25,8 @@ template <int dim>
 struct Plane
 {
   dealii::Tensor<1, dim> normal, point;
-  double                 tolerance; ///< of distances [length]
-  std::set<unsigned int> nodes;     ///< global
+  double                 tolerance; ///< maximum distance of points of the plane [length]
+  std::set<unsigned int> nodes;     ///< global numbers
 
   bool holds(const dealii::Tensor<1, dim> &x) const
   {
@@ -43,7 +44,8 @@ bool touches(const mesh::Surface<dim>                &surface,
   });
 }
 
-/// That of a boundary, unless it is curved or the mesh has none such. Collective.
+/// Return the plane of a boundary, or nothing if the boundary is curved or the mesh has no faces
+/// of the boundary. Collective.
 template <int dim>
 std::optional<Plane<dim>> plane_of(const mesh::BodyMesh<dim>                   &mesh,
                                    const std::pair<unsigned int, unsigned int> &boundary)
@@ -100,7 +102,7 @@ ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
                             const ShapeParameters     &parameters)
   : body_mesh(mesh), place(find_face(mesh, bodies, parameters)), nodes(mesh, {place})
 {
-  // On all ranks: surfaces are replicated.
+  // All ranks throw or none, because surfaces are replicated.
   if (nodes.n_nodes() == 0)
     throw bad_entry(parameters.path("Face"), parameters.face, "the mesh has no such faces");
   measure();
@@ -108,7 +110,8 @@ ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
   keep_to_planes();
 }
 
-/// At the reference, once: bases are linear in the design and do not follow what they move.
+/// Normals and areas are computed once in the reference geometry, because bases are linear in the
+/// design and do not depend on the moved positions.
 template <int dim>
 void ShapedFace<dim>::measure()
 {
@@ -132,22 +135,23 @@ void ShapedFace<dim>::measure()
   Field weights(nodes.n_nodes());
   for (const auto &face : nodes.faces())
     for (unsigned int k = 0; k < face.nodes.size(); ++k)
-      // The area element at node k over the number of nodes: a rule with equal weights.
+      // The quadrature has the nodes as points and equal weights: the area element at node k is
+      // divided by the number of nodes.
       weights[face.nodes[k]][0] +=
         faces::area_vector(faces::tangents<dim>(shape.at_node(k), face.nodes, reference)).norm() /
         face.nodes.size();
-  // A field of vectors only to use the same routine; the area is in component 0.
+  // The areas are component 0 of a vector field, because distribute_hanging() takes vectors.
   distribute_hanging(weights);
   for (const auto &weight : weights)
     node_areas.push_back(weight[0]);
   node_areas.resize(nodes.n_points(), 0.);
 }
 
-/// Bodies have no nodes in common: only other boundaries of the same body count.
+/// Only other boundaries of the same body are searched, because bodies have no nodes in common.
 template <int dim>
 void ShapedFace<dim>::find_border()
 {
-  std::vector<unsigned int> elsewhere; // global nodes of other boundaries
+  std::vector<unsigned int> elsewhere; // global nodes of other boundaries of the body
   for (const auto &face : body_mesh.boundary_faces())
     if (face.body == place.first && face.boundary != place.second)
       for (const unsigned int node : face.nodes)
@@ -161,8 +165,9 @@ void ShapedFace<dim>::find_border()
   on_border.assign(marks.begin(), marks.end());
 }
 
-/// At the edge of a curved face the mean over its faces is one-sided: it would tilt off a symmetry
-/// plane by half of the angle between two faces, and designs with it.
+/// At the edge of a curved face the mean normal is one-sided. Without the projection the normal
+/// would be inclined to a symmetry plane by half of the angle between two faces, and designs would
+/// leave the symmetry plane.
 template <int dim>
 void ShapedFace<dim>::keep_to_planes()
 {
@@ -174,7 +179,7 @@ void ShapedFace<dim>::keep_to_planes()
       const auto plane = plane_of<dim>(body_mesh, {place.first, b});
       if (!plane)
         continue;
-      std::set<unsigned int> points; // of faces that touch it
+      std::set<unsigned int> points; // points of the faces that touch the plane
       for (const auto &face : nodes.faces())
         if (touches(nodes, face, *plane))
           for (const auto *of_face : {&face.nodes, &face.samples})
@@ -184,7 +189,7 @@ void ShapedFace<dim>::keep_to_planes()
             std::abs(plane->normal * unit_normals[point]) < most_lean)
           {
             const auto q = faces::free_part(plane->normal, held[point]);
-            if (q.norm() > most_lean) // else it is one of those before
+            if (q.norm() > most_lean) // otherwise a plane before has nearly the same normal
               held[point].push_back(q / q.norm());
           }
     }
@@ -196,7 +201,8 @@ void ShapedFace<dim>::keep_to_planes()
       }
 }
 
-/// On surface nodes, as BodyMesh does on local nodes. Masters of hanging nodes are surface nodes.
+/// This function works on surface nodes as BodyMesh::interpolate_hanging() works on local nodes.
+/// Masters of hanging nodes are surface nodes.
 template <int dim>
 void ShapedFace<dim>::interpolate_hanging(Field &field) const
 {
@@ -209,7 +215,7 @@ void ShapedFace<dim>::interpolate_hanging(Field &field) const
       }
 }
 
-/// Masters do not hang themselves, so that one pass suffices.
+/// One pass suffices, because masters are never hanging.
 template <int dim>
 void ShapedFace<dim>::distribute_hanging(Field &field) const
 {
@@ -222,7 +228,7 @@ void ShapedFace<dim>::distribute_hanging(Field &field) const
       }
 }
 
-/// Of unit length: variables are heights.
+/// The directions have unit length, so that variables are heights.
 template <int dim>
 typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
                                                 const ShapeParameters &parameters)

@@ -10,7 +10,8 @@
 
 namespace snug::shape {
 namespace {
-/// Fixed and Symmetry are about control points; shapes without them have one variable per mode.
+/// Make the links of a shape. The entries Fixed and Symmetry refer to control points. A shape
+/// without control points has one variable per mode.
 template <int dim>
 Links make_links(const Shape<dim> &basis, const ShapeParameters &parameters)
 {
@@ -36,7 +37,7 @@ Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
   for (const auto &one : parameters)
     {
       auto basis = choose(shape_basis_table<dim>(), one.basis).make(mesh, bodies, one);
-      // Variables of the shapes before
+      // The first variable follows the variables of all shapes before.
       const unsigned int first = lower.size();
       Links              links = make_links(*basis, one);
       add_variables(one, links.n_variables());
@@ -48,7 +49,7 @@ template <int dim>
 std::vector<double> Shapes<dim>::first_steps() const
 {
   const auto         &x = mesh.reference_positions();
-  std::vector<double> moved(n_variables(), 0.); // over the cell, by a unit change
+  std::vector<double> moved(n_variables(), 0.); // maximum move per unit change, in cell edges
   for (unsigned int j = 0; j < moved.size(); ++j)
     {
       const auto move = this->column(j);
@@ -76,7 +77,7 @@ std::vector<double> Shapes<dim>::first_steps() const
 template <int dim>
 void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigned int n)
 {
-  // A fixed shape needs no bounds.
+  // A shape without variables needs no bounds.
   if (n == 0)
     return;
   require_bounds(parameters);
@@ -84,7 +85,7 @@ void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigne
   if (start.empty())
     start = {0.};
   if (start.size() == 1)
-    // One number stands for all variables.
+    // A single number is the start of all variables.
     start.resize(n, start.front());
   if (start.size() != n)
     throw bad_entry(parameters.path("Initial"), to_text(start),
@@ -109,7 +110,7 @@ typename Shapes<dim>::Field Shapes<dim>::apply(const std::vector<double> &alpha)
   Field result(mesh.n_points());
   for (const Part &part : parts)
     {
-      // Shapes add up: V = [V_1 L_1, V_2 L_2, ..].
+      // The displacements of shapes add up: V = [V_1 L_1, V_2 L_2, ..].
       const Field moves = part.basis->apply(expanded(part, alpha));
       for (unsigned int node = 0; node < result.size(); ++node)
         result[node] += moves[node];
@@ -123,7 +124,7 @@ std::vector<double> Shapes<dim>::transpose(const Field &gradient) const
   std::vector<double> result;
   for (const Part &part : parts)
     {
-      // L'V' gradient of each shape, in the order of its variables.
+      // The result lists L'V' gradient shape by shape, in the order of the variables.
       const auto values = part.links.collect(part.basis->transpose(gradient));
       result.insert(result.end(), values.begin(), values.end());
     }
@@ -142,7 +143,7 @@ std::vector<std::pair<unsigned int, unsigned int>> Shapes<dim>::faces() const
   return result;
 }
 
-/// Places in the reference plus the moves by all variables of the point.
+/// The position of a point is the reference position plus the moves by all variables of the point.
 template <int dim>
 std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<double> &alpha) const
 {
@@ -156,8 +157,8 @@ std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<doubl
       for (unsigned int i = 0; i < controls.size(); ++i)
         {
           const auto &control = controls[i];
-          // Several variables may move one point. Controls come in the order of their points, so
-          // that a new point has the next index.
+          // Several variables may move one point. Controls are sorted by their points, so the next
+          // control either moves the same point or the point with the next index.
           if (first + control.point == points.size())
             {
               const auto place = control.shown ? control.shown->first : control.position;

@@ -16,12 +16,12 @@ namespace snug::shape {
 namespace {
 using petsc::check;
 
-/// Two solves to this tolerance, the second for the residual of the
-/// first, leave round-off.
+/// Relative tolerance of one solve. Two solves to this tolerance reduce the error to round-off,
+/// because the second solve has the residual of the first as its right-hand side.
 const double       solve_tolerance = 1e-9;
 const unsigned int n_solves        = 2;
 
-/// Coarse problems of this size are factorized.
+/// Multigrid stops coarsening below this number of equations and factorizes the coarse problem.
 const PetscInt direct_size = 1000;
 
 template <int dim>
@@ -47,7 +47,7 @@ public:
   {
     Field force(numbers.size());
     for (unsigned int node = 0; node < force.size(); ++node)
-      // Of this rank's cells alone: solve() adds up the ranks' forces.
+      // The forces contain the cells of this rank alone, because solve() sums forces over ranks.
       for (const auto &[surface_node, block] : couplings[node])
         force[node] -= block * moves[surface_node];
     Field result = solve(force);
@@ -74,7 +74,7 @@ public:
 private:
   using Block                        = dealii::Tensor<2, dim>;
   static constexpr unsigned int none = NodeRoles<dim>::none;
-  /// Blocks of one row by column.
+  /// The blocks of one row, by column.
   using Row = std::map<unsigned int, Block>;
 
   void number_unknowns()
@@ -88,7 +88,8 @@ private:
     const unsigned int n = own.size();
     MPI_Scan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, mesh.communicator());
     first -= n;
-    // From 1: zeros stay where the owner, who knows better which nodes hang, has no unknown.
+    // Numbers begin with 1, so that 0 means a node without an unknown on the rank that owns the
+    // node. The owner decides, because only the owner knows for certain whether the node hangs.
     for (unsigned int i = 0; i < n; ++i)
       sums[own[i]] = 1. + first + i;
     mesh::sum_at_shared_nodes(mesh, 1, sums);
@@ -97,7 +98,8 @@ private:
                                                                            : none);
   }
 
-  /// Blocks of this rank's cells: rows of A_ff by local node, with numbers of unknowns as columns.
+  /// Assemble the blocks of the cells of this rank. Return the rows of A_ff by local node, with
+  /// numbers of unknowns as columns, and store A_fd in couplings.
   std::vector<Row> assemble(const InteriorKind kind)
   {
     const auto                identity = dealii::unit_symmetric_tensor<dim>();
@@ -125,23 +127,23 @@ private:
                 else if (roles.driver(node) != none)
                   couplings[row][roles.driver(node)] += block;
               }
-            // Directions the node may not take: a diagonal of the others' size keeps A_ff regular
-            // and its condition number as it is.
+            // In the directions in which the node may not move, a diagonal of the same size as in
+            // the other directions keeps A_ff regular and does not change its condition number.
             rows[row][numbers[row]] += trace(K.blocks[a * m + a]) / dim * (Block(identity) - P);
           }
       }
     return rows;
   }
 
-  /// Rows of ghosts go to their owners, who add them in the order of ranks:
-  /// sums that depended on the order of messages would not repeat.
+  /// Send the rows of ghost nodes to the owners of the nodes. The owners add the rows in the order
+  /// of ranks, because sums in the order of messages would not be reproducible.
   void send_to_owners(std::vector<Row> &rows) const
   {
     const auto        &mesh = face.mesh();
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
     std::map<unsigned int, std::map<unsigned int, Row>> parcels;
     for (unsigned int node = 0; node < rows.size(); ++node)
-      // By the number, as a node has another local index on every rank.
+      // The parcel names the number of the unknown, because local indices differ between ranks.
       if (mesh.owner(node) != rank && !rows[node].empty())
         parcels[mesh.owner(node)][numbers[node]] = rows[node];
     for (const auto &received : dealii::Utilities::MPI::some_to_some(mesh.communicator(), parcels))
@@ -198,8 +200,9 @@ private:
     check(PCGAMGSetCoarseEqLim(preconditioner, direct_size));
     if (kind == InteriorKind::elasticity)
       {
-        // For the rigid motions, which coarse levels must hold. Never a null
-        // pointer, which means no coordinates: all ranks must agree.
+        // PETSc derives the rigid motions, which coarse levels must represent, from the
+        // coordinates. The pointer must not be null on ranks without unknowns, because PETSc takes
+        // a null pointer for no coordinates and all ranks must agree.
         std::vector<double> places(dim * std::max<std::size_t>(own.size(), 1));
         for (unsigned int i = 0; i < dim * own.size(); ++i)
           places[i] = face.mesh().reference_positions()[own[i / dim]][i % dim];
@@ -209,8 +212,8 @@ private:
     check(KSPSetUp(solver));
   }
 
-  /// A_ff^-1 force at the unknowns, where contributions of all ranks to the force are added up;
-  /// zero at other nodes.
+  /// Return A_ff^-1 force at the unknowns and zero at other nodes. The contributions of all ranks
+  /// to @p force are added up.
   Field solve(const Field &force) const
   {
     Field result(force.size());
@@ -240,7 +243,7 @@ private:
         check(MatMult(matrix, x, residual));
         check(VecAYPX(residual, -1., b));
       }
-    // Only owners have values, so that sums over ranks give them to all.
+    // Only owners have nonzero values, so sums over ranks copy the values of owners to all ranks.
     std::fill(sums.begin(), sums.end(), 0.);
     check(VecGetArray(x, &values));
     for (unsigned int i = 0; i < dim * own.size(); ++i)
@@ -255,12 +258,12 @@ private:
   const ShapedFace<dim> &face;
   NodeRoles<dim>         roles;
 
-  std::vector<unsigned int> own;       ///< nodes of unknowns of this rank
-  unsigned int              first = 0; ///< number of the first of these
+  std::vector<unsigned int> own;       ///< local nodes of the unknowns of this rank
+  unsigned int              first = 0; ///< number of the first unknown of this rank
   std::vector<unsigned int> numbers;   ///< unknowns of local nodes, or none; unique over ranks
   std::vector<Row>          couplings; ///< A_fd by local nodes, with surface nodes as columns
 
-  petsc::Matrix matrix; ///< A_ff; none if nothing is free
+  petsc::Matrix matrix; ///< A_ff; null if no node is free
   petsc::Solver solver;
   petsc::Vector b, x, residual, correction;
 };

@@ -12,17 +12,18 @@ Spline::Spline(const unsigned int n, const unsigned int degree)
   const unsigned int n_spans = n - degree;
   for (unsigned int i = 1; i < n_spans; ++i)
     knots.push_back(double(i) / n_spans);
-  // Clamped: with the end knots degree + 1 times, only the end point acts at an end.
+  // The end knots are repeated degree + 1 times (clamped knots), so that only the end control
+  // point acts at an end.
   knots.insert(knots.end(), degree + 1, 1.);
 }
 
-/// The recurrence of Cox and de Boor for all degree + 1 nonzero splines at once, in place:
-/// B_i^p = (s - t_i) / (t_(i+p) - t_i) B_i^(p-1)
+/// The recurrence of Cox and de Boor is applied to all degree + 1 nonzero splines at once, in
+/// place: B_i^p = (s - t_i) / (t_(i+p) - t_i) B_i^(p-1)
 ///       + (t_(i+p+1) - s) / (t_(i+p+1) - t_(i+1)) B_(i+1)^(p-1).
-/// Only sums of non-negative terms, so that no digits cancel.
+/// All terms are non-negative, so that no digits cancel.
 std::pair<unsigned int, std::vector<double>> Spline::values(const double s) const
 {
-  // The span knots[span] <= s < knots[span + 1]; the last one holds 1.
+  // The span satisfies knots[span] <= s < knots[span + 1]. The last span contains s = 1.
   const unsigned int span =
     std::upper_bound(knots.begin() + degree, knots.begin() + size, s) - knots.begin() - 1;
   std::vector<double> values(degree + 1, 0.);
@@ -34,7 +35,7 @@ std::pair<unsigned int, std::vector<double>> Spline::values(const double s) cons
         {
           const double left  = knots[span + 1 + r - p];
           const double right = knots[span + 1 + r];
-          // left <= knots[span] < knots[span + 1] <= right: never zero.
+          // left <= knots[span] < knots[span + 1] <= right, so right - left is never zero.
           const double part = values[r] / (right - left);
           values[r]         = saved + (right - s) * part;
           saved             = (s - left) * part;
@@ -44,7 +45,7 @@ std::pair<unsigned int, std::vector<double>> Spline::values(const double s) cons
   return {span - degree, values};
 }
 
-/// Of degree 0 the middle of the span, as there is no inner knot.
+/// For degree 0 the result is the middle of the span, because there is no inner knot.
 double Spline::greville(const unsigned int i) const
 {
   if (degree == 0)
@@ -58,7 +59,8 @@ double Spline::greville(const unsigned int i) const
 SplineNet::SplineNet(const std::vector<unsigned int> &n, const unsigned int degree)
 {
   for (const unsigned int points : n)
-    // One span, Bernstein polynomials; a single point has degree 0 and moves all alike.
+    // The degree points - 1 gives one span with Bernstein polynomials. A single control point has
+    // degree 0 and moves all points by the same amount.
     axes.emplace_back(points, degree == 0 ? points - 1 : degree);
 }
 
@@ -81,7 +83,7 @@ std::vector<std::pair<unsigned int, double>> SplineNet::values(const std::vector
       std::vector<std::pair<unsigned int, double>> longer;
       for (unsigned int k = 0; k < along.second.size(); ++k)
         for (const auto &product : products)
-          // First axis fastest: the products of the axes before stay next to each other.
+          // The first axis is fastest, so the products of the axes before stay consecutive.
           longer.emplace_back(product.first + stride * (along.first + k),
                               product.second * along.second[k]);
       products = longer;
@@ -90,7 +92,7 @@ std::vector<std::pair<unsigned int, double>> SplineNet::values(const std::vector
   return products;
 }
 
-/// i = i_0 + n_0 (i_1 + n_1 (i_2 + ..)).
+/// The indices satisfy i = i_0 + n_0 (i_1 + n_1 (i_2 + ..)).
 std::vector<unsigned int> SplineNet::indices(unsigned int i) const
 {
   std::vector<unsigned int> result;
@@ -111,7 +113,7 @@ std::vector<double> SplineNet::greville(const unsigned int i) const
   return result;
 }
 
-/// With clamped knots these are the points that move the rim.
+/// With clamped knots, only control points on the border move the border of the face or box.
 bool SplineNet::on_border(const unsigned int i) const
 {
   for (unsigned int axis = 0; axis < n_axes(); ++axis)

@@ -8,10 +8,11 @@
 
 namespace snug::shape {
 namespace {
-/// Nodes this close to a side, relative to the box, are on it.
+/// Maximum distance of a node on a side from the side, relative to the size of the box.
 const double side_tolerance = 1e-10;
 
-/// The sides belong to the box, also where rounding puts their nodes a little outside.
+/// Return whether a point is inside of the box. The sides belong to the box, even if round-off puts
+/// their nodes slightly outside.
 bool is_inside(const std::vector<double> &s)
 {
   return std::all_of(s.begin(), s.end(), [](double coordinate) {
@@ -19,7 +20,7 @@ bool is_inside(const std::vector<double> &s)
   });
 }
 
-/// s of the point at @p offset from the corner.
+/// Return the coordinates s of the point at @p offset from the corner.
 template <int dim>
 std::vector<double> fractions(const dealii::Tensor<1, dim> &offset,
                               const dealii::Tensor<1, dim> &size)
@@ -30,7 +31,7 @@ std::vector<double> fractions(const dealii::Tensor<1, dim> &offset,
   return s;
 }
 
-/// One variable per point along the given direction, or one along each axis.
+/// Return the directions of the variables of a control point: the given direction, or each axis.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> directions_of_points(const ShapeParameters &parameters)
 {
@@ -42,13 +43,13 @@ std::vector<dealii::Tensor<1, dim>> directions_of_points(const ShapeParameters &
   return axes;
 }
 
-/// The nodes of the wanted bodies in the box of the entries, and the
-/// control points that may not move.
+/// This class finds the nodes of the wanted bodies in the box of the entries, and the control
+/// points that are frozen.
 template <int dim>
 class Box
 {
 public:
-  /// Collective.
+  /// Construct the box. Collective.
   Box(const mesh::BodyMesh<dim> &mesh,
       const std::vector<bool>   &is_wanted,
       const ShapeParameters     &parameters,
@@ -61,7 +62,7 @@ public:
   {
     std::tie(corner, size) = box_of<dim>(parameters);
     find_nodes(is_wanted);
-    // A maximum over ranks: all of them throw, or none.
+    // The maximum over ranks makes all ranks throw, or none.
     const bool empty =
       std::all_of(places.begin(), places.end(), [](const auto &place) { return place.empty(); });
     if (dealii::Utilities::MPI::max(empty ? 0u : 1u, mesh.communicator()) == 0)
@@ -82,13 +83,13 @@ public:
       if (!place.empty())
         for (const auto &value : net.values(place))
           for (unsigned int j = 0; j < directions.size(); ++j)
-            // the variables of a point are next to each other
+            // The variables of a control point are consecutive.
             row.emplace_back(directions.size() * value.first + j, value.second * directions[j]);
       return row;
     };
     modes.row          = [=, places = places](unsigned int node) { return row_at(places[node]); };
     modes.row_at_point = [=, net = net](unsigned int i) { return row_at(net.greville(i)); };
-    // Frozen points are listed as well: their numbers are those that users see.
+    // Frozen points are listed as well, because users refer to points by these indices.
     for (unsigned int i = 0; i < net.n_points(); ++i)
       {
         dealii::Point<dim> position  = corner;
@@ -111,17 +112,18 @@ private:
           if (!is_inside(s))
             continue;
           for (double &coordinate : s)
-            // Splines are made for [0, 1] only.
+            // Splines are defined on [0, 1] only.
             coordinate = std::clamp(coordinate, 0., 1.);
           places[node] = s;
         }
   }
 
-  /// On a side only the control points of that side have nonzero splines, as knots are clamped.
-  /// With these at rest the field vanishes there, as it does outside.
+  /// Freeze the control points of sides that cut a wanted body. Knots are clamped, so on a side
+  /// only the control points of this side have nonzero splines. With these points frozen the field
+  /// vanishes on the side, as it does outside of the box.
   void freeze_cut_sides(const std::vector<bool> &is_wanted)
   {
-    // A side cuts the cells that have a node inside and one beyond it.
+    // A side cuts the cells that have one node inside of the box and one node beyond the side.
     std::vector<unsigned int> cut(2 * dim, 0);
     for (const auto &cell : mesh.cells())
       {
@@ -149,7 +151,8 @@ private:
           frozen[i] = true;
   }
 
-  /// Such variables would have zero gradients, and the optimizer nothing to decide about them.
+  /// Freeze the control points that move no node. Their variables would have zero gradients, and
+  /// the optimizer could not determine these variables.
   void freeze_idle_points()
   {
     std::vector<unsigned int> moves(net.n_points(), 0);
@@ -165,11 +168,11 @@ private:
 
   const mesh::BodyMesh<dim>          &mesh;
   SplineNet                           net;
-  std::vector<dealii::Tensor<1, dim>> directions; ///< of each point
+  std::vector<dealii::Tensor<1, dim>> directions; ///< of the moves of each point
   dealii::Point<dim>                  corner;
   dealii::Tensor<1, dim>              size;
-  std::vector<std::vector<double>>    places; ///< s of local nodes inside, none hanging; or empty
-  std::vector<bool>                   frozen; ///< control points
+  std::vector<std::vector<double>>    places; ///< s; empty outside and if hanging
+  std::vector<bool>                   frozen; ///< per control point
 };
 
 } // namespace

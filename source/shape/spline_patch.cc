@@ -9,37 +9,39 @@
 
 namespace snug::shape {
 namespace {
-/// A face whose normals turn further from their mean than this cosine
-/// has no sensible shadow on a plane.
+/// Minimum cosine of the angle between a normal of the face and the mean normal. A face with a
+/// smaller cosine has no useful projection onto a plane.
 const double least_cosine = 0.1;
 
-/// The mean of unit vectors over a face, a unit vector.
+/// Return the mean of unit vectors over a face as a unit vector.
 template <int dim>
 dealii::Tensor<1, dim> mean_direction(const ShapedFace<dim>                 &face,
                                       const typename ShapedFace<dim>::Field &directions)
 {
   dealii::Tensor<1, dim> mean;
   for (unsigned int node = 0; node < directions.size(); ++node)
-    // By area, so that it does not depend on where the mesh is fine.
+    // The weights are areas, so that the mean does not depend on local refinement.
     mean += face.areas()[node] * directions[node];
   mean /= mean.norm();
   return mean;
 }
 
-/// The axes of s and t: those that the mean normal of the face leaves.
+/// Return the axes of s and t, which are all axes except the axis closest to the mean normal.
 template <int dim>
 std::vector<unsigned int> patch_axes(const ShapedFace<dim> &face, const ShapeParameters &parameters)
 {
   const auto   mean_normal = mean_direction(face, face.normals());
   unsigned int across      = 0;
-  // The axis next to the mean normal is left out: the face is a graph over the other two.
+  // The axis closest to the mean normal is left out, so that the face is a graph over the other
+  // axes.
   for (unsigned int d = 1; d < dim; ++d)
-    // of equal ones the last, whatever round-off says
+    // The last of equal components is taken, so that round-off does not decide.
     if (std::abs(mean_normal[d]) > std::abs(mean_normal[across]) - 1e-9)
       across = d;
   for (const auto &normal : face.normals())
-    // Replicated: all ranks throw, or none. At the ends of a quarter of a ring the normal just lies
-    // in the plane of the others; beyond, the face lies above itself.
+    // Normals are replicated, so that all ranks throw or none. At the end of a quarter of a ring
+    // the normal lies in the plane of s and t. A face that turns further is no graph over the
+    // plane.
     if (!(normal * mean_normal > least_cosine && normal[across] * mean_normal[across] > -1e-9))
       throw bad_entry(parameters.path("Face"), parameters.face,
                       "must not turn by more than a quarter for a patch; "
@@ -51,7 +53,8 @@ std::vector<unsigned int> patch_axes(const ShapedFace<dim> &face, const ShapePar
   return axes;
 }
 
-/// The point of the face that is nearest to @p place along @p axes, and the unit direction there.
+/// Return the point of the face that is nearest to @p place after projection along the axis other
+/// than @p axes, and the unit direction at this point.
 template <int dim>
 std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
 point_above(const ShapedFace<dim>                 &face,
@@ -80,7 +83,8 @@ point_above(const ShapedFace<dim>                 &face,
           flat.push_back(flattened(face.positions()[point]));
           radius = std::max(radius, (flat.back() - flat.front()).norm());
         }
-      // Faces that are farther off than the nearest one so far; edges may bulge between points.
+      // Faces farther from the target than the nearest point so far are skipped. The factor 1.5
+      // allows for edges that bulge between points.
       if ((flat.front() - target).norm() - 1.5 * radius > std::sqrt(nearest))
         continue;
       const auto found = faces::closest_point(shape, flat, target);
@@ -122,22 +126,23 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
   modes.n_variables = net.n_points();
   modes.n_nodes     = positions.size();
   modes.row         = [=, &positions](unsigned int node) {
-    std::vector<double> place; // s, t
+    std::vector<double> place; // coordinates s, t
     for (const unsigned int d : axes)
-      // Samples of a face with curved edges may lie outside of the nodes' rectangle.
+      // Samples of a face with curved edges may lie outside of the rectangle of the nodes.
       place.push_back(std::clamp((positions[node][d] - lower[d]) / (upper[d] - lower[d]), 0., 1.));
     typename Modes<dim>::Row row;
     for (const auto &value : net.values(place))
       row.emplace_back(value.first, value.second * directions[node]);
     return row;
   };
-  // Symmetry compares control points, which are no nodes: at one height, moving along the mean
-  // direction, images are found whatever the mesh.
+  // Symmetry compares control points, which are no nodes. All control points have the same height
+  // and the mean direction, so that images are found on any mesh.
   const auto                          mean = mean_direction(face, directions);
   std::vector<dealii::Tensor<1, dim>> shown_directions;
   for (unsigned int i = 0; i < net.n_points(); ++i)
     {
-      // Across the face at the mean of the nodes; moves are relative to the face itself.
+      // The height of the control point is the mean height of the nodes. Moves are relative to the
+      // face itself.
       dealii::Point<dim> position(middle);
       const auto         fractions = net.greville(i);
       for (unsigned int t = 0; t < axes.size(); ++t)

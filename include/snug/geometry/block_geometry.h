@@ -8,13 +8,13 @@
 namespace snug::geometry {
 /**
  * A body of blocks. A point with coordinates u in a block lies at the
- * transfinite interpolation of its faces (Gordon, Hall, Numer. Math. 21,
+ * transfinite interpolation of the block faces (Gordon, Hall, Numer. Math. 21,
  * 1973), in 3D
  * @f[ x(u) = \sum_{f} w_f S_f - \sum_{e} w_e C_e + \sum_v w_v x_v, @f]
- * w products of u_d or 1 - u_d over the axes normal to face f, edge e and
- * vertex v. Faces S and edges C of curved boundaries lie on them; where two
- * boundaries meet, C lies on one, and the face S of the other blends to it. Pieces of the mesh say
- * themselves where they lie.
+ * where the weights w are products of u_d or 1 - u_d over the axes normal to face f, edge e and
+ * vertex v. Faces S and edges C of a curved boundary lie on the surface of the boundary. An edge C
+ * between two curved boundaries lies on one of the two surfaces, and the face S of the other
+ * boundary blends to this edge. Pieces of the mesh define their own positions.
  */
 template <int dim>
 class BlockGeometry : public BodyGeometry<dim>
@@ -50,7 +50,8 @@ public:
 
   dealii::Point<dim> logical(const MeshPoint<dim> &point) const override
   {
-    // Blocks have no common axes, so these are positions in units of the body's diagonal.
+    // Blocks have no common axes, so the logical coordinates are positions in units of the
+    // diagonal of the body.
     return Point((position(point) - lower) / lower.distance(upper));
   }
 
@@ -61,14 +62,14 @@ private:
   using Point    = dealii::Point<dim>;
 
   std::shared_ptr<const BlockMesh<dim>> mesh;
-  /// curved edges and faces by their vertices in ascending order
+  /// curved edges and faces, by the vertices in ascending order
   std::map<std::vector<unsigned int>, Manifold *> curved;
   std::vector<bool>                               is_curved;    ///< per block
-  Point                                           lower, upper; ///< of the vertices
+  Point                                           lower, upper; ///< bounds of the vertices
 
   unsigned int cells_per_block() const { return product(mesh->cells); }
   Point        block_position(unsigned int block, const Point &u) const;
-  /// Of the piece with these vertices, null if there is none.
+  /// Return the position on the piece with these vertices, or null if there is no such piece.
   std::unique_ptr<Point> piece_position(const std::vector<unsigned int> &vertices,
                                         const std::vector<double>       &weights) const;
   Point                  edge_position(const std::vector<unsigned int> &vertices, double t) const;

@@ -18,8 +18,8 @@ class Manifold;
 
 namespace snug::geometry {
 /**
- * Quadrilaterals or hexahedra with straight or curved edges and faces, the
- * blocks, each divided into a grid of coarse cells.
+ * A mesh of blocks, which are quadrilaterals or hexahedra with straight or curved edges and faces.
+ * Each block is divided into a grid of coarse cells.
  */
 template <int dim>
 struct BlockMesh
@@ -29,7 +29,7 @@ struct BlockMesh
   /// A boundary face of a block: vertices in ascending order.
   using Face = std::vector<unsigned int>;
 
-  /// A part of a patch, by the coordinates of vertices in ascending order.
+  /// A part of a patch. The coordinates in the patch are those of the vertices in ascending order.
   struct Piece
   {
     std::shared_ptr<Patch<dim>>   patch;
@@ -41,28 +41,29 @@ struct BlockMesh
   std::vector<unsigned int>              regions; ///< per block
   std::map<Face, unsigned int>           boundaries;
   std::vector<std::string>               boundary_names, region_names;
-  /// boundaries that are curved, and what they lie on
+  /// curved boundaries, and the surfaces on which the boundaries lie
   std::map<unsigned int, Surface> surfaces;
-  /// edges, and in 3D boundary faces, that are curved by themselves. Those of a face lie on it.
+  /// edges, and in 3D boundary faces, with patches of their own; the edges of a face lie on the
+  /// patch of the face
   std::map<Face, Piece> pieces;
-  /// shapes of boundary faces that lie on one of them to rounding
+  /// surfaces of known shape on which some boundary faces lie up to round-off
   std::vector<KnownSurface<dim>> known_surfaces;
-  std::map<Face, unsigned int>   known; ///< indices into these
-  /// of boundaries that are not plane
+  std::map<Face, unsigned int>   known; ///< indices into known_surfaces
+  /// shapes of boundaries that are not plane
   std::map<unsigned int, BoundaryShape> shapes;
-  /// coordinates in which the inside of all blocks is straight; null:
-  /// Cartesian ones, blended between the faces
+  /// coordinates in which the interior of all blocks is straight; null means
+  /// Cartesian coordinates with blending between the faces
   Surface inside;
-  /// coarse cells along the axes of every block
+  /// numbers of coarse cells along the axes of every block
   std::array<unsigned int, dim> cells;
 };
 
-/// Add the mirror image at the plane x_axis = 0, where the boundary
-/// called @p name goes if it does not lie within it.
+/// Add the mirror image of the mesh at the plane x_axis = 0. The boundary faces called @p name lie
+/// in this plane and are removed, because they are interior faces of the result.
 template <int dim>
 void mirror(BlockMesh<dim> &mesh, unsigned int axis, const std::string &name);
 
-/// All faces of the boundary @p index lie on @p surface.
+/// Set @p surface as the known surface of all faces of the boundary @p index.
 template <int dim>
 void set_known(BlockMesh<dim> &mesh, unsigned int index, const KnownSurface<dim> &surface);
 
@@ -71,18 +72,17 @@ template <int dim>
 void remove_unused_boundaries(BlockMesh<dim> &mesh);
 
 /**
- * Order the vertices of the blocks, which stay right-handed, such that all
- * blocks give the edges they share the same direction, as deal.II needs in
- * 2D and p4est in 3D. Axes may change places, so in 3D all axes must have
- * equally many cells.
- * @return whether there is such an order, which is always so in 2D;
- *   without, nothing is changed.
+ * Order the vertices of the blocks such that all blocks give a shared edge the same direction, as
+ * deal.II requires in 2D and p4est in 3D. Blocks stay right-handed. The order may exchange the
+ * axes of a block, so all axes must have the same number of cells in 3D.
+ * @return whether such an order exists. In 2D it always exists. Without such an order, the mesh
+ *   is not changed.
  */
 template <int dim>
 bool order_consistently(BlockMesh<dim> &mesh);
 
-/// The same for the bottoms of blocks whose last axis goes from one surface
-/// to another.
+/// Order the bottoms of blocks in the same way. The last axis of the blocks goes from one surface
+/// to another and stays the last axis.
 void order_layer_consistently(BlockMesh<3> &mesh);
 } // namespace snug::geometry
 

@@ -5,9 +5,10 @@
 
 namespace snug::geometry {
 /**
- * Least scaled Jacobian, det J over the lengths of its columns, of the triquadratic interpolation
- * of a block at its 3^dim points: 1 for a box, negative if it is inverted. Edges and faces lie on
- * @p pieces, or else between their vertices and edges.
+ * Return the minimum scaled Jacobian of the quadratic tensor-product interpolation of a block over
+ * its 3^dim points. The scaled Jacobian is det J over the product of the lengths of the columns of
+ * J. The result is 1 for a box and negative for an inverted block. Edges and faces lie on
+ * @p pieces; edges and faces without a piece are interpolated from their vertices and edges.
  */
 template <int dim>
 double least_scaled_jacobian(
@@ -15,7 +16,7 @@ double least_scaled_jacobian(
   const std::vector<unsigned int>                                               &block,
   const std::map<typename BlockMesh<dim>::Face, typename BlockMesh<dim>::Piece> &pieces);
 
-/// Edges and, in 3D, faces of a block, vertices in ascending order.
+/// Return the edges and, in 3D, the faces of a block, with vertices in ascending order.
 template <int dim>
 std::vector<std::vector<unsigned int>> edges_and_faces(const std::vector<unsigned int> &block);
 } // namespace snug::geometry

@@ -36,7 +36,7 @@ enum class Source
 };
 Names names(Source);
 
-/// Each is half of the one before.
+/// Parts of a round body. Each part is half of the part before.
 enum class Part
 {
   full,
@@ -60,17 +60,17 @@ struct BodyMeshParameters
   std::vector<double>       corner; ///< [length], default 0
   std::vector<double>       size;   ///< [length], default 1
   std::vector<unsigned int> cells;  ///< per axis
-  /// per axis: size of the last cell over the size of the first, cells
-  /// between in geometric progression; default 1
+  /// per axis: size of the last cell over the size of the first cell, with sizes
+  /// in geometric progression; default 1
   std::vector<double> grading;
-  /// per axis: half of the cells are equal and fill this much from the
-  /// lower end, the rest grow from there [length]; 0: not; default 0
+  /// per axis: length from the lower end that half of the cells, with equal sizes, fill; the sizes
+  /// of the other cells grow from there [length]; 0: no fine part; default 0
   std::vector<double> fine_length;
   /// face name -> "sphere R" | "sphere R at x, y" | "cylinder x R" |
   /// "cylinder x R at y" | formula of x, y, z giving the outward
   /// displacement of the face [length]. The curved face touches the flat
-  /// one at its centre, or at the coordinates given; R > 0 is convex. In 2D
-  /// a cylinder's axis is z.
+  /// face at the centre of the face, or at the given coordinates. R > 0 is convex. In 2D
+  /// the axis of a cylinder is z.
   std::map<std::string, std::string> curved_faces;
 
   /// @name Round bodies
@@ -87,58 +87,58 @@ struct BodyMeshParameters
   /// @name Mesh files
   /// @{
   std::string              file;    ///< path
-  std::vector<std::string> regions; ///< of the file; empty: all
+  std::vector<std::string> regions; ///< regions of the file in the body; empty: all
   /// number of a group without a name -> name
   std::map<std::string, std::string> boundary_numbers;
   /// boundary -> "facets" | "smooth"
   std::map<std::string, std::string>  surfaces;
-  std::shared_ptr<const ImportedMesh> imported; ///< what is in the file
+  std::shared_ptr<const ImportedMesh> imported; ///< contents of the file
   /// @}
 
   /// @name Regions, to which materials may refer
   /// @{
   /// {region, formula of x, y, z}, see with_regions()
   std::vector<std::pair<std::string, std::string>> region_formulas;
-  /// cells of a file that are in several groups belong to the one of
-  /// these
+  /// groups of a file that are regions; a cell in several groups belongs to the group in this
+  /// list
   std::vector<std::string> named_regions;
   /// @}
 
   /// @name Placement, in this order
   /// @{
-  /// formulas of x, y, z: components of a displacement [length]
+  /// components of a displacement as formulas of x, y, z [length]
   std::vector<std::string> warp;
   double                   scale = 1.;
-  /// {axis, degrees}, one after the other about the origin
+  /// rotations {axis, degrees} about the origin, one after the other
   std::vector<std::pair<std::string, std::string>> rotate;
   std::vector<double>                              shift; ///< [length]
   /// @}
 
-  /// Boundaries whose true surface contact and supports ask for, and
-  /// whether designs may curve those that are flat: not entries.
+  /// Boundaries whose true surface contact and supports need, and
+  /// whether designs may curve flat boundaries. These members are not entries.
   std::vector<std::string> sampled_boundaries;
   bool                     is_designed = false;
-  /// Whether the true surface is asked for wherever it is curved: not an entry.
+  /// If true, all curved boundary faces get samples of the true surface; not an entry.
   bool samples_all_curved = false;
 
   unsigned int refinements = 0;
-  /// cells are refined where this formula of x, y, z is positive
+  /// formula of x, y, z; cells are refined where the formula is positive
   std::string  refine_where;
   unsigned int local_refinements = 0;
-  /// Cells of all bodies that have children besides, with all their ancestors; null: none.
-  /// Not an entry.
+  /// Further cells of all bodies that have children, together with all their ancestors; null: no
+  /// further cells. Not an entry.
   std::shared_ptr<const std::set<dealii::CellId>> refined;
 
   void declare(Entries &entries);
-  /// Give lists that were left empty their defaults.
+  /// Set empty lists to their defaults.
   void complete(unsigned int dimension);
-  /// The mesh can be made of its entries and is not too large; bodies of
-  /// revolution have no negative radius.
+  /// Check that the mesh can be made from the entries and is not too large, and that bodies of
+  /// revolution have no negative radius. @throws InputError naming the entry.
   void check(const SectionCheck &section, bool axisymmetric) const;
 };
 
-/// A point of a body: a cell of its coarse mesh and coordinates in
-/// [0,1]^dim in that cell. Points between cells have several.
+/// A point of a body, given by a cell of the coarse mesh and coordinates in
+/// [0,1]^dim in this cell. A point between cells has several such representations.
 template <int dim>
 struct MeshPoint
 {
@@ -146,7 +146,7 @@ struct MeshPoint
   dealii::Point<dim> unit;
 };
 
-/// The centre of a cell in its own coordinates.
+/// Return the centre of a cell in the coordinates of the cell.
 template <int dim>
 dealii::Point<dim> unit_centre()
 {
@@ -157,14 +157,14 @@ dealii::Point<dim> unit_centre()
 }
 
 /**
- * The reference geometry of one body: a coarse mesh and the map from its
- * cells to positions, which is evaluated anew on every mesh, so that
+ * The reference geometry of one body: a coarse mesh and the map from the
+ * cells to positions. Every mesh evaluates the map itself, so that
  * curved faces stay curved: positions of boundary points lie on the true
  * surface, which meshes only interpolate.
  *
- * Some bodies have a grid: their coarse cells lie in layers along the axes
+ * Some bodies have a grid: the coarse cells lie in layers along the axes
  * of logical coordinates in [0,1]^dim, and boundary 2d + s is the side s of
- * axis d. Some of these, all but full rings, also have a frame, a map from
+ * axis d. All bodies with a grid except full rings also have a frame, a map from
  * [0,1]^dim to positions.
  */
 template <int dim>
@@ -173,9 +173,9 @@ class BodyGeometry
 public:
   virtual ~BodyGeometry() = default;
 
-  /// Cells with their vertices in deal.II's order; boundary faces get the
-  /// index of their name in boundary_names(). Vertices only tell cells
-  /// apart; they need not lie at their reference positions.
+  /// Cells with vertices in deal.II's order. The index of a boundary face is the
+  /// index of the boundary in boundary_names(). Vertices only identify cells and
+  /// need not lie at their reference positions.
   struct CoarseMesh
   {
     std::vector<dealii::Point<dim>>        vertices;
@@ -186,64 +186,65 @@ public:
 
   virtual CoarseMesh coarse_mesh() const = 0;
 
-  /// Number of its cells; may be larger than any mesh can be.
+  /// Return the number of coarse cells. The number may exceed the number of cells of any mesh.
   virtual double n_coarse_cells() const = 0;
 
   virtual const std::vector<std::string> &boundary_names() const = 0;
 
-  /// Names of the regions; at least one. A region may be empty.
+  /// Return the names of the regions, at least one. A region may be empty.
   virtual std::vector<std::string> region_names() const { return {"body"}; }
 
-  /// Index of the region of a cell of the coarse mesh.
+  /// Return the index of the region of a cell of the coarse mesh.
   virtual unsigned int region(unsigned int /*coarse_cell*/) const { return 0; }
 
-  /// The surfaces of known shape that boundary faces lie on to rounding;
-  /// planes are not among them.
+  /// Return the surfaces of known shape on which boundary faces lie up to round-off, without
+  /// planes.
   virtual std::vector<KnownSurface<dim>> known_surfaces() const { return {}; }
 
-  /// Index into known_surfaces() for the boundary face @p face of a cell of
-  /// the coarse mesh; no_surface: none.
+  /// Return the index into known_surfaces() for the boundary face @p face of a cell of
+  /// the coarse mesh, or no_surface.
   virtual unsigned int known_surface(unsigned int /*coarse_cell*/, unsigned int /*face*/) const
   {
     return no_surface;
   }
 
-  /// Of an index of boundary_names().
+  /// Return the shape of a boundary, given by the index in boundary_names().
   virtual BoundaryShape boundary_shape(unsigned int /*boundary*/) const { return {}; }
 
   static constexpr unsigned int no_surface = static_cast<unsigned int>(-1);
 
-  /// Reference position. @throws InputError where a formula is not finite.
+  /// Return the reference position. @throws InputError if a formula is not finite.
   virtual dealii::Point<dim> position(const MeshPoint<dim> &point) const = 0;
 
-  /// The same point has the same coordinates in all its cells, up to
-  /// round-off; their order of magnitude is 1.
+  /// Return the logical coordinates. A point has the same logical coordinates in all its cells, up
+  /// to round-off. The order of magnitude of the coordinates is 1.
   virtual dealii::Point<dim> logical(const MeshPoint<dim> &point) const = 0;
 
-  /// Lengths along the logical axes; only their ratios matter.
+  /// Return the lengths along the logical axes. Only the ratios of the lengths are used.
   virtual dealii::Tensor<1, dim> extent() const = 0;
 
-  /// Bodies of blocks have none, so the partition "auto" leaves them to METIS.
+  /// Return whether the body has a grid. The partition "auto" uses METIS for bodies without a
+  /// grid, such as bodies of blocks.
   virtual bool has_grid() const { return false; }
 
   /**
-   * Fraction in [0,1]^dim of the body's frame at @p logical. For face
-   * 2d+s, coordinate d is the distance from the opposite side. Only with
+   * Return the coordinates in [0,1]^dim of the frame of the body at @p logical. Coordinate d is 0
+   * at boundary 2d and 1 at boundary 2d + 1. The body must have
    * a frame.
    */
   virtual dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const;
 
-  /// The point at @p fraction of the frame, faces not yet curved. Only
-  /// with a frame.
+  /// Return the point at the coordinates @p fraction of the frame, before faces are curved. The
+  /// body must have a frame.
   virtual dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const;
 };
 
-/// The geometry of a body, placed and with the regions its parameters say.
+/// Return the geometry of a body with the placement and the regions of the parameters.
 /// @throws InputError naming the entry.
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_geometry(const BodyMeshParameters &parameters);
 
-/// Index of @p name in the boundary names. @throws InputError listing them.
+/// Return the index of @p name in the boundary names. @throws InputError listing the names.
 template <int dim>
 unsigned int boundary_index(const BodyGeometry<dim> &geometry, const std::string &name);
 } // namespace snug::geometry

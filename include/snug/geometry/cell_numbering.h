@@ -12,14 +12,14 @@
 namespace snug::geometry {
 using Vertices = std::vector<unsigned int>; ///< of a cell, a face or an edge
 
-/// The key of a face or an edge, whose vertices cells list in different orders.
+/// Return the key of a face or an edge, because cells list the vertices in different orders.
 inline Vertices sorted(Vertices vertices)
 {
   std::sort(vertices.begin(), vertices.end());
   return vertices;
 }
 
-/// Vertices of face 2d + s of a cell, the side s of axis d, first tangent fastest.
+/// Return the vertices of face 2d + s of a cell, the side s of axis d, first tangent fastest.
 template <int dim>
 Vertices face_of(const Vertices &cell, unsigned int face)
 {
@@ -29,14 +29,15 @@ Vertices face_of(const Vertices &cell, unsigned int face)
   return result;
 }
 
-/// Cells of a grid with @p n along the axes; a double, which large entries do not let overflow.
+/// Return the number of cells of a grid with @p n cells along the axes. The result is a double,
+/// because large entries would overflow an integer.
 template <std::size_t dim>
 double product(const std::array<unsigned int, dim> &n)
 {
   return std::accumulate(n.begin(), n.end(), 1., std::multiplies<double>());
 }
 
-/// Multi-index of cell @p cell in such a grid, the first axis fastest.
+/// Return the multi-index of cell @p cell in a grid with @p n cells, the first axis fastest.
 template <std::size_t dim>
 std::array<unsigned int, dim> multi_index(unsigned int cell, const std::array<unsigned int, dim> &n)
 {

@@ -7,8 +7,8 @@
 
 namespace snug::geometry {
 /**
- * Where refined cells lie in the coarse cells of their bodies. Coarse
- * cells have deal.II's ids, their places in the coarse mesh of all bodies.
+ * This class locates refined cells in the coarse cells of the bodies. The deal.II id of a coarse
+ * cell is the position of the cell in the coarse mesh of all bodies.
  */
 template <int dim>
 class CoarseCells
@@ -16,16 +16,17 @@ class CoarseCells
 public:
   CoarseCells() = default;
 
-  /// Of coarse cells body after body; @p first_cell: of each body, and the end.
+  /// Number the coarse cells of each body. The coarse mesh lists cells body after body.
+  /// @p first_cell is the first cell of each body, followed by the number of cells.
   explicit CoarseCells(const std::vector<unsigned int> &first_cell);
 
-  /// Index of the coarse cell of @p cell among those of its body.
+  /// Return the index of the coarse cell of @p cell among the coarse cells of the body.
   unsigned int coarse_cell(const dealii::CellId &cell) const
   {
     return index_of_id[cell.get_coarse_cell_id()];
   }
 
-  /// The point at coordinates @p unit of @p cell.
+  /// Return the point at coordinates @p unit of @p cell.
   MeshPoint<dim> point(const dealii::CellId &cell, const dealii::Point<dim> &unit) const;
 
 private:

@@ -10,29 +10,29 @@
 #include <vector>
 
 namespace snug::geometry {
-/// Index among the boundaries @p names of the one in the entry "Curved faces = name: value".
+/// Return the index of @p name, from the entry "Curved faces = name: value", in @p names.
 /// @throws InputError naming the entry.
 unsigned int curved_boundary(const std::vector<std::string> &names,
                              const std::string              &name,
                              const std::string              &value);
 
-/// The face 2d+s of a box before it is curved.
+/// The face 2d+s of a box before the face is curved.
 template <int dim>
 struct FlatFace
 {
   unsigned int       boundary;
   std::string        name;
   dealii::Point<dim> centre;    ///< [length]
-  dealii::Point<dim> half_size; ///< of the box [length]
+  dealii::Point<dim> half_size; ///< half of the size of the box [length]
 };
 
 /**
- * The outward displacement of a box face that makes it a sphere, a
+ * The outward displacement of a box face that makes the face a sphere, a
  * cylinder or the graph of a formula.
  *
- * Sphere and cylinder of radius R touch the flat face at their apex:
+ * A sphere or a cylinder of radius R touches the flat face at the apex:
  *   displacement = -sign(R) (|R| - sqrt(R^2 - r^2)),
- * r: distance from the apex, or from the cylinder's line of apexes. The apex
+ * where r is the distance from the apex, or from the line of apexes of a cylinder. The apex
  * is the centre of the face, or the point that the value gives.
  */
 template <int dim>
@@ -40,29 +40,29 @@ class CurvedFace
 {
 public:
   /**
-   * @p value: "sphere R", "cylinder AXIS R", each with "at C, ..." if the apex
-   * is not the centre of the face, or a formula [length]. C: the coordinates
-   * across the normal and the axis, in the order x, y, z.
-   * @throws InputError naming the entry Curved faces if @p value is none
-   *   of these, the axis is not tangent to the face, or |R| does not
-   *   exceed the largest r on the face.
+   * Read @p value, which is "sphere R", "cylinder AXIS R" or a formula [length]. "at C, ..."
+   * follows R if the apex is not the centre of the face. C, ... are the coordinates of the apex
+   * along the axes other than the face normal and the cylinder axis, in the order x, y, z.
+   * @throws InputError naming the entry Curved faces if @p value has none
+   *   of these forms, the axis is not tangent to the face, or |R| does not
+   *   exceed the maximum r on the face.
    */
   CurvedFace(const FlatFace<dim> &flat, const std::string &value);
 
   unsigned int boundary() const { return flat.boundary; }
 
-  /// Outward displacement [length] of the flat face at the projection of
-  /// @p point onto it. @throws InputError if a formula is not finite.
+  /// Return the outward displacement [length] of the flat face at the projection of
+  /// @p point onto the face. @throws InputError if a formula is not finite.
   double displacement(const dealii::Point<dim> &point) const;
 
-  /// The sphere or the cylinder; none of a formula.
+  /// Return the sphere or the cylinder, or nothing for a formula.
   std::optional<KnownSurface<dim>> known() const;
 
 private:
   FlatFace<dim>                 flat;
-  std::unique_ptr<Formula<dim>> formula; ///< null: sphere or cylinder
+  std::unique_ptr<Formula<dim>> formula; ///< null for a sphere or a cylinder
   double                        radius        = 0.;
-  unsigned int                  straight_axis = dim; ///< cylinder's, in the box
+  unsigned int                  straight_axis = dim; ///< axis of a cylinder; dim for a sphere
   dealii::Point<dim>            apex;
 
   void   set_radius(const std::string &number, const std::string &value);

@@ -13,26 +13,26 @@
 #include <vector>
 
 namespace snug::geometry {
-/// The words of @p text between blanks.
+/// Return the words of @p text, which blanks separate.
 inline std::vector<std::string> words(const std::string &text)
 {
   std::istringstream stream(text);
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// 0, 1, 2 of the axes called x, y, z; 3 of other names.
+/// Return 0, 1, 2 for the axes x, y, z, and 3 for other names.
 inline unsigned int axis_called(const std::string &name)
 {
   return name.size() == 1 ? std::min<std::size_t>(3, std::string("xyz").find(name)) : 3;
 }
 
-/// Index of @p name in @p names; their number if it is none of them.
+/// Return the index of @p name in @p names, or the number of names if @p name is not in the list.
 inline unsigned int index_of(const std::vector<std::string> &names, const std::string &name)
 {
   return std::find(names.begin(), names.end(), name) - names.begin();
 }
 
-/// Index of @p name in @p names, to which it is added if need be.
+/// Return the index of @p name in @p names, after adding @p name if it is not in the list.
 inline unsigned int index_in(std::vector<std::string> &names, const std::string &name)
 {
   const unsigned int index = index_of(names, name);
@@ -41,7 +41,9 @@ inline unsigned int index_in(std::vector<std::string> &names, const std::string 
   return index;
 }
 
-/// One number per axis of the entry, @p otherwise where it is empty.
+/// Return one number of the entry per axis, or @p otherwise if the entry is empty.
+/// @throws InputError if the number of values is wrong, a value is not finite, or @p positive is
+/// true and a value is not positive.
 template <int dim, typename Number>
 std::array<Number, dim> per_axis(const std::string         &entry,
                                  const std::vector<Number> &values,

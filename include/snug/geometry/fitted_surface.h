@@ -10,53 +10,54 @@
 #include <vector>
 
 namespace snug::geometry {
-/// Points of a surface, and normals out of the body near some of them.
+/// Points of a surface, and outward normals of the body at some positions near the points.
 template <int dim>
 struct SurfaceSample
 {
   using Point = dealii::Point<dim>;
 
   std::vector<Point>                  points;
-  std::vector<Point>                  at; ///< of the normals
+  std::vector<Point>                  at; ///< positions of the normals
   std::vector<dealii::Tensor<1, dim>> normals;
 
-  /// Of the points from @p surface.
+  /// Return the maximum distance of the points from @p surface.
   double largest_distance(const KnownSurface<dim> &surface) const;
 
-  /// @p surface, convex or not as the normals say.
+  /// Return @p surface with the member convex set according to the normals.
   KnownSurface<dim> faced(KnownSurface<dim> surface) const;
 };
 
-/// (A + 1e-14 tr(A) I)^-1 for the matrix @p A of normal equations, which may be singular: what the
-/// points do not tell stays small. Zeros if A is zero or not finite.
+/// Return (A + 1e-14 tr(A) I)^-1 for the matrix @p A of normal equations, which may be singular.
+/// The shift keeps unknowns small that the points do not determine. Return the zero matrix if A is
+/// zero or not finite.
 dealii::FullMatrix<double> inverse_of_squares(dealii::FullMatrix<double> A);
 
 /**
- * The sphere or, with a unit vector @p axis, the cylinder that fits the points best: least squares
- * of |x|^2 = 2 c.x + (R^2 - |c|^2) in the centre c and R.
+ * Return the sphere or, with a unit vector @p axis, the cylinder that fits the points best. The
+ * fit is the least-squares solution of |x|^2 = 2 c.x + (R^2 - |c|^2) for the centre c and R.
  */
 template <int dim>
 KnownSurface<dim> fitted_round(const SurfaceSample<dim>     &sample,
                                const dealii::Tensor<1, dim> &axis);
 
 /**
- * The surface of the entry "Curved faces = boundary: value", where @p value is "sphere" or, in
- * 3D, "cylinder AXIS" with the axis x, y or z; in 2D both are circles, the axis is z.
- * @throws InputError naming the entry if @p value is none of these, or a point is off by more
- *   than 1e-4 R.
+ * Return the surface of the entry "Curved faces = boundary: value", where @p value is "sphere" or,
+ * in 3D, "cylinder AXIS" with the axis x, y or z. In 2D both are circles, and the axis is z.
+ * @throws InputError naming the entry if @p value has none of these forms, the distance of a point
+ *   from the surface exceeds 1e-4 R, or R is so large that the surface is nearly plane.
  */
 template <int dim>
 KnownSurface<dim> fitted_surface(const std::string        &boundary,
                                  const std::string        &value,
                                  const SurfaceSample<dim> &sample);
 
-/// The sphere, cylinder, cone or torus, the first of these, from which no point is farther than
-/// @p tolerance. None for fewer points than 3/2 of its unknown numbers.
+/// Return the first of sphere, cylinder, cone and torus from which no point is farther than
+/// @p tolerance. A surface is not tried with fewer points than 3/2 of the number of its unknowns.
 template <int dim>
 std::optional<KnownSurface<dim>> recognized_surface(const SurfaceSample<dim> &sample,
                                                     double                    tolerance);
 
-/// "cylinder of radius 10", in 2D "circle".
+/// Return a description such as "cylinder of radius 10", in 2D "circle of radius 10".
 template <int dim>
 std::string describe(const KnownSurface<dim> &surface);
 } // namespace snug::geometry

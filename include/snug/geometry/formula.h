@@ -26,19 +26,19 @@ class Formula
 public:
   /**
    * Parse @p text, found in the entry called @p entry.
-   * @throws InputError naming entry, formula and the parser's complaint.
+   * @throws InputError naming entry, formula and the error message of the parser.
    */
   Formula(const std::string &entry, const std::string &text);
   ~Formula();
   Formula(Formula &&) noexcept;
 
-  /// @throws InputError if the value is not finite.
+  /// Return the value at @p point. @throws InputError if the value is not finite.
   double value(const dealii::Point<dim> &point) const;
 
-  /// First and second derivatives by central differences of sixth order
-  /// over distances up to 3 @p step. Errors of first derivatives are about
-  /// step^6/140 of the seventh ones and eps/step of the value, of second
-  /// ones step^6/560 of the eighth and 4 eps/step^2.
+  /// Return the first and second derivatives by central differences of sixth order
+  /// over distances up to 3 @p step. The error of a first derivative is about
+  /// step^6/140 times the seventh derivative plus eps/step times the value. The error of a second
+  /// derivative is about step^6/560 times the eighth derivative plus 4 eps/step^2 times the value.
   dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &point, double step) const;
   dealii::Tensor<2, dim> hessian(const dealii::Point<dim> &point, double step) const;
 
@@ -47,8 +47,8 @@ private:
   std::unique_ptr<dealii::FunctionParser<dim>> parser;
 };
 
-/// Throw unless @p formula, which is @p value or a part of it, is a formula
-/// of the coordinates of the scene.
+/// Check that @p formula is a formula of the coordinates of the scene. @p formula is @p value or a
+/// part of @p value. @throws InputError
 void require_formula(const SectionCheck &section,
                      const std::string  &entry,
                      const std::string  &value,

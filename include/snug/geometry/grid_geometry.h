@@ -7,8 +7,8 @@
 namespace snug::geometry {
 /**
  * A body whose coarse cells are a grid: cell (i, j, k) of n x m x l has
- * logical coordinates [i/n, (i+1)/n] x ... The last axis may be closed,
- * its last layer of cells followed by the first; it has no sides then.
+ * logical coordinates [i/n, (i+1)/n] x ... The last axis may be closed: the first layer of cells
+ * follows the last layer. A closed axis has no sides.
  */
 template <int dim>
 class GridGeometry : public BodyGeometry<dim>
@@ -16,8 +16,8 @@ class GridGeometry : public BodyGeometry<dim>
 public:
   using Counts = std::array<unsigned int, dim>;
 
-  /// @p names: of boundary 2d + s; fewer by two if the last axis is
-  /// closed.
+  /// Construct the grid. @p names are the names of the boundaries 2d + s. If the last axis is
+  /// closed, its two names are omitted.
   GridGeometry(const Counts &cells, const std::vector<std::string> &names, bool closed = false);
 
   typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override;
@@ -26,7 +26,8 @@ public:
 
   const std::vector<std::string> &boundary_names() const override { return names; }
 
-  /// Computed at every node anew, so that refined cells keep spacing and curvature.
+  /// Return the position at the logical coordinates of @p point, so that the nodes of refined
+  /// cells keep spacing and curvature.
   dealii::Point<dim> position(const MeshPoint<dim> &point) const override
   {
     return grid_position(logical(point));
@@ -36,14 +37,14 @@ public:
 
   bool has_grid() const override { return true; }
 
-  /// Reference position at logical coordinates.
+  /// Return the reference position at logical coordinates.
   virtual dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const = 0;
 
 protected:
-  /// Cells along the axes.
+  /// Numbers of cells along the axes.
   const Counts cells;
 
-  /// Whether the face @p face of a coarse cell is on that side of the body.
+  /// Return whether the face @p face of a coarse cell is on the side @p face of the body.
   bool at_side(unsigned int coarse_cell, unsigned int face) const
   {
     const unsigned int d = face / 2;

@@ -10,10 +10,10 @@ namespace snug::geometry {
 /// The mesh of a file as the cells of one body.
 struct ImportedMesh
 {
-  std::shared_ptr<const BlockMesh<2>> flat;          ///< in 2D
-  std::shared_ptr<const BlockMesh<3>> solid;         ///< in 3D
-  std::vector<std::string>            notes;         ///< what was done on reading
-  std::uint64_t                       text_hash = 0; ///< FNV-1a of the file's text
+  std::shared_ptr<const BlockMesh<2>> flat;          ///< mesh in 2D, otherwise null
+  std::shared_ptr<const BlockMesh<3>> solid;         ///< mesh in 3D, otherwise null
+  std::vector<std::string>            notes;         ///< changes made to the mesh when reading
+  std::uint64_t                       text_hash = 0; ///< FNV-1a hash of the text of the file
 };
 } // namespace snug::geometry
 

@@ -7,18 +7,19 @@
 #include <string>
 
 namespace snug::geometry {
-/// What the surface of a boundary is, for the log.
+/// Shape of the surface of a boundary, for the log.
 struct BoundaryShape
 {
   std::string name = "plane";
-  /// How far facets, where contact sees them as they are, lie off what they stand for [length].
+  /// maximum distance of facets from the smooth surface that they approximate, if contact uses the
+  /// facets themselves [length]
   double facet_height = 0.;
 };
 
 /**
- * A surface of revolution that faces may lie on: a sphere, in 3D also a
- * cylinder, a cone or a torus. In 2D a sphere is a circle. Normals at its
- * points are exact to rounding, as contact that may turn freely needs them.
+ * A surface of revolution on which faces may lie: a sphere, in 3D also a
+ * cylinder, a cone or a torus. In 2D a sphere is a circle. Normals at points of the
+ * surface are exact up to round-off, as contact of bodies that may rotate freely requires.
  */
 template <int dim>
 class KnownSurface
@@ -36,30 +37,31 @@ public:
   using Vector = dealii::Tensor<1, dim>;
 
   Kind   kind = Kind::sphere;
-  Point  centre;        ///< a point of the axis, the apex of a cone
-  Vector axis;          ///< unit; of a cone from its apex into it; not of spheres
-  double radius = 0.;   ///< of a torus that of its middle line [length]
-  double tube   = 0.;   ///< radius of a torus' section [length]
-  double angle  = 0.;   ///< between a cone's axis and its lines [radian]
-  bool   convex = true; ///< the body is inside
+  Point  centre;        ///< centre of a sphere or torus, point of a cylinder axis, apex of a cone
+  Vector axis;          ///< unit vector, of a cone from the apex inwards; unused by spheres
+  double radius = 0.;   ///< radius, of a torus the radius of the middle circle [length]
+  double tube   = 0.;   ///< radius of the section of a torus [length]
+  double angle  = 0.;   ///< angle between the axis and the lines of a cone [radian]
+  bool   convex = true; ///< true if the body is inside
 
-  /// "circle", "cylinder", ...
+  /// Return the name "circle", "cylinder", ...
   std::string name() const;
 
-  /// Signed distance of @p x, positive outside of the body [length].
+  /// Return the signed distance of @p x, positive outside of the body [length].
   double distance(const Point &x) const;
 
-  /// Unit normal at the point closest to @p x, out of the body.
+  /// Return the outward unit normal of the body at the point closest to @p x.
   Vector normal(const Point &x) const;
 
-  /// The point closest to @p x.
+  /// Return the point closest to @p x.
   Point project(const Point &x) const { return x - distance(x) * normal(x); }
 
-  /// The surface of the body at x' = s Q x + t.
+  /// Return the surface after the placement x' = s Q x + t of the body.
   KnownSurface placed(double scale, const dealii::Tensor<2, dim> &Q, const Vector &shift) const;
 
 private:
-  /// From the sphere's centre, the axis or the torus' middle line to @p x.
+  /// Return the vector to @p x from the closest point of the centre of a sphere, the axis, or the
+  /// middle circle of a torus.
   Vector lever(const Point &x) const;
 };
 } // namespace snug::geometry

@@ -9,19 +9,20 @@
 #include <vector>
 
 namespace snug::geometry {
-/// Surfaces and planes that a point moves to and within.
+/// Surfaces to which a point is moved, and planes within which the point moves.
 template <int dim>
 struct Guides
 {
   std::vector<KnownSurface<dim>>      surfaces;
   std::vector<dealii::Tensor<1, dim>> planes; ///< unit normals
 
-  /// The point near @p x on all surfaces whose planes are those of @p x: Newton's method with
-  /// the shortest steps. Of surfaces that almost touch there, later ones do not count.
+  /// Return a point near @p x that lies on all surfaces and stays in the planes through @p x. The
+  /// point is found by Newton's method with steps of minimum length. If surfaces are almost tangent
+  /// at the point, only the first of these surfaces is used.
   dealii::Point<dim> onto(dealii::Point<dim> x) const;
 };
 
-/// A curve or a surface by coordinates of its own, of curves the first one in [0,1].
+/// A curve or a surface with its own coordinates. Curves use only the first coordinate, in [0,1].
 template <int dim>
 class Patch
 {
@@ -30,12 +31,14 @@ public:
 
   virtual dealii::Point<dim> position(const dealii::Point<2> &at) const = 0;
 
-  /// Of the distance from the straight edge or facet; 1 but where cells were too thin.
+  /// Factor on the distance from the straight edge or facet. The factor is below 1 only for patches
+  /// of cells that would otherwise be too thin.
   double scale = 1.;
 };
 
-/// From a to b: x(t) = (1 - t) a + t b + t (1 - t) ((1 - t) c_0 + t c_1), then moved onto guides.
-/// c_0 = c_1 = 4 m of a quadratic curve whose middle node lies m from the middle.
+/// The curve from a to b, x(t) = (1 - t) a + t b + t (1 - t) ((1 - t) c_0 + t c_1), moved onto the
+/// guides. A quadratic curve has c_0 = c_1 = 4 m, where m is the offset of the middle node from the
+/// middle of the straight edge.
 template <int dim>
 class Curve : public Patch<dim>
 {
@@ -49,7 +52,7 @@ public:
 
   Point position(const dealii::Point<2> &at) const override;
 
-  /// From the straight edge.
+  /// Return the offset of x(t) from the straight edge.
   Vector offset(double t) const;
 
 private:
@@ -59,12 +62,13 @@ private:
 };
 
 /**
- * A facet of a boundary in 3D, bounded by curves: coordinates of its corners, which go round, are
- * (0,0), (1,0), (0,1) of triangles, (0,0), (1,0), (1,1), (0,1) of quadrilaterals. Offsets d_e of
- * the curves are blended (Coons; triangles: Szabo, Babuska, Finite Element Analysis, 1991), which
- * is the isoparametric map if they are quadratic:
+ * A facet of a boundary in 3D, bounded by curves. The coordinates of the corners, in cyclic order,
+ * are (0,0), (1,0), (0,1) for triangles and (0,0), (1,0), (1,1), (0,1) for quadrilaterals. The
+ * offsets d_e of the curves are blended (Coons; triangles: Szabo, Babuska, Finite Element
+ * Analysis, 1991), which is the isoparametric map if the curves are quadratic:
  * @f[ x = \sum_i \lambda_i x_i + \sum_e w_e d_e(t_e) + 16 u(1-u)v(1-v) b. @f]
- * On a surface that is projected onto it.
+ * If the facet has a surface, the blended point is projected onto the surface, without the term
+ * of b.
  */
 class FacetPatch : public Patch<3>
 {
@@ -72,7 +76,7 @@ public:
   using Point  = dealii::Point<3>;
   using Vector = dealii::Tensor<1, 3>;
 
-  /// A curve from corner i to the next one, or back; null: straight.
+  /// A curve from corner i to the next corner, or reversed; null for a straight side.
   struct Side
   {
     std::shared_ptr<const Curve<3>> curve;
@@ -82,14 +86,14 @@ public:
   std::vector<Point>                     corners;
   std::vector<Side>                      sides;
   Vector                                 bubble;  ///< b
-  std::shared_ptr<const KnownSurface<3>> surface; ///< null: none
+  std::shared_ptr<const KnownSurface<3>> surface; ///< null if the facet has no surface
 
   Point position(const dealii::Point<2> &at) const override;
 
-  /// Coordinates of corner @p i of a facet with @p n.
+  /// Return the coordinates of corner @p i of a facet with @p n corners.
   static dealii::Point<2> corner(unsigned int i, unsigned int n);
 
-  /// Largest distance of the curves from the surface.
+  /// Return the maximum distance of the curves from the surface, sampled at quarters of each curve.
   double gap() const;
 
 private:

@@ -5,9 +5,9 @@
 
 namespace snug::geometry {
 /**
- * @p geometry, warped, scaled, rotated and shifted:
+ * Return @p geometry, warped, scaled, rotated and shifted:
  * @f[ x' = Q\, s\, (x + w(x)) + t. @f]
- * The geometry itself if its parameters say nothing of the kind.
+ * Return @p geometry itself if the parameters have no placement.
  * @throws InputError naming Warp, Scale, Rotate or Shift.
  */
 template <int dim>

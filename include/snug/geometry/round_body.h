@@ -4,18 +4,18 @@
 #include <snug/geometry/body_geometry.h>
 
 namespace snug::geometry {
-/// The first @p n numbers of the entry Cells; 4 each if it is empty.
-/// @throws InputError unless there are n, none of them 0.
+/// Return the @p n numbers of the entry Cells, or 4 each if the entry is empty.
+/// @throws InputError unless the entry has n numbers and no number is 0.
 std::vector<unsigned int> round_cells(const BodyMeshParameters &parameters, unsigned int n);
 
-/// 1, 2, 4 or 8 for the part full, half, quarter or eighth.
-/// @throws InputError if it is above @p largest.
+/// Return 1, 2, 4 or 8 for the part full, half, quarter or eighth.
+/// @throws InputError if the number exceeds @p largest.
 unsigned int n_of_part(const BodyMeshParameters &parameters, unsigned int largest);
 
-/// @throws InputError naming @p entry unless @p value is positive.
+/// Check that @p value is positive. @throws InputError naming @p entry otherwise.
 void require_positive(const std::string &entry, double value);
 
-/// @throws InputError unless 0 < inner radius < radius.
+/// Check that 0 < inner radius < radius. @throws InputError otherwise.
 void require_radii(const BodyMeshParameters &parameters);
 } // namespace snug::geometry
 

@@ -4,7 +4,7 @@
 #include <snug/geometry/body_geometry.h>
 
 namespace snug::geometry {
-/// The geometry of another one; derived classes change what they say.
+/// This class returns the results of another geometry. Derived classes change some of the results.
 template <int dim>
 class WrappedGeometry : public BodyGeometry<dim>
 {

@@ -16,19 +16,19 @@
 
 namespace snug::mesh {
 /**
- * The mesh of all bodies on this rank: one triangulation, its nodes (scalar
+ * The mesh of all bodies on this rank. This class holds the nodes of one triangulation (scalar
  * degrees of freedom of FE_Q(degree); displacement component c of node a is
- * unknown dim*a + c) and plain arrays the other modules work on.
+ * unknown dim*a + c) and plain arrays on which the other modules work.
  *
- * Local node indices run over the locally relevant nodes. Cells are the
- * locally owned ones. Node k of a cell is tensor-product ordered, the
- * first coordinate fastest, (degree+1)^dim nodes.
+ * Local node indices run over the locally relevant nodes. The cells are the
+ * locally owned cells. The (degree+1)^dim nodes of a cell are in tensor-product order, the
+ * first coordinate fastest.
  *
- * Behind the nodes come the samples: points of the true surface of boundary
- * faces of this rank, (surface_degree+1)^(dim-1) per face in tensor order.
- * Faces of bodies' sampled boundaries have them, unless the face is flat and
- * stays so, and other curved ones where all are asked for. Positions, velocities and gradients run
- * over nodes and samples, displacements over nodes.
+ * The samples are numbered behind the nodes. Samples are points of the true surface of boundary
+ * faces of this rank, (surface_degree+1)^(dim-1) per face in tensor order. A face of a sampled
+ * boundary has samples unless the face is flat and designs do not curve it. With
+ * samples_all_curved, all other curved faces have samples as well. Positions, velocities and
+ * gradients have values at nodes and samples, displacements have values at nodes.
  */
 template <int dim>
 class BodyMesh
@@ -39,29 +39,29 @@ public:
   struct Cell
   {
     unsigned int              body;
-    unsigned int              part;   ///< wholly on this rank
-    unsigned int              region; ///< index of the regions of the body
+    unsigned int              part;   ///< all cells of a part are on the same rank
+    unsigned int              region; ///< index among the regions of the body
     std::vector<unsigned int> nodes;  ///< local node indices
   };
 
   /**
-   * A boundary face of an owned cell. Its nodes, first tangent fastest,
+   * A boundary face of an owned cell. The nodes of the face, first tangent fastest,
    * are oriented such that t1 x t2 (3D), or (t_y, -t_x) (2D), points out
    * of the body.
    */
   struct Face
   {
     unsigned int              body;
-    unsigned int              boundary; ///< index of the body's names
+    unsigned int              boundary; ///< index among the boundary names of the body
     unsigned int              cell;     ///< index into cells()
-    unsigned int              number;   ///< in the cell: side s of axis d is 2d + s
+    unsigned int              number;   ///< number in the cell: side s of axis d is 2d + s
     std::vector<unsigned int> nodes;
-    /// the surface of known shape it lies on, or no_surface, see BodyGeometry
+    /// known surface on which the face lies, or no_surface, see BodyGeometry
     unsigned int              known_surface;
-    std::vector<unsigned int> samples; ///< or empty
+    std::vector<unsigned int> samples; ///< empty if the face has no samples
   };
 
-  /// The hanging node @p node is sum_m weight_m master_m; masters are
+  /// A hanging node. The value at @p node is sum_m weight_m master_m, and masters are
   /// never hanging.
   struct Hanging
   {
@@ -69,7 +69,7 @@ public:
     std::vector<std::pair<unsigned int, double>> masters;
   };
 
-  /// Collective. @throws InputError for bad mesh entries.
+  /// Make the mesh. Collective. @throws InputError for bad mesh entries.
   BodyMesh(MPI_Comm                                         communicator,
            const std::vector<geometry::BodyMeshParameters> &bodies,
            unsigned int                                     degree,
@@ -78,7 +78,7 @@ public:
 
   MPI_Comm     communicator() const { return comm; }
   unsigned int degree() const { return fe_degree; }
-  /// What the mesh stands for.
+  /// Return the solid or the section of a solid that the mesh represents.
   const Idealization                &idealization() const { return meaning; }
   unsigned int                       n_bodies() const { return geometries.size(); }
   const geometry::BodyGeometry<dim> &geometry(unsigned int body) const { return *geometries[body]; }
@@ -88,60 +88,60 @@ public:
   const std::vector<Hanging> &hanging() const { return hanging_nodes; }
 
   unsigned int n_local_nodes() const { return relevant.n_elements(); }
-  /// Local nodes and samples.
+  /// Return the number of local nodes and samples.
   unsigned int n_points() const { return reference.size(); }
-  /// Global number of a local node.
+  /// Return the global number of a local node.
   unsigned int global_node(unsigned int node) const { return relevant.nth_index_in_set(node); }
-  /// Local index of a global node; it must be relevant on this rank.
+  /// Return the local index of a global node. The node must be relevant on this rank.
   unsigned int local_node(unsigned int global) const { return relevant.index_within_set(global); }
-  /// Rank that owns a local node.
+  /// Return the rank that owns a local node.
   unsigned int owner(unsigned int node) const { return owner_of_global(global_node(node)); }
-  /// Rank that owns a global node.
+  /// Return the rank that owns a global node.
   unsigned int owner_of_global(unsigned int global) const;
   bool is_hanging(unsigned int node) const { return hanging_of_node[node] < hanging_nodes.size(); }
-  /// Index into hanging(), only for hanging nodes.
+  /// Return the index of a hanging node in hanging(). The node must be hanging.
   unsigned int hanging_index(unsigned int node) const { return hanging_of_node[node]; }
   unsigned int body_of_node(unsigned int node) const { return node_body[node]; }
 
   const std::vector<dealii::Point<dim>> &logical_positions() const { return logical; }
-  /// Reference positions, hanging nodes interpolated. Of axisymmetric
-  /// bodies, nodes on the axis have x = 0 without round-off.
+  /// Return the reference positions, with interpolated hanging nodes. In axisymmetric
+  /// bodies, points on the axis have x = 0 without round-off.
   const Field &reference_positions() const { return reference; }
-  /// field at hanging nodes <- interpolation of their masters
+  /// Set @p field at hanging nodes to the interpolation of the masters.
   void interpolate_hanging(Field &field) const;
-  /// Transpose: add values at hanging nodes to their masters, then zero.
+  /// Apply the transpose: add values at hanging nodes to the masters, then set them to zero.
   void distribute_hanging(Field &field) const;
-  /// field at samples <- interpolation of the nodes of their faces
+  /// Set @p field at samples to the interpolation of the nodes of the faces.
   void interpolate_samples(Field &field) const;
-  /// Transpose: add values at samples to the nodes, then zero.
+  /// Apply the transpose: add values at samples to the nodes, then set them to zero.
   void distribute_samples(Field &field) const;
 
-  /// Active cells of all ranks.
+  /// Return the number of active cells of all ranks.
   unsigned long n_global_cells() const { return n_cells; }
-  /// Nodes without hanging ones, of all ranks.
+  /// Return the number of nodes of all ranks that are not hanging.
   unsigned long n_global_free_nodes() const { return n_free_nodes; }
 
-  /// Faces between owned cells, and between these and cells of other ranks, whose indices
-  /// go on behind those of cells().
+  /// Return the faces between owned cells, and between owned cells and cells of other ranks. The
+  /// indices of cells of other ranks follow the indices of cells().
   const std::vector<InteriorFace<dim>> &interior_faces() const { return inner_faces; }
-  /// A cell by such an index; of those of other ranks part is not set.
+  /// Return the cell with an index of interior_faces(). Cells of other ranks have no valid part.
   const Cell &known_cell(unsigned int index) const
   {
     return index < mesh_cells.size() ? mesh_cells[index] : other_cells[index - mesh_cells.size()];
   }
 
-  /// The id of a cell of cells(): the same on any number of ranks, and in finer meshes that of the
-  /// cell with all its children.
+  /// Return the id of a cell of cells(). The id does not depend on the number of ranks. In finer
+  /// meshes, the same id names the cell together with all its children.
   const dealii::CellId &cell_id(unsigned int cell) const { return cell_ids[cell]; }
 
-  /// The reference position of the body at coordinates @p unit of a cell of cells(), which meshes
-  /// interpolate between their nodes.
+  /// Return the reference position of the body at coordinates @p unit of a cell of cells(). Meshes
+  /// interpolate this position between nodes.
   dealii::Point<dim> true_position(unsigned int cell, const dealii::Point<dim> &unit) const
   {
     return geometries[mesh_cells[cell].body]->position(places.point(cell_ids[cell], unit));
   }
 
-  /// Pairs of owned cells (a < b) that share a face or part of one.
+  /// Return the pairs of owned cells (a < b) that share a face or part of a face.
   const CellPairs &cell_neighbours() const { return neighbours; }
 
 private:
@@ -152,23 +152,23 @@ private:
   Idealization                                              meaning;
   std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>> geometries;
   geometry::CoarseCells<dim>                                places; ///< of the coarse cells
-  // Owned and ghost nodes: a local index is the place of a node in this set.
+  // Owned and ghost nodes. A local index is the position of the node in this set.
   dealii::IndexSet          relevant;
   std::vector<unsigned int> first_node_of_rank; ///< n_ranks + 1
   // per point
   std::vector<unsigned int>       node_body;
   std::vector<dealii::Point<dim>> logical;
   Field                           reference;
-  std::vector<unsigned int>       hanging_of_node; ///< or a number above all
+  std::vector<unsigned int>       hanging_of_node; ///< index, or the maximum integer
   std::vector<Cell>               mesh_cells;
   std::vector<dealii::CellId>     cell_ids;
   std::vector<Face>               mesh_faces;
   std::vector<Hanging>            hanging_nodes;
   CellPairs                       neighbours;
-  /// of other ranks, that share a face with one of this
+  /// cells of other ranks that share a face with a cell of this rank
   std::vector<Cell>              other_cells;
   std::vector<InteriorFace<dim>> inner_faces;
-  /// of the nodes of a face at its samples
+  /// shape functions of the nodes of a face at the samples of the face
   std::vector<std::vector<double>> sample_weights;
   unsigned long                    n_cells = 0, n_free_nodes = 0;
 

@@ -10,29 +10,29 @@ class Triangulation;
 }
 
 namespace snug::mesh {
-/// Lists of the neighbours of each cell through faces.
+/// For each cell, the list of neighbours that share a face with the cell.
 using CellGraph = std::vector<std::vector<unsigned int>>;
 
-/// Cells that share a face or part of one.
+/// Pairs of cells that share a face or part of a face.
 using CellPairs = std::vector<std::array<unsigned int, 2>>;
 
-/// Pairs a < b of owned cells, numbered in the order of the active cells;
-/// ascending.
+/// Return the ascending pairs a < b of neighbouring owned cells. Owned cells are numbered in the
+/// order of the active cells.
 template <int dim>
 CellPairs owned_neighbours(const dealii::Triangulation<dim, dim> &triangulation);
 
-/// Graph of the cells called @p cells, by their places in that list; pairs
-/// with other cells do not count.
+/// Return the graph of the cells with the numbers @p cells. The nodes of the graph are the
+/// positions in this list. Pairs with other cells are ignored.
 CellGraph cell_graph(const std::vector<unsigned int> &cells, const CellPairs &pairs);
 
-/// Split every part into its face-connected pieces, numbered by their
-/// first cell. @return the number of pieces.
+/// Split every part into its face-connected pieces. Pieces are numbered in the order of their
+/// first cells. @return the number of pieces.
 unsigned int split_into_pieces(const CellGraph &graph, std::vector<unsigned int> &part);
 
 /**
- * Give parts of less than a quarter of @p cells_each cells to the
- * neighbour they share most faces with; parts without neighbours stay.
- * Parts are then numbered by their first cell.
+ * Merge each part of less than a quarter of @p cells_each cells into the neighbouring part with
+ * the maximum number of shared faces. Parts without neighbours stay.
+ * Parts are then numbered in the order of their first cells.
  */
 void merge_slivers(const CellGraph           &graph,
                    std::vector<unsigned int> &part,

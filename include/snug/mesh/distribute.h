@@ -11,13 +11,13 @@ namespace snug::mesh {
  * Decide the parts into which the bodies are torn and give whole parts to
  * the ranks, so that subdomains do not depend on the number of ranks.
  *
- * Parts by size have the cells of @p by_size; there are as many parts as
- * ranks where there are cells enough. Every body is
- * spread over all ranks in runs of consecutive parts; ranks differ by at
- * most about two parts in their numbers of cells.
+ * If the number of subdomains is chosen by size, parts have about the number of cells of
+ * @p by_size. There are at least as many parts as ranks if there are enough cells. Every body is
+ * distributed over all ranks in runs of consecutive parts. The numbers of cells of two ranks
+ * differ by at most about two parts.
  *
  * @param refined cells of @p coarse and their children.
- * @param result the same cells, empty before.
+ * @param result an empty triangulation, which receives the same cells.
  * @return the parts of this rank's cells of @p result, numbered body by
  *   body.
  *
@@ -31,7 +31,7 @@ distribute(const CoarseMesh<dim>                                   &coarse,
            const dealii::parallel::distributed::Triangulation<dim> &refined,
            dealii::parallel::fullydistributed::Triangulation<dim>  &result);
 
-/// The same for the coarse cells themselves, without a forest of p4est.
+/// Distribute the coarse cells themselves in the same way, without a forest of p4est.
 template <int dim>
 std::vector<unsigned int>
 distribute(const CoarseMesh<dim>                                  &coarse,

@@ -8,11 +8,11 @@
 
 namespace snug::mesh {
 /**
- * What a mesh of dimension dim stands for: a solid (3D), or the section of
- * one (2D). A volume or area of the solid is
+ * This struct describes what a mesh of dimension dim represents: a solid (3D), or the section of
+ * a solid (2D). A volume or area of the solid is
  * @f[ \int w\,d\Omega,\qquad w = 1,\quad\text{thickness},\quad\text{or}
  *     \quad 2\pi r @f]
- * over its section. Axisymmetric: x is the radius r, y the axis.
+ * over the section. In axisymmetric sections x is the radius r, and y is the axis.
  */
 struct Idealization
 {
@@ -27,7 +27,7 @@ struct Idealization
   Kind   kind;
   double thickness = 1.; ///< of plane sections [length]
 
-  /// Solid in 3D, plane strain of unit thickness in 2D.
+  /// Return the default: a solid in 3D, plane strain of unit thickness in 2D.
   static Idealization natural(unsigned int dim)
   {
     return {dim == 2 ? Kind::plane_strain : Kind::solid};
@@ -35,14 +35,14 @@ struct Idealization
 
   bool is_axisymmetric() const { return kind == Kind::axisymmetric; }
 
-  /// w at @p x [length^(3-dim)].
+  /// Return w at @p x [length^(3-dim)].
   template <int dim>
   double weight(const dealii::Tensor<1, dim> &x) const
   {
     return is_axisymmetric() ? 2. * dealii::numbers::PI * x[0] : thickness;
   }
 
-  /// dw/dx, a constant.
+  /// Return dw/dx, which is constant.
   template <int dim>
   dealii::Tensor<1, dim> weight_gradient() const
   {
@@ -51,8 +51,8 @@ struct Idealization
     return gradient;
   }
 
-  /// Rigid motions of a body, the kernel of its stiffness matrix: 6, 3 in
-  /// plane sections, and 1, along the axis, in axisymmetric ones.
+  /// Return the number of rigid motions of a body, the dimension of the kernel of its stiffness
+  /// matrix: 6 in solids, 3 in plane sections, and 1, along the axis, in axisymmetric sections.
   unsigned int n_rigid_motions() const
   {
     return kind == Kind::solid ? 6 : kind == Kind::axisymmetric ? 1 : 3;

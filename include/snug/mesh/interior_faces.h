@@ -12,29 +12,29 @@ class Triangulation;
 }
 
 namespace snug::mesh {
-/// A face in which two cells of a body meet, as the finer of them sees it.
+/// A face between two cells of a body. The face is a whole face of the finer cell.
 template <int dim>
 struct InteriorFace
 {
-  unsigned int  cell;      ///< the finer, or one of two of equal size
-  unsigned int  neighbour; ///< the other
-  unsigned char face;      ///< of the cell: side f % 2 of its axis f / 2
-  /// number of the cell in its parent, which is as large as the neighbour;
-  /// 2^dim where the cell itself is
+  unsigned int  cell;      ///< the finer cell, or one of two cells of equal size
+  unsigned int  neighbour; ///< the other cell
+  unsigned char face;      ///< face f of the cell: side f % 2 of axis f / 2
+  /// number of the cell in its parent if the neighbour is as large as the parent; 2^dim if the
+  /// neighbour is as large as the cell
   unsigned char child;
   unsigned char origin; ///< vertex of the neighbour at the first vertex of the face
-  /// of the neighbour, along the axes of the face in ascending order
+  /// axes of the neighbour along the axes of the face in ascending order
   std::array<unsigned char, dim - 1> axes;
 
-  /// Coordinates in the neighbour of a point of the face, given in the cell.
+  /// Return the neighbour's coordinates of the face point with coordinates @p in_cell in the cell.
   dealii::Point<dim> in_neighbour(const dealii::Point<dim> &in_cell) const;
 };
 
 /**
- * Faces between cells of this rank and from them to cells of others, in the
- * order of the active cells. Owned cells are numbered in that order, the
- * cells of other ranks behind them in the order of @p ghosts, which are
- * their active indices.
+ * Return the faces between cells of this rank, and between cells of this rank and cells of other
+ * ranks, in the order of the active cells. Owned cells are numbered in the order of the active
+ * cells. Cells of other ranks are numbered behind the owned cells in the order of @p ghosts,
+ * which receives the active indices of the cells of other ranks.
  */
 template <int dim>
 std::vector<InteriorFace<dim>> interior_faces(const dealii::Triangulation<dim, dim> &triangulation,

@@ -8,10 +8,10 @@
 #include <vector>
 
 namespace snug::mesh {
-/// Degree of the polynomials by which true surfaces of faces are described.
+/// Degree of the polynomials that describe the true surfaces of faces.
 constexpr unsigned int surface_degree = 4;
 
-/// Lagrange function i of degree p with equidistant nodes on [0,1],
+/// Return Lagrange function i of degree p with equidistant nodes on [0,1],
 /// prod_{j != i} (p x - j) / (i - j), and its first @p order derivatives.
 template <int order, typename Number>
 std::array<Number, order + 1> lagrange(unsigned int p, unsigned int i, const Number &x)
@@ -30,7 +30,7 @@ std::array<Number, order + 1> lagrange(unsigned int p, unsigned int i, const Num
   return f;
 }
 
-/// Index of node @p a of a cube of degree @p p along each axis: nodes are in
+/// Return the index of node @p a of a cube of degree @p p along each axis. Nodes are in
 /// tensor-product order, the first coordinate fastest.
 template <int dim>
 std::array<unsigned int, dim> node_indices(unsigned int p, unsigned int a)
@@ -42,8 +42,8 @@ std::array<unsigned int, dim> node_indices(unsigned int p, unsigned int a)
 }
 
 /**
- * The (p+1)^dim Lagrange functions of a reference cube [0,1]^dim at one of
- * its points, products of those along the axes (for p <= 2 the functions
+ * The (p+1)^dim Lagrange functions of a reference cube [0,1]^dim at one point of the cube. The
+ * functions are products of Lagrange functions along the axes (for p <= 2 the functions
  * of dealii::FE_Q).
  */
 template <int dim>
@@ -56,15 +56,15 @@ struct LagrangePoint
   double                              weight = 0.; ///< of a quadrature on the reference cube
 };
 
-/// The functions of degree @p degree at @p point.
+/// Return the functions of degree @p degree at @p point.
 template <int dim>
 LagrangePoint<dim> lagrange_point(unsigned int degree, const dealii::Point<dim> &point);
 
-/// The functions at the (p+1)^dim Gauss points; the weights sum to 1.
+/// Return the functions at the (p+1)^dim Gauss points. The weights sum to 1.
 template <int dim>
 std::vector<LagrangePoint<dim>> lagrange_gauss_points(unsigned int degree);
 
-/// The functions at their own nodes, without weights.
+/// Return the functions at their own nodes, without weights.
 template <int dim>
 std::vector<LagrangePoint<dim>> lagrange_nodes(unsigned int degree);
 } // namespace snug::mesh

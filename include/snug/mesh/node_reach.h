@@ -5,9 +5,9 @@
 
 namespace snug::mesh {
 /**
- * Where the n nodes of a cell or face find their values in a vector of
- * some nodes of the mesh: at one of those (slot), or, hanging, as the
- * combination T of their masters' slots.
+ * This class maps the n nodes of a cell or face to slots, which are positions in a vector with
+ * values at some nodes of the mesh. The value at a node is the value at one slot. The value at
+ * a hanging node is a combination of the values at the slots of the masters. T holds the weights.
  */
 template <int dim>
 class NodeReach
@@ -15,28 +15,29 @@ class NodeReach
 public:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-  /// @p nodes of the mesh; slots are places in @p among, ascending and
-  /// with all masters, or the nodes themselves if that is empty.
+  /// Find the slots of the @p nodes of a cell or face. Slots are positions in @p among, which is
+  /// ascending and contains all masters. If @p among is empty, slots are local nodes.
   NodeReach(const BodyMesh<dim>             &mesh,
             const std::vector<unsigned int> &nodes,
             const std::vector<unsigned int> &among = {});
 
-  /// Those reached; in the order of the nodes if none hangs.
+  /// Return the slots with nonzero weights: in the order of the nodes if no node hangs, otherwise
+  /// ascending.
   const std::vector<unsigned int> &slots() const { return reached; }
 
-  /// Values at the nodes, T u.
+  /// Return the values at the nodes, T u.
   Nodes values(const double *u) const;
 
-  /// u += factor * T' r.
+  /// Add factor * T' r to u.
   void add(double factor, const Nodes &r, double *u) const;
 
-  /// K <- T' K T, from the nodes' unknowns to the slots' (row by row).
+  /// Replace K by T' K T, from the unknowns of the nodes to the unknowns of the slots (row by row).
   void condense(std::vector<double> &K) const;
 
 private:
   unsigned int              n_nodes;
   std::vector<unsigned int> reached;
-  std::vector<double>       T; ///< n_nodes x slots, row by row, or empty
+  std::vector<double>       T; ///< n_nodes x slots, row by row; empty for the identity
 };
 } // namespace snug::mesh
 

@@ -20,11 +20,12 @@ namespace snug::mesh {
 /// Entries of `subsection Decomposition`.
 struct TearingParameters
 {
-  unsigned int subdomains = 0;      ///< of all bodies, a target; 0: by size
+  unsigned int subdomains = 0;      ///< target number for all bodies; 0: by size
   std::string  method     = "auto"; ///< a name of partition_table()
-  /// as many as ranks, where there are cells enough; not an entry
+  /// if true, there are at least as many subdomains as ranks, provided that there are enough
+  /// cells; not an entry
   bool at_least_ranks = true;
-  /// bodies of which subdomains by size are larger, see larger_subdomains(); not an entry
+  /// bodies whose subdomains by size are larger, see larger_subdomains(); not an entry
   std::vector<bool> nearly_incompressible;
 
   void declare(Entries &entries);
@@ -32,8 +33,8 @@ struct TearingParameters
 
 /**
  * The cells of one body that a rank holds before the parts are decided.
- * Cells have numbers, unique over ranks, and keys {level and coarse cell,
- * path of children}, which order them in the same way on any number of
+ * Cells have numbers that are unique over ranks. Cells also have keys {level and coarse cell,
+ * path of children}, which give the same order of cells on any number of
  * ranks.
  */
 template <int dim>
@@ -45,11 +46,11 @@ struct CellSet
   std::vector<dealii::Point<dim>> centres; ///< logical
   std::vector<unsigned int>       numbers;
   std::vector<Key>                keys;
-  /// by their numbers; each pair of the body on one rank only
+  /// pairs of numbers of cells that share a face; each pair of the body is on one rank only
   CellPairs              neighbours;
-  std::vector<double>    areas;     ///< of the faces that these share [length^(dim-1)]
-  unsigned long          n_global;  ///< cells of the body
-  unsigned long          n_slender; ///< of those, axes differ by more than compact_aspect
+  std::vector<double>    areas;     ///< of the shared faces of neighbours [length^(dim-1)]
+  unsigned long          n_global;  ///< number of cells of the body
+  unsigned long          n_slender; ///< number of cells with CellShape::is_slender()
   dealii::Tensor<1, dim> size;      ///< along the logical axes
   bool                   layered;   ///< all cells lie in layers along the logical axes
 };
@@ -62,31 +63,32 @@ struct Partition
 };
 
 /**
- * Whether the cells of a body are partitioned by a grid, else as a graph: rows "auto", "grid" and
- * "METIS".
+ * Return the rows "auto", "grid" and "METIS" of the entry Method. A row returns whether the cells
+ * of a body are partitioned by a grid; otherwise the cells are partitioned as a graph.
  *
- * Parts that are cubes of cells with flat sides need half the iterations
- * of the ragged ones a graph partitioner finds (54 subdomains of 6^3
- * cells, two cubes: 14 against 31 for a linear solve to 1e-6).
+ * Parts that are cubes of cells with flat sides need half as many iterations as the ragged parts
+ * of a graph partitioner (measured on two cubes with 54 subdomains of 6^3
+ * cells: 14 against 31 iterations for a linear solve to 1e-6).
  */
 template <int dim>
 const ChoiceTable<bool(const CellSet<dim> &)> &partition_table();
 
 /**
- * Each body into parts of about @p cells_each cells, by the row @p method of partition_table().
- * Collective.
+ * Partition each body into parts of about @p cells_each cells by the row @p method of
+ * partition_table(). Collective.
  */
 template <int dim>
 std::vector<Partition> partitions(const std::string               &method,
                                   const std::vector<CellSet<dim>> &bodies,
                                   const std::vector<double>       &cells_each);
 
-/// Of one body: slabs along the logical axes, cut between layers of cells.
+/// Partition one body by slabs along the logical axes, cut between layers of cells. Collective.
 template <int dim>
 Partition grid_partition(const CellSet<dim> &set, double cells_each);
 
-/// By METIS: the cell graph of each whole body, gathered on one rank, the bodies on the ranks in
-/// turn. Its edges weigh as much as the faces' areas: parts of flat cells are not flat.
+/// Partition the cell graph of each whole body by METIS. Each graph is gathered on one rank, and
+/// the bodies take the ranks in turn. The weights of the graph edges are the areas of the faces,
+/// so that parts of flat cells are not flat. Collective.
 template <int dim>
 std::vector<Partition> graph_partitions(const std::vector<const CellSet<dim> *> &bodies,
                                         const std::vector<double>               &cells_each);

@@ -5,42 +5,43 @@
 #include <snug/mesh/partition.h>
 
 namespace snug::mesh {
-/// Parts of each body, and their numbers of cells on all ranks together.
+/// Parts of each body, and the numbers of cells of the parts on all ranks together.
 struct Parts
 {
   std::vector<Partition>                  of_body;
   std::vector<std::vector<unsigned long>> cells;
 };
 
-/// Of a part by size.
+/// Number of cells of a part if the number of subdomains is chosen by size.
 struct CellsPerSubdomain
 {
-  double compact; ///< where subdomains are cubes of nearly cubic cells, which have no soft modes
-  double other;
+  double compact; ///< for cubes of nearly cubic cells, which have no soft modes
+  double other;   ///< for all other parts
 };
 
 /**
- * Cells of a subdomain that keep factorizations, iterations, soft modes and
- * coarse problem in balance: 5 Q1 cells per edge in 3D and 12 in 2D where
- * subdomains are compact, else 6.3 and 14. Fewer cells of higher degree, by
- * their nodes. Axisymmetric subdomains can all but turn and move along the
- * radius, the motion along the axis being their only rigid one: with 64
+ * Return the numbers of cells of a subdomain that balance the costs of factorizations,
+ * iterations, soft modes and coarse problem. Compact subdomains have 5 Q1 cells per edge in 3D and
+ * 12 in 2D, other subdomains have 6.3 and 14. For higher degrees, the number of cells per edge is
+ * divided by the degree. In axisymmetric subdomains the motion along the axis is the only rigid
+ * motion, but rotations and motions along the radius cost little energy and are soft modes. With 64
  * cells per edge few soft modes are left.
  */
 CellsPerSubdomain
 cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &idealization);
 
 /**
- * The factor of cells_per_subdomain() of a nearly incompressible body: twice as many cells per edge
- * in 3D. Jumps of the displacement between subdomains that change the volume of cells are stiff;
- * at Poisson's ratio 0.499, two blocks of 20^3 cells take 33 F-mults instead of 91 so.
+ * Return the factor on cells_per_subdomain() for a nearly incompressible body, which means twice
+ * as many cells per edge in 3D. Jumps of the displacement between subdomains are stiff if they
+ * change the volume of cells, and larger subdomains have fewer such jumps. With this factor, two
+ * blocks of 20^3 cells at Poisson's ratio 0.499 take 33 F-mults instead of 91.
  */
 double larger_subdomains(unsigned int dim);
 
 /**
- * The parts into which the bodies are torn, of the cells of each in @p sets. Parts by size have
- * the cells of @p by_size; there are as many parts as ranks where there are cells enough.
- * Collective.
+ * Decide the parts into which the bodies are torn. @p sets holds the cells of each body. If the
+ * number of subdomains is chosen by size, parts have about the number of cells of @p by_size.
+ * There are at least as many parts as ranks if there are enough cells. Collective.
  */
 template <int dim>
 Parts decide_parts(const std::vector<CellSet<dim>> &sets,
@@ -48,9 +49,9 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
                    const CellsPerSubdomain         &by_size);
 
 /**
- * Ranks of the parts, body by body: @p cells[b][p] is the number of cells
- * of part p of body b. Each body's parts go to the ranks in runs; the
- * shares even out what the bodies before have left unbalanced.
+ * Return the ranks of the parts, body by body. @p cells[b][p] is the number of cells
+ * of part p of body b. The parts of each body are assigned to the ranks in runs. The share of a
+ * rank in a body compensates the imbalance of the bodies before.
  */
 std::vector<std::vector<unsigned int>>
 ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned int n_ranks);

@@ -9,29 +9,31 @@
 #include <vector>
 
 namespace snug::mesh {
-/// Levels of a cell above its coarse cell.
+/// Return the refinement level of a cell; coarse cells have level 0.
 unsigned int level(const dealii::CellId &cell);
 
-/// The cell that has @p cell as a child. @p cell must not be a coarse one.
+/// Return the parent of @p cell. @p cell must not be a coarse cell.
 dealii::CellId parent(const dealii::CellId &cell);
 
-/// Add a cell and all its ancestors to those that have children.
+/// Add a cell and all its ancestors to @p refined, the set of cells that have children.
 void refine(const dealii::CellId &cell, std::set<dealii::CellId> &refined);
 
-/// The cells of all ranks, each once and ascending. Collective.
+/// Return the cells of all ranks, each once and ascending. Collective.
 std::vector<dealii::CellId> gather_cells(const std::vector<dealii::CellId> &mine,
                                          MPI_Comm                           communicator);
 
-/// Those of @p cells of this rank, of all ranks. Collective.
+/// Return the ids of the cells @p cells of all ranks, each once and ascending. @p cells are indices
+/// of BodyMesh::cells() on this rank. Collective.
 template <int dim>
 std::vector<dealii::CellId> gather_cells(const BodyMesh<dim>             &mesh,
                                          const std::vector<unsigned int> &cells);
 
-/// All active cells, ascending: an order that does not depend on the ranks. Collective.
+/// Return all active cells in ascending order, which does not depend on the ranks. Collective.
 template <int dim>
 std::vector<dealii::CellId> all_cells(const BodyMesh<dim> &mesh);
 
-/// Values of this rank's cells in the order of all_cells(). Collective.
+/// Return the values of the cells of all ranks in the order of all_cells(). @p of_cells holds the
+/// values of the cells of this rank. Collective.
 template <int dim>
 std::vector<double> gather_values(const BodyMesh<dim>               &mesh,
                                   const std::vector<dealii::CellId> &all,

@@ -7,17 +7,17 @@
 
 namespace snug::mesh {
 /**
- * Replace nodal values by their sums over ranks.
+ * Replace nodal values by their sums over ranks. Values are summed in the order of the ranks.
+ * Collective.
  * @param[in,out] values @p n_components values per local node, node by
- *   node: this rank's contributions in, the sums of all ranks out, at all
- *   local nodes. Collective; summed in the order of the ranks.
+ *   node: the contributions of this rank on input, the sums over all ranks on output.
  */
 template <int dim>
 void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
                          unsigned int               n_components,
                          std::vector<double>       &values);
 
-/// A nodal field at all local nodes by the values of the ranks that own them. Collective.
+/// Return a nodal field with the values of the owners of the nodes at all local nodes. Collective.
 template <int dim>
 typename BodyMesh<dim>::Field owners_values(const BodyMesh<dim>                 &mesh,
                                             const typename BodyMesh<dim>::Field &field);

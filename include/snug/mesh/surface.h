@@ -9,8 +9,8 @@
 namespace snug::mesh {
 /**
  * A set of boundary faces gathered on every rank, for contact search.
- * Surface nodes are numbered by ascending global node; behind them come the
- * samples of the faces, see BodyMesh. All arrays are equal on all ranks.
+ * Surface nodes are numbered in the order of global nodes. The samples of the faces, see BodyMesh,
+ * are numbered behind the nodes. The lists of faces and points are equal on all ranks.
  */
 template <int dim>
 class Surface
@@ -22,9 +22,9 @@ public:
   {
     unsigned int              body, boundary;
     std::vector<unsigned int> nodes; ///< surface nodes, oriented outwards
-    /// surface points, ascending without a gap, or empty: the mesh is the surface
+    /// surface points, consecutive and ascending; empty if the mesh face is the true surface
     std::vector<unsigned int>          samples;
-    const geometry::KnownSurface<dim> *known; ///< null: none
+    const geometry::KnownSurface<dim> *known; ///< null if the face lies on no known surface
   };
 
   /// Gather the faces of the (body, boundary) pairs. Collective.
@@ -32,48 +32,48 @@ public:
           const std::vector<std::pair<unsigned int, unsigned int>> &boundaries);
 
   MPI_Comm communicator() const { return mesh.communicator(); }
-  /// What the mesh stands for.
+  /// Return the solid or the section of a solid that the mesh represents.
   const Idealization      &idealization() const { return mesh.idealization(); }
   const std::vector<Face> &faces() const { return surface_faces; }
   unsigned int             n_nodes() const { return global_nodes.size(); }
-  /// Nodes and samples.
+  /// Return the number of nodes and samples.
   unsigned int n_points() const { return reference.size(); }
-  /// Reference positions of the points.
+  /// Return the reference positions of the points.
   const Field &reference_positions() const { return reference; }
   unsigned int global_node(unsigned int surface_node) const { return global_nodes[surface_node]; }
-  /// The surface node of a global one; n_nodes(): it is not on the surface.
+  /// Return the surface node of a global node, or n_nodes() if the node is not on the surface.
   unsigned int find(unsigned int global) const
   {
     const auto place = std::lower_bound(global_nodes.begin(), global_nodes.end(), global);
     return place == global_nodes.end() || *place != global ? n_nodes()
                                                            : place - global_nodes.begin();
   }
-  /// Masters (surface nodes, weights) of a hanging node; else empty.
+  /// Return the masters (surface nodes, weights) of a hanging node; empty for other nodes.
   const std::vector<std::pair<unsigned int, double>> &masters(unsigned int surface_node) const
   {
     return node_masters[surface_node];
   }
 
-  /// Values of a field of nodes or points at those of the surface. Collective.
+  /// Return the values of a mesh field at the nodes or points of the surface. Collective.
   Field gather(const typename BodyMesh<dim>::Field &field) const;
-  /// Add a surface field to a field of nodes or points at those this rank
-  /// owns (hanging nodes included), so that a sum over ranks adds each once.
+  /// Add a surface field to a field of nodes or points, at the nodes and samples that this rank
+  /// owns (hanging nodes included). A sum over ranks thus contains each value once.
   void add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const;
-  /// Cells of this rank, as in BodyMesh::cells(), that have one of these faces.
+  /// Return the cells of this rank, as indices of BodyMesh::cells(), that have one of the @p faces.
   std::vector<unsigned int> cells_of(const std::vector<unsigned int> &faces) const;
-  /// (surface, local) numbers of the samples on this rank.
+  /// Return the (surface, local) numbers of the samples on this rank.
   const std::vector<std::pair<unsigned int, unsigned int>> &samples() const
   {
     return owned_samples;
   }
 
-  /// {body, boundary, logical centre in units of 2^-32, known surface, has
-  /// samples, global nodes} of a face: as integers, so that sorting gives an
-  /// order that does not depend on how cells and nodes are distributed.
+  /// The numbers {body, boundary, logical centre in units of 2^-32, known surface, has
+  /// samples, global nodes} of a face. The numbers are integers, so that sorting gives an
+  /// order that does not depend on the distribution of cells and nodes.
   using FaceRecord = std::vector<long long>;
 
 private:
-  /// Local numbers of the samples of this rank's faces.
+  /// Local numbers of the samples of the faces of this rank.
   using OwnSamples = std::map<FaceRecord, const std::vector<unsigned int> *>;
 
   void add_faces(const std::vector<FaceRecord>              &records,
@@ -85,7 +85,7 @@ private:
   std::vector<Face>                                         surface_faces;
   std::vector<unsigned int>                                 global_nodes;
   std::vector<std::vector<std::pair<unsigned int, double>>> node_masters;
-  /// local node of each surface node this rank owns: (surface, local)
+  /// (surface, local) numbers of the nodes and samples that this rank owns
   std::vector<std::pair<unsigned int, unsigned int>>    owned, owned_samples;
   std::vector<std::vector<geometry::KnownSurface<dim>>> known_surfaces; ///< per body
   Field                                                 reference;

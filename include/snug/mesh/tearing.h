@@ -11,11 +11,11 @@ struct Subdomain
 {
   unsigned int              body;
   std::vector<unsigned int> cells; ///< indices into BodyMesh::cells()
-  /// local indices of the unconstrained nodes its cells reach, ascending
+  /// local indices of the unconstrained nodes on which the cells depend, ascending
   std::vector<unsigned int> nodes;
 };
 
-/// How the bodies are torn; ids are contiguous on each rank.
+/// The subdomains into which the bodies are torn. Ids are contiguous on each rank.
 struct Tearing
 {
   std::vector<Subdomain>    subdomains; ///< of this rank
@@ -25,7 +25,7 @@ struct Tearing
 };
 
 /**
- * Tear the bodies into subdomains: the face-connected pieces of the parts
+ * Tear the bodies into subdomains, which are the face-connected pieces of the parts
  * of the mesh. Collective.
  */
 template <int dim>

@@ -13,33 +13,33 @@ namespace snug::mesh {
 template <int dim>
 using Geometries = std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>>;
 
-/// The coarse meshes of all bodies side by side, which every rank has. Bodies share no vertices,
-/// even where they touch.
+/// The joint coarse mesh of all bodies, which every rank holds completely. Bodies share no
+/// vertices, even where bodies touch.
 template <int dim>
 struct CoarseMesh
 {
-  /// @p geometries must outlive it.
+  /// Join the coarse meshes of the bodies. @p geometries must outlive this object.
   explicit CoarseMesh(const Geometries<dim> &geometries);
 
   const Geometries<dim>             &geometries;
   std::vector<dealii::Point<dim>>    vertices;
-  std::vector<dealii::CellData<dim>> cells;      ///< body after body; material id: body
-  std::vector<unsigned int>          first_cell; ///< of the bodies, and the end
+  std::vector<dealii::CellData<dim>> cells;      ///< body after body; the material id is the body
+  std::vector<unsigned int>          first_cell; ///< of each body, then the number of cells
   geometry::CoarseCells<dim>         places;     ///< of the cells in their bodies
-  /// index of the body's names, of boundary faces by their vertices in ascending order
+  /// index among the boundary names of the body, by the vertices of a face in ascending order
   std::map<std::vector<unsigned int>, unsigned int> boundary;
 };
 
-/// Whether any cell of the coarse mesh may have children.
+/// Return whether any cell of the coarse mesh may have children.
 bool are_refined(const std::vector<geometry::BodyMeshParameters> &bodies);
 
-/// The coarse mesh with its boundary ids.
+/// Create a triangulation from the coarse mesh and set the boundary ids.
 template <int dim>
 void create_triangulation(const CoarseMesh<dim>                             &coarse,
                           dealii::parallel::distributed::Triangulation<dim> &triangulation);
 
-/// Ids of cells by the places of their coarse cells in the coarse mesh, which the ids of a forest
-/// do not tell: p4est has its trees in an order of its own.
+/// This class converts cell ids of a forest to ids whose coarse cell is the position in the coarse
+/// mesh. The ids of a forest do not contain this position, because p4est reorders the trees.
 template <int dim>
 class PlacedIds
 {
@@ -49,10 +49,10 @@ public:
   dealii::CellId of(const dealii::CellId &in_forest) const;
 
 private:
-  std::vector<unsigned int> place; ///< of trees
+  std::vector<unsigned int> place; ///< position of each tree in the coarse mesh
 };
 
-/// Refine every body as its parameters say. Collective.
+/// Refine every body according to its parameters. Collective.
 /// @throws InputError for a formula that cannot be read.
 template <int dim>
 void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,

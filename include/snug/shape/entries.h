@@ -8,24 +8,24 @@
 #include <deal.II/base/tensor.h>
 
 namespace snug::shape {
-/// The entry Direction as a unit vector. @throws InputError
+/// Return the entry Direction as a unit vector. @throws InputError
 template <int dim>
 dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters);
 
-/// The net of the entry Control points along @p n_axes axes. @p degree 0:
+/// Return the net with the entry Control points along @p n_axes axes. @p degree 0 means
 /// Bernstein polynomials. @throws InputError naming Control points or
 /// Degree.
 SplineNet spline_net(const ShapeParameters &parameters, unsigned int n_axes, unsigned int degree);
 
-/// The entries Bounds and Initial fit each other. @throws InputError
+/// Check that the values of the entry Initial lie within the entry Bounds. @throws InputError
 void require_bounds(const ShapeParameters &parameters);
 
-/// The entries Box corner and Box size. @throws InputError
+/// Return the entries Box corner and Box size. @throws InputError
 template <int dim>
 std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>> box_of(const ShapeParameters &parameters);
 
-/// Whether each body is in the entry Bodies; an empty one means all.
-/// @throws InputError
+/// Return, for each body, whether the entry Bodies names the body. An empty entry means all
+/// bodies. @throws InputError
 std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &parameters);
 } // namespace snug::shape
 

@@ -5,8 +5,8 @@
 #include <snug/shape/shape_basis.h>
 
 namespace snug::shape {
-/// Vector fields of the coordinates, one per design variable, as muParser
-/// formulas of their components.
+/// Vector fields of the coordinates, one per design variable. The components of the fields are
+/// muParser formulas.
 template <int dim>
 class FormulaFields
 {
@@ -16,19 +16,19 @@ public:
 
   unsigned int n() const { return formulas.size(); }
 
-  /// Field @p i at a point. @throws InputError if it is not finite.
+  /// Return field @p i at the point @p x. @throws InputError if the value is not finite.
   dealii::Tensor<1, dim> value(unsigned int i, const dealii::Tensor<1, dim> &x) const;
 
 private:
   std::vector<std::vector<geometry::Formula<dim>>> formulas;
 };
 
-/// u(x) = sum_i alpha_i v_i(x) with FormulaFields v_i, at the nodes of a
+/// Return the modes u(x) = sum_i alpha_i v_i(x) with FormulaFields v_i, at the points of a
 /// face. @throws InputError naming the entry Modes.
 template <int dim>
 Modes<dim> formula_modes(const ShapedFace<dim> &face, const ShapeParameters &parameters);
 
-/// The same at the nodes of whole bodies. Collective.
+/// Return the same modes at the points of whole bodies. Collective.
 /// @throws InputError naming the entry Bodies or Modes.
 template <int dim>
 Modes<dim> formula_modes(const mesh::BodyMesh<dim> &mesh,

@@ -7,9 +7,9 @@
 
 namespace snug::shape {
 /**
- * How a body's nodes follow its shaped face: a linear operator from the
- * displacements of the face's nodes to those of all nodes, which keeps the
- * former. Hanging nodes of the mesh are left to the caller.
+ * This class moves the nodes of a body with the shaped face of the body. It is a linear operator
+ * from the displacements of the face nodes to the displacements of all nodes. The operator keeps
+ * the displacements of the face nodes. The caller sets the hanging nodes of the mesh.
  */
 template <int dim>
 class Interior
@@ -20,42 +20,40 @@ public:
 
   virtual ~Interior() = default;
 
-  /// Displacement of the local nodes; @p moves is the same on all ranks.
+  /// Return the displacements of the local nodes. @p moves is the same on all ranks.
   /// Collective.
   virtual Field extend(const FaceField &moves) const = 0;
 
-  /// Transpose of extend(); @p gradient, which has nothing at hanging nodes,
-  /// and the result add up to the whole over ranks. Collective.
+  /// Apply the transpose of extend(). @p gradient is zero at hanging nodes. The sum of @p gradient
+  /// over ranks is the whole gradient, and so is the sum of the results. Collective.
   virtual FaceField transpose(const Field &gradient) const = 0;
 };
 
 /**
- * Nodes of a box follow the point of the shaped face below or above them,
- *   u(x) = b(x) u(face point),  b = max(0, 1 - depth / reach),
- * where depth is measured in the box before its faces are curved and reach
- * is the box's height unless given. The face point is found in logical
- * coordinates, its displacement interpolated as the elements do. The frame
- * of a box, which it needs, is checked with the scene. Collective.
- * @throws InputError. The face must outlive the interior, here and below.
+ * Return an interior in which each node of a box follows the face point below or above the node,
+ *   u(x) = b(x) u(face point),  b = max(0, 1 - depth / reach).
+ * The depth is measured in the box before the faces are curved. The reach is the height of the
+ * box unless the entry Reach is given. The face point is found in logical coordinates, and its
+ * displacement is interpolated with the shape functions of the elements. Linear blending needs
+ * a body with the frame of a box, which check_shapes() of the scene requires. Collective.
+ * @throws InputError. The face must outlive the interior, here and in solved_interior().
  */
 template <int dim>
 std::unique_ptr<Interior<dim>> linear_blending(const ShapedFace<dim> &face,
                                                const ShapeParameters &parameters);
 
 /**
- * A body's nodes follow the shaped face by an elliptic problem on the
- * reference mesh,
+ * Return an interior that solves an elliptic problem on the reference mesh,
  *   A_ff u_f = -A_fd u_d,
- * with d the nodes of the face and f those that are free. A is the
- * Laplacian of each component, or the stiffness of an elastic body whose
- * Young's modulus in each cell is the inverse of the cell's volume, which
- * spares small cells (Stein, Tezduyar, Benney, J. Appl. Mech. 70, 2003).
- * With P the projectors of NodeRoles, A_ff stands for P A_ff P, completed
- * by a multiple of I - P.
+ * with the face nodes d and the free nodes f. A is the Laplacian of each component, or the
+ * stiffness matrix of an elastic body. Young's modulus of this body in each cell is the inverse
+ * of the volume of the cell, so that small cells deform less than large cells (Stein, Tezduyar,
+ * Benney, J. Appl. Mech. 70, 2003). With the projectors P of NodeRoles, A_ff stands for
+ * P A_ff P, completed by a multiple of I - P.
  *
- * One solve per extend() and transpose(): conjugate gradients with
- * algebraic multigrid, down to round-off, so that the two are adjoint.
- * Both throw a SolveError where that fails. Collective.
+ * extend() and transpose() solve one linear system each, by conjugate gradients with algebraic
+ * multigrid. The systems are solved to round-off, so that the two operators are adjoint. Both
+ * functions throw a SolveError if conjugate gradients fail. Collective.
  */
 template <int dim>
 std::unique_ptr<Interior<dim>> solved_interior(const ShapedFace<dim> &face,

@@ -7,8 +7,8 @@
 
 namespace snug::shape {
 /**
- * The blocks of cells of the operator that carries the movement of a face
- * into its body, on the masters of hanging nodes.
+ * Cell matrices of the operator of solved_interior(), which extends the displacements of a face
+ * into the body. Hanging nodes are condensed to their masters.
  */
 template <int dim>
 class InteriorMatrix
@@ -16,7 +16,8 @@ class InteriorMatrix
 public:
   using Block = dealii::Tensor<2, dim>;
 
-  /// Matrix of the free @p nodes a cell acts on, blocks row by row.
+  /// Matrix of a cell between the unconstrained @p nodes that the cell depends on. The blocks are
+  /// stored row by row.
   struct CellMatrix
   {
     std::vector<unsigned int> nodes; ///< local
@@ -30,7 +31,7 @@ public:
 private:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-  /// Row by row.
+  /// Return the matrix of the Laplacian of each component, stored row by row.
   std::vector<double> laplacian(const Nodes &X) const;
 
   const mesh::BodyMesh<dim>            &mesh;

@@ -4,29 +4,29 @@
 #include <snug/shape/shape_basis.h>
 
 namespace snug::shape {
-/// Whether each control is fixed: frozen, or in the list of the entry Fixed
-/// ("border" or indices of control points). @throws InputError
+/// Return, for each control, whether the control is fixed. A control is fixed if it is frozen or
+/// in the list of the entry Fixed ("border" or indices of control points). @throws InputError
 template <int dim>
 std::vector<bool> fixed_points(const std::vector<Control<dim>> &controls,
                                const ShapeParameters           &parameters);
 
 /**
- * The controls that design variables move: beta = L alpha, where every
- * control is fixed, a variable, or plus or minus a variable it is tied to.
+ * The linear map beta = L alpha from design variables to controls. Every control is fixed, is a
+ * variable, or equals plus or minus the variable to which the control is tied.
  *
- * A mirror plane ties a control at x along d to the one at the image of x
- * along the image of d, with the sign that makes these equal; one that
- * would be tied to its own opposite is fixed, and so are all that are tied
- * to a fixed one. Variables are numbered by the first control they move.
+ * A mirror plane ties a control at x along d to the control at the image of x along the image of
+ * d, with the sign that makes the two directions equal. A control that would be tied to its own
+ * opposite is fixed. Every control that is tied to a fixed control is fixed as well. Variables
+ * are numbered in the order of the first control that each variable moves.
  */
 class Links
 {
 public:
-  /// @p n controls, all of them variables.
+  /// Construct the links of @p n controls, each of which is a variable.
   explicit Links(unsigned int n);
 
   /**
-   * Links by the entries Fixed and Symmetry.
+   * Construct the links from the entries Fixed and Symmetry.
    * @throws InputError naming Fixed if nothing is left to move, or
    *   Symmetry if a control has no image.
    */
@@ -35,20 +35,21 @@ public:
 
   unsigned int n_variables() const { return size; }
 
-  /// Return the variable and the sign that control @p i is tied to; the sign 0: it is fixed.
+  /// Return the variable and the sign to which control @p i is tied. The sign 0 means that the
+  /// control is fixed.
   std::pair<unsigned int, double> tie(unsigned int i) const
   {
     return {ties[i].variable, ties[i].sign};
   }
 
-  /// L alpha.
+  /// Return L alpha.
   std::vector<double> expand(const std::vector<double> &alpha) const;
 
-  /// L' gradient.
+  /// Return L' gradient.
   std::vector<double> collect(const std::vector<double> &gradient) const;
 
 private:
-  /// Control = sign * variable; sign 0: fixed.
+  /// The relation control = sign * variable. The sign 0 means that the control is fixed.
   struct Tie
   {
     unsigned int variable;

@@ -5,16 +5,16 @@
 
 namespace snug::shape {
 /**
- * Heights over a face from a net of n1 x n2 (2D: n1) control points,
+ * Return heights over a face from a net of n1 x n2 (2D: n1) control points,
  *   u(x) = sum_i B_i(s, t) alpha_i d(x),  i = j + n1 k,
- * with products B_i of B-splines of @p degree, or Bernstein polynomials
- * where it is 0. s and t are the fractions, in the order x, y, z, of the
- * face's bounding rectangle along the two axes that its mean normal leaves;
- * the face must be a graph over them. d: the given unit direction or the
- * face's normal.
+ * with products B_i of B-splines of @p degree, or of Bernstein polynomials
+ * if @p degree is 0. s and t are fractions of the bounding rectangle of the face, in the order
+ * x, y, z. The rectangle spans all axes except the axis closest to the mean normal of the face,
+ * and the face must be a graph over the rectangle. d is the given unit direction or the normal
+ * of the face.
  *
- * Control points stand at their Greville abscissae: for Symmetry at the mean
- * height of the face; shown where the face is there.
+ * Control points are placed at their Greville abscissae. For the entry Symmetry, control points
+ * lie at the mean height of the face. Control points are shown on the face itself.
  * @throws InputError naming the entry Face, Control points, Degree or
  *   Direction.
  */
@@ -23,16 +23,16 @@ Modes<dim>
 spline_patch(const ShapedFace<dim> &face, const ShapeParameters &parameters, unsigned int degree);
 
 /**
- * Free-form deformation: the nodes of some bodies inside a box move by
+ * Return the modes of a free-form deformation. The nodes of some bodies inside a box move by
  *   u(x) = sum_i B_i(s) p_i,  s = (x - corner) / size,
- * with products B_i of splines along the axes, as those of spline_patch(),
- * and the moves p_i of control points, which stand at their Greville
- * abscissae: points moved by an affine map move the box by that map.
- * Variables of a point: its moves along x, y, z, or along one direction.
+ * with products B_i of splines along the axes as in spline_patch(),
+ * and the moves p_i of control points. The control points are placed at their Greville
+ * abscissae, so that an affine map of the control points moves the box by the same affine map.
+ * The variables of a control point are its moves along x, y, z, or along one direction.
  *
  * Where a side of the box cuts a body, the control points of that side
- * are frozen, so that the field is continuous. So are points that move no
- * node. Collective.
+ * are frozen, so that the field is continuous. Control points that move no
+ * node are frozen as well. Collective.
  *
  * Source: T. W. Sederberg, S. R. Parry, SIGGRAPH 1986.
  * @throws InputError naming the entry Bodies, Box corner, Box size,
@@ -45,14 +45,15 @@ Modes<dim> spline_box(const mesh::BodyMesh<dim> &mesh,
                       unsigned int               degree);
 
 /**
- * One variable per node of a face that does not hang, smoothed by a filter
- * of radius r:
+ * Return modes with one variable per face node that does not hang. A filter of radius r smooths
+ * the moves:
  *   u_i = c_i d_i sum_j w_ij alpha_j / sum_j w_ij,
  *   w_ij = A_j max(0, 1 - |x_i - x_j| / r),
  * with the reference positions x, tributary areas A and normals d (or the
- * given direction), and c_i = 1. Where nodes are fixed, their rows are
- * zero and c_i = min(1, distance from the nearest fixed node / r) leads
- * smoothly there. Equal alpha move a plane face as a whole.
+ * given direction). Without fixed nodes c_i = 1. With fixed nodes
+ * c_i = min(1, distance from the nearest fixed node / r), so that the moves of fixed nodes are
+ * zero and the moves of other nodes decrease to zero continuously. Equal alpha move a plane face
+ * as a whole.
  *
  * Sources: the filter of Bruns, Tortorelli, Comput. Methods Appl. Mech.
  * Engrg. 190 (2001), used for shapes in the vertex morphing of Hojjat,

@@ -8,8 +8,8 @@
 
 namespace snug::shape {
 /**
- * Points found by distance: sorted along the axis in which they spread
- * most, so that a query of radius r looks at the part 2r of that length.
+ * This class finds points by distance. The points are sorted along the axis in which their extent
+ * is maximum, so that a query of radius r visits only the points in an interval of length 2r.
  */
 template <int dim>
 class NearPoints
@@ -25,8 +25,8 @@ public:
                 double                                           radius,
                 const std::function<void(unsigned int, double)> &visit) const;
 
-  /// Distance of @p centre from the nearest point, or @p radius if there
-  /// is none closer.
+  /// Return the distance of @p centre from the nearest point, or @p radius if no point is
+  /// closer.
   double distance(const Point &centre, double radius) const;
 
 private:

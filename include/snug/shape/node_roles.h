@@ -5,11 +5,11 @@
 
 namespace snug::shape {
 /**
- * What the local nodes of a body do when its shaped face moves. Those of
- * boundaries that touch the shaped face slide in them: a node keeps its
- * distance from each plane there, so that it moves along an edge and stays
- * in a corner. Those of other boundaries are held, like nodes further
- * from the nodes of the face than the reach.
+ * This class describes how the local nodes of a body follow the shaped face of the body. Nodes of
+ * boundaries that touch the shaped face slide in these boundaries: a node keeps its distance
+ * from each plane of the boundary, so that a node of an edge moves along the edge and a node of a
+ * corner stays. Nodes of other boundaries are held. Nodes whose distance from the face nodes is
+ * not less than the reach are held as well.
  */
 template <int dim>
 class NodeRoles
@@ -17,22 +17,22 @@ class NodeRoles
 public:
   static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-  /// @p reach [length]; 0: the whole body. Collective.
+  /// Find the roles of all local nodes. @p reach [length]; 0 means the whole body. Collective.
   NodeRoles(const ShapedFace<dim> &face, double reach);
 
-  /// Surface node of a local node of the shaped face; else none.
+  /// Return the surface node of a local node of the shaped face, or none for other local nodes.
   unsigned int driver(unsigned int node) const { return drivers[node]; }
 
-  /// Projector onto the directions in which a node may follow; zero for
-  /// nodes of the face, held and hanging ones and those of other bodies.
+  /// Return the projector onto the directions in which a node may follow. The projector is zero for
+  /// face nodes, held nodes, hanging nodes and nodes of other bodies.
   const dealii::Tensor<2, dim> &freedom(unsigned int node) const { return projectors[node]; }
 
 private:
   using Normals = std::vector<dealii::Tensor<1, dim>>;
 
   void find_drivers();
-  /// Boundaries of the body other than the face: those that touch it, or
-  /// those that do not.
+  /// Return the boundaries of the body other than the face that touch the face (@p touching), or
+  /// the boundaries that do not touch the face.
   std::vector<std::pair<unsigned int, unsigned int>> others(bool touching) const;
   void                                               free_nodes(double reach);
   void                                               hold_or_slide();

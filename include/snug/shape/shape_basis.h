@@ -11,40 +11,40 @@
 #include <vector>
 
 namespace snug::shape {
-/// What one design variable moves: its control point in the reference.
+/// The control point that one design variable moves, in the reference geometry.
 template <int dim>
 struct Control
 {
   unsigned int           point;          ///< index of the control point
   dealii::Point<dim>     position;       ///< [length]
-  dealii::Tensor<1, dim> direction;      ///< move of the point per variable
-  bool                   border = false; ///< on the rim of the shape
+  dealii::Tensor<1, dim> direction;      ///< move of the point per unit of the variable
+  bool                   border = false; ///< on the border of the face or box
   bool                   frozen = false; ///< must not move
-  /// Where it is shown and how it moves there, if that is not the above.
+  /// The position at which the control point is shown and its direction there, if these differ
+  /// from position and direction.
   std::optional<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>> shown = {};
 };
 
 /**
- * A linear operator from design variables to the moves of nodes and
- * samples, by points: those of a shaped face, the same on all ranks, or the
- * local ones of the mesh; of a face perhaps of its nodes only. Hanging nodes
- * do not count.
+ * A linear operator from design variables to the moves of points. The points are the nodes and
+ * samples of a shaped face, equal on all ranks, or the local nodes and samples of the mesh. Modes
+ * of a face may cover only the nodes of the face. The rows of hanging nodes have no effect.
  */
 template <int dim>
 struct Modes
 {
-  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per node
-  /// Variables that move a node, and its move per variable.
+  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per point
+  /// The variables that move a point, and the move of the point per variable.
   using Row = std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>;
 
   unsigned int n_variables = 0, n_nodes = 0;
-  /// Row of a node. Asked for each time, so that bases that would fill the
-  /// memory with their rows need not keep them.
+  /// Return the row of a point. With a function instead of an array, a basis whose rows would fill
+  /// the memory can compute the rows at each call.
   std::function<Row(unsigned int)> row = [](unsigned int) { return Row(); };
-  /// One per variable, or none if variables have no place.
+  /// One control per variable, or no controls if variables have no position.
   std::vector<Control<dim>> controls;
-  /// Row of the point of the body at the place where control point @p i is shown, as of a node;
-  /// only with controls.
+  /// Return the row of the point of the body at the position where control point @p i is shown.
+  /// Only modes with controls set this function.
   std::function<Row(unsigned int i)> row_at_point = {};
 
   Field               apply(const std::vector<double> &alpha) const;
@@ -65,35 +65,35 @@ public:
 
   virtual unsigned int n_variables() const = 0;
 
-  /// V alpha on the local points. Collective.
+  /// Return V alpha at the local points. Collective.
   virtual Field apply(const std::vector<double> &alpha) const = 0;
 
-  /// V' gradient summed over ranks: gradient by points -> dJ/dalpha, where
-  /// @p gradient adds up to the whole over ranks. Collective.
+  /// Return V' gradient summed over ranks, which maps the gradient with respect to points to
+  /// dJ/dalpha. The sum of @p gradient over ranks is the whole gradient. Collective.
   virtual std::vector<double> transpose(const Field &gradient) const = 0;
 
-  /// Column i on the local points, made when it is asked for first and kept
-  /// for all designs. Collective.
+  /// Return column i at the local points. The first call computes the column and caches it for
+  /// all designs. Collective.
   Field column(unsigned int i) const;
 
 private:
-  /// Nodes that a variable moves, and their velocities.
+  /// The points that a variable moves, and the velocities of the points.
   mutable std::map<unsigned int, std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>> kept;
   mutable unsigned int n_nodes = 0;
 };
 
-/// Node positions of a design: reference + V alpha, never moved step by
-/// step. Collective.
+/// Return the positions of the local points at a design, reference + V alpha. Positions never
+/// accumulate the steps of designs. Collective.
 template <int dim>
 typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
                                               const ShapeBasis<dim>     &basis,
                                               const std::vector<double> &design);
 
 /**
- * A basis made from the entries of one subsection: V = H E C M with the
- * modes M. Of modes of a face, C makes its hanging nodes follow and E its
- * body's interior; others have none of these. H interpolates the hanging
- * nodes of the mesh and the samples whose moves the modes do not give.
+ * The basis of one subsection of entries, V = H E C M with the modes M. For modes of a face,
+ * C interpolates the hanging nodes of the face and E extends the moves into the interior of the
+ * body. Modes of whole bodies have neither C nor E. H interpolates the hanging nodes of the mesh
+ * and the samples whose moves the modes do not give.
  */
 template <int dim>
 class Shape : public ShapeBasis<dim>
@@ -101,10 +101,10 @@ class Shape : public ShapeBasis<dim>
 public:
   using Field = typename ShapeBasis<dim>::Field;
 
-  /// Modes of the local points of the mesh, which must outlive this.
+  /// Construct a shape from modes of the local points of the mesh. The mesh must outlive the shape.
   Shape(const mesh::BodyMesh<dim> &mesh, Modes<dim> modes);
 
-  /// Modes of a face.
+  /// Construct a shape from modes of a face.
   Shape(std::unique_ptr<ShapedFace<dim>> face,
         Modes<dim>                       modes,
         std::unique_ptr<Interior<dim>>   interior);
@@ -115,28 +115,28 @@ public:
 
   const std::vector<Control<dim>> &controls() const { return modes.controls; }
 
-  /// Return the move of the point of the body at the place where control point @p i is shown, by
-  /// this basis' own variables.
+  /// Return the move of the point of the body at the position where control point @p i is shown.
+  /// @p alpha holds the variables of this basis alone.
   dealii::Tensor<1, dim> move_at_point(unsigned int i, const std::vector<double> &alpha) const;
 
-  /// (body, boundary) of the faces that are shaped, ascending. Collective.
+  /// Return (body, boundary) of the faces that are shaped, ascending. Collective.
   std::vector<std::pair<unsigned int, unsigned int>> faces() const;
 
 private:
   const mesh::BodyMesh<dim>       &mesh;
-  std::unique_ptr<ShapedFace<dim>> face; ///< null: of the whole mesh
+  std::unique_ptr<ShapedFace<dim>> face; ///< null for modes of the whole mesh
   Modes<dim>                       modes;
   std::unique_ptr<Interior<dim>>   interior; ///< null without a face
 };
 
-/// A shape from its entries. @throws InputError naming the entry.
-/// Collective. The mesh must outlive the shape.
+/// Function that makes a shape from the entries of the shape. @throws InputError naming the
+/// entry. Collective. The mesh must outlive the shape.
 template <int dim>
 using MakeShape = std::unique_ptr<Shape<dim>>(const mesh::BodyMesh<dim> &,
                                               const BodyNames &,
                                               const ShapeParameters &);
 
-/// Rows of the entry Basis.
+/// Return the rows of the entry Basis.
 template <int dim>
 const ChoiceTable<MakeShape<dim>> &shape_basis_table();
 } // namespace snug::shape

@@ -13,13 +13,13 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::shape {
-/// Names of the bodies in the order of the mesh, for "body.boundary".
+/// Names of the bodies in the order of the mesh, to read entries "body.boundary".
 struct BodyNames
 {
   std::vector<std::string> names;
 };
 
-/// How a body's nodes follow its shaped face, see interior.h.
+/// Ways in which the nodes of a body follow the shaped face of the body, see interior.h.
 enum class InteriorKind
 {
   linear_blending,
@@ -38,40 +38,41 @@ inline Names names(InteriorKind)
 /// Entries of `subsection Shape` or `subsection Shape NAME`.
 struct ShapeParameters
 {
-  std::string               name;           ///< empty: of the only shape
-  std::string               basis = "none"; ///< of shape_basis_table()
+  std::string               name;           ///< empty if the scene has a single unnamed shape
+  std::string               basis = "none"; ///< a name of shape_basis_table()
   std::string               face;           ///< "body.boundary"
-  std::vector<std::string>  bodies;         ///< instead of a face
+  std::vector<std::string>  bodies;         ///< bodies to shape instead of a face
   std::vector<unsigned int> control_points; ///< per axis
   unsigned int              degree = 3;     ///< of B-splines
-  /// of the moves; empty: normal to the face, or in boxes every axis
+  /// direction of the moves; empty means the normal of the face, or every axis in boxes
   std::vector<double> direction;
   std::vector<double> box_corner, box_size; ///< [length]
-  /// formulas, one per component, of each mode
+  /// formulas of each mode, one per component
   std::vector<std::vector<std::string>> modes;
   double                                filter_radius = 0.; ///< [length]
-  /// axis -> coordinate [length] of a mirror plane across it
+  /// axis -> coordinate [length] of a mirror plane normal to the axis
   std::map<std::string, double> symmetry;
   std::vector<std::string>      fixed; ///< "border", control point indices
   InteriorKind                  interior = InteriorKind::linear_blending;
-  double                        reach    = 0.; ///< of the interior [length]; 0: all of it
-  std::vector<double>           bounds;        ///< lower, upper
-  std::vector<double>           initial;       ///< one for all, one each, or empty: 0
+  double                        reach = 0.; ///< reach of the interior [length]; 0: the whole body
+  std::vector<double>           bounds;     ///< lower, upper
+  std::vector<double>           initial;    ///< one value, one per variable, or empty: 0
 
-  /// "Shape" or "Shape NAME".
+  /// Return the name of the subsection, "Shape" or "Shape NAME".
   std::string section() const { return name.empty() ? "Shape" : "Shape " + name; }
 
   void declare(Entries &entries);
-  /// As far as no mesh is needed.
+  /// Check the entries as far as the check needs no mesh. @throws InputError naming the entry.
   void check(const SectionCheck &section) const;
 
-  /// Whether its basis reads an entry. Of formula modes, Face decides which.
+  /// Return whether the basis reads an entry. For formula modes, the entry Face decides which
+  /// other entries are read.
   bool reads(const std::string &entry) const;
 
-  /// Whether its basis moves any nodes: those of a face or of bodies.
+  /// Return whether the basis moves any nodes, which are nodes of a face or of bodies.
   bool moves() const { return reads("Face") || reads("Bodies"); }
 
-  /// Path of an entry, for messages.
+  /// Return the path of an entry, for messages.
   std::string path(const std::string &entry) const { return section() + "/" + entry; }
 };
 } // namespace snug::shape

@@ -6,8 +6,8 @@
 
 namespace snug::shape {
 /**
- * The face of a body that is shaped, in its reference geometry and on all
- * ranks alike: nodes, normals, tributary areas and rim.
+ * The shaped face of a body in the reference geometry. This class holds the nodes, normals,
+ * tributary areas and border nodes of the face, equal on all ranks.
  */
 template <int dim>
 class ShapedFace
@@ -15,8 +15,8 @@ class ShapedFace
 public:
   using Field = typename mesh::Surface<dim>::Field; ///< per surface node or point
 
-  /// Collective. @throws InputError naming the entry Face. The mesh must
-  /// outlive this object.
+  /// Find the face of the entry Face. Collective. @throws InputError naming the entry Face. The
+  /// mesh must outlive this object.
   ShapedFace(const mesh::BodyMesh<dim> &mesh,
              const BodyNames           &bodies,
              const ShapeParameters     &parameters);
@@ -26,22 +26,23 @@ public:
   unsigned int               boundary() const { return place.second; }
   const mesh::Surface<dim>  &surface() const { return nodes; }
 
-  /// Reference positions of the surface points [length].
+  /// Return the reference positions of the surface points [length].
   const Field &positions() const { return nodes.reference_positions(); }
-  /// Unit outward normals at the surface points. Where the face meets a
-  /// plane boundary of the body that they leave by less than 25 degrees,
-  /// they lie in that plane, so that shapes stay in symmetry planes.
+  /// Return the unit outward normals at the surface points. Where the face meets a plane boundary
+  /// of the body and the angle between normal and plane is less than 25 degrees, the normal is
+  /// projected onto the plane, so that shapes stay in symmetry planes.
   const Field &normals() const { return unit_normals; }
-  /// The face's area spread over its nodes, hanging ones and samples have
-  /// none [length^(dim-1)].
+  /// Return the tributary areas of the surface points [length^(dim-1)]. The areas of hanging nodes
+  /// and samples are zero.
   const std::vector<double> &areas() const { return node_areas; }
-  /// Nodes that other boundaries of the body share.
+  /// Return, for each surface node, whether other boundaries of the body share the node.
   const std::vector<bool> &border() const { return on_border; }
 
   bool is_hanging(unsigned int surface_node) const { return !nodes.masters(surface_node).empty(); }
-  /// values at hanging nodes <- interpolation of their masters
+  /// Set the values at hanging nodes to the interpolation of their masters.
   void interpolate_hanging(Field &field) const;
-  /// Transpose: add values at hanging nodes to their masters, then zero.
+  /// Apply the transpose of interpolate_hanging(): add the values at hanging nodes to their
+  /// masters, then set the values at hanging nodes to zero.
   void distribute_hanging(Field &field) const;
 
 private:
@@ -57,14 +58,14 @@ private:
   std::vector<bool>                     on_border;
 };
 
-/// (body, boundary) of "body.boundary", the entry Face. @throws InputError
+/// Return (body, boundary) of "body.boundary", the entry Face. @throws InputError
 template <int dim>
 std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
                                                 const BodyNames           &bodies,
                                                 const ShapeParameters     &parameters);
 
-/// Unit vectors of the entry Direction, or the normals, at the face's
-/// nodes. @throws InputError
+/// Return the unit vector of the entry Direction at the points of the face, or the normals if the
+/// entry is empty. @throws InputError
 template <int dim>
 typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
                                                 const ShapeParameters &parameters);

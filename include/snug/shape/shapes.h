@@ -11,19 +11,19 @@ template <int dim>
 struct MovedPoint
 {
   std::string            shape; ///< name of the shape, may be empty
-  unsigned int           index; ///< within its shape
+  unsigned int           index; ///< index of the point within the shape
   dealii::Point<dim>     position;
-  dealii::Tensor<1, dim> move; ///< from the reference to position
-  /// the point of the body, for shapes of a face on the face, at the same place of the reference
-  /// as the control point; it moves by this shape alone
+  dealii::Tensor<1, dim> move; ///< displacement from the reference position to position
+  /// The point of the body at the reference position where the control point is shown; for shapes
+  /// of a face, this point lies on the face. Only this shape moves the point.
   dealii::Point<dim> on_body = {};
-  /// index among all design variables and sign, of each direction that is not fixed
+  /// index among all design variables and sign, for each direction that is not fixed
   std::vector<std::pair<unsigned int, double>> variables = {};
 };
 
 /**
- * All shapes of a scene as one basis: of each shape the variables that its
- * links leave, one after the other; displacements added up.
+ * All shapes of a scene as one basis. The design variables are the variables of the links of each
+ * shape, shape by shape. The displacements of the shapes are added up.
  */
 template <int dim>
 class Shapes : public ShapeBasis<dim>
@@ -31,7 +31,7 @@ class Shapes : public ShapeBasis<dim>
 public:
   using Field = typename ShapeBasis<dim>::Field;
 
-  /// Collective. @throws InputError naming the entry. The mesh must
+  /// Make all shapes. Collective. @throws InputError naming the entry. The mesh must
   /// outlive this object.
   Shapes(const mesh::BodyMesh<dim>          &mesh,
          const BodyNames                    &bodies,
@@ -41,7 +41,7 @@ public:
   Field               apply(const std::vector<double> &alpha) const override;
   std::vector<double> transpose(const Field &gradient) const override;
 
-  /// (body, boundary) of the faces that are shaped, ascending.
+  /// Return (body, boundary) of the faces that are shaped, ascending. Collective.
   std::vector<std::pair<unsigned int, unsigned int>> faces() const;
 
   /// @name Bounds and start of the variables
@@ -52,9 +52,11 @@ public:
   /// @}
 
   /**
-   * Of each variable, the change that a first step of a search may make: it moves no node by more
-   * than half of the mean edge of a cell of the reference mesh that has the node. Equal for all
-   * variables of a shape, but for formula modes, which may be of any kind and size. Collective.
+   * Return, for each variable, the change in the first step of a search. The change moves no node
+   * by more than half of the mean edge length of any cell of the reference mesh that has the node.
+   * The change is equal for all variables of a shape, except for formula modes, whose variables
+   * may differ in kind and size. A variable that moves no node has the maximum double.
+   * Collective.
    */
   std::vector<double> first_steps() const;
 
@@ -65,13 +67,13 @@ private:
   struct Part
   {
     std::string                 name;
-    unsigned int                first; ///< its first variable
+    unsigned int                first; ///< index of the first variable of the shape
     bool                        alike; ///< variables are of one kind: no formula modes
     std::unique_ptr<Shape<dim>> basis;
     Links                       links;
   };
 
-  /// The basis' own variables at a design.
+  /// Return the variables of the basis of a part at a design.
   static std::vector<double> expanded(const Part &part, const std::vector<double> &alpha);
   void                       add_variables(const ShapeParameters &parameters, unsigned int n);
 

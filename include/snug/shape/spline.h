@@ -9,24 +9,24 @@ namespace snug::shape {
  * The n B-splines of degree p on the uniform clamped knots
  *   0 (p+1 times), 1/(n-p), .., (n-p-1)/(n-p), 1 (p+1 times),
  * by the recurrence of Cox and de Boor (C. de Boor, A Practical Guide to
- * Splines, Springer, 1978). They are not negative and sum to 1; at s = 0
- * and s = 1 only the first and the last differ from zero. With n = p + 1,
- * a single span, they are the Bernstein polynomials of degree p.
+ * Splines, Springer, 1978). The splines are not negative and sum to 1. At s = 0 only the first
+ * spline differs from zero, and at s = 1 only the last spline. With n = p + 1, a single span,
+ * the splines are the Bernstein polynomials of degree p.
  */
 class Spline
 {
 public:
-  /// @p degree < @p n.
+  /// Construct the knots. @p degree < @p n.
   Spline(unsigned int n, unsigned int degree);
 
   unsigned int n() const { return size; }
 
-  /// Values at @p s in [0,1] of the degree + 1 splines from number
-  /// .first on; the others are zero there.
+  /// Return the values at @p s in [0,1] of the degree + 1 consecutive splines that begin with
+  /// number .first. All other splines are zero at @p s.
   std::pair<unsigned int, std::vector<double>> values(double s) const;
 
-  /// Greville abscissa of spline @p i, the mean of its inner knots:
-  /// sum_i greville(i) B_i(s) = s. 1/2 where p = 0.
+  /// Return the Greville abscissa of spline @p i, the mean of the inner knots of the spline, with
+  /// sum_i greville(i) B_i(s) = s. For p = 0, return the middle of the span.
   double greville(unsigned int i) const;
 
 private:
@@ -34,31 +34,31 @@ private:
   std::vector<double> knots;
 };
 
-/// Products of splines over [0,1]^m, the first axis fastest.
+/// Products of splines over [0,1]^m, numbered with the first axis fastest.
 class SplineNet
 {
 public:
-  /// B-splines of @p degree along axes of @p n control points each; degree
-  /// 0 stands for one span, n - 1.
+  /// Construct B-splines of @p degree along axes with @p n control points each. The degree
+  /// 0 stands for one span, that is the degree n - 1.
   SplineNet(const std::vector<unsigned int> &n, unsigned int degree);
 
   unsigned int n_axes() const { return axes.size(); }
 
   unsigned int n_points() const;
 
-  /// The control points that are not zero at @p s, with their values.
+  /// Return the control points whose functions are not zero at @p s, with the values.
   std::vector<std::pair<unsigned int, double>> values(const std::vector<double> &s) const;
 
-  /// Index of control point @p i along each axis.
+  /// Return the index of control point @p i along each axis.
   std::vector<unsigned int> indices(unsigned int i) const;
 
-  /// Greville abscissae of control point @p i.
+  /// Return the Greville abscissae of control point @p i.
   std::vector<double> greville(unsigned int i) const;
 
-  /// Whether control point @p i is the first or last along an axis.
+  /// Return whether control point @p i is the first or last along an axis.
   bool on_border(unsigned int i) const;
 
-  /// Whether control point @p i is the first (@p side 0) or last (1) along
+  /// Return whether control point @p i is the first (@p side 0) or last (1) along
   /// @p axis.
   bool on_side(unsigned int i, unsigned int axis, unsigned int side) const;
 
