@@ -155,7 +155,7 @@ template <int dim>
 class Products
 {
 public:
-  /// Collective.
+  /// Compute the products of all fields and jumps. Collective.
   Products(const LocalErrors<dim>                     &local,
            const std::vector<LoadedDisplacement<dim>> &fields,
            const std::vector<LoadedDisplacement<dim>> &jumps,

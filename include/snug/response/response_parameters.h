@@ -31,8 +31,8 @@ struct ResponseParameters
   std::string name;                          ///< empty: name of the quantity
   std::string quantity = "potential energy"; ///< name in response_table()
   std::string body;                          ///< empty: all bodies
-  std::string face;                          ///< "body.boundary"
-  /// [length], in the reference geometry
+  std::string face;                          ///< name "body.boundary"
+  /// point in the reference geometry [length]
   std::vector<double> point;
   Component           component = Component::normal;
   std::string         pair; ///< "slave: master"; empty: all pairs
