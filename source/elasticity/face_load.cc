@@ -254,8 +254,8 @@ AreaMoments<dim> FaceLoad<dim>::moment_derivatives(const Nodes                  
   return result;
 }
 
-/// Return the moments that give the work of a linear traction: int t . u dA = a . force + w .
-/// moment.
+/// Return the moments that give the work of a linear traction: int t . u dA = a . force
+/// + w . moment.
 template <int dim>
 Resultant<dim> FaceLoad<dim>::displacement_moments(const Nodes                  &X,
                                                    const Nodes                  &u,

@@ -190,8 +190,8 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
   for (int a = 0; a < n; ++a)
     for (int b = a; b < n; ++b)
       {
-        // The hoop strain u_r/r contributes to div u and to the strains: lambda (div w)(div u) +
-        // 2 mu e:e.
+        // The hoop strain u_r/r contributes to div u and to the strains: lambda (div w)(div u)
+        // + 2 mu e:e.
         const double radial = products[a][hoop + b] + products[b][hoop + a];
         add(a * dim, b * dim, lambda * radial + (lambda + 2. * mu) * products[hoop + a][hoop + b]);
         add(a * dim, b * dim + 1, lambda * products[n_padded + b][hoop + a]);

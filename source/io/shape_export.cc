@@ -25,8 +25,8 @@ std::string stl_triangle(const dealii::Tensor<1, 3> &a,
   return text + "endloop\nendfacet\n";
 }
 
-/// Return the STL text. A bilinear face is not flat, so the diagonal from (i, j) to (i + 1, j +
-/// 1) cuts it.
+/// Return the STL text. A bilinear face is not flat, so the diagonal from (i, j) to (i + 1, j + 1)
+/// cuts it.
 std::string stl_text(const mesh::Surface<3>        &surface,
                      const mesh::Surface<3>::Field &positions,
                      const std::string             &name)

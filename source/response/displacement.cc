@@ -192,8 +192,8 @@ private:
   }
 
   /// Return the derivatives on a face. With J = I / A, I = int u . e dA and A = int dA, the
-  /// derivative is J' = I' / A - J A' / A. I is the work f(X) . u of a unit load, so dI/du =
-  /// f and dI/dX is the gradient of that work.
+  /// derivative is J' = I' / A - J A' / A. I is the work f(X) . u of a unit load, so dI/du = f and
+  /// dI/dX is the gradient of that work.
   Partials<dim> partials_on_face(const state::StateSolver<dim>  &solver,
                                  const state::ContactState<dim> &state) const
   {

@@ -23,8 +23,8 @@ public:
   /// Use the geometry and the loads of @p state. References must outlive this object. Collective.
   SurfaceLayer(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
 
-  /// Return B(first, other) of each cell of this rank for the first of @p of and each entry of @p
-  /// of, with fields at all local nodes. Collective.
+  /// Return B(first, other) of each cell of this rank for the first of @p of and each entry of
+  /// @p of, with fields at all local nodes. Collective.
   std::vector<std::vector<double>> works(const std::vector<Loaded> &of) const;
 
 private:

@@ -41,8 +41,8 @@ template <int dim>
 std::vector<RoughPressure> rough_pressures(const state::StateSolver<dim>  &solver,
                                            const state::ContactState<dim> &state);
 
-/// Return the cells to refine until the rough pressures of each pair are at most the share @p
-/// share of its pressure. Collective.
+/// Return the cells to refine until the rough pressures of each pair are at most the share @p share
+/// of its pressure. Collective.
 template <int dim>
 Unresolved unresolved_gaps(const state::StateSolver<dim>  &solver,
                            const state::ContactState<dim> &state,

@@ -40,8 +40,8 @@ public:
   InputError
   placed(const InputError &error, const std::string &entry, const std::string &value) const;
 
-  /// Throw unless all entries of @p parameters that are not in @p read have their defaults; @p
-  /// allowed states the reason.
+  /// Throw unless all entries of @p parameters that are not in @p read have their defaults;
+  /// @p allowed states the reason.
   template <typename Parameters>
   void require_read(const Parameters               &parameters,
                     const std::vector<std::string> &read,

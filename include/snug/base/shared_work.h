@@ -8,9 +8,9 @@
 
 namespace snug {
 /**
- * Compute work whose results all ranks need. Item i, compute(i), is computed by one rank only,
- * and its numbers are sent to all ranks. Ranks take neighboring items with about equal sums of @p
- * costs. The results do not depend on the number of ranks. If one rank throws, all ranks throw,
+ * Compute work whose results all ranks need. Item i, compute(i), is computed by one rank only, and
+ * its numbers are sent to all ranks. Ranks take neighboring items with about equal sums of
+ * @p costs. The results do not depend on the number of ranks. If one rank throws, all ranks throw,
  * see everywhere(). Collective on @p communicator; compute() must not be collective.
  */
 std::vector<std::vector<double>>

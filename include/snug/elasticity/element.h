@@ -26,7 +26,7 @@ namespace snug::elasticity {
  * and g_a = grad N_a:
  * g_a' = -(grad V)^T g_a, (det J)' = det J div V,
  * (grad u)' = -(grad u) (grad V).
- * With the gradients of CellPoint these hold in sections, too: r' = V_r
+ * With the gradients of CellPoint these formulas hold in sections too: r' = V_r
  * makes (u_r/r)' = -(u_r/r) (V_r/r) and (r det J)' = r det J div V.
  *
  * Formulation B-bar replaces div u by its projection p_u / kappa,

@@ -18,8 +18,8 @@ struct FaceLoadValues
   LinearTraction<dim>                 linear; ///< traction of a resultant
 };
 
-/// Data that determine the work f . u of a resultant besides its traction: U = int u dA and y =
-/// I^-1 int r x u dA over the whole loaded face.
+/// Data that determine the work f . u of a resultant besides its traction: U = int u dA and
+/// y = I^-1 int r x u dA over the whole loaded face.
 template <int dim>
 struct ResultantWork
 {

@@ -9,8 +9,8 @@
 
 namespace snug::elasticity {
 /// Return the strain of a displacement gradient in space (see CellPoint): its symmetric part and,
-/// in plane stress, the strain across the sheet, -nu/(1-nu) (e_xx + e_yy), which gives sigma_zz =
-/// 0.
+/// in plane stress, the strain across the sheet, -nu/(1-nu) (e_xx + e_yy), which gives
+/// sigma_zz = 0.
 dealii::SymmetricTensor<2, 3> strain(const mesh::Idealization   &idealization,
                                      const Material             &material,
                                      const dealii::Tensor<2, 3> &displacement_gradient);

@@ -16,16 +16,18 @@ namespace snug::io {
  * sides, undeformed) with a table of the contact rows beside it, contact-000i.csv. Rank 0 writes.
  *
  * | field               | meaning                          | units           |
- * |---------------------|----------------------------------|-----------------| | pressure
- * | force / area                     | force/length^2* | | gap                 | gap after
- * deformation            | length          | | force               | force of the contact row
- * | force           | | area                | tributary area                   | length^2*       |
- * | active, weak        | 1 or 0                           |                 | | candidate
- * | 1 where there is a row, else 0   |                 | | slave               | 1 on the slave
- * side, else 0      |                 | | pair                | first pair of the slave face; -1 |
- * index           | | body                | index of `Bodies`                |                 | |
- * displacement        | displacement                     | length          | | design_displacement
- * | design minus reference           | length          |
+ * |---------------------|----------------------------------|-----------------|
+ * | pressure            | force / area                     | force/length^2* |
+ * | gap                 | gap after deformation            | length          |
+ * | force               | force of the contact row         | force           |
+ * | area                | tributary area                   | length^2*       |
+ * | active, weak        | 1 or 0                           |                 |
+ * | candidate           | 1 where there is a row, else 0   |                 |
+ * | slave               | 1 on the slave side, else 0      |                 |
+ * | pair                | first pair of slave face, or -1  | index           |
+ * | body                | index of `Bodies`                |                 |
+ * | displacement        | displacement                     | length          |
+ * | design_displacement | design minus reference           | length          |
  *
  * (*) length in 2D, where forces are per unit thickness.
  *

@@ -20,8 +20,8 @@ std::string surface_text(const mesh::Surface<dim>                 &surface,
                          const std::string                        &name);
 
 /**
- * Write surface_text() to the file @p stem with ".stl" (3D) or ".csv" (2D). The last part of @p
- * stem is the name of the solid. For one rank.
+ * Write surface_text() to the file @p stem with ".stl" (3D) or ".csv" (2D). The last part of
+ * @p stem is the name of the solid. For one rank.
  * @throws std::runtime_error if the file cannot be written.
  */
 template <int dim>

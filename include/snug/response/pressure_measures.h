@@ -14,8 +14,8 @@ struct PressureRows
   std::vector<double> force, area;
 };
 
-/// A function J(p, A) of the pressure rows and its derivatives. If all pressures are zero, J
-/// and all derivatives are zero.
+/// A function J(p, A) of the pressure rows and its derivatives. If all pressures are zero, J and
+/// all derivatives are zero.
 struct Measured
 {
   double              value = 0.;

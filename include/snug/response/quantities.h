@@ -39,16 +39,16 @@ std::unique_ptr<Response<dim>> body_integral(const ResponseParameters &parameter
 /**
  * Return a displacement response [length]. For a point it is a component of the displacement,
  * J = sum_a N_a(xi) u_a . e. The design moves the point with its cell: xi is its reference
- * coordinate in the cell of the reference geometry. For a face it is the average J = int u .
- * e dA / int dA, with e = n for the component along the outward normal.
+ * coordinate in the cell of the reference geometry. For a face it is the average J = int u . e dA /
+ * int dA, with e = n for the component along the outward normal.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> displacement(const ResponseParameters &parameters);
 
 /**
- * Return the response J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over
- * one body or all bodies: the p-norm of the von Mises stress, divided by the p-norm of 1. J
- * grows with p to the maximum stress at the Gauss points.
+ * Return the response J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over one
+ * body or all bodies: the p-norm of the von Mises stress, divided by the p-norm of 1. J grows with
+ * p to the maximum stress at the Gauss points.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> von_mises_norm(const ResponseParameters &parameters);

@@ -28,10 +28,10 @@ struct Partials
 };
 
 /**
- * dJ/du as a functional of fields v. Partials::u contains the values of the functional for
- * the shape functions of the nodes. The functional is stiffness a(u, v) + load f(v) + int
- * traction . v dA + int stress : eps(v) dV. J is quadratic in u with the same stiffness, J''
- * (v, v) = stiffness a(v, v).
+ * dJ/du as a functional of fields v. Partials::u contains the values of the functional for the
+ * shape functions of the nodes. The functional is stiffness a(u, v) + load f(v) +
+ * int traction . v dA + int stress : eps(v) dV. J is quadratic in u with the same stiffness,
+ * J'' (v, v) = stiffness a(v, v).
  */
 template <int dim>
 struct FieldDerivative

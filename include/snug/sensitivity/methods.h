@@ -5,8 +5,8 @@
 #include <snug/sensitivity/kkt_vectors.h>
 
 namespace snug::sensitivity {
-/// Return whether dJ/dalpha needs a linear solve. It does not if the state makes J
-/// stationary or if J depends on the geometry alone.
+/// Return whether dJ/dalpha needs a linear solve. It does not if the state makes J stationary or if
+/// J depends on the geometry alone.
 template <int dim>
 bool needs_solve(const response::Response<dim> &response);
 
