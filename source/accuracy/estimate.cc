@@ -26,7 +26,7 @@ const double first_adjoint_tolerance = 1e-4;
 /// both in the energy norm.
 const double part_of_error = 0.1, part_of_displacement = 1e-4;
 
-/// Rounding stops the solver before more tolerances than these have been tried.
+/// Maximum number of attempts. Rounding stops the solver before it needs more tolerances.
 const unsigned int most_attempts = 6;
 
 /// Return the factor of the next tolerance if the jumps of the solver are @p excess times their
@@ -194,8 +194,8 @@ public:
   }
 
   /// Return the error caused by the jumps of a field over its limit. Local problems of a stiff
-  /// cell beside a soft one, or of a nearly incompressible cell, answer jumps with errors of
-  /// stress or pressure that are much larger than the energy of the jumps. Collective.
+  /// cell beside a soft one, or of a nearly incompressible cell, turn jumps into errors
+  /// of stress or pressure that are much larger than the energy of the jumps. Collective.
   double excess(const unsigned int i, const double displacement) const
   {
     const double allowed = std::max(part_of_error * norm(i), part_of_displacement * displacement);

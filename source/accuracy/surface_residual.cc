@@ -321,8 +321,8 @@ private:
     return largest < 0. ? std::vector<double>() : result;
   }
 
-  /// Return the contribution of a face. A pair without a force has force if it is closed somewhere
-  /// between nodes.
+  /// Return the contribution of a face. For a pair without a force it is 1 if the gap is closed
+  /// between nodes, because the mesh then misses a force.
   double part(const Oscillation &found, const double size, const double dA) const
   {
     if (force == 0.)

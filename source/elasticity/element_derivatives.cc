@@ -109,7 +109,7 @@ void Element<dim>::add_body_force_gradient(const Nodes &X,
   AssertDimension(b.size(), gauss.size());
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)
-    // The identity gives identity : grad V = div V.
+    // The flux uses identity : grad V = div V.
     points[q].add_flux(factor * (value(points[q].shape, u) * b[q]) * identity, gradient);
 }
 

@@ -53,12 +53,12 @@ public:
     double     force  = 0.;
     for (unsigned int i = 0; i < rows.size(); ++i)
       if (shares[i] != 0.)
-        force -= shares[i] * state.contact[i].force *
-                 // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i
-                 // itself.
-                 (parameters.component == Component::normal
-                    ? -1.
-                    : rows[i].normal * unit_vector<dim>(parameters));
+        force -=
+          shares[i] * state.contact[i].force *
+          // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i itself.
+          (parameters.component == Component::normal
+             ? -1.
+             : rows[i].normal * unit_vector<dim>(parameters));
     return force;
   }
 

@@ -44,9 +44,9 @@ Measured contact_area(const PressureRows &rows, const double e)
   auto           result = nothing(rows);
   if (force.largest == 0.)
     return result;
-  // All pressures are divided by the maximum pressure. The threshold e m with m = int q^2 dA
-  // / int q dA depends on all rows. The loop sums dJ/d(threshold) in slope. The derivatives
-  // of the threshold times slope are added to all derivatives at the end.
+  // All pressures are divided by the maximum pressure. The threshold e m with
+  // m = int q^2 dA / int q dA depends on all rows. The loop sums dJ/d(threshold) in slope. The
+  // derivatives of the threshold times slope are added to all derivatives at the end.
   const double threshold = e * square.value / force.value;
   // For a uniform pressure q = m and even * q^2 / (q^2 + e^2 m^2) = 1.
   const double even  = 1. + e * e;
@@ -126,8 +126,8 @@ Measured pressure_variance(const PressureRows &rows)
       const double q = rows.force[i] / rows.area[i];
       result.value += rows.area[i] * (q - mean) * (q - mean) / area;
     }
-  // The mean m may be treated as a constant, because it makes the integral stationary: int (q
-  // - m) dA = 0.
+  // The mean m may be treated as a constant, because it makes the integral stationary:
+  // int (q - m) dA = 0.
   for (unsigned int i = 0; i < rows.force.size(); ++i)
     {
       const double q     = rows.force[i] / rows.area[i];
