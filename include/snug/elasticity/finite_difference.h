@@ -32,7 +32,7 @@ inline Names names(Differences)
 }
 Stencil stencil(Differences differences);
 
-/// Compute f, one vector per node, from the node positions X.
+/// Function that computes f, one vector per node, from the node positions X.
 template <int dim>
 using NodeFunction = std::function<void(const std::vector<dealii::Tensor<1, dim>> &X,
                                         std::vector<dealii::Tensor<1, dim>>       &f)>;
