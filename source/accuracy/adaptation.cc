@@ -8,8 +8,8 @@
 
 namespace snug::accuracy {
 namespace {
-/// Indicators above this part of the last one that is marked are marked as well: symmetric
-/// cells, whose indicators differ by what the solver leaves, are refined together.
+/// Indicators above this share of the last marked indicator are marked too. Symmetric cells, whose
+/// indicators differ only by the error of the solver, are refined together.
 const double like_the_last = 0.99;
 } // namespace
 
@@ -43,7 +43,7 @@ std::vector<bool> mark(const std::vector<double> &indicators,
     return marked;
   std::vector<unsigned int> order(indicators.size());
   std::iota(order.begin(), order.end(), 0u);
-  // Ties by the order of the cells.
+  // Ties are broken by the order of the cells.
   std::stable_sort(order.begin(), order.end(),
                    [&](unsigned int a, unsigned int b) { return indicators[a] > indicators[b]; });
   const double falls  = 1. - std::pow(4., -1. * marking.degree);
@@ -69,7 +69,7 @@ double step_tolerance(const double error, const bool is_energy, const double lea
 
 bool is_unbounded(const std::vector<double> &errors)
 {
-  // three, since the first may be of a mesh too coarse to know
+  // Use three earlier errors, because the first mesh may be too coarse for a valid error.
   return errors.size() > 3 &&
          errors.back() > 2. / 3. * *std::max_element(errors.end() - 4, errors.end() - 1);
 }

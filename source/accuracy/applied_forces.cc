@@ -9,7 +9,7 @@ AppliedForces<dim>::AppliedForces(const state::StateSolver<dim>  &solver,
   , tractions(solver.resultants().tractions(state.positions)[state.load_case])
 {}
 
-/// Null: none.
+/// Return the load of a face, or null if it has none.
 template <int dim>
 const state::BoundaryLoad<dim> *AppliedForces<dim>::load(const Face &face) const
 {

@@ -4,7 +4,7 @@
 #include <snug/faces/outer_edges.h>
 
 namespace snug::accuracy {
-/// Nodal pressures of one pair and, for its master side, where they are.
+/// Nodal pressures of one pair and, for its master side, the geometry of the slave side.
 template <int dim>
 class ContactPressure<dim>::SlaveSide
 {
@@ -44,7 +44,8 @@ private:
   const contact::NearestFace<dim>           faces;
 };
 
-/// Rows, nodes they act for, hanging nodes, in this order, as each may need those before.
+/// Set the rows first, then the nodes for which the rows act, then the hanging nodes, because each
+/// step may need the values of the steps before.
 template <int dim>
 std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
                                  const unsigned int             pair,
@@ -125,7 +126,7 @@ double ContactPressure<dim>::value(const Face                   &face,
       const auto &nodes = solver.mesh().cells()[face.cell].nodes;
       for (unsigned int k = 0; k < nodes.size(); ++k)
         {
-          // Functions of nodes off the face vanish on it.
+          // Functions of nodes off the face vanish on the face.
           const unsigned int node = solver.surface().find(solver.mesh().global_node(nodes[k]));
           if (node < solver.surface().n_nodes())
             for (const unsigned int pair : slaves->second)

@@ -25,8 +25,7 @@ double Demand::tolerance(const Measured &measured, const double least) const
   return size > 0. ? step_tolerance(measured.error / size, is_energy, least) : first_tolerance;
 }
 
-/// Whether values of late have other signs than others, and the last one is not near the one
-/// before.
+/// Return whether recent values change their sign and the last value is not near the one before it.
 bool Demand::is_noise() const
 {
   const std::size_t n = values.size();
@@ -34,7 +33,8 @@ bool Demand::is_noise() const
          std::abs(values[n - 1] - values[n - 2]) > 0.5 * std::abs(values[n - 1]);
 }
 
-/// Return why no mesh can meet the target of a response of this size; empty: one may.
+/// Return why no mesh can meet the target of a response of this value, or an empty string if a
+/// mesh may meet it.
 std::string Demand::too_small(const Measured &measured) const
 {
   const double least = smallest_target * std::abs(measured.value);
@@ -46,7 +46,8 @@ std::string Demand::too_small(const Measured &measured) const
   return text.str();
 }
 
-/// Errors over values: where elements lock, as those of thin bodies that bend, both grow at first.
+/// Return errors over values. If elements lock, as those of thin bending bodies, both grow at
+/// first.
 std::vector<double> Demand::parts() const
 {
   std::vector<double> result;
@@ -58,8 +59,8 @@ std::vector<double> Demand::parts() const
   return result;
 }
 
-/// A response that is zero has the error of the solver, of which no mesh makes a small part, and
-/// meets its target by chance.
+/// Record the value and the error. A response that is zero has only the error of the solver. No
+/// mesh makes this error a small share of the value, and it meets a target by chance.
 std::string Demand::note(const Measured &measured, const bool is_met)
 {
   errors.push_back(measured.error);
@@ -72,7 +73,7 @@ std::string Demand::note(const Measured &measured, const bool is_met)
                                      "zero; give its target as a number in its units";
   if (is_met)
     errors.clear();
-  // near the target the mesh after the next may do
+  // Near the target the mesh after the next may meet it.
   if (measured.error < 2. * allowed(measured) || !is_unbounded(errors) || !is_unbounded(parts()))
     return "";
   return "the error of " + text_of(name, measured) +

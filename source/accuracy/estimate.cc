@@ -18,30 +18,31 @@
 
 namespace snug::accuracy {
 namespace {
-/// The estimates have two digits at most.
+/// Relative tolerance of the first adjoint solve, because the estimates are accurate to two digits
+/// at most.
 const double first_adjoint_tolerance = 1e-4;
 
-/// What the solver leaves may have this part of the estimated error of the mesh, or of the
-/// displacement, in the energy norm.
+/// Maximum share of the solver's jumps in the estimated error of the mesh, or in the displacement,
+/// both in the energy norm.
 const double part_of_error = 0.1, part_of_displacement = 1e-4;
 
-/// Rounding stops the solver before so many smaller tolerances.
+/// Maximum number of attempts. Rounding stops the solver before it needs more tolerances.
 const unsigned int most_attempts = 6;
 
-/// Return the factor of the next tolerance where the solver leaves @p excess times as much as it
-/// may: a power of ten, so that rounding does not change it.
+/// Return the factor of the next tolerance if the jumps of the solver are @p excess times their
+/// limit. The factor is a power of ten, so that rounding does not change it.
 double tightened(const double excess)
 {
   return excess < 3. ? 0.1 : excess < 30. ? 0.01 : 0.001;
 }
 
-/// Rows without an area carry no pressure.
+/// Return the pressure. Rows without an area carry no pressure.
 double pressure(const double force, const double area)
 {
   return area > 0. ? force / area : 0.;
 }
 
-/// u + factor v
+/// Return u + factor v.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> sum(std::vector<dealii::Tensor<1, dim>>        u,
                                         const double                               factor,
@@ -84,7 +85,7 @@ public:
     state::make_continuous(feti, nullptr, continuous);
   }
 
-  /// Of a response that needs a solve.
+  /// Return the adjoint of a response that needs a solve, as a loaded displacement.
   LoadedDisplacement<dim> of(const unsigned int                    j,
                              const response::FieldDerivative<dim> &derivative,
                              const LoadedDisplacement<dim>        &u) const
@@ -109,19 +110,19 @@ public:
     return jump(solver, torn, continuous, column[j]);
   }
 
-  /// In the energy norm.
+  /// Return the norm of an adjoint in the energy norm.
   double norm(const unsigned int j) const { return norms[column[j]]; }
 
 private:
   const state::StateSolver<dim> &solver;
-  std::vector<unsigned int>      column; ///< of each response that needs one
-  std::vector<double>            areas;  ///< of the contact rows
+  std::vector<unsigned int>      column; ///< column of each response that needs one
+  std::vector<double>            areas;  ///< areas of the contact rows
   qp::MultiVector                dual;
   feti::PrimalVectors            torn, continuous;
-  std::vector<double>            norms; ///< of the columns
+  std::vector<double>            norms; ///< energy norms of the columns
 };
 
-/// The state itself.
+/// Return the displacement and the pressures of the state.
 template <int dim>
 LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
                                const state::ContactState<dim> &state)
@@ -133,7 +134,7 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
   return u;
 }
 
-/// A displacement that nothing causes.
+/// Return a displacement without loads.
 template <int dim>
 LoadedDisplacement<dim> unloaded(const typename mesh::BodyMesh<dim>::Field &displacement,
                                  const std::size_t                          n_rows)
@@ -141,20 +142,20 @@ LoadedDisplacement<dim> unloaded(const typename mesh::BodyMesh<dim>::Field &disp
   return {displacement, std::vector<double>(n_rows, 0.), 0.};
 }
 
-/// Estimates by a state and adjoints as they are, and what the solver has left in the state and the
-/// adjoints over what it may leave.
+/// Estimates by a given state and given adjoints, and the ratios of the jumps that the solver left
+/// in them to their limits.
 struct Attempt
 {
   Estimates estimates;
   double    excess = 0., adjoint_excess = 0.;
 };
 
-/// Products of local errors of fields and of their jumps.
+/// Products of the local errors of fields and of their jumps.
 template <int dim>
 class Products
 {
 public:
-  /// Collective.
+  /// Compute the products of all fields and jumps. Collective.
   Products(const LocalErrors<dim>                     &local,
            const std::vector<LoadedDisplacement<dim>> &fields,
            const std::vector<LoadedDisplacement<dim>> &jumps,
@@ -168,13 +169,13 @@ public:
 
   unsigned int n_cells() const { return of_cells.size(); }
 
-  /// a(e_0, e_i)
+  /// Return a(e_0, e_i).
   double with_first(const unsigned int cell, const unsigned int i) const
   {
     return of_cells[cell].products[i];
   }
 
-  /// Of the local errors of field i, per cell.
+  /// Return the norms of the local errors of field i, per cell.
   std::vector<double> norms(const unsigned int i) const
   {
     std::vector<double> result;
@@ -183,7 +184,7 @@ public:
     return result;
   }
 
-  /// Over the cells of all ranks. Collective.
+  /// Return the norm over the cells of all ranks. Collective.
   double norm(const unsigned int i) const
   {
     double square = 0.;
@@ -192,9 +193,9 @@ public:
     return std::sqrt(dealii::Utilities::MPI::sum(square, comm));
   }
 
-  /// The error that the jumps of a field make, over what it may be. Local problems answer stresses
-  /// of a stiff cell beside a soft one, or pressures of a nearly incompressible one, with
-  /// much more than the energy of the jumps. Collective.
+  /// Return the error caused by the jumps of a field over its limit. Local problems of a stiff
+  /// cell beside a soft one, or of a nearly incompressible cell, turn jumps into errors
+  /// of stress or pressure that are much larger than the energy of the jumps. Collective.
   double excess(const unsigned int i, const double displacement) const
   {
     const double allowed = std::max(part_of_error * norm(i), part_of_displacement * displacement);
@@ -211,14 +212,14 @@ template <int dim>
 EnergyEstimate energy_estimate(const state::ContactState<dim> &state, const Products<dim> &products)
 {
   EnergyEstimate result{products.norms(0), products.norm(0)};
-  // |u_h|^2 is twice the strain energy, and u - u_h nearly orthogonal to u_h.
+  // |u_h|^2 is twice the strain energy, and u - u_h is nearly orthogonal to u_h.
   const double square = result.error * result.error, whole = 2. * state.strain_energy + square;
   result.relative = whole > 0. ? std::sqrt(square / whole) : 0.;
   return result;
 }
 
-/// Return a response's sums of the products of local errors, less what lies beyond the faces of the
-/// cells, per cell: with @p factor those of the adjoint, with @p half those of the state.
+/// Return the sums of the products of local errors of a response, minus the contribution of the
+/// surface layer, per cell. @p factor multiplies those of the adjoint, @p half those of the state.
 template <int dim>
 std::vector<double> in_cells(const Products<dim>                    &products,
                              const std::vector<std::vector<double>> &layer,
@@ -233,8 +234,8 @@ std::vector<double> in_cells(const Products<dim>                    &products,
   return result;
 }
 
-/// Add what the mesh does not resolve of the pressure that a response of this value reads. It is
-/// found once, as @p rough. Collective.
+/// Add the error of the pressure that a response of this value reads, caused by an unresolved gap.
+/// The rough pressures are computed once and stored in @p rough. Collective.
 template <int dim>
 void add_rough_pressures(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state,
@@ -248,10 +249,11 @@ void add_rough_pressures(const state::StateSolver<dim>  &solver,
     one.add_data(of_pair.of_cells, value, solver.mesh().communicator());
 }
 
-/// The adjoint of the energy is the state itself, with the opposite sign: no local problem of its
-/// own. Pressures of rows are of second order, which at degree 2 is less than displacements have:
-/// there products of errors are as large as what rows do more than pressures, which is left out,
-/// and the size of the reading is all that is known of it.
+/// Estimate with given tolerance of the adjoints. The adjoint of the energy is the state itself
+/// with the opposite sign, so it needs no local problem. Contact pressures of rows converge with
+/// second order. At degree 2, this is lower than the order of displacements. There the products of
+/// errors are as large as gaps.excess_work(), which is therefore left out, and only the size of
+/// the reading is known.
 template <int dim>
 Attempt attempt(const state::StateSolver<dim>                      &solver,
                 const state::ContactState<dim>                     &state,
@@ -310,7 +312,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
           (is_linear ? one.contact : one.reading) += *read - value;
           add_rough_pressures(solver, state, value, rough, one);
         }
-      // J depends on loads by the state and, where it has their work, by itself
+      // J depends on loads through the state and, where J contains their work, directly.
       if (!is_geometry)
         one.add_data(loads.works(responses[j]->stationary()
                                    ? z.displacement
@@ -346,7 +348,7 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
       }
     catch (const SolveError &)
       {
-        break; // rounding, or as many F-mults as are allowed: no more digits
+        break; // rounding or the maximum of F-mults stopped the solve: no more digits
       }
   return result.estimates;
 }

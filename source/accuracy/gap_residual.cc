@@ -11,10 +11,11 @@
 
 namespace snug::accuracy {
 namespace {
-/// Per direction: pressures and gaps have kinks within faces, which no quadrature knows.
+/// Gauss points per direction. Pressures and gaps have kinks within faces that no quadrature
+/// resolves.
 const unsigned int n_gauss = 4;
 
-/// sum_k w_k field_k
+/// Return sum_k w_k field_k.
 template <int dim>
 dealii::Tensor<1, dim> sum(const std::vector<std::pair<unsigned int, double>> &weights,
                            const std::vector<dealii::Tensor<1, dim>>          &field)
@@ -78,7 +79,7 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
     }
 }
 
-/// n . [v]
+/// Return n . [v].
 template <int dim>
 double GapResidual<dim>::jump(const Point &point, const typename mesh::Surface<dim>::Field &v) const
 {
@@ -105,7 +106,7 @@ double GapResidual<dim>::excess_work(const std::vector<state::ContactPoint>    &
   return work;
 }
 
-/// Of the pair at each point.
+/// Return the values of the pair at each point.
 template <int dim>
 std::vector<double> GapResidual<dim>::values(const std::vector<double> &of_rows) const
 {

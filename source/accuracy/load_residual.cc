@@ -19,7 +19,7 @@ namespace {
 template <int dim>
 using Shapes = std::vector<mesh::LagrangePoint<dim>>;
 
-/// The Gauss points of the mesh in each of @p n parts per direction.
+/// Return the Gauss points of the mesh in each of @p n parts per direction.
 template <int dim>
 const Shapes<dim> &
 composite(const unsigned int degree, const unsigned int n, std::map<unsigned int, Shapes<dim>> &of)
@@ -57,7 +57,7 @@ dealii::Tensor<1, dim> mean(const std::vector<double>                 &weights,
   return sum;
 }
 
-/// Nodal forces of a density, and the integral of its size.
+/// Nodal forces of a density, and the integral of its absolute value.
 template <int dim>
 struct Integral
 {
@@ -73,7 +73,7 @@ struct Integral
   }
 };
 
-/// What @p fine has more than @p given.
+/// Return the forces of @p fine minus those of @p given.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> difference(Integral<dim> fine, const Integral<dim> &given)
 {
@@ -91,7 +91,7 @@ std::function<unsigned int(unsigned int level)> samples_of_level(const mesh::Bod
   unsigned int       n_most  = n_least;
   if (sampling == Sampling::search)
     {
-      const double n_points = 2e5; // of all faces in space, about
+      const double n_points = 2e5; // of all faces in 3D, about
       const double n_faces =
         dealii::Utilities::MPI::sum(double(mesh.boundary_faces().size()), mesh.communicator());
       n_most = dim == 2 ? 256 : std::min(64., std::sqrt(n_points / n_faces));
@@ -114,7 +114,7 @@ LoadResidual<dim>::LoadResidual(const mesh::BodyMesh<dim>  &mesh,
       if (loads.bodies[body].body_force)
         keys.emplace_back(body, no_boundary);
     }
-  // A formula may fail at a position that only one rank has.
+  // Call everywhere(), because a formula may fail at a position that only one rank has.
   everywhere(mesh.communicator(), [&]() {
     add_faces(loads, positions, sampling);
     add_cells(loads, positions, sampling);
@@ -232,7 +232,7 @@ LoadResidual<dim>::entries(const std::vector<std::string> &body_names) const
   return result;
 }
 
-/// The cells with most of an error, as many as it takes.
+/// Refine the cells with the maximum contributions, until their sum suffices.
 template <int dim>
 void add_cells(const mesh::BodyMesh<dim> &mesh,
                const std::vector<double> &of_cells,
@@ -255,7 +255,7 @@ std::string percent(const double part)
   return text.str();
 }
 
-/// The part of the volume of a body that its surface may hide.
+/// Maximum share of the volume of a body that lies beyond its interpolated surface.
 const double unseen_part = 0.05;
 
 template <int dim>

@@ -8,8 +8,8 @@
 
 namespace snug::accuracy {
 namespace {
-/// Products of mixed elements of degree 2 see 0.5 to 0.8 of errors: those of displacements and
-/// of pressures nearly cancel.
+/// Correction factor of the products of mixed elements of degree 2. These products measure only
+/// 0.5 to 0.8 of the errors, because the errors of displacements and of pressures nearly cancel.
 const double mixed_of_degree_2 = 1.6;
 } // namespace
 
@@ -47,7 +47,7 @@ LocalErrors<dim>::LocalErrors(const state::StateSolver<dim>  &solver,
   find_held();
 }
 
-/// Bodies share functions, whatever their material.
+/// Return shapes and functions at points. All bodies share the functions, whatever their materials.
 template <int dim>
 typename LocalErrors<dim>::FaceShapes
 LocalErrors<dim>::points(const std::vector<dealii::Point<dim>> &at) const
@@ -61,7 +61,7 @@ LocalErrors<dim>::points(const std::vector<dealii::Point<dim>> &at) const
   return result;
 }
 
-/// A byte for each number.
+/// Return a key with one byte per number.
 template <int dim>
 std::uint64_t LocalErrors<dim>::placing(const mesh::InteriorFace<dim> &face)
 {
@@ -73,7 +73,8 @@ std::uint64_t LocalErrors<dim>::placing(const mesh::InteriorFace<dim> &face)
   return result;
 }
 
-/// n dA out of the cell: det J J^-T times that of the reference cell, by the weight of the section.
+/// Return n dA out of the cell: det J J^-T times the area vector of the reference cell, times the
+/// weight of the section.
 template <int dim>
 dealii::Tensor<1, dim> LocalErrors<dim>::area_vector(const mesh::LagrangePoint<dim> &shape,
                                                      const unsigned int              face,
@@ -85,7 +86,8 @@ dealii::Tensor<1, dim> LocalErrors<dim>::area_vector(const mesh::LagrangePoint<d
          mesh.idealization().weight(elasticity::value(shape, X)) * n;
 }
 
-/// Normals of a face at its centre; the axis of revolution holds the radius.
+/// Collect the normals of a face at its center and the other held directions. The axis of
+/// revolution holds the radius.
 template <int dim>
 void LocalErrors<dim>::find_held()
 {
@@ -118,7 +120,7 @@ void LocalErrors<dim>::find_held()
     }
 }
 
-/// At the points of the quadrature; empty: none.
+/// Return the forces at the quadrature points; empty if there are none.
 template <int dim>
 typename LocalErrors<dim>::Nodes LocalErrors<dim>::body_forces(const unsigned int cell,
                                                                const Loaded      &of) const
@@ -133,7 +135,8 @@ typename LocalErrors<dim>::Nodes LocalErrors<dim>::body_forces(const unsigned in
   return b;
 }
 
-/// The mean of both stresses, so that what one cell gets the other gives.
+/// Add the mean of both stresses to both cells, so that the tractions of neighboring cells are
+/// opposite.
 template <int dim>
 void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual> &r) const
 {
@@ -214,7 +217,7 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
   return r;
 }
 
-/// Neighbours are often the same cell at another place: they share a factorization.
+/// Compute the products. Neighbors are often copies of the same cell and share one factorization.
 template <int dim>
 std::vector<CellErrors>
 LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
@@ -261,7 +264,7 @@ LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
         {
           const double of_pressures = 2. * problem->dilatation_work(dilatations[i], errors[i]) +
                                       product(dilatations[i], dilatations[i]);
-          // rounding may make the square of a cell without error negative
+          // Rounding may make the square of a cell without error negative.
           result[cell].norms.push_back(
             std::sqrt(std::max(0., product(residuals[i][cell], errors[i]) + of_pressures)));
         }

@@ -8,21 +8,22 @@
 
 namespace snug::accuracy {
 namespace {
-/// Cosines of the angles between the normals of two faces: above the first one the edge between
-/// them is none, below the second one its interior angle is at most a right one.
+/// Cosines of the angle between the normals of two faces. Above smooth_cosine there is no edge
+/// between them. Below right_angle_cosine the interior angle of the edge is at most a right angle.
 constexpr double smooth_cosine = 0.8, right_angle_cosine = 0.05;
-/// An edge presses if its pressure is above this multiple of the mean: of a mesh that is too coarse
-/// to see that it grows, and in which rows at a master's edge have areas that go on beyond it.
+/// An edge is under pressure if its pressure is above this multiple of the mean. The multiple is
+/// below 1, because a coarse mesh does not show the growth of the pressure, and rows at the edge
+/// of a master have areas that extend beyond the edge.
 constexpr double pressing = 0.5;
-/// A slave node is at an edge that has a node closer than this multiple of its face size.
+/// A slave node is at an edge if a node of the edge is closer than this multiple of its face size.
 constexpr double near_edge = 0.6;
 
 /// A face beside a side, at a node that they share.
 template <int dim>
 struct FaceBeside
 {
-  unsigned int           node;            ///< of the surface
-  dealii::Tensor<1, dim> normal, inwards; ///< unit; from the node to the middle of the face
+  unsigned int           node;            ///< node of the surface
+  dealii::Tensor<1, dim> normal, inwards; ///< unit normal; from the node to the middle of the face
 
   template <typename Archive>
   void serialize(Archive &archive, const unsigned int /*version*/)
@@ -33,7 +34,7 @@ struct FaceBeside
   }
 };
 
-/// Finds the edges of contact sides at the positions of a state.
+/// This class finds the edges of contact sides at the positions of a state.
 template <int dim>
 class EdgeFinder
 {
@@ -46,8 +47,8 @@ public:
     , x(surface.gather(state.positions))
   {}
 
-  /// The surface nodes of the sharp edges of a side; @p is_mirrored by an obstacle, as by a plane
-  /// of symmetry. Collective.
+  /// Return the surface nodes of the sharp edges of a side. @p is_mirrored states that the other
+  /// side is an obstacle, which acts as a plane of symmetry. Collective.
   std::vector<unsigned int> nodes(const contact::Side &side, const bool is_mirrored) const
   {
     const faces::NodalNormals<dim> normals(surface, contact::faces_of(surface, side), shape, x);
@@ -59,7 +60,7 @@ public:
           const auto  &own    = normals.normals()[face.node];
           const double cosine = own * face.normal;
           if (cosine < smooth_cosine && !(is_mirrored && cosine < right_angle_cosine) &&
-              own * face.inwards < 0.) // else the edge is a concave one
+              own * face.inwards < 0.) // otherwise the edge is concave
             result.push_back(face.node);
         }
     return result;
@@ -74,7 +75,7 @@ private:
   const typename mesh::BodyMesh<dim>::Field &local;
   const typename mesh::Surface<dim>::Field   x;
 
-  /// Those of this rank.
+  /// Return the faces of this rank beside a side.
   std::vector<FaceBeside<dim>> faces_beside(const contact::Side &side) const
   {
     const auto       &mesh = solver.mesh();
@@ -112,7 +113,8 @@ private:
     return normal / normal.norm();
   }
 
-  /// A face on a plane of symmetry or on the axis, beyond which the body goes on.
+  /// Return whether a face is on a plane of symmetry or on the axis, beyond which the body
+  /// continues.
   bool goes_on(const typename mesh::BodyMesh<dim>::Face &face,
                const dealii::Tensor<1, dim>             &normal) const
   {
@@ -130,7 +132,7 @@ template <int dim>
 struct PairRows
 {
   std::vector<unsigned int> rows;
-  double                    mean = 0.; ///< of their pressure
+  double                    mean = 0.; ///< mean of their pressure
 };
 
 template <int dim>
@@ -181,7 +183,7 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
             });
           };
           const bool at_slave = is_at_edge(slave_nodes), at_master = is_at_edge(master_nodes);
-          if (at_slave == at_master) // both: they end together, as one body would
+          if (at_slave == at_master) // both sides end at the edge, as one body would
             continue;
           (at_slave ? at_slave_edge : at_master_edge).push_back(row);
           if (state.contact[row].pressure > largest)

@@ -10,10 +10,11 @@
 
 namespace snug::accuracy {
 namespace {
-/// Ways to the true surface this much off the face are along it.
+/// Relative distance off the face below which the way to the true surface counts as along the face.
 const double rounding = 1e-10;
 
-/// sigma : C^-1 tau, in all idealizations, as stresses have all their components.
+/// Return sigma : C^-1 tau. The formula holds in all idealizations, because stresses have all
+/// their components.
 double energy(const elasticity::Material          &material,
               const dealii::SymmetricTensor<2, 3> &sigma,
               const dealii::SymmetricTensor<2, 3> &tau)
@@ -70,9 +71,10 @@ bool SurfaceLayer<dim>::is_supported(const Face &face) const
   });
 }
 
-/// Total forces, those of contact and those of supports, which are of the stress, are the same on
-/// both, whatever their areas, and act where the normal of the face meets the true surface: samples
-/// may lie beside that, where faces are graded.
+/// Return the local values. Total forces, contact forces and support forces, which are given by
+/// the stress, are equal on the face and on the true surface, whatever their areas. They act where
+/// the normal of the face meets the true surface, because samples may lie off this point where
+/// faces are graded.
 template <int dim>
 std::vector<typename SurfaceLayer<dim>::Local>
 SurfaceLayer<dim>::locals(const Face                 &face,
@@ -124,7 +126,7 @@ SurfaceLayer<dim>::locals(const Face                 &face,
   return result;
 }
 
-/// Of forces, [F . v].
+/// Return the work difference [F . v] of the forces.
 template <int dim>
 double SurfaceLayer<dim>::work_beyond(const Local &of, const Local &on)
 {

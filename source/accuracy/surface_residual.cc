@@ -15,33 +15,33 @@
 
 namespace snug::accuracy {
 namespace {
-/// Differences of positions up to this part of their size are rounding.
+/// Differences of positions up to this share of their size are rounding.
 const double position_round_off = 1e-11;
 
-/// Gaps below 0 by less than this part of a face are closed, not overlaps.
+/// Gaps below 0 by less than this share of the face size are closed gaps, not overlaps.
 const double closed_part = 1e-9;
 
-/// Gaps between curved bodies are of this degree where faces are small enough for their contact;
-/// higher ones would take a narrow crest on a single face for smooth.
+/// Degree of gaps between curved bodies where faces are small enough for their contact. A higher
+/// degree would treat a narrow crest on a single face as smooth.
 constexpr unsigned int rough_degree = 2;
 
-/// Faces below this part of the contact are not refined for roughness: steps, which have no
-/// pressure that a mesh could find, would be refined to the last level.
+/// Faces below this share of the contact area are not refined for roughness. Steps, which have no
+/// pressure that a mesh could resolve, would otherwise be refined to the last level.
 const double small_face = 1. / 4096.;
 
-/// Peaks of pressure weigh more than their force: a measure of the peak by an exponent takes that
-/// power of them. More than 4 would refine kinks, where the pressure is unbounded but no measure
-/// is, to the last level.
+/// Exponent of peaks of pressure, which count more than their force: a measure of the peak raises
+/// them to a power. A power above 4 would refine kinks, where the pressure is unbounded but no
+/// measure is, to the last level.
 const double peak_power = 4.;
 
-/// Points of a face, and the functions of its nodes and of its samples there.
+/// Points of a face, with the shape functions of its nodes and of its samples at the points.
 template <int dim>
 struct FacePoints
 {
-  unsigned int                                        n; ///< per direction, the first fastest
+  unsigned int n; ///< number per direction, the first direction fastest
   std::vector<typename faces::FaceShape<dim>::Values> nodes, samples;
 
-  /// Uneven distances are in resonance with no formula.
+  /// Use nonuniform distances, which are in resonance with no formula.
   FacePoints(const faces::FaceShape<dim> &shape, const unsigned int degree, const unsigned int n)
     : n(n)
   {
@@ -60,11 +60,11 @@ struct FacePoints
   }
 };
 
-/// What a function of the place has on a face beyond a polynomial through it.
+/// Deviation of a function of the position on a face from a polynomial through it.
 struct Oscillation
 {
-  double mean = 0., slope = 0.; ///< of its size, and largest of its gradient
-  /// of the gap: the function less what the nodes interpolate of it, and the gap at the nodes
+  double mean = 0., slope = 0.; ///< mean of the absolute value, maximum of the gradient
+  /// minimum gap: function minus its nodal interpolation, plus the gap at the nodes
   double least = std::numeric_limits<double>::infinity();
 };
 
@@ -76,7 +76,7 @@ public:
   using Field    = typename mesh::BodyMesh<dim>::Field;
   using Function = std::function<double(const dealii::Tensor<1, dim> &)>;
 
-  /// @p degree of the polynomial. References must outlive this. Collective.
+  /// @p degree is the degree of the polynomial. References must outlive this object. Collective.
   FaceSampler(const mesh::BodyMesh<dim> &mesh, const Field &positions, const unsigned int degree)
     : mesh(mesh)
     , positions(positions)
@@ -86,7 +86,7 @@ public:
     , n_of(samples_of_level(mesh, Sampling::search))
   {}
 
-  /// n dA at the centre of the mesh's face, for the area of the reference face.
+  /// Return n dA at the center of the face, for the area of the reference face.
   dealii::Tensor<1, dim> area(const Face &face) const
   {
     const auto centre = shape.at(geometry::unit_centre<dim - 1>());
@@ -159,7 +159,7 @@ private:
     return sum;
   }
 
-  /// On the true surface, moved as the mesh is.
+  /// Return a position on the true surface, moved with the mesh.
   dealii::Tensor<1, dim> place(const Face                                   &face,
                                const dealii::Point<dim - 1>                 &xi,
                                const typename faces::FaceShape<dim>::Values &at) const
@@ -171,13 +171,13 @@ private:
 } // namespace
 
 namespace {
-/// Volumes of bodies by their boundaries, and those between faces and what is seen of them.
+/// Return the volumes of bodies and add the volumes between the faces and their interpolation.
 template <int dim>
 std::vector<double> add_volumes(const mesh::BodyMesh<dim> &mesh, std::vector<UnseenVolume> &unseen)
 {
   std::vector<double> volumes(mesh.n_bodies(), 0.);
   FaceSampler<dim>    sampler(mesh, mesh.reference_positions(), mesh::surface_degree);
-  // A formula may fail at a position that only one rank has.
+  // Call everywhere(), because a formula may fail at a position that only one rank has.
   everywhere(mesh.communicator(), [&]() {
     for (const auto &face : mesh.boundary_faces())
       {
@@ -246,7 +246,7 @@ public:
         }
   }
 
-  /// Add those of the faces of this rank.
+  /// Add the contributions of the faces of this rank.
   void add(const contact::PointGaps<dim> &given, FaceSampler<dim> &sampler, RoughPressure &to) const
   {
     for (const auto &face : mesh.boundary_faces())
@@ -280,10 +280,10 @@ private:
   const contact::Pair       &pair;
   Boundaries                 slave, master;
   double                     modulus;
-  double                     force = 0., contact_area = 0.; ///< of what pushes
-  std::vector<double>        gaps; ///< at surface nodes, the least of the rows there, or infinite
+  double                     force = 0., contact_area = 0.; ///< of rows that push
+  std::vector<double>        gaps; ///< at surface nodes: minimum over their rows, or infinite
 
-  /// @p compliance += (1 - nu^2) / E, the least of the cells there. Collective.
+  /// Add (1 - nu^2) / E, the minimum over the cells of the side, to @p compliance. Collective.
   static Boundaries side(const state::StateSolver<dim>   &solver,
                          const std::vector<unsigned int> &faces,
                          double                          &compliance)
@@ -304,7 +304,8 @@ private:
     return result;
   }
 
-  /// Where there is no row as far as where there is one; empty: there is none.
+  /// Return the gaps at the nodes. A node without a row takes the maximum gap of the nodes with a
+  /// row. Empty if no node has a row.
   std::vector<double> gaps_at(const std::vector<unsigned int> &local_nodes) const
   {
     std::vector<double> result;
@@ -320,7 +321,8 @@ private:
     return largest < 0. ? std::vector<double>() : result;
   }
 
-  /// A pair without a force that is closed somewhere between nodes has one.
+  /// Return the contribution of a face. For a pair without a force it is 1 if the gap is closed
+  /// between nodes, because the mesh then misses a force.
   double part(const Oscillation &found, const double size, const double dA) const
   {
     if (force == 0.)

@@ -9,11 +9,12 @@
 
 namespace snug::accuracy {
 namespace {
-/// Below this part of a face a gap without a force is closed.
+/// A gap without a force is closed if it is below this share of the face size.
 const double closed_gap = 1e-9;
 
-/// The slave nodes of pairs without a force where these are all but closed, or where their true
-/// surfaces are, or overlap, within a face.
+/// Return slave nodes of pairs without a force at which the pair is nearly closed: the nodal gap
+/// is positive and small, or the true surfaces between nodes overlap or have a small gap, relative
+/// to the face size.
 template <int dim>
 std::vector<unsigned int> nearly_closed(const state::StateSolver<dim>  &solver,
                                         const state::ContactState<dim> &state)
@@ -22,7 +23,7 @@ std::vector<unsigned int> nearly_closed(const state::StateSolver<dim>  &solver,
   const auto  sizes =
     contact::node_face_sizes(solver.surface(), solver.surface().gather(state.positions));
   std::vector<bool> has_force(solver.contact().pairs().size(), false);
-  // of each pair, the row with the smallest gap
+  // For each pair, find the row with the minimum gap.
   std::vector<unsigned int> nearest(has_force.size(), places.size());
   for (unsigned int i = 0; i < places.size(); ++i)
     {
@@ -54,7 +55,7 @@ std::vector<unsigned int> nearly_closed(const state::StateSolver<dim>  &solver,
   return nodes;
 }
 
-/// Faces of the slave side of @p pair that have one of @p nodes.
+/// Return the faces of the slave side of @p pair that have one of @p nodes.
 template <int dim>
 std::vector<unsigned int> faces_at(const mesh::Surface<dim> &surface,
                                    const contact::Pair      &pair,

@@ -29,11 +29,11 @@ void assign(const Entries::Description &entry, const Origins &origins, const std
                       "must be " + entry.form.allowed + did_you_mean(text, choices));
 }
 
-/// What is wrong with the numbers of an entry; "" if nothing is.
+/// Return the error of the numbers of an entry; "" if there is no error.
 std::string
 complaint(const Form &form, const std::vector<double> &numbers, const unsigned int dimension)
 {
-  // Squares of what is made of two of them can still be added up.
+  // Limit of numbers, such that sums of squares of products of two numbers do not overflow.
   const double largest = 1e60;
   if (!form.per_dimension.empty() && !numbers.empty() && numbers.size() != dimension)
     return "must have " + to_text(dimension) + " " + form.per_dimension + ", one per dimension";
@@ -138,8 +138,8 @@ void Entries::check(const Origins &origins, const unsigned int dimension) const
 {
   for (const auto &entry : list)
     {
-      // A program may have set what no text would: infinities, choices
-      // that are none. Assigning a value to itself finds that.
+      // A program may have set values that no text would: infinities, or choices that do not
+      // exist. Assigning the text of a value to the variable finds them.
       const std::string text = entry.access.text();
       assign(entry, origins, text);
       if (!entry.access.numbers)

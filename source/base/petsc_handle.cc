@@ -8,9 +8,10 @@ namespace snug::petsc {
 namespace {
 bool out_of_memory = false;
 
-/// The code alone does not tell: where memory ends, PETSc 3.18 returns the number of its
-/// caller's line. PETSC_ERR_LIB is of CHOLMOD and MUMPS; what they say of a matrix has codes of
-/// its own, and this one is left for memory they do not get.
+/// Record whether memory ran out. The error code alone does not show this: if memory ends, PETSc
+/// 3.18 returns the number of its caller's line. PETSC_ERR_LIB is an error of CHOLMOD and MUMPS.
+/// Their errors on a matrix have codes of their own, and this one remains for memory that they do
+/// not get.
 PetscErrorCode note_and_return(MPI_Comm,
                                int,
                                const char *function,
@@ -30,7 +31,7 @@ PetscErrorCode note_and_return(MPI_Comm,
 void return_errors()
 {
   PetscPushErrorHandler(note_and_return, nullptr);
-  PetscErrorPrintf = PetscErrorPrintfNone; // CHOLMOD's complaints pass by the handler
+  PetscErrorPrintf = PetscErrorPrintfNone; // messages of CHOLMOD bypass the handler
 }
 
 void check(PetscErrorCode error)

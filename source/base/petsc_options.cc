@@ -47,7 +47,7 @@ std::vector<std::string> unused_options(MPI_Comm communicator)
   for (PetscInt i = 0; i < n; ++i)
     mine.push_back("-" + std::string(names[i]) + (values[i] ? " " + std::string(values[i]) : ""));
   check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
-  // A rank without subdomains has asked for less.
+  // A rank without subdomains has queried fewer options.
   const auto of_ranks = dealii::Utilities::MPI::gather(communicator, mine);
   if (of_ranks.empty())
     return {};

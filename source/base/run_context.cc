@@ -25,7 +25,7 @@ double of_stage(const std::map<std::string, double> &stages, const std::string &
   return found == stages.end() ? 0. : found->second;
 }
 
-/// Resident pages that are this process's alone [MB]; 0 where no /proc tells.
+/// Return the resident pages of this process alone [MB]; 0 if there is no /proc.
 double private_memory()
 {
   std::ifstream file("/proc/self/statm");
@@ -35,7 +35,8 @@ double private_memory()
   return (resident - shared) * double(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-/// MPI launchers put a pseudo terminal between the program and a file.
+/// Return whether an MPI launcher runs the program. Launchers put a pseudo terminal between the
+/// program and a file.
 bool under_launcher()
 {
   for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_PROCID"})
@@ -83,7 +84,7 @@ void RunContext::progress(const std::string &text)
 RunContext::Timer::Timer(RunContext &the_context, const std::string &the_stage)
   : context(the_context), stage(the_stage), start(std::chrono::steady_clock::now())
 {
-  // For profilers of MPI, as a region; does nothing without one.
+  // Mark the stage as a region for profilers of MPI. The call does nothing without one.
   MPI_Pcontrol(1, stage.c_str());
 }
 
@@ -126,7 +127,7 @@ Work RunContext::total_work() const
 }
 
 namespace {
-/// Kinds of errors that stay the same on their way to the other ranks.
+/// Kinds of errors that are preserved on the other ranks.
 enum Kind : int
 {
   none,
@@ -177,7 +178,7 @@ void everywhere(MPI_Comm communicator, const std::function<void()> &work)
   catch (const std::exception &error)
     {
       kind = kind_of(error);
-      if (kind != memory) // a message would need some
+      if (kind != memory) // a message would need memory
         message = one_line(error);
     }
   catch (...)

@@ -7,8 +7,8 @@
 
 namespace snug {
 namespace {
-/// First items of the ranks, and the end: an item is that of the rank in whose part of the sum the
-/// middle of its costs lies.
+/// Return the first items of the ranks, and the end. An item belongs to the rank whose part of
+/// the sum of costs contains the middle of the item's costs.
 std::vector<unsigned int> shares(const std::vector<double> &costs, const int n_ranks)
 {
   const double              total = std::accumulate(costs.begin(), costs.end(), 0.);
@@ -25,7 +25,7 @@ std::vector<unsigned int> shares(const std::vector<double> &costs, const int n_r
   return first;
 }
 
-/// Blocks of all ranks, one after the other.
+/// Return the blocks of all ranks, one after the other.
 template <typename T>
 std::vector<T> gathered(MPI_Comm comm, const std::vector<T> &mine, const MPI_Datatype type)
 {

@@ -10,7 +10,7 @@ namespace snug {
 namespace {
 constexpr const char *white_space = " \t\r\n\v\f";
 
-/// Without white space at the ends and with single blanks inside.
+/// Return the text without white space at the ends and with single blanks inside.
 std::string tidy(const std::string &text)
 {
   std::istringstream words(text);
@@ -28,7 +28,7 @@ std::string joined(const std::vector<std::string> &sections)
   return path;
 }
 
-/// A line without its comment, joined with those it continues on.
+/// Read a line without its comment, joined with the lines on which it continues.
 bool next_line(std::istream &in, std::string &line, unsigned int &number)
 {
   line.clear();
@@ -50,7 +50,7 @@ bool next_line(std::istream &in, std::string &line, unsigned int &number)
   return found;
 }
 
-/// The rest of @p line after @p keyword and a blank; false if it begins
+/// Get the rest of @p line after @p keyword and a blank. Return false if the line begins
 /// differently.
 bool begins_with(const std::string &line, const std::string &keyword, std::string &rest)
 {
@@ -77,7 +77,7 @@ unsigned int edit_distance(const std::string &a, const std::string &b)
   return row.back();
 }
 
-/// Collects the statements of a text line by line.
+/// This class collects the statements of a text line by line.
 class StatementParser
 {
 public:
@@ -89,7 +89,7 @@ public:
     std::string rest;
     if (line.empty())
       return;
-    // Messages, which quote what they are about, would end there.
+    // Reject a zero byte, because messages, which quote the text, would end there.
     if (line.find('\0') != std::string::npos)
       throw InputError(place + ": holds a byte that is zero; is it a text file?");
     if (begins_with(line, "subsection", rest) && !rest.empty())

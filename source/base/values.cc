@@ -7,8 +7,8 @@
 
 namespace snug {
 namespace {
-/// What @p read, strtod or strtol, makes of all of the text, which must be
-/// made of @p digits: nan, inf and hexadecimal numbers are none.
+/// Return the number that @p read, strtod or strtol, reads from the whole text. The text must
+/// consist of @p digits: nan, inf and hexadecimal numbers are not allowed.
 template <typename Read>
 auto number(const std::string &text, const char *digits, const Read &read)
 {

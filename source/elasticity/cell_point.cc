@@ -27,7 +27,7 @@ dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
   return result;
 }
 
-/// du/dx = du/d xi J^-1, and u_r / r in axisymmetric models.
+/// Compute du/dx = du/d xi J^-1, and u_r / r in axisymmetric models.
 template <int dim>
 dealii::Tensor<2, 3> gradient(const mesh::LagrangePoint<dim>            &shape,
                               const std::vector<dealii::Tensor<1, dim>> &X,
@@ -58,14 +58,14 @@ CellPoint<dim>::CellPoint(const mesh::LagrangePoint<dim> &shape,
   if (dim == 2)
     {
       const auto x = value(shape, X);
-      // Thickness or 2 pi r: dV is the volume in space that the point stands for.
+      // The weight is the thickness or 2 pi r. It makes dV the volume in space of the point.
       dV *= idealization.weight(x);
       if (idealization.is_axisymmetric())
-        // Gauss points lie off the axis; a point on it would give infinity here.
+        // Gauss points lie off the axis. A point on the axis would have an infinite inverse radius.
         inverse_radius = 1. / x[0];
     }
   for (unsigned int a = 0; a < X.size(); ++a)
-    // In the plane of a section; what is across it is added by gradient().
+    // These are gradients in the plane of a section. gradient() adds the out-of-plane entry.
     gradients[a] = shape.gradient[a] * inverse;
 }
 
@@ -81,13 +81,13 @@ dealii::Tensor<2, 3> CellPoint<dim>::gradient(const Nodes &u) const
     for (unsigned int d = 0; d < dim; ++d)
       result[c][d] = sum[c][d];
   if (inverse_radius != 0.)
-    // u_r / r, the strain of circles about the axis.
+    // u_r / r is the strain of circles about the axis.
     result[2][2] = value(shape, u)[0] * inverse_radius;
   return result;
 }
 
-/// The transpose of gradient(), times dV: internal forces of a stress and gradients by positions
-/// are both made with it.
+/// Apply the transpose of gradient(), times dV. Internal forces of a stress and gradients with
+/// respect to positions both use this function.
 template <int dim>
 void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
 {
@@ -96,7 +96,7 @@ void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
   for (unsigned int c = 0; c < dim; ++c)
     for (unsigned int d = 0; d < dim; ++d)
       in_plane[c][d] = dV * flux[c][d];
-  // Zero in plane sections: nothing works on the strain across them.
+  // The flux is zero in plane sections, because no force works on the strain across them.
   const double hoop = dV * flux[2][2] * inverse_radius;
   for (unsigned int a = 0; a < f.size(); ++a)
     {
@@ -105,7 +105,7 @@ void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
     }
 }
 
-/// The transpose of value(), times dV.
+/// Apply the transpose of value(), times dV.
 template <int dim>
 void CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const
 {

@@ -23,10 +23,11 @@ Element<dim>::Element(const unsigned int        degree,
   Assert(degree == 1 || degree == 2, dealii::ExcMessage("Elements have degree 1 or 2."));
   Assert((idealization.kind == Kind::solid) == (dim == 3),
          dealii::ExcMessage("Solids are 3D, sections 2D."));
-  // Its strain across the sheet follows from the others: there is no dilatation to be projected.
+  // The out-of-plane strain of a sheet follows from the in-plane strains, so there is no
+  // dilatation to be projected.
   Assert(formulation == Formulation::standard || idealization.kind != Kind::plane_stress,
          dealii::ExcMessage("B-bar is not for plane stress."));
-  // A multiple of the tile size of StiffnessKernel; the zeros add nothing.
+  // Use a multiple of the tile size of StiffnessKernel. The zeros add nothing.
   const unsigned int n_padded = (n_nodes() + 3) / 4 * 4;
   for (const auto &shape : gauss)
     for (unsigned int d = 0; d < dim; ++d)
@@ -44,7 +45,8 @@ std::vector<CellPoint<dim>> Element<dim>::gauss_points(const Nodes &X) const
   return points;
 }
 
-/// The functions of the projection are orthonormal in dV of this cell, so they follow its shape.
+/// Project the dilatation. The functions of the projection are orthonormal in dV of this cell, so
+/// they follow its shape.
 template <int dim>
 void Element<dim>::take_dilatation(const std::vector<CellPoint<dim>> &points,
                                    std::vector<double>               &values) const
@@ -78,7 +80,7 @@ Element<dim>::point_states(const std::vector<CellPoint<dim>> &points,
   for (unsigned int q = 0; q < points.size(); ++q)
     {
       auto &state = states[q];
-      // div u + theta is what the formulation takes for div u. A third of theta on each diagonal
+      // The formulation replaces div u by div u + theta. Adding a third of theta to each diagonal
       // entry of the strain changes its trace only.
       state.theta = dilatation[q] - trace(state.gradient);
       state.stress =
@@ -88,7 +90,7 @@ Element<dim>::point_states(const std::vector<CellPoint<dim>> &points,
   return states;
 }
 
-/// By stresses at the points, without K: cheaper than K u where K is not needed.
+/// Compute the force from stresses at the points. This is cheaper than K u if K is not needed.
 template <int dim>
 void Element<dim>::internal_force(const Nodes    &X,
                                   const Material &material,
@@ -102,18 +104,19 @@ void Element<dim>::internal_force(const Nodes    &X,
     points[q].add_flux(states[q].stress, r);
 }
 
-/// [length]; formulas of loads are evaluated there.
+/// Return the points [length] at which formulas of loads are evaluated.
 template <int dim>
 typename Element<dim>::Nodes Element<dim>::quadrature_points(const Nodes &X) const
 {
-  // In the order of the Gauss points, in which loads per point are given back to body_force().
+  // The order is that of the Gauss points, in which body_force() expects the loads.
   Nodes points;
   for (const auto &shape : gauss)
     points.push_back(value(shape, X));
   return points;
 }
 
-/// In axisymmetric models dV holds 2 pi r: the force is that of the full revolution.
+/// Compute the body force. In axisymmetric models dV contains 2 pi r, so the force is that of the
+/// full revolution.
 template <int dim>
 void Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
 {
@@ -124,7 +127,8 @@ void Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
     points[q].add_source(b[q], f);
 }
 
-/// Without inverting J, so that cells with det J = 0 somewhere have a volume, too.
+/// Compute the volume without inverting J, so that cells with det J = 0 at some point have a
+/// volume.
 template <int dim>
 double Element<dim>::volume(const Nodes &X) const
 {
@@ -150,7 +154,7 @@ Element<dim>::stresses(const Nodes                                 &X,
                                                         gradient(shape, X, u, idealization))));
       return result;
     }
-  // The points of a projection, and those that receive what it makes.
+  // The points of a projection come first, the points that receive values follow.
   auto               points = gauss_points(X);
   const unsigned int first  = points.size();
   points.reserve(first + shapes.size());
@@ -171,7 +175,7 @@ double Element<dim>::aspect(const Nodes &X) const
   double largest = 1.;
   for (const auto &shape : gauss)
     {
-      // Columns of the Jacobian are the cell's axes.
+      // The columns of the Jacobian are the axes of the cell.
       const auto axes    = transpose(jacobian(shape, X));
       double     longest = 0., shortest = std::numeric_limits<double>::max();
       for (unsigned int axis = 0; axis < dim; ++axis)
@@ -187,21 +191,22 @@ double Element<dim>::aspect(const Nodes &X) const
 template <int dim>
 double Element<dim>::quality(const Nodes &X) const
 {
-  // Nodes as well as Gauss points: the determinant of a bilinear cell is smallest at a corner.
-  // Nodes have no quadrature weight, so that the mean is over the Gauss points.
+  // Use nodes as well as Gauss points, because the minimum determinant of a bilinear cell is at a
+  // corner. Nodes have no quadrature weight, so the mean is over the Gauss points.
   double smallest = std::numeric_limits<double>::max();
   double mean     = 0.;
   for (const auto *points : {&gauss, &nodes})
     for (const auto &shape : *points)
       {
-        // Of the section alone: the weight 2 pi r would make cells near the axis look bad.
+        // Use the section alone, because the weight 2 pi r would give cells near the axis a low
+        // quality.
         const double det = determinant(jacobian(shape, X));
         smallest         = std::min(smallest, det);
         mean += shape.weight * std::abs(det);
       }
   if (idealization.is_axisymmetric())
     {
-      // Negative radii make negative volumes; round-off of nodes on the axis is allowed.
+      // Negative radii make negative volumes. Rounding of nodes on the axis is allowed.
       const auto radii =
         std::minmax_element(X.begin(), X.end(), [](auto &x, auto &y) { return x[0] < y[0]; });
       const double round_off = 1e-10;
@@ -211,7 +216,7 @@ double Element<dim>::quality(const Nodes &X) const
   return mean > 0. ? smallest / mean : 0.;
 }
 
-/// det J / prod_d |J e_d|
+/// Return det J / prod_d |J e_d|.
 template <int dim>
 static double scaled_determinant(const dealii::Tensor<2, dim> &J)
 {
@@ -229,7 +234,7 @@ double Element<dim>::scaled_jacobian(const Nodes &X) const
     for (const auto &shape : *points)
       {
         const double ratio = scaled_determinant(jacobian(shape, X));
-        // NaN compares false and counts as 0.
+        // A comparison with NaN is false, and NaN counts as 0.
         if (!(ratio > smallest))
           smallest = std::isnan(ratio) ? 0. : ratio;
       }
@@ -242,12 +247,13 @@ double Element<dim>::distortion(const Nodes &X, const double p, const double sca
   double sum = 0.;
   for (const auto *points : {&gauss, &nodes})
     for (const auto &shape : *points)
-      // Of right angles to rounding: not below 0, which has no power p.
+      // At right angles rounding may make the base negative, so take the maximum with 0.
       sum += std::pow(std::max(0., 1. - scaled_determinant(jacobian(shape, X))) / scale, p);
   return sum;
 }
 
-/// With q = det J / prod_d |J e_d|, q' = q tr(J^-1 J') - q sum_d J e_d . J' e_d / |J e_d|^2.
+/// Compute the gradient with q = det J / prod_d |J e_d|, q' = q tr(J^-1 J') - q sum_d J e_d . J'
+/// e_d / |J e_d|^2.
 template <int dim>
 void Element<dim>::add_distortion_gradient(const Nodes &X,
                                            const double p,

@@ -5,11 +5,12 @@
 
 namespace snug::elasticity {
 namespace {
-/// In space for all idealizations, as gradients are.
+/// Identity tensor in space for all idealizations, like the gradients.
 const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
 } // namespace
 
-/// Exact for the quadrature as well as for the integral: Gauss points go with the cell.
+/// Return the derivatives, exact for the quadrature as well as for the integral, because Gauss
+/// points move with the cell.
 template <int dim>
 std::vector<typename Element<dim>::Nodes>
 Element<dim>::internal_force_derivatives(const Nodes              &X,
@@ -24,12 +25,12 @@ Element<dim>::internal_force_derivatives(const Nodes              &X,
   std::vector<double>               dilatation(points.size());
   for (const Nodes &V : velocities)
     {
-      // projection of the changing div u in the changing cell
+      // Project the derivative of div u in the moving cell.
       for (unsigned int q = 0; q < points.size(); ++q)
         {
           grad_V[q] = points[q].gradient(V);
-          // (pi div u)' = pi ((div u)' - theta div V): differentiate int psi_i (pi div u - div u)
-          // dV = 0 along V, with functions psi_i that go with the cell.
+          // (pi div u)' = pi ((div u)' - theta div V) follows from differentiating int psi_i (pi
+          // div u - div u) dV = 0 along V, with functions psi_i that move with the cell.
           dilatation[q] =
             -trace(states[q].gradient * grad_V[q]) - states[q].theta * trace(grad_V[q]);
         }
@@ -54,8 +55,8 @@ Element<dim>::internal_force_derivatives(const Nodes              &X,
   return result;
 }
 
-/// Eshelby's energy-momentum tensor of w'Ku: its flux through the shape functions is the gradient
-/// by the node positions. Symmetric in u and w.
+/// Compute Eshelby's energy-momentum tensor of w'Ku. The flux of this tensor through the shape
+/// functions is the gradient with respect to the node positions. It is symmetric in u and w.
 template <int dim>
 void Element<dim>::add_energy_gradient(const Nodes    &X,
                                        const Material &material,
@@ -74,8 +75,8 @@ void Element<dim>::add_energy_gradient(const Nodes    &X,
       const dealii::Tensor<2, 3> stress_u = of_u.stress;
       const dealii::Tensor<2, 3> stress_w = of_w.stress;
       const double               density =
-        // sigma_u : grad w contains p_u div w; theta_u p_w is the other part of the stationary
-        // integral of B-bar, p_w = tr(sigma_w)/3.
+        // sigma_u : grad w contains p_u div w. The other part of the stationary integral of B-bar
+        // is theta_u p_w with p_w = tr(sigma_w)/3.
         scalar_product(stress_u, of_w.gradient) - of_u.theta * trace(stress_w) / 3.;
       const dealii::Tensor<2, 3> energy_momentum = density * identity -
                                                    transpose(of_w.gradient) * stress_u -
@@ -94,7 +95,7 @@ void Element<dim>::body_force_derivative(const Nodes &X,
   f.assign(n_nodes(), {});
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)
-    // (dV)' = dV div V; b goes with the material and does not change.
+    // (dV)' = dV div V, and b is fixed to the material and does not change.
     points[q].add_source(trace(points[q].gradient(V)) * b[q], f);
 }
 
@@ -108,7 +109,7 @@ void Element<dim>::add_body_force_gradient(const Nodes &X,
   AssertDimension(b.size(), gauss.size());
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)
-    // identity : grad V = div V
+    // The flux uses identity : grad V = div V.
     points[q].add_flux(factor * (value(points[q].shape, u) * b[q]) * identity, gradient);
 }
 

@@ -7,7 +7,7 @@
 
 namespace snug::elasticity {
 namespace {
-/// t_i = dx / d xi_i of the positions (or velocities) of a face's nodes.
+/// Return t_i = dx / d xi_i of the positions (or velocities) of a face's nodes.
 template <int dim>
 std::array<dealii::Tensor<1, dim>, dim - 1> tangents(const mesh::LagrangePoint<dim - 1> &shape,
                                                      const std::vector<dealii::Tensor<1, dim>> &X)
@@ -20,7 +20,7 @@ std::array<dealii::Tensor<1, dim>, dim - 1> tangents(const mesh::LagrangePoint<d
   return t;
 }
 
-/// sum_a N_a x_a.
+/// Return sum_a N_a x_a.
 template <int dim>
 dealii::Tensor<1, dim> interpolate(const mesh::LagrangePoint<dim - 1>        &shape,
                                    const std::vector<dealii::Tensor<1, dim>> &x)
@@ -49,27 +49,26 @@ struct FacePoint
     , weight_gradient(shape.weight * idealization.template weight_gradient<dim>())
   {}
 
-  /// dA.
-  /// In sections the weight makes an area of a length: thickness or 2 pi r.
+  /// Return dA. In sections the weight, thickness or 2 pi r, turns a length into an area.
   double area() const { return weight * m.norm(); }
 
-  /// (n dA)' along V.
+  /// Return (n dA)' along V.
   dealii::Tensor<1, dim> vector_derivative(const Nodes &V) const
   {
     return weight * faces::area_vector_derivative(t, tangents<dim>(shape, V)) +
            (weight_gradient * interpolate<dim>(shape, V)) * m;
   }
 
-  /// dA' along V.
+  /// Return dA' along V.
   double area_derivative(const Nodes &V) const { return vector_derivative(V) * m / m.norm(); }
 
-  /// gradient_a += d/dX_a (c . n dA); with c = kappa n of kappa dA.
+  /// Compute gradient_a += d/dX_a (c . n dA), with c = kappa n for kappa dA.
   void add_vector_gradient(const dealii::Tensor<1, dim> &c, Nodes &gradient) const
   {
     const auto gradient_t = faces::area_vector_transpose(t, c);
     for (unsigned int a = 0; a < gradient.size(); ++a)
       {
-        // In axisymmetric models the weight 2 pi r follows the nodes, too.
+        // In axisymmetric models the weight 2 pi r depends on the nodes too.
         gradient[a] += (c * m) * shape.value[a] * weight_gradient;
         for (unsigned int i = 0; i < dim - 1; ++i)
           gradient[a] += weight * shape.gradient[a][i] * gradient_t[i];
@@ -80,18 +79,18 @@ struct FacePoint
   dealii::Tensor<1, dim>                      x;
   std::array<dealii::Tensor<1, dim>, dim - 1> t;
   dealii::Tensor<1, dim>                      m;
-  double                                      weight; ///< of the quadrature and of the section
-  dealii::Tensor<1, dim>                      weight_gradient;
+  double                 weight; ///< weight of the quadrature and of the section
+  dealii::Tensor<1, dim> weight_gradient;
 };
 
-/// Pressure and traction of a load at Gauss point q.
+/// Return the pressure of a load at Gauss point q.
 template <int dim>
 double pressure(const FaceLoadValues<dim> &load, unsigned int q)
 {
   return load.pressure.empty() ? 0. : load.pressure[q];
 }
 
-/// Zero where a load has none, as its list is empty then.
+/// Return the traction of a load. It is zero if the load has none, because its list is empty then.
 template <int dim>
 dealii::Tensor<1, dim> traction(const FaceLoadValues<dim> &load, unsigned int q)
 {
@@ -99,7 +98,7 @@ dealii::Tensor<1, dim> traction(const FaceLoadValues<dim> &load, unsigned int q)
 }
 } // namespace
 
-/// degree + 1 Gauss points per direction.
+/// Use degree + 1 Gauss points per direction.
 template <int dim>
 FaceLoad<dim>::FaceLoad(const unsigned int degree, const mesh::Idealization &idealization)
   : idealization(idealization), gauss(mesh::lagrange_gauss_points<dim - 1>(degree))
@@ -116,7 +115,7 @@ typename FaceLoad<dim>::Nodes FaceLoad<dim>::quadrature_points(const Nodes &X) c
   return points;
 }
 
-/// Pressure is positive where it pushes into the body: the force is -q n dA with n outwards.
+/// Compute the force. A positive pressure acts into the body: the force is -q n dA with n outwards.
 template <int dim>
 void FaceLoad<dim>::force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes &f) const
 {
@@ -142,7 +141,8 @@ void FaceLoad<dim>::force_derivative(const Nodes               &X,
   for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const FacePoint<dim> point(gauss[q], idealization, X);
-      // (a + w x (x - c))' with x' = V: the load goes with the resultant, whose a, w and c change.
+      // The derivative is (a + w x (x - c))' with x' = V. The traction moves with the resultant,
+      // and its a, w and c change.
       const auto linear_derivative =
         linear.uniform + turned(linear.spin, point.x - load.linear.centre) +
         turned(load.linear.spin, interpolate<dim>(gauss[q], V) - linear.centre);
@@ -154,8 +154,8 @@ void FaceLoad<dim>::force_derivative(const Nodes               &X,
     }
 }
 
-/// Without the linear traction of a resultant, which depends on the whole loaded face: see
-/// add_resultant_gradient().
+/// Compute the gradient without the linear traction of a resultant. That traction depends on the
+/// whole loaded face, see add_resultant_gradient().
 template <int dim>
 void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
                                        const FaceLoadValues<dim> &load,
@@ -169,7 +169,7 @@ void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
     {
       const FacePoint<dim> point(gauss[q], idealization, X);
       const auto           displacement = interpolate<dim>(gauss[q], u);
-      // Traction works on |m|, whose derivative is (m/|m|) . m'; pressure on -m itself.
+      // Traction acts on |m|, whose derivative is (m/|m|) . m'. Pressure acts on -m itself.
       point.add_vector_gradient(factor *
                                   ((displacement * traction(load, q)) / point.m.norm() * point.m -
                                    pressure(load, q) * displacement),
@@ -177,8 +177,8 @@ void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
     }
 }
 
-/// The derivatives of A, c and I over the whole face are in kappa and k by way of U and y, so that
-/// each face adds its share alone.
+/// Add the share of one face. kappa and k contain the derivatives of A, c and I over the whole
+/// face through U and y, so each face adds its share alone.
 template <int dim>
 void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
                                            const ResultantWork<dim> &work,
@@ -188,7 +188,7 @@ void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
 {
   const auto &w = work.traction.spin;
   const auto &y = work.rotation;
-  // Symbols as in the header: a = F/A and w of the traction, U and y of the work.
+  // Symbols are those of the header: a = F/A and w of the traction, U and y of the work.
   const double yw = y * w;
   // u x w = -(w x u)
   const auto shift = -1. / work.area * turned(w, work.displacement);
@@ -198,7 +198,7 @@ void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
       const auto             displacement = interpolate<dim>(shape, u);
       const auto             r            = point.x - work.traction.centre;
       dealii::Tensor<1, dim> in_plane_w, in_plane_y;
-      // In the plane w and y have only the component across it, and no part along r.
+      // In the plane w and y have only the out-of-plane component, and no component along r.
       for (unsigned int c = 0; c < dim; ++c)
         {
           in_plane_w[c] = w[c];
@@ -216,7 +216,8 @@ void FaceLoad<dim>::add_resultant_gradient(const Nodes              &X,
     }
 }
 
-/// Of one face; those of a boundary are their sum, over all ranks.
+/// Return the moments of one face. The moments of a boundary are the sum over its faces on all
+/// ranks.
 template <int dim>
 AreaMoments<dim> FaceLoad<dim>::moments(const Nodes &X, const dealii::Tensor<1, dim> &origin) const
 {
@@ -227,7 +228,7 @@ AreaMoments<dim> FaceLoad<dim>::moments(const Nodes &X, const dealii::Tensor<1, 
       const auto           x = point.x - origin;
       result.area += point.area();
       result.first += point.area() * x;
-      // About a given origin, as the centroid is not known before these sums are.
+      // Use a given origin, because the centroid is known only after these sums.
       result.second += point.area() * outer_product(x, x);
     }
   return result;
@@ -253,7 +254,8 @@ AreaMoments<dim> FaceLoad<dim>::moment_derivatives(const Nodes                  
   return result;
 }
 
-/// The work of a linear traction is that of these: int t . u dA = a . force + w . moment.
+/// Return the moments that give the work of a linear traction: int t . u dA = a . force
+/// + w . moment.
 template <int dim>
 Resultant<dim> FaceLoad<dim>::displacement_moments(const Nodes                  &X,
                                                    const Nodes                  &u,

@@ -27,10 +27,10 @@ std::vector<dealii::Tensor<1, dim>> difference(const Stencil                    
     {
       at = X;
       for (unsigned int a = 0; a < X.size(); ++a)
-        // From X each time, so that rounding of the moves does not add up.
+        // Start from X each time, so that rounding of the moves does not add up.
         at[a] += stencil.places[k] * step * V[a];
       f(at, values);
-      // f may have another number of vectors than there are nodes in X.
+      // The number of vectors of f may differ from the number of nodes in X.
       sum.resize(values.size());
       for (unsigned int a = 0; a < values.size(); ++a)
         sum[a] += stencil.weights[k] / step * values[a];

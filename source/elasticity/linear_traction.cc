@@ -6,7 +6,7 @@ dealii::Tensor<2, 3> inertia(const dealii::Tensor<2, dim> &second)
 {
   dealii::Tensor<2, 3> I;
   for (unsigned int d = 0; d < 3; ++d)
-    // |r|^2 on the diagonal, of all three axes: [2][2] is that of a section.
+    // |r|^2 is on the diagonal of all three axes; [2][2] is the entry of a section.
     I[d][d] = trace(second);
   for (unsigned int d = 0; d < dim; ++d)
     for (unsigned int e = 0; e < dim; ++e)
@@ -24,7 +24,7 @@ dealii::Tensor<2, 3> inverse(const dealii::Tensor<2, 3> &I)
   return result;
 }
 
-/// Positive from x to y.
+/// Return the moment. It is positive from x to y.
 dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 2> &arm, const dealii::Tensor<1, 2> &force)
 {
   dealii::Tensor<1, 3> moment;
@@ -37,7 +37,7 @@ dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 3> &arm, const dealii::Te
   return cross_product_3d(arm, force);
 }
 
-/// (0, 0, w) x (v_x, v_y, 0) = (-w v_y, w v_x, 0)
+/// Return (0, 0, w) x (v_x, v_y, 0) = (-w v_y, w v_x, 0).
 dealii::Tensor<1, 2> turned(const dealii::Tensor<1, 3> &axis, const dealii::Tensor<1, 2> &v)
 {
   dealii::Tensor<1, 2> result;
@@ -60,16 +60,18 @@ SpreadResultant<dim>::SpreadResultant(const Resultant<dim>         &resultant,
   const auto to_centre = moments.first / moments.area;
   spread.uniform       = resultant.force / moments.area;
   spread.centre        = origin + to_centre;
-  // The inverse of I is left at zero, and spin and its derivative with it.
+  // Without a moment, the inverse of I stays zero, and with it spin and the derivative of spin.
   if (resultant.moment.norm() == 0.)
     return;
   inverse_inertia =
-    // Steiner: int r r dA about the centroid from the moments about the origin.
+    // By Steiner's theorem, int r r dA about the centroid follows from the moments about the
+    // origin.
     inverse<dim>(inertia(moments.second - moments.area * outer_product(to_centre, to_centre)));
   spread.spin = inverse_inertia * resultant.moment;
 }
 
-/// c' = (first' - A' (c - o)) / A, a' = -A'/A a, and I' by Steiner's rule with its product terms.
+/// Compute c' = (first' - A' (c - o)) / A, a' = -A'/A a, and I' by Steiner's theorem with its
+/// product terms.
 template <int dim>
 LinearTraction<dim> SpreadResultant<dim>::derivative(const AreaMoments<dim> &change) const
 {
@@ -81,7 +83,7 @@ LinearTraction<dim> SpreadResultant<dim>::derivative(const AreaMoments<dim> &cha
   const auto second_change = change.second - change.area * outer_product(to_centre, to_centre) -
                              moments.area * (outer_product(centre_change, to_centre) +
                                              outer_product(to_centre, centre_change));
-  // From I w = M with M fixed: I w' = -I' w. Without a moment the inverse is zero, and so is w'.
+  // I w = M with fixed M gives I w' = -I' w. Without a moment the inverse is zero, and so is w'.
   result.spin = -1. * divided_by_inertia(inertia(second_change) * spread.spin);
   return result;
 }

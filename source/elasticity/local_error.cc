@@ -7,7 +7,7 @@
 
 namespace snug::elasticity {
 namespace {
-/// The functions b and the Lagrange functions of degree p of one coordinate, with derivatives.
+/// Return one factor of a coordinate with its derivative: b or a Lagrange function of degree p.
 std::array<double, 2> factor(const unsigned int p, const unsigned int i, const double s)
 {
   if (i <= p)
@@ -56,7 +56,8 @@ HigherFunctions<dim>::at(const dealii::Point<dim> &point) const
   return values;
 }
 
-/// b vanishes at both ends, and of the Lagrange functions all but that of the end.
+/// Return whether the function is nonzero on the face. b vanishes at both ends, and so do all
+/// Lagrange functions except that of the end.
 template <int dim>
 bool HigherFunctions<dim>::is_on_face(const unsigned int i, const unsigned int face) const
 {
@@ -69,7 +70,7 @@ LocalSpace<dim>::LocalSpace(const unsigned int        degree,
                             const Formulation         formulation)
   : degree(degree), idealization(idealization), formulation(formulation), functions(degree)
 {
-  // Exact for products of functions of degree p + 1 on parallelograms.
+  // The rule is exact for products of functions of degree p + 1 on parallelograms.
   for (const auto &point : mesh::lagrange_gauss_points<dim>(degree + 1))
     {
       quadrature.push_back(mesh::lagrange_point<dim>(degree, point.point));
@@ -89,12 +90,13 @@ void add_force(const typename LocalSpace<dim>::Functions &values,
 }
 
 namespace {
-/// Unit vectors at right angles to @p held, which are orthonormal.
+/// Return unit vectors orthogonal to @p held, whose vectors are orthonormal.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> free_directions(std::vector<dealii::Tensor<1, dim>> held)
 {
   std::vector<dealii::Tensor<1, dim>> result;
-  // From the axis that is farthest from what is there: never a small difference.
+  // Start from the axis that is farthest from the span of the vectors, so that no small
+  // difference occurs.
   while (held.size() < dim)
     {
       dealii::Tensor<1, dim> best;
@@ -112,7 +114,7 @@ std::vector<dealii::Tensor<1, dim>> free_directions(std::vector<dealii::Tensor<1
     }
   return result;
 }
-/// Differences of nodes up to this part of a cell are rounding.
+/// Differences of nodes up to this share of the cell size are rounding.
 const double congruent = 1e-12;
 } // namespace
 
@@ -173,7 +175,7 @@ bool LocalError<dim>::fits(const LocalSpace<dim> &of_space,
   return true;
 }
 
-/// In coordinates of the space along which V is free.
+/// Find the basis of V in directions of space along which V is not held.
 template <int dim>
 void LocalError<dim>::find_basis()
 {
@@ -195,9 +197,9 @@ void LocalError<dim>::find_basis()
     }
 }
 
-/// a(e, v), row by row, below the diagonal of functions. Of the functions f_i and f_j times unit
-/// vectors c and d it is the integral of lambda f_i,c f_j,d + mu f_i,d f_j,c, plus mu f_i,e f_j,e
-/// where c = d; divergences have hoop strains as well.
+/// Return a(e, v), row by row, below the diagonal of functions. For functions f_i and f_j times
+/// unit vectors c and d it is the integral of lambda f_i,c f_j,d + mu f_i,d f_j,c, plus mu f_i,e
+/// f_j,e if c = d. Divergences include the hoop strain.
 template <int dim>
 std::vector<double> LocalError<dim>::matrix(const double lambda, const double mu) const
 {
@@ -236,8 +238,8 @@ std::vector<double> LocalError<dim>::matrix(const double lambda, const double mu
   return A;
 }
 
-/// A += factor sum_k c_k c_k', c_k' v = int psi_k div v dV with the functions of the pressure space
-/// of one degree more.
+/// Compute A += factor sum_k c_k c_k', where c_k' v = int psi_k div v dV with the functions psi_k
+/// of the pressure space of one degree more.
 template <int dim>
 void LocalError<dim>::add_projected(const double factor, std::vector<double> &A)
 {

@@ -14,7 +14,8 @@ void Material::declare(Entries &entries)
 
 void Material::check(const SectionCheck &section) const
 {
-  // Displacements go with its inverse, and the dual problem with their squares.
+  // Displacements are proportional to the inverse of the modulus, and terms of the dual problem
+  // to their squares.
   section.require(youngs_modulus >= 1e-60, "Young's modulus", to_text(youngs_modulus),
                   "must be at least 1e-60, or forces and displacements overflow");
 }

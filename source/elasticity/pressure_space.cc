@@ -12,8 +12,8 @@ PressureSpace<dim>::PressureSpace(const unsigned int                     degree,
   : dV(dV)
 {
   AssertDimension(points.size(), dV.size());
-  // Gram-Schmidt from 1, xi_1 - 1/2, ... The functions are nearly orthogonal from the start, in a
-  // cell that is not very distorted, so that one pass is enough.
+  // Apply Gram-Schmidt to 1, xi_1 - 1/2, and so on. If the cell is not very distorted, these
+  // functions are nearly orthogonal at the start, so one pass is enough.
   std::vector<std::vector<unsigned int>> axes = {{}}; // of the factors
   for (unsigned int i = 0; degree > 1 && i < dim; ++i)
     axes.push_back({i});
@@ -24,7 +24,7 @@ PressureSpace<dim>::PressureSpace(const unsigned int                     degree,
     {
       std::vector<double> f(points.size(), 1.);
       for (unsigned int q = 0; q < f.size(); ++q)
-        // In reference coordinates, so that the functions go with the cell.
+        // Use reference coordinates, so that the functions move with the cell.
         for (const unsigned int axis : of_function)
           f[q] *= points[q][axis] - 0.5;
       for (const auto &g : orthonormal)
@@ -53,7 +53,7 @@ void PressureSpace<dim>::project(std::vector<double> &values) const
   values = projection;
 }
 
-/// (f, g) = sum_q f_q g_q dV_q
+/// Return (f, g) = sum_q f_q g_q dV_q.
 template <int dim>
 double PressureSpace<dim>::product(const std::vector<double> &f, const std::vector<double> &g) const
 {

@@ -8,7 +8,7 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-/// Of the nodes, not of the volume.
+/// Return the mean over the nodes, not over the volume.
 template <int dim>
 dealii::Tensor<1, dim> mean(const Nodes<dim> &x)
 {
@@ -18,7 +18,7 @@ dealii::Tensor<1, dim> mean(const Nodes<dim> &x)
   return sum / double(x.size());
 }
 
-/// Of the vectors' lengths, which does not depend on the axes.
+/// Return the maximum length of the vectors, which does not depend on the axes.
 template <int dim>
 double largest_norm(const Nodes<dim> &x)
 {
@@ -35,18 +35,18 @@ struct RigidMotion
   dealii::Tensor<1, dim> translation;
   dealii::Tensor<1, 3>   rotation;
 
-  /// In the sense of least squares over the nodes, all with the same weight.
+  /// Fit the motion by least squares over the nodes, all with the same weight.
   RigidMotion(const Nodes<dim> &X, const Nodes<dim> &u, const mesh::Idealization &idealization)
     : translation(mean(u))
   {
     if (idealization.is_axisymmetric())
       {
-        // Only the motion along the axis is rigid there.
+        // In axisymmetric models only the motion along the axis is rigid.
         translation[0] = 0.;
         return;
       }
-    // c = (R'R)^-1 R'u for rotations about the mean of the nodes, where they are orthogonal to the
-    // translations: each part is found alone.
+    // c = (R'R)^-1 R'u holds for rotations about the mean of the nodes, where rotations are
+    // orthogonal to translations, so that each part is computed alone.
     const auto             centre = mean(X);
     dealii::Tensor<2, dim> second;
     dealii::Tensor<1, 3>   moments;
@@ -72,20 +72,20 @@ template <int dim>
 typename SemiAnalytic<dim>::Nodes
 SemiAnalytic<dim>::load_derivative(const NodeFunction<dim> &f, const Nodes &X, const Nodes &V) const
 {
-  // A translation changes no element quantity, but would make the step of the deformation smaller
-  // and the part of rounding larger.
+  // A translation changes no element quantity, but would reduce the step of the deformation and
+  // increase the share of rounding.
   auto shift = mean(V);
   if (idealization.is_axisymmetric())
     shift[0] = 0.;
   Nodes deforming = V;
   for (auto &v : deforming)
     v -= shift;
-  // The fastest node moves by `step` times the size of the element.
+  // The node with the maximum velocity moves by `step` times the size of the element.
   const double largest = largest_norm(deforming);
-  // A translated element: all derivatives vanish.
+  // The element is only translated, so all derivatives vanish.
   if (largest == 0.)
     return Nodes(X.size());
-  // The diagonal, as the first and last node in tensor order are opposite corners.
+  // The size is the diagonal, because the first and last node in tensor order are opposite corners.
   const double size = (X.back() - X.front()).norm();
   return difference<dim>(stencil, f, X, deforming, step * size / largest);
 }
@@ -98,8 +98,7 @@ void SemiAnalytic<dim>::internal_force_derivative(const Element<dim> &element,
                                                   const Nodes        &u,
                                                   Nodes              &r) const
 {
-  // u - R c if refined: small where the cell moves almost rigidly, and with
-  // it the error.
+  // If refined, use u - R c. It is small where the cell moves almost rigidly, and so is the error.
   Nodes deforming = u;
   if (refined)
     {
@@ -109,8 +108,8 @@ void SemiAnalytic<dim>::internal_force_derivative(const Element<dim> &element,
       for (unsigned int a = 0; a < X.size(); ++a)
         {
           deforming[a] -= rigid.translation + turned(rigid.rotation, X[a] - centre);
-          // Of omega x (X_a - centre); the move of the centre adds a translation, which K does not
-          // see.
+          // R' c is the derivative of omega x (X_a - centre). The motion of the center adds a
+          // translation, which K annihilates.
           R_change[a] = turned(rigid.rotation, V[a]);
         }
       element.internal_force(X, material, R_change, r);

@@ -36,22 +36,22 @@ public:
   static constexpr int n_rows       = n_directions * n_padded;
   static constexpr int N            = n * dim; ///< unknowns
 
-  /// @p reference: [point][d][a] as in Element.
+  /// Compute the gradients. @p reference: [point][d][a] as in Element.
   void compute_gradients(const std::vector<dealii::Tensor<1, dim>>   &X,
                          const std::vector<mesh::LagrangePoint<dim>> &gauss,
                          const double                                *reference,
                          const mesh::Idealization                    &idealization);
 
-  /// H on and above its diagonal tiles.
+  /// Compute H on and above its diagonal tiles.
   void compute_products();
 
-  /// K from H.
+  /// Compute K from H.
   void combine(double lambda, double mu, double *K) const;
 
-  /// K += what the hoop strain adds.
+  /// Add the terms of the hoop strain to K.
   void add_hoop(double lambda, double mu, double *K) const;
 
-  /// K += kappa sum_i c_i c_i' of Element.
+  /// Compute K += kappa sum_i c_i c_i' of Element.
   void
   add_projected(double kappa, const std::vector<mesh::LagrangePoint<dim>> &gauss, double *K) const;
 
@@ -73,8 +73,8 @@ StiffnessKernel<dim, degree, axisymmetric>::jacobian(const double *reference) co
   for (int c = 0; c < dim; ++c)
     for (int d = 0; d < dim; ++d)
       {
-        // Independent sums, which the compiler keeps in one vector register: one running sum could
-        // not be vectorized, as it would change the order of the additions.
+        // Use independent sums, which the compiler keeps in one vector register. One running sum
+        // could not be vectorized, because that would change the order of the additions.
         double sums[tile] = {};
         for (int a = 0; a < n_padded; a += tile)
           for (int i = 0; i < tile; ++i)
@@ -91,7 +91,8 @@ void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
   const double                                *reference,
   const mesh::Idealization                    &idealization)
 {
-  // From the first node: congruent cells whose differences have the same bits have the same K.
+  // Use positions relative to the first node, so that congruent cells with bitwise equal
+  // differences have the same K.
   for (int c = 0; c < dim; ++c)
     for (int a = 0; a < n_padded; ++a)
       positions[c][a] = a < n ? X[a][c] - X[0][c] : 0.;
@@ -107,31 +108,31 @@ void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
             double g = 0.;
             for (int d = 0; d < dim; ++d)
               g += inverse[d][c] * reference[d * n_padded + a];
-            // Padded entries are zero, as the reference gradients are.
+            // Padded entries are zero, because the reference gradients are zero there.
             gradients[q][c * n_padded + a] = g;
           }
       if (dim == 2)
         {
           const auto x = value(gauss[q], X);
-          // As in CellPoint, which makes the same numbers, up to rounding, one point at a time.
+          // The computation is that of CellPoint, with the same results up to rounding.
           volumes[q] *= idealization.weight(x);
           if (axisymmetric)
             for (int a = 0; a < n_padded; ++a)
               gradients[q][n_rows - n_padded + a] = a < n ? gauss[q].value[a] / x[0] : 0.;
         }
-      // One factor of each product carries dV, so that H is a plain product of two arrays.
+      // One factor of each product contains dV, so that H is a plain product of two arrays.
       for (int row = 0; row < n_rows; ++row)
         weighted[q][row] = volumes[q] * gradients[q][row];
     }
 }
 
-/// Nearly all of the work: n_rows^2/2 products of n_gauss terms.
+/// Compute the products H. This takes nearly all of the time: n_rows^2/2 products of n_gauss terms.
 template <int dim, int degree, bool axisymmetric>
 void StiffnessKernel<dim, degree, axisymmetric>::compute_products()
 {
-  // One tile at a time over all Gauss points: 16 sums, which fit in registers.
+  // Process one tile at a time over all Gauss points: its 16 sums fit in registers.
   for (int I = 0; I < n_rows; I += tile)
-    // H is symmetric: tiles below the diagonal are never read.
+    // H is symmetric, so tiles below the diagonal are never read.
     for (int J = I; J < n_rows; J += tile)
       {
         double H[tile][tile] = {};
@@ -151,7 +152,7 @@ void StiffnessKernel<dim, degree, axisymmetric>::combine(const double lambda,
                                                          double      *K) const
 {
   const auto set = [K](const int row, const int column, double value) {
-    // Both places get the same number: K is symmetric to the last bit.
+    // Both entries receive the same number, so K is symmetric to the last bit.
     K[row * N + column] = value;
     K[column * N + row] = value;
   };
@@ -189,11 +190,12 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
   for (int a = 0; a < n; ++a)
     for (int b = a; b < n; ++b)
       {
-        // The hoop strain u_r/r adds to div u and to the strains: lambda (div w)(div u) + 2 mu e:e.
+        // The hoop strain u_r/r contributes to div u and to the strains: lambda (div w)(div u)
+        // + 2 mu e:e.
         const double radial = products[a][hoop + b] + products[b][hoop + a];
         add(a * dim, b * dim, lambda * radial + (lambda + 2. * mu) * products[hoop + a][hoop + b]);
         add(a * dim, b * dim + 1, lambda * products[n_padded + b][hoop + a]);
-        // For a = b this would add the same entry again.
+        // Skip a = b, because otherwise the same entry would be added twice.
         if (a != b)
           add(a * dim + 1, b * dim, lambda * products[n_padded + a][hoop + b]);
       }
@@ -205,7 +207,8 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_projected(
   const std::vector<mesh::LagrangePoint<dim>> &gauss,
   double                                      *K) const
 {
-  // c_i' u = int psi_i div u dV; sqrt(kappa) in both factors keeps K symmetric to the last bit.
+  // c_i' u = int psi_i div u dV. The factor sqrt(kappa) in both factors keeps K symmetric to the
+  // last bit.
   std::vector<dealii::Point<dim>> xi;
   for (const auto &shape : gauss)
     xi.push_back(shape.point);
@@ -237,14 +240,14 @@ void Element<dim>::compute_stiffness(const Nodes         &X,
                                      const Material      &material,
                                      std::vector<double> &K) const
 {
-  // On the stack, with sizes known to the compiler: about 0.1 MB for 27 nodes in space.
+  // The kernel is on the stack, with sizes known to the compiler: about 0.1 MB for 27 nodes in 3D.
   using Kernel = StiffnessKernel<dim, degree, axisymmetric>;
   AssertDimension(X.size(), Kernel::n);
   AssertDimension(reference_gradients.size(), Kernel::n_gauss * dim * Kernel::n_padded);
   K.resize(Kernel::N * Kernel::N);
   const double mu = material.lame_mu();
   const double lambda =
-    // lambda = -2/3 mu leaves 2 mu dev e : dev e; the dilatation is added by its projection.
+    // lambda = -2/3 mu leaves 2 mu dev e : dev e, and the projection adds the dilatation.
     formulation == Formulation::B_bar ? -2. / 3. * mu : lame_lambda(idealization, material);
 
   Kernel kernel;

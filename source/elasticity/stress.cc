@@ -10,12 +10,12 @@ dealii::SymmetricTensor<2, 3> strain(const mesh::Idealization   &idealization,
   dealii::SymmetricTensor<2, 3> result = symmetrize(displacement_gradient);
   if (idealization.kind == mesh::Idealization::Kind::plane_stress)
     result[2][2] =
-      // The sheet is free to change its thickness, so this makes sigma_zz zero.
+      // The sheet can change its thickness freely, so this value makes sigma_zz zero.
       -material.poissons_ratio / (1. - material.poissons_ratio) * (result[0][0] + result[1][1]);
   return result;
 }
 
-/// Of all components: in plane strain there is a stress across the section without a strain.
+/// Return all components. In plane strain there is a stress across the section without a strain.
 dealii::SymmetricTensor<2, 3> cauchy_stress(const Material                      &material,
                                             const dealii::SymmetricTensor<2, 3> &strain)
 {
@@ -23,14 +23,15 @@ dealii::SymmetricTensor<2, 3> cauchy_stress(const Material                      
          2. * material.lame_mu() * strain;
 }
 
-/// norm() is sqrt(s:s) with both off-diagonal halves, as the formula wants.
+/// Return the stress. norm() is sqrt(s:s) with both off-diagonal halves, as the formula requires.
 double von_mises(const dealii::SymmetricTensor<2, 3> &stress)
 {
   return std::sqrt(1.5) * deviator(stress).norm();
 }
 
-/// cauchy_stress() takes the lambda of space, as it gets the strain across the sheet, too; a matrix
-/// of in-plane strains needs the one in which that strain is eliminated.
+/// Return lambda in the plane. cauchy_stress() uses the lambda of 3D, because its strain includes
+/// the strain across the sheet. A matrix of in-plane strains needs the lambda after that strain
+/// is eliminated.
 double lame_lambda(const mesh::Idealization &idealization, const Material &material)
 {
   const double nu = material.poissons_ratio;

@@ -5,7 +5,8 @@
 #include <cmath>
 
 namespace snug::elasticity {
-/// Stresses are divided by @p scale before the power is taken, or large p would overflow.
+/// Construct the integrals. Stresses are divided by @p scale before the power is taken, because
+/// otherwise large p would overflow.
 template <int dim>
 VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
                                   const mesh::Idealization &idealization,
@@ -14,7 +15,7 @@ VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
   : idealization(idealization), p(p), scale(scale), gauss(mesh::lagrange_gauss_points<dim>(degree))
 {}
 
-/// s = 2 mu dev e.
+/// Return s = 2 mu dev e.
 template <int dim>
 dealii::SymmetricTensor<2, 3> VonMisesPower<dim>::deviator_at(const CellPoint<dim> &point,
                                                               const Material       &material,
@@ -23,7 +24,8 @@ dealii::SymmetricTensor<2, 3> VonMisesPower<dim>::deviator_at(const CellPoint<di
   return 2. * material.lame_mu() * deviator(strain(idealization, material, point.gradient(u)));
 }
 
-/// Not smooth in u and X: for scales and reports, not for gradients.
+/// Return the maximum stress. It is not smooth in u and X, so use it for scales and reports, not
+/// for gradients.
 template <int dim>
 double VonMisesPower<dim>::largest(const Nodes &X, const Material &material, const Nodes &u) const
 {
@@ -62,7 +64,7 @@ void VonMisesPower<dim>::add_gradients(const Nodes    &X,
       const CellPoint<dim> point(shape, X, idealization);
       const auto           s      = deviator_at(point, material, u);
       const double         stress = von_mises(s) / scale;
-      // The gradient is zero, and stress^(p - 2) infinite for p < 2.
+      // The gradient is zero here, but stress^(p - 2) would be infinite for p < 2.
       if (stress == 0.)
         continue;
       // dS = dV of_strain : de
@@ -72,7 +74,8 @@ void VonMisesPower<dim>::add_gradients(const Nodes    &X,
         p * std::pow(stress, p - 2.) * 3. * material.lame_mu() / (scale * scale) * s;
       if (idealization.kind == mesh::Idealization::Kind::plane_stress)
         {
-          // e_zz depends on e_xx + e_yy there, so its part of the flux goes to these two.
+          // In plane stress e_zz depends on e_xx + e_yy, so its share of the flux goes to these
+          // two.
           const double across =
             -material.poissons_ratio / (1. - material.poissons_ratio) * of_strain[2][2];
           of_strain[0][0] += across;

@@ -11,8 +11,8 @@
 #include <tuple>
 
 namespace snug::io {
-/// At the nodes of the surface, on all ranks. Not in the unnamed namespace, because gcc warns of
-/// captures of such types in members of other classes.
+/// Fields at the nodes of the surface, on all ranks. This struct is not in the unnamed namespace,
+/// because gcc warns of captures of such types in members of other classes.
 template <int dim>
 struct SurfaceFields
 {
@@ -23,8 +23,9 @@ namespace {
 template <int dim>
 using Sources = typename ContactOutput<dim>::Sources;
 
-/// Pressure and gap by the shares of others, flags where all have them.
-/// Force and area stay 0, so that sums over nodes do not count any of them twice.
+/// Return the point of a shared node. Pressure and gap are interpolated by the shares of other
+/// points, flags are set if all points have them. Force and area stay 0, so that sums over nodes
+/// count no force or area twice.
 template <typename Shares, typename Point>
 state::ContactPoint shared_point(const Shares &shares, const Point &point)
 {
@@ -41,7 +42,7 @@ state::ContactPoint shared_point(const Shares &shares, const Point &point)
   return result;
 }
 
-/// Of the rows of the joined pair @p p, per surface node.
+/// Return the points of the rows of the joined pair @p p, per surface node.
 template <int dim>
 std::vector<state::ContactPoint> nodal_points(const Sources<dim>                     &sources,
                                               const unsigned int                      p,
@@ -56,7 +57,8 @@ std::vector<state::ContactPoint> nodal_points(const Sources<dim>                
         points[sources.places[i].slave] = rows[i];
         seen[sources.places[i].slave]   = true;
       }
-  // Order matters: masters of hanging nodes may themselves show shares of rows.
+  // Set shared nodes before hanging nodes, because masters of hanging nodes may show shares of
+  // rows.
   for (const auto &shared : sources.shared_nodes)
     if (!seen[shared.node] && sources.places[shared.rows[0].first].pair == p)
       points[shared.node] = shared_point(shared.rows, [&](unsigned int row) { return rows[row]; });
@@ -67,7 +69,7 @@ std::vector<state::ContactPoint> nodal_points(const Sources<dim>                
   return points;
 }
 
-/// Whether surface nodes have a row of a joined pair, by pair and node.
+/// Return whether surface nodes have a row of a joined pair, by pair and node.
 template <int dim>
 std::vector<std::vector<bool>> candidates(const Sources<dim> &sources)
 {
@@ -78,7 +80,8 @@ std::vector<std::vector<bool>> candidates(const Sources<dim> &sources)
   return result;
 }
 
-/// A node on the edge of two pairs has a point in each, as each shows its own on its own faces.
+/// Return the VTU text. A node on the edge of two pairs has a point in each, because each pair
+/// shows its own values on its own faces.
 template <int dim>
 std::string faces_text(const Sources<dim>             &sources,
                        const state::ContactState<dim> &state,
@@ -90,7 +93,7 @@ std::string faces_text(const Sources<dim>             &sources,
   const auto                                    candidate = candidates<dim>(sources);
   for (unsigned int p = 0; p < pairs.size(); ++p)
     nodal.push_back(nodal_points<dim>(sources, p, state.contact));
-  // values below have the order of these quantities
+  // The values below are in the order of these quantities.
   VtuGrid<dim - 1, dim>                                               grid({{"pressure", 1},
                                                                             {"gap", 1},
                                                                             {"force", 1},
@@ -110,7 +113,7 @@ std::string faces_text(const Sources<dim>             &sources,
       const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
         return contact::is_on(face, of.pair.slave);
       });
-      // the first pair counts: a face shows one
+      // A face shows one pair, which is its first pair.
       const bool         slave = found != pairs.end();
       const unsigned int p     = found - pairs.begin();
       const int pair = slave ? narrow<int>(found->pair_of({face.body, face.boundary}, {})) : -1;
@@ -145,7 +148,8 @@ std::string faces_text(const Sources<dim>             &sources,
   return vtu({grid.piece(compression)});
 }
 
-/// One line per row, nodes of several pairs with several; places are those of the slaves.
+/// Return one line per row. Nodes of several pairs have several lines. Positions are those of the
+/// slaves.
 template <int dim>
 std::string rows_text(const Sources<dim>             &sources,
                       const state::ContactState<dim> &state,
@@ -173,15 +177,16 @@ void ContactOutput<dim>::write(const Sources                  &of,
                                const double                    time,
                                const state::ContactState<dim> &state)
 {
-  // collective, so not within everywhere()
+  // The gather is collective, so it must not be called within everywhere().
   const SurfaceFields<dim> fields{of.surface.gather(of.mesh.reference_positions()),
                                   of.surface.gather(state.positions),
                                   of.surface.gather(state.displacement)};
   const std::string        stem = "contact-" + padded(series.size(), 4);
-  // on all ranks, since the next stem counts the series
+  // Extend the series on all ranks, because the next stem depends on its size.
   series.emplace_back(time, stem + ".vtu");
   const MPI_Comm comm = of.mesh.communicator();
-  // rank 0 writes, and all fail if it cannot, or others would wait for it in the next reduction
+  // Rank 0 writes. If it fails, all ranks fail, because otherwise all other ranks would wait for
+  // rank 0 in the next reduction.
   everywhere(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;

@@ -14,19 +14,20 @@
 
 namespace snug::io {
 namespace {
-/// Shares of a node gradient summed over ranks, those of hanging nodes
-/// given to their masters: zero where it is null. Collective.
-/// Shares live where their cells are; a picture needs the sum at every node.
+/// Return the shares of a node gradient summed over ranks, with shares of hanging nodes
+/// distributed to their masters. The result is zero if @p gradient is null. Shares are given on
+/// the ranks of the cells, but a picture needs the sum at every node. Collective.
 template <int dim>
 std::vector<double> summed(const mesh::BodyMesh<dim>                 &mesh,
                            const typename mesh::BodyMesh<dim>::Field *gradient)
 {
   std::vector<double> values(dim * mesh.n_local_nodes());
-  // null on all ranks or on none, since the sum below is collective
+  // The pointer is null on all ranks or on none, because the sum below is collective.
   if (gradient == nullptr)
     return values;
   auto field = *gradient;
-  // samples and hanging nodes follow the nodes of their faces and their masters
+  // Distribute the gradient of samples to the nodes of their faces, and of hanging nodes to their
+  // masters.
   mesh.distribute_samples(field);
   mesh.distribute_hanging(field);
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
@@ -36,7 +37,7 @@ std::vector<double> summed(const mesh::BodyMesh<dim>                 &mesh,
   return values;
 }
 
-/// A quantity of points and how its components come to the end of a list.
+/// A quantity of points and the function that appends its components to a list.
 struct PointField
 {
   Quantity                                                                           quantity;
@@ -58,7 +59,7 @@ std::vector<Quantity> quantities(const std::vector<Field> &fields)
   return result;
 }
 
-/// Those that @p parameters ask for, and what no picture can be without.
+/// Return the fields that @p parameters request, and the fields that every picture needs.
 template <typename Field>
 std::vector<Field> written(const std::vector<Field>      &fields,
                            const scene::OutputParameters &parameters)
@@ -71,7 +72,8 @@ std::vector<Field> written(const std::vector<Field>      &fields,
   return result;
 }
 
-/// In the cells of this rank, which share points: a node has one in each region that meets there.
+/// Return the grid of the cells of this rank, which share points. A node has one point in each
+/// region that meets there.
 template <int dim>
 VtuGrid<dim, dim> grid_of(const mesh::BodyMesh<dim>                 &mesh,
                           const typename mesh::BodyMesh<dim>::Field &positions,
@@ -106,7 +108,7 @@ VtuGrid<dim, dim> grid_of(const mesh::BodyMesh<dim>                 &mesh,
   return grid;
 }
 
-/// Global ids, so that subdomains of different ranks get different colours.
+/// Return global ids, so that subdomains of different ranks get different colors.
 template <int dim>
 std::vector<unsigned int> subdomain_of_cell(const mesh::BodyMesh<dim> &mesh,
                                             const mesh::Tearing       &tearing)
@@ -117,7 +119,7 @@ std::vector<unsigned int> subdomain_of_cell(const mesh::BodyMesh<dim> &mesh,
       result[cell] = tearing.first_id + s;
   return result;
 }
-/// Those of @p dim components at the nodes.
+/// Return the field of vectors with @p dim components at the nodes.
 template <int dim, typename Value>
 PointField vector_field(const std::string &name, const Value &value)
 {
@@ -127,8 +129,9 @@ PointField vector_field(const std::string &name, const Value &value)
           }};
 }
 
-/// The smoothed stress, of sections too with 3 x 3 components, and its von Mises stress, not the
-/// mean of the cells' own. Nothing is computed where neither is written.
+/// Return the smoothed stress, also of sections with 3 x 3 components, and the von Mises stress
+/// of the smoothed stress, not the mean of the von Mises stresses of the cells. If neither is
+/// written, nothing is computed.
 template <int dim>
 std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &of,
                                       const state::ContactState<dim>           &state,
@@ -154,7 +157,7 @@ std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &
            }}};
 }
 
-/// The texts of @p n ranks on the first of them, nothing on the others. Collective.
+/// Return the texts of @p n ranks on the first of them, nothing on the other ranks. Collective.
 std::vector<std::string> of_ranks(MPI_Comm all, const unsigned int n, const std::string &text)
 {
   const int rank = narrow<int>(dealii::Utilities::MPI::this_mpi_process(all));
@@ -207,7 +210,7 @@ void FieldOutput<dim>::write(const Sources                             &of,
   const unsigned int       per_file = parameters.ranks_per_file;
   std::vector<std::string> files;
   for (unsigned int r = 0; r < dealii::Utilities::MPI::n_mpi_processes(comm); r += per_file)
-    // the .pvtu names the files of all ranks
+    // The .pvtu file names the files of all ranks.
     files.push_back(stem + "." + padded(r / per_file, 4) + ".vtu");
   series.emplace_back(time, stem + ".pvtu");
   const auto pieces = of_ranks(comm, per_file, grid.piece(parameters.compression));

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 namespace snug::io {
-/// The columns have the widths of log_line().
+/// Return the header, whose columns have the widths of log_line().
 std::string log_header()
 {
   return "  it                   J        |g|  constraint  active  F-mults"
@@ -15,7 +15,7 @@ std::string log_header()
 
 std::string log_line(const HistoryLine &line)
 {
-  // the widths are those of log_header(); every column fits, so nothing is cut off
+  // The widths are those of log_header(). Every column fits, so nothing is cut off.
   char text[160];
   std::snprintf(text, sizeof(text), "%4u %19.12e %10.3e %11.3e %7u %8lu %9.3f %10.2f",
                 line.iteration, line.objective, line.projected_gradient, line.constraint_violation,
@@ -44,7 +44,8 @@ void History::add(const HistoryLine &line)
   for (const double value : line.design)
     text += ',' + exact(value);
   text += '\n';
-  // All lines again: a file is replaced as a whole, and a run that is stopped leaves a good one.
+  // Write all lines again: a file is replaced as a whole, so a run that is stopped leaves a
+  // complete file.
   write_text_file(path, text);
 }
 } // namespace snug::io

@@ -9,15 +9,15 @@
 
 namespace snug::io {
 namespace {
-/// Coordinate in [0,1] of Gauss point @p i of @p n = 1 or 2.
-/// The points of degree 1 and 2: 1/2, and 1/2 -+ 1 / (2 sqrt 3).
+/// Return the coordinate in [0,1] of Gauss point @p i of @p n = 1 or 2. The points of degree 1
+/// and 2 are 1/2, and 1/2 -+ 1 / (2 sqrt 3).
 double gauss_coordinate(unsigned int n, unsigned int i)
 {
   return n == 1 ? 0.5 : 0.5 + (i == 0 ? -0.5 : 0.5) / std::sqrt(3.);
 }
 
-/// Weight of Gauss point @p i of @p n in the value at @p x.
-/// Lagrange polynomial of the points; outside them weights may be negative or above 1.
+/// Return the weight of Gauss point @p i of @p n in the value at @p x. It is the Lagrange
+/// polynomial of the points. Outside the points weights may be negative or above 1.
 double gauss_weight(unsigned int n, unsigned int i, double x)
 {
   if (n == 1)
@@ -26,8 +26,8 @@ double gauss_weight(unsigned int n, unsigned int i, double x)
   return (x - other) / (gauss_coordinate(n, i) - other);
 }
 
-/// Digit @p axis of @p index in base @p base.
-/// Coordinate of a point or node of a tensor product, first axis fastest.
+/// Return the digit @p axis of @p index in base @p base. It is the coordinate of a point or node
+/// of a tensor product, first axis fastest.
 unsigned int tensor_index(unsigned int index, unsigned int base, unsigned int axis)
 {
   for (unsigned int k = 0; k < axis; ++k)
@@ -35,8 +35,8 @@ unsigned int tensor_index(unsigned int index, unsigned int base, unsigned int ax
   return index % base;
 }
 
-/// Where a cell's stress is taken and how the nodes extrapolate it; the weights of a node add
-/// up to 1.
+/// Points of a cell where its stress is evaluated, and weights of the extrapolation to the nodes.
+/// The weights of a node add up to 1.
 template <int dim>
 struct StressSampling
 {
@@ -68,7 +68,7 @@ constexpr unsigned int n_stress = dealii::SymmetricTensor<2, 3>::n_independent_c
 
 using Stress = dealii::SymmetricTensor<2, 3>;
 
-/// A mesh and what it carries.
+/// A mesh with the fields on it.
 template <int dim>
 struct Solved
 {
@@ -94,7 +94,7 @@ struct Solved
   }
 };
 
-/// At the points of all cells, those of a cell one after the other.
+/// Return the stress at the points of all cells, with the points of a cell one after the other.
 template <int dim>
 std::vector<Stress> sampled_stress(const Solved<dim> &solved, const StressSampling<dim> &sampling)
 {
@@ -117,7 +117,7 @@ std::vector<Stress> sampled_stress(const Solved<dim> &solved, const StressSampli
   return result;
 }
 
-/// Sums over cells with centres x_i, from an origin o: of y y' and y stress, y = (1, x_i - o).
+/// Sums of y y' and y stress with y = (1, x_i - o), over cells with centers x_i, from an origin o.
 template <int dim>
 struct Moments
 {
@@ -126,7 +126,7 @@ struct Moments
   dealii::Tensor<2, dim + 1>  squares;
   std::array<Stress, dim + 1> stress;
 
-  /// visit(number) for all that is different.
+  /// Call visit(number) for all different numbers.
   template <typename Visit>
   void visit_numbers(const Visit &visit)
   {
@@ -150,11 +150,11 @@ struct Moments
         stress[i] += map[i][j] * other.stress[j];
   }
 
-  /// The slopes of the linear field that fits best along axes in which the centres spread.
+  /// Return the slopes of the linear field that fits best, along axes in which the centers spread.
   std::array<Stress, dim> slopes() const
   {
-    // In units of a cell: neighbours lie at -1 and 1. Centres of a single layer that is bent do
-    // not tell what varies across it.
+    // In units of a cell, neighbors lie at -1 and 1. Centers of a single bent layer do not
+    // determine the variation across the layer.
     const double                    least_spread = 0.03;
     const double                    n            = squares[0][0];
     dealii::SymmetricTensor<2, dim> spread;
@@ -178,7 +178,7 @@ struct Moments
   }
 };
 
-/// A cell of degree 1 as a box: x = centre + axes z.
+/// A cell of degree 1 as a box: x = center + axes z.
 template <int dim>
 struct CellFrame
 {
@@ -199,10 +199,10 @@ struct CellFrame
   }
 };
 
-/// Of cells of degree 1, along the axes of their frames: of the linear field that fits the stresses
-/// of the cells around each best, those that share more of its nodes counting more. The constant
-/// stress of a cell alone would make nodes at the surface of a body wrong by the first order.
-/// Collective.
+/// Return the slopes of cells of degree 1 along the axes of their frames. They are slopes of the
+/// linear field that best fits the stresses of the cells around each cell, with larger weights
+/// for cells that share more of its nodes. The constant stress of a cell alone would cause
+/// first-order errors at nodes of the surface of a body. Collective.
 template <int dim>
 std::vector<std::array<Stress, dim>> stress_slopes(const Solved<dim>         &solved,
                                                    const std::vector<Stress> &of_cells)
@@ -241,7 +241,7 @@ std::vector<std::array<Stress, dim>> stress_slopes(const Solved<dim>         &so
       Moments<dim> around;
       for (unsigned int a = 0; a < cell.nodes.size(); ++a)
         {
-          // From the node to the frame of the cell.
+          // Shift from the node to the frame of the cell.
           const auto shift =
             frames[c].to_cell * (solved.positions[cell.nodes[a]] - frames[c].centre);
           dealii::Tensor<2, dim + 1> map;
@@ -256,7 +256,8 @@ std::vector<std::array<Stress, dim>> stress_slopes(const Solved<dim>         &so
         }
       auto       slopes = around.slopes();
       const auto axes   = frames[c].to_cell;
-      // By positions: sum_k slope_k z_k = sum_i (sum_k slope_k axes_ki) (x - centre)_i
+      // The slopes with respect to positions follow from sum_k slope_k z_k = sum_i (sum_k slope_k
+      // axes_ki) (x - centre)_i.
       result.emplace_back();
       for (int i = 0; i < dim; ++i)
         for (int k = 0; k < dim; ++k)
@@ -265,8 +266,8 @@ std::vector<std::array<Stress, dim>> stress_slopes(const Solved<dim>         &so
   return result;
 }
 
-/// Per local node and region: weighted sums of the components of stress
-/// and the sum of weights, over this rank's cells. Collective.
+/// Return, per local node and region, the weighted sums of the components of stress and the sum
+/// of weights, over this rank's cells. Collective.
 template <int dim>
 std::vector<double> stress_sums(const Solved<dim> &solved)
 {
@@ -275,7 +276,8 @@ std::vector<double> stress_sums(const Solved<dim> &solved)
   const auto  sampled  = sampled_stress(solved, sampling);
   const auto  slopes =
     mesh.degree() == 1 ? stress_slopes(solved, sampled) : std::vector<std::array<Stress, dim>>();
-  // A plain section: weights by the radius or thickness would spoil the mean of a linear field.
+  // Use a plane section, because weights by the radius or thickness would spoil the mean of a
+  // linear field.
   const elasticity::Element<dim> flat(mesh.degree());
   const std::size_t              n_sums = n_stress + 1;
   std::vector<double>            sums(n_sums * solved.n_regions * mesh.n_local_nodes());
@@ -304,7 +306,7 @@ std::vector<double> stress_sums(const Solved<dim> &solved)
 }
 } // namespace
 
-/// The same for all bodies, so that one index serves for all nodes.
+/// Return the number of regions, the same for all bodies, so that one index serves all nodes.
 template <int dim>
 unsigned int n_stress_regions(const mesh::BodyMesh<dim> &mesh)
 {
@@ -325,7 +327,7 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
   const Solved<dim>  solved{mesh, bodies, positions, displacement};
   auto               sums      = stress_sums(solved);
   const unsigned int n_regions = solved.n_regions;
-  // sums and weights together, so that the mean is one over the cells of all ranks
+  // Sum values and weights together, so that the mean is over the cells of all ranks.
   mesh::sum_at_shared_nodes(mesh, (n_stress + 1) * n_regions, sums);
 
   std::vector<dealii::SymmetricTensor<2, 3>> stress(n_regions * mesh.n_local_nodes());
@@ -333,11 +335,12 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
     return sums[std::size_t(n_stress + 1) * i + n_stress];
   };
   for (unsigned int i = 0; i < stress.size(); ++i)
-    // no weight: no cell of this region has the node
+    // Without weight, no cell of this region has the node.
     if (weight(i) > 0.)
       for (unsigned int c = 0; c < n_stress; ++c)
         stress[i].access_raw_entry(c) = sums[std::size_t(n_stress + 1) * i + c] / weight(i);
-  // Only the cells on the fine side have a hanging node, so their mean would jump across the face.
+  // Interpolate at hanging nodes, because only the cells on the fine side have them, and their
+  // mean would jump across the face.
   for (const auto &hanging : mesh.hanging())
     for (unsigned int r = 0; r < n_regions; ++r)
       {
@@ -348,7 +351,7 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
             sum += factor * stress[master * n_regions + r];
             inside = inside && weight(master * n_regions + r) > 0.;
           }
-        // Where a master lies outside the region, the mean of the cells stays.
+        // If a master lies outside the region, keep the mean of the cells.
         if (inside)
           stress[hanging.node * n_regions + r] = sum;
       }

@@ -11,9 +11,10 @@ namespace snug::io {
 namespace {
 const std::string reference_blas = "reference"; // netlib's
 
-/// The file dgemm was loaded from, links resolved; empty if unknown.
-/// Asked while running: libblas.so.3 is a link that the administrator may turn to another BLAS
-/// (Debian's alternatives), so that the name at link time says nothing.
+/// Return the file from which dgemm was loaded, with links resolved; empty if unknown. The file
+/// is determined at run time, because libblas.so.3 is a link that the administrator may turn to
+/// another BLAS (Debian's alternatives). The name at link time therefore does not identify the
+/// BLAS.
 std::string blas_file()
 {
   Dl_info     where;
@@ -26,7 +27,7 @@ std::string blas_file()
   return file;
 }
 
-/// Version, options and kernel of OpenBLAS; empty if the BLAS is another one.
+/// Return version, options and kernel of OpenBLAS; empty if the BLAS is another one.
 std::string openblas_config()
 {
   using Function      = char *();
@@ -34,7 +35,7 @@ std::string openblas_config()
   return function ? function() : "";
 }
 
-/// __VERSION__ of clang has its name, that of g++ only the number.
+/// Return the compiler. The __VERSION__ of clang contains its name, that of g++ only the number.
 std::string compiler_name()
 {
 #if defined(__clang__)
@@ -47,13 +48,13 @@ std::string compiler_name()
 
 std::string blas_name(const std::string &file, const std::string &openblas_config)
 {
-  // the path, as Debian names the directory: .../openblas-serial/libblas.so.3
+  // Debian names the BLAS in the directory of the path: .../openblas-serial/libblas.so.3.
   if (file.find("openblas") != std::string::npos)
     return openblas_config.empty() ? "OpenBLAS" : openblas_config;
   for (const char *name : {"mkl", "blis", "atlas"})
     if (file.find(name) != std::string::npos)
       return name;
-  // netlib's library is the one called plainly libblas, as Debian has it
+  // The reference BLAS is netlib's library, which Debian calls libblas.
   if (file.find("/libblas.so") != std::string::npos)
     return reference_blas;
   return file.empty() ? "unknown" : file;
@@ -61,7 +62,7 @@ std::string blas_name(const std::string &file, const std::string &openblas_confi
 
 std::string blas_warning(const Summary::Program &program)
 {
-  // only the reference BLAS is known to be slow; unknown ones get no advice
+  // Only the reference BLAS is known to be slow, so an unknown BLAS gets no advice.
   if (program.blas != reference_blas)
     return "";
   return "the reference BLAS is in use; factorizations are 3 to "

@@ -13,11 +13,11 @@ namespace snug::io {
 namespace {
 using petsc::check;
 
-/// This rank's part of a matrix; entries at the same place add up, zeros are kept.
+/// This rank's part of a matrix. Entries at the same place add up, zeros are kept.
 struct Triplets
 {
-  PetscInt              n_rows = 0, n_columns = 0; ///< of this rank
-  std::vector<PetscInt> rows, columns;             ///< of all ranks' numbering
+  PetscInt              n_rows = 0, n_columns = 0; ///< numbers of this rank
+  std::vector<PetscInt> rows, columns;             ///< in the numbering of all ranks
   std::vector<double>   values;
 
   void add(const PetscInt row, const PetscInt column, const double value)
@@ -28,7 +28,7 @@ struct Triplets
   }
 };
 
-/// The sum of @p n over the ranks before this one.
+/// Return the sum of @p n over the ranks before this one.
 PetscInt offset(const PetscInt n, const MPI_Comm comm)
 {
   PetscInt end = 0;
@@ -77,7 +77,7 @@ private:
     petsc::Viewer viewer;
     check(PetscViewerCreate(comm, viewer.put()));
     check(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
-    check(PetscViewerBinarySetSkipInfo(viewer, PETSC_TRUE)); // no NAME.petsc.info
+    check(PetscViewerBinarySetSkipInfo(viewer, PETSC_TRUE)); // do not write NAME.petsc.info
     check(PetscViewerFileSetMode(viewer, FILE_MODE_WRITE));
     check(PetscViewerFileSetName(viewer, (directory + "/" + name + ".petsc").c_str()));
     return viewer;
@@ -90,7 +90,8 @@ private:
     return lines;
   }
 
-  /// PETSc's own viewer of this format keeps six digits and knows no vectors.
+  /// Write the matrix in our own code, because PETSc's viewer of this format writes only six
+  /// digits and no vectors.
   void write_text(const std::string &name, Mat matrix) const
   {
     std::ostringstream lines = numbers();
@@ -116,7 +117,7 @@ private:
            lines.str());
   }
 
-  /// The lines of all ranks, one after the other.
+  /// Append the lines of all ranks, one after the other.
   void append(const std::string &name, const std::string &header, const std::string &lines) const
   {
     const std::string path = directory + "/" + name + ".mtx";
@@ -124,7 +125,7 @@ private:
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &n_ranks);
     for (int turn = 0; turn < n_ranks; ++turn)
-      // a disk that is full is an error of all ranks
+      // Use everywhere(), because a full disk is an error of all ranks.
       everywhere(comm, [&]() {
         if (turn != rank)
           return;
@@ -154,7 +155,7 @@ std::vector<double> joined(const feti::PrimalVectors &parts)
   return all;
 }
 
-/// K, B and R, whose unknowns are those of all subdomains, one after the other.
+/// The matrices K, B and R. Their unknowns are those of all subdomains, one after the other.
 struct Matrices
 {
   Matrices(const feti::TotalFeti &feti, const feti::RowLayout &layout);

@@ -7,7 +7,8 @@
 
 namespace snug::io {
 namespace {
-/// Corners counterclockwise seen from outside. A triangle without area has the normal 0.
+/// Return the STL text of a triangle. Corners are counterclockwise seen from outside. A triangle
+/// without area has the normal 0.
 std::string stl_triangle(const dealii::Tensor<1, 3> &a,
                          const dealii::Tensor<1, 3> &b,
                          const dealii::Tensor<1, 3> &c)
@@ -24,7 +25,8 @@ std::string stl_triangle(const dealii::Tensor<1, 3> &a,
   return text + "endloop\nendfacet\n";
 }
 
-/// A bilinear face is not flat; the diagonal from (i, j) to (i + 1, j + 1) cuts it.
+/// Return the STL text. A bilinear face is not flat, so the diagonal from (i, j) to (i + 1, j + 1)
+/// cuts it.
 std::string stl_text(const mesh::Surface<3>        &surface,
                      const mesh::Surface<3>::Field &positions,
                      const std::string             &name)
@@ -32,7 +34,7 @@ std::string stl_text(const mesh::Surface<3>        &surface,
   std::string text = "solid " + name + "\n";
   for (const auto &face : surface.faces())
     {
-      // nodes per edge; quadratic faces are cut at their middle nodes
+      // The number of nodes per edge also cuts quadratic faces at their middle nodes.
       const unsigned int n      = std::lround(std::sqrt(face.nodes.size()));
       const auto         corner = [&](unsigned int i, unsigned int j) {
         return positions[face.nodes[j * n + i]];
@@ -47,11 +49,11 @@ std::string stl_text(const mesh::Surface<3>        &surface,
   return text + "endsolid " + name + "\n";
 }
 
-/// Faces by their first node, taken from @p faces piece by piece: open
-/// pieces from their beginning, then closed ones.
+/// Return the nodes of the polylines, piece by piece: first open pieces from their beginning,
+/// then closed pieces. @p faces maps the first node of each face to its nodes.
 ///
-/// Faces have a direction, and each begins where the one before ends. An open piece begins at
-/// the node at which no face ends; in a closed one the first node comes again at the end.
+/// Faces have a direction, and each face begins where the face before it ends. An open piece begins
+/// at the node at which no face ends. In a closed piece the first node is repeated at the end.
 std::vector<std::vector<unsigned int>>
 polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
 {
@@ -61,7 +63,8 @@ polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
   std::vector<std::vector<unsigned int>> pieces;
   while (!faces.empty())
     {
-      // none without a predecessor: all that is left is closed, and any face may be the first
+      // If every face has a predecessor, all remaining pieces are closed, and any face may be the
+      // first.
       auto next = faces.begin();
       for (auto face = faces.begin(); face != faces.end(); ++face)
         if (ends.count(face->first) == 0)
@@ -81,18 +84,19 @@ polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
   return pieces;
 }
 
-/// Nodes are oriented such that (t_y, -t_x) points out: the body is on the left.
+/// Return the polyline. Nodes are oriented such that (t_y, -t_x) points out of the body, so the
+/// body is on the left.
 std::string polyline_text(const mesh::Surface<2> &surface, const mesh::Surface<2>::Field &positions)
 {
   std::map<unsigned int, std::vector<unsigned int>> faces;
   for (const auto &face : surface.faces())
-    // no two faces begin at one node, where each boundary goes round its body once
+    // No two faces begin at the same node, because each boundary goes around its body once.
     faces[face.nodes.front()] = face.nodes;
   std::string text  = "x,y\n";
   bool        first = true;
   for (const auto &piece : polyline_pieces(faces))
     {
-      // gnuplot and others lift the pen at an empty line
+      // Plotting programs such as gnuplot start a new line after an empty line.
       text += first ? "" : "\n";
       first = false;
       for (const unsigned int node : piece)
@@ -123,7 +127,7 @@ void write_surface(const std::string                        &stem,
                    const mesh::Surface<dim>                 &surface,
                    const typename mesh::Surface<dim>::Field &positions)
 {
-  // npos + 1 is 0: a stem without directory is all name.
+  // npos + 1 is 0, so a stem without directory is the name itself.
   const std::string name = stem.substr(stem.rfind('/') + 1);
   write_text_file(stem + (dim == 2 ? ".csv" : ".stl"), surface_text(surface, positions, name));
 }
@@ -132,7 +136,8 @@ template <int dim>
 void write_control_points(const std::string                         &path,
                           const std::vector<shape::MovedPoint<dim>> &points)
 {
-  // positions of the present design, the moves from the reference, and what the point moves
+  // The columns are positions of the current design, displacements from the reference, the
+  // variables, and the point of the body.
   std::string text = dim == 3 ? "shape,index,x,y,z,dx,dy,dz,variables,body_x,body_y,body_z\n"
                               : "shape,index,x,y,dx,dy,variables,body_x,body_y\n";
   for (const auto &point : points)

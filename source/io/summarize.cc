@@ -7,17 +7,17 @@
 #include <vector>
 
 namespace snug::io {
-/// The rows of B are not known here; the caller adds them.
+/// Return the summary of the mesh. The caller adds the rows of B, which are not known here.
 template <int dim>
 Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing)
 {
   Summary::Mesh result;
-  // the mesh has no RunContext, but its communicator
+  // The mesh has a communicator, but no RunContext.
   int n_ranks;
   MPI_Comm_size(mesh.communicator(), &n_ranks);
   result.bodies = mesh.n_bodies();
   result.cells  = mesh.n_global_cells();
-  // of the problem before tearing, as other programs count them
+  // Count the unknowns before tearing, as other programs count them.
   result.dofs       = dim * mesh.n_global_free_nodes();
   result.subdomains = tearing.n_global;
   result.ranks      = n_ranks;
@@ -32,7 +32,8 @@ std::vector<double> numbers(const dealii::Tensor<1, dim> &v)
 }
 } // namespace
 
-/// Copies: io has its own struct, so that keys of the file stay when the solver's members change.
+/// Copy the state. The io module has its own struct, so that keys of the file stay the same if
+/// the solver's members change.
 template <int dim>
 Summary::State summarize(const state::ContactState<dim> &state)
 {
@@ -84,19 +85,19 @@ const std::array<const char *, 8> stages = {
 
 Summary::Times collect_times(const RunContext &context)
 {
-  // in the order of the members of Times
+  // The stages are in the order of the members of Times.
   std::vector<double> seconds;
   for (const char *stage : stages)
     seconds.push_back(context.seconds(stage));
   seconds.push_back(context.seconds());
-  // stage by stage the slowest rank, for which the others wait
+  // Take the slowest rank of each stage, because all other ranks wait for it.
   MPI_Allreduce(MPI_IN_PLACE, seconds.data(), seconds.size(), MPI_DOUBLE, MPI_MAX,
                 context.communicator());
   return {seconds[0], seconds[1], seconds[2], seconds[3], seconds[4],
           seconds[5], seconds[6], seconds[7], seconds[8]};
 }
 
-/// Linux counts in KiB.
+/// Return the memory. Linux counts it in KiB.
 Summary::Memory collect_memory(const RunContext &context)
 {
   rusage of_this;

@@ -5,10 +5,12 @@
 
 namespace snug::io {
 namespace {
-/// Keeps the order in which members are written; numbers that are not finite become null.
+/// A JSON object that keeps the order in which members are written. Numbers that are not finite
+/// become null.
 using Json = nlohmann::ordered_json;
 
-/// Keys are read by other tools: they may be added, never renamed.
+/// Return the part of the program. Other tools read the keys: keys may be added, but are never
+/// renamed.
 Json summary_part(const Summary::Program &program)
 {
   return {{"version", program.version}, {"dealii", program.dealii},     {"petsc", program.petsc},
@@ -59,7 +61,8 @@ Json summary_part(const std::optional<Summary::Accuracy> &accuracy)
   return {{"error", accuracy->error}, {"relative", accuracy->relative}, {"responses", responses}};
 }
 
-/// Keys have the names of the members, see state::ContactState for formulas and units.
+/// Return the part of a state. Keys have the names of the members, see state::ContactState for
+/// formulas and units.
 Json summary_part(const Summary::State &state)
 {
   Json pairs = Json::array();
@@ -68,12 +71,12 @@ Json summary_part(const Summary::State &state)
   Json reactions = Json::array();
   for (const auto &reaction : state.reactions)
     reactions.push_back(summary_part(reaction));
-  // objects even if empty, not null, as readers go through the keys
+  // Write objects even if they are empty, and not null, because readers iterate over the keys.
   Json responses = Json::object();
   for (const auto &[name, value] : state.responses)
     responses[name] = value;
   const auto &certificate = state.certificate;
-  // 0: no linear problem was solved for comparison, see Report linear reference
+  // 0 means that no linear problem was solved for comparison, see Report linear reference.
   const Json linear = state.linear_f_mults == 0 ? Json(nullptr) : Json(state.linear_f_mults);
   return {{"least_scaled_jacobian", state.least_scaled_jacobian},
           {"energy", state.energy},
@@ -123,7 +126,8 @@ Json summary_part(const Summary::GradientRow &row)
 
 Json summary_part(const Summary::Gradient &gradient)
 {
-  // the copy picks the overload of the base class, or this would call itself
+  // The copy selects the overload of the base class, because otherwise this function would call
+  // itself.
   Json part       = summary_part(Summary::GradientRow(gradient));
   part["reason"]  = gradient.reason;
   part["methods"] = Json::array();
@@ -184,7 +188,7 @@ Json main_values(const Summary::State &state)
   return values;
 }
 
-/// Replace what is smaller in @p largest by the @p values of a load case.
+/// Replace values in @p largest that are smaller than the @p values of a load case.
 void keep_largest(const std::string &load_case, const Json &values, Json &largest)
 {
   for (const auto &[name, value] : values.items())
@@ -196,13 +200,13 @@ void keep_largest(const std::string &load_case, const Json &values, Json &larges
             place = Json::object();
           keep_largest(load_case, value, place);
         }
-      // Written so that NaN counts.
+      // The negated comparison counts NaN as larger.
       else if (place.is_null() || !(value.get<double>() <= place["value"].get<double>()))
         place = {{"load_case", load_case}, {"value", value}};
     }
 }
 
-/// Add which load case @p state shows, the main values of all of them, and the largest of each
+/// Add which load case @p state shows, the main values of all load cases, and the maximum of each
 /// value with its load case. All are null if there is only one load case.
 void add_load_cases(const std::vector<Summary::LoadCase> &load_cases, Json &state)
 {
@@ -219,11 +223,11 @@ void add_load_cases(const std::vector<Summary::LoadCase> &load_cases, Json &stat
     }
 }
 
-/// The keys of a part that was not computed, with null for values.
+/// Return the part. If it was not computed, its keys are written with null for values.
 template <typename Part>
 Json summary_part(const std::optional<Part> &part)
 {
-  // from a default part, so that the keys are written in one place only
+  // Start from a default part, so that the keys are written in one place only.
   Json result = summary_part(part.value_or(Part()));
   if (!part)
     for (auto &entry : result.items())
@@ -302,7 +306,8 @@ std::string Summary::json() const
                {"task", task},
                {"warnings", warnings}};
   add_load_cases(load_cases, text["state"]);
-  // Only with a second state or load case or with targets; the keys above are always there.
+  // Add these keys only if there is a second state or load case, or a target. The keys above are
+  // always written.
   if (initial_state)
     text["initial_state"] = summary_part(*initial_state);
   for (const auto &load_case : load_cases)
@@ -319,7 +324,7 @@ std::string Summary::json() const
     }
   if (accuracy)
     text["accuracy"] = summary_part(*accuracy);
-  // File names in messages need not be UTF-8; JSON must be.
+  // Replace invalid characters, because file names in messages need not be UTF-8, but JSON must be.
   return text.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

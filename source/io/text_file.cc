@@ -14,14 +14,15 @@
 namespace snug::io {
 void write_text_file(const std::string &path, const std::string &text)
 {
-  // In the same directory, hence on the same file system, where rename() replaces in one step.
+  // Write in the same directory, hence on the same file system, where rename() replaces a file in
+  // one step.
   const std::string beside = path + ".part";
-  // streams need not set it
+  // Reset errno, because streams need not set it.
   errno = 0;
   {
     std::ofstream out(beside, std::ios::binary);
     out.write(text.data(), text.size());
-    // the last bytes go to the disk here, so the check comes behind
+    // close() writes the last bytes to the disk, so check for errors after it.
     out.close();
     if (!out)
       throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
@@ -33,7 +34,7 @@ void write_text_file(const std::string &path, const std::string &text)
 std::string exact(double x)
 {
   char text[32];
-  // one digit before the point and 16 behind it: 17 tell all doubles apart
+  // One digit before the point and 16 after it give 17 digits, which distinguish all doubles.
   std::snprintf(text, sizeof(text), "%.16e", x);
   return text;
 }
@@ -46,15 +47,16 @@ std::string padded(unsigned int number, unsigned int digits)
 
 void make_output_directory(const RunContext &context, const std::string &path)
 {
-  // one rank tries, all of them fail
+  // One rank tries, and all ranks fail if it fails.
   everywhere(context.communicator(), [&] {
     if (context.rank() != 0)
       return;
     std::error_code error;
     std::filesystem::create_directories(path, error);
-    // Trying says more than permissions do: of a full disk, a read-only mount, or what root may do.
+    // Try to write, because this detects more than permissions show: a full disk, a read-only
+    // mount, or the rights of root.
     const std::string probe = path + "/.snug-probe";
-    // flush() writes at once; the destructor would not tell of an error
+    // flush() writes at once. The destructor would not report an error.
     if (!error && !(std::ofstream(probe) << "x").flush())
       error = std::error_code(errno, std::generic_category());
     std::remove(probe.c_str());

@@ -18,7 +18,7 @@ namespace snug::io {
 namespace {
 using Bytes = std::vector<unsigned char>;
 
-/// Of the blocks of a compressed array, in bytes: readers unpack one at a time.
+/// Size of the blocks of a compressed array in bytes. Readers unpack one block at a time.
 const std::size_t block_size = 1 << 20;
 
 template <typename T>
@@ -30,8 +30,8 @@ Bytes bytes_of(const std::vector<T> &values)
   return result;
 }
 
-/// Base64 of the header, which is the number of blocks, their size, that of the last if it is
-/// another, and their compressed sizes, and then of the blocks.
+/// Return the Base64 text of the header and then of the blocks. The header contains the number of
+/// blocks, their size, the size of the last block if it differs, and the compressed sizes.
 template <typename T>
 std::string encoded(const std::vector<T> &values, const unsigned int compression)
 {
@@ -48,7 +48,7 @@ std::string encoded(const std::vector<T> &values, const unsigned int compression
       blocks.resize(first + packed);
       if (compress2(&blocks[first], &packed, &raw[begin], size, static_cast<int>(compression)) !=
           Z_OK)
-        throw std::bad_alloc(); // the only way left for it to fail
+        throw std::bad_alloc(); // the only remaining cause of failure
       blocks.resize(first + packed);
       header.push_back(narrow<std::uint32_t>(packed));
     }
@@ -56,7 +56,7 @@ std::string encoded(const std::vector<T> &values, const unsigned int compression
          dealii::Utilities::encode_base64(blocks);
 }
 
-/// Words that a piece and the list of files have in common.
+/// Return the words common to a piece and the list of files.
 std::string
 declared(const std::string &type, const std::string &name, const unsigned int components)
 {
@@ -75,14 +75,15 @@ std::string opened(const std::string &type)
          "compressor=\"vtkZLibDataCompressor\">\n";
 }
 
-/// Of VTK: line, quadrilateral, hexahedron.
+/// Return the cell type of VTK: line, quadrilateral, hexahedron.
 template <int d>
 constexpr std::uint8_t cell_type()
 {
   return d == 1 ? 3 : d == 2 ? 9 : 12;
 }
 
-/// Offsets along the axes of the corners of a cell: around each face, the upper one above.
+/// Return the offsets along the axes of the corners of a cell: around each face, with the upper
+/// face after the lower one.
 template <int d>
 std::vector<std::array<unsigned int, 3>> corner_offsets()
 {
@@ -101,7 +102,7 @@ VtuGrid<d, dim>::VtuGrid(const std::vector<Quantity> &of_points,
   : at_points(arrays(of_points)), of_cells(arrays(of_the_cells))
 {}
 
-/// VTK knows vectors of three components only.
+/// Return the arrays. VTK knows vectors of three components only.
 template <int d, int dim>
 std::vector<typename VtuGrid<d, dim>::Array>
 VtuGrid<d, dim>::arrays(const std::vector<Quantity> &quantities)
@@ -186,7 +187,7 @@ std::string VtuGrid<d, dim>::piece(const unsigned int compression) const
   return out.str();
 }
 
-/// It names the quantities but has no points, so any rank can write it.
+/// Return the PVTU text. It names the quantities but has no points, so any rank can write it.
 template <int d, int dim>
 std::string VtuGrid<d, dim>::pvtu(const std::vector<std::string> &files) const
 {
@@ -215,7 +216,7 @@ std::string vtu(const std::vector<std::string> &pieces)
   return text + "</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-/// ParaView's list of time steps; file names are relative to it.
+/// Return ParaView's list of time steps; file names are relative to the list.
 std::string pvd(const std::vector<std::pair<double, std::string>> &series)
 {
   std::ostringstream out;

@@ -15,7 +15,7 @@ public:
 
   std::vector<std::string> entries() const override { return {"Body"}; }
 
-  /// A volume constraint can be evaluated, and differentiated, where no state was solved.
+  /// Return false: a volume constraint can be evaluated and differentiated without a solved state.
   bool needs_solution() const override { return false; }
 
   bool needs_density() const override { return mass; }
@@ -30,11 +30,11 @@ public:
                   assembler.element().volume(assembler.cell_field(i, state.positions));
     };
     state::for_each_cell<dim>(solver, body, add);
-    // Each cell is on one rank, so that the sum counts it once.
+    // The sum over ranks counts each cell once, because each cell is on one rank.
     return dealii::Utilities::MPI::sum(integral, solver.context().communicator());
   }
 
-  /// u and forces stay empty, which stands for zero.
+  /// Return the derivatives. The members u and forces stay empty, which stands for zero.
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
@@ -44,7 +44,7 @@ public:
       const auto                         &assembler = *solver.assemblers()[s];
       const auto                          X         = assembler.cell_field(i, state.positions);
       std::vector<dealii::Tensor<1, dim>> values(X.size());
-      // d/dX int dV, det J and, in axisymmetric models, the radius included
+      // The gradient d/dX int dV includes det J and, in axisymmetric models, the radius.
       assembler.element().add_volume_gradient(X, weight_of(assembler.material(i)), values);
       state::add_to_cell_nodes(solver, s, i, values, result.positions);
     };
@@ -53,14 +53,15 @@ public:
   }
 
 private:
-  /// Density is a constant of the region: it goes with the cell and has no derivative.
+  /// Return the integrand. The density is a constant of the region: it moves with the cell
+  /// and has no derivative.
   double weight_of(const elasticity::Material &material) const
   {
     return mass ? material.density : 1.;
   }
 
-  const std::string body; ///< empty: all
-  const bool        mass; ///< or volume
+  const std::string body; ///< empty: all bodies
+  const bool        mass; ///< mass, else volume
 };
 } // namespace
 

@@ -8,8 +8,8 @@
 
 namespace snug::response {
 namespace {
-/// Of the cells of a subdomain the largest 1 - q, the sum ((1 - q) / scale)^p over the points of a
-/// cell and its gradient.
+/// The scaled Jacobian q as a measure of cell quality. The functions return the maximum 1 - q
+/// of a cell, and the sum of ((1 - q) / scale)^p over the points of a cell with its gradient.
 template <int dim>
 struct Angles
 {
@@ -39,13 +39,14 @@ struct Angles
   }
 };
 
-/// q = det J / det J_0, J_0 of the reference mesh; cells that have grown do not count.
+/// The ratio q = det J / det J_0 with J_0 of the reference mesh. Points where the cell has
+/// grown are left out.
 template <int dim>
 struct Sizes
 {
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-  /// Of each point its shape functions, J and 1 - q, where that is positive.
+  /// Call @p visit with the shape functions, J and 1 - q of each point where 1 - q is positive.
   template <typename Visit>
   static void for_each_point(const Nodes &X_0, const Nodes &X, const Visit &visit)
   {
@@ -78,7 +79,7 @@ struct Sizes
     });
     return result;
   }
-  /// q' = q tr(J^-1 J')
+  /// Add the gradient of the sum, with q' = q tr(J^-1 J').
   static void add_gradient(const elasticity::Element<dim> &,
                            const Nodes &X_0,
                            const Nodes &X,
@@ -96,7 +97,7 @@ struct Sizes
   }
 };
 
-/// 1 less the p-norm of 1 - q over points of cells, q of @p Measure.
+/// 1 minus the p-norm of 1 - q over the points of the cells, with q of @p Measure.
 template <int dim, typename Measure>
 class LeastQuality : public Response<dim>
 {
@@ -122,10 +123,10 @@ public:
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
     const auto of = distortion(solver, state);
-    // J is at its largest, 1.
+    // J has its maximum 1, where all derivatives are zero.
     if (of.sum == 0.)
       return result;
-    // The scale is a constant: it cancels in J.
+    // The scale cancels in J and is differentiated as a constant.
     const double factor = -of.scale * std::pow(of.sum, 1. / p - 1.) / p;
     state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
       const auto                         &assembler = *solver.assemblers()[s];
@@ -140,8 +141,8 @@ public:
   }
 
 private:
-  /// sum ((1 - q) / scale)^p with the largest 1 - q as the scale, without which large exponents
-  /// underflow.
+  /// Sum of ((1 - q) / scale)^p. The scale is the maximum 1 - q, because otherwise large
+  /// exponents underflow.
   struct Distortion
   {
     double scale = 0., sum = 0.;
@@ -172,7 +173,7 @@ private:
     return result;
   }
 
-  const std::string body; ///< empty: all
+  const std::string body; ///< empty: all bodies
   const double      p;
 };
 } // namespace

@@ -3,9 +3,9 @@
 
 namespace snug::response {
 namespace {
-/// d/dX of sum_i forces_i n_i . e over the rows of one pair. Its rows'
-/// coefficients on the slave side add up to n_i: the energy of the rows
-/// with u = e there, less that with u = 0.
+/// Return d/dX of sum_i forces_i n_i . e over the rows of one pair. The coefficients of a row
+/// on the slave side add up to n_i. The sum is therefore the energy of the rows with u = e on
+/// the slave side, minus the energy of the rows with u = 0.
 template <int dim>
 typename mesh::Surface<dim>::Field
 normal_gradient(const state::StateSolver<dim>            &solver,
@@ -15,7 +15,7 @@ normal_gradient(const state::StateSolver<dim>            &solver,
                 const dealii::Tensor<1, dim>             &e)
 {
   const auto &surface = solver.surface();
-  // energy_gradient() is that of sum_i force_i (sum_b c_b . u_b - gap_i), linear in u.
+  // energy_gradient() differentiates sum_i force_i (sum_b c_b . u_b - gap_i), which is linear in u.
   typename mesh::Surface<dim>::Field moved(surface.n_nodes());
   const auto                         at_rest = moved;
   for (const auto &face : surface.faces())
@@ -39,7 +39,7 @@ public:
 
   void check(const state::StateSolver<dim> &solver) const override
   {
-    // Both throw for names that do not exist.
+    // Both functions throw for names that do not exist.
     row_shares(solver, parameters.pair);
     if (parameters.component != Component::normal)
       unit_vector<dim>(parameters);
@@ -62,7 +62,7 @@ public:
     return force;
   }
 
-  /// On the areas of other places.
+  /// Return the sum of the forces given at other places.
   std::optional<double> measured(const state::StateSolver<dim>   &solver,
                                  const std::vector<PressureRows> &of_pairs) const override
   {
@@ -82,7 +82,7 @@ public:
   {
     const auto    shares = row_shares(solver, parameters.pair);
     Partials<dim> result;
-    // J is linear in the forces: its derivatives are the factors of value().
+    // J is linear in the forces, so its derivatives are the factors of value().
     result.forces = shares;
     result.positions.resize(solver.mesh().n_points());
     if (parameters.component == Component::normal)
@@ -92,8 +92,8 @@ public:
     const auto rows = solver.contact().rows(x);
     for (unsigned int i = 0; i < rows.size(); ++i)
       result.forces[i] *= -(rows[i].normal * e);
-    // Pair by pair, as a boundary may be the slave of one pair and the master of another: moved in
-    // both at once, the coefficients of both sides would add up.
+    // Differentiate pair by pair, because a boundary may be the slave of one pair and the master of
+    // another. If it moved in both pairs at once, the coefficients of both sides would add up.
     const auto &pairs = solver.contact().pairs();
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {

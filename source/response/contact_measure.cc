@@ -4,15 +4,15 @@
 
 namespace snug::response {
 namespace {
-/// Smaller parts of the largest area are round-off, as on the axis of
-/// bodies of revolution with degree 2.
+/// Tributary areas below this share of the maximum area are rounding errors. They occur on
+/// the axis of bodies of revolution with degree 2.
 const double smallest_area = 1e-10;
 
-/// Larger powers of p ~ r^-0.226, the pressure beside a right-angled edge on a body of the same
-/// material, have no integral.
+/// Powers above this value are not integrable at a right-angled edge that presses on a body
+/// of the same material, where the pressure is p ~ r^-0.226.
 const double integrable_power = 4.4;
 
-/// Rows and their shares.
+/// Indices of contact rows and their shares.
 using Counted = std::vector<std::pair<unsigned int, double>>;
 
 template <int dim>
@@ -41,7 +41,7 @@ public:
   std::vector<std::string> entries() const override
   {
     auto result = read;
-    // All measures read it, besides their own entries.
+    // All measures read the entry Pair, besides their own entries.
     result.push_back("Pair");
     return result;
   }
@@ -50,7 +50,7 @@ public:
 
   bool unbounded_at_edges() const override { return power > integrable_power; }
 
-  /// Throws where there is no such pair.
+  /// Throw if there is no such pair.
   void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair); }
 
   double value(const state::StateSolver<dim>  &solver,
@@ -67,7 +67,7 @@ public:
     for (unsigned int p = 0; p < chosen.size(); ++p)
       if (chosen[p])
         {
-          // quadratic functions between nodes may be negative where contact ends
+          // Quadratic functions between nodes may be negative where contact ends.
           for (const double force : of_pairs[p].force)
             rows.force.push_back(std::max(0., force));
           rows.area.insert(rows.area.end(), of_pairs[p].area.begin(), of_pairs[p].area.end());
@@ -84,12 +84,13 @@ public:
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    // J(p, A(X)): the areas are functions of the positions at fixed forces.
+    // In J(p, A(X)) the areas are functions of the positions at fixed forces.
     const auto    measured = measured_of(solver, all_rows(state));
     Partials<dim> result;
     result.forces = measured.by_force;
     result.positions.resize(solver.mesh().n_points());
-    // The gradient at the surface nodes is replicated: each rank adds those of its own nodes.
+    // The gradient at the surface nodes is replicated: each rank adds the gradient at its own
+    // nodes.
     solver.surface().add_owned(
       solver.contact().area_gradient(solver.surface().gather(state.positions), measured.by_area),
       result.positions);
@@ -97,7 +98,8 @@ public:
   }
 
 private:
-  /// Rows that do not count have no influence. Contact points are replicated: no communication.
+  /// Return the measure of the counted rows. All other rows have zero derivatives. Contact
+  /// points are replicated, so the function needs no communication.
   Measured measured_of(const state::StateSolver<dim> &solver, const PressureRows &all) const
   {
     const auto   rows = counted_rows(solver, all.area);
@@ -129,7 +131,7 @@ private:
         largest = std::max(largest, areas[i]);
     Counted result;
     for (unsigned int i = 0; i < shares.size(); ++i)
-      // Scale 0: supports hold the row entirely, it has no multiplier.
+      // Scale 0: supports hold the row entirely, so the row has no multiplier.
       if (shares[i] != 0. && solver.gluing().contact_scales()[i] != 0. &&
           areas[i] > smallest_area * largest)
         result.emplace_back(i, shares[i]);
@@ -139,7 +141,7 @@ private:
   const std::string              pair;
   const Measure                  measure;
   const std::vector<std::string> read;
-  const double                   power; ///< the highest of the pressure under an integral
+  const double                   power; ///< maximum power of the pressure under an integral
 };
 } // namespace
 
@@ -148,7 +150,8 @@ std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std:
 {
   std::vector<bool> chosen;
   for (const auto &pair : solver.contact().named_pairs())
-    // Which side is the slave may have been chosen by the program: users need not know.
+    // Accept both orders, because the program may have chosen the slave side and users need
+    // not know its choice.
     chosen.push_back(name.empty() || name == pair.name() ||
                      name == pair.master_name + ": " + pair.slave_name);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())

@@ -10,24 +10,24 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-/// A face of this rank and the cell it belongs to.
+/// A face of this rank and the cell to which it belongs.
 struct MeasuredFace
 {
-  unsigned int index;           ///< of BodyMesh::boundary_faces()
+  unsigned int index;           ///< index in BodyMesh::boundary_faces()
   unsigned int subdomain, cell; ///< see Assembler::cells()
-  /// place of each of its nodes in the cell
+  /// place of each node of the face in the cell
   std::vector<unsigned int> places;
 };
 
-/// Assemblers list loaded faces only. Others are read through their cell, by way of which hanging
-/// nodes find the unknowns of their masters.
+/// Return the faces of the boundary on this rank. Assemblers list only loaded faces. All other
+/// faces are accessed through their cell, where hanging nodes find the unknowns of their masters.
 template <int dim>
 std::vector<MeasuredFace> faces_of(const state::StateSolver<dim> &solver,
                                    const ResponseParameters      &parameters)
 {
   const auto &mesh     = solver.mesh();
   const auto  boundary = find_boundary(solver, parameters);
-  // (subdomain, cell) of each cell of the mesh; each is in one subdomain of this rank.
+  // Each cell of the mesh has one (subdomain, cell), because it is in one subdomain of this rank.
   std::vector<std::pair<unsigned int, unsigned int>> of_cell(mesh.cells().size());
   for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
     for (unsigned int i = 0; i < solver.assemblers()[s]->cells().size(); ++i)
@@ -47,7 +47,7 @@ std::vector<MeasuredFace> faces_of(const state::StateSolver<dim> &solver,
   return faces;
 }
 
-/// Values at the nodes of a face out of those at the nodes of its cell.
+/// Return the values at the nodes of a face, taken from the values at the nodes of its cell.
 template <int dim>
 Nodes<dim> at_face(const std::vector<unsigned int> &places, const Nodes<dim> &cell)
 {
@@ -57,21 +57,20 @@ Nodes<dim> at_face(const std::vector<unsigned int> &places, const Nodes<dim> &ce
   return result;
 }
 
-/// The load on a face of @p n Gauss points whose forces f(X) make
-/// f . u = int u . e dA.
+/// Return the load on a face of @p n Gauss points with forces f(X) such that f . u = int u . e dA.
 template <int dim>
 elasticity::FaceLoadValues<dim> unit_load(const ResponseParameters &parameters, unsigned int n)
 {
   elasticity::FaceLoadValues<dim> load;
   if (parameters.component == Component::normal)
-    // Pressure pushes along the inner normal: -1 makes f . u the integral of u . n.
+    // A pressure acts along the inner normal, so the pressure -1 makes f . u the integral of u . n.
     load.pressure.assign(n, -1.);
   else
     load.traction.assign(n, unit_vector<dim>(parameters));
   return load;
 }
 
-/// int u . e dA and int dA over the whole face: its part on any one rank says nothing by itself.
+/// int u . e dA and int dA over the whole face, summed over the ranks.
 struct Average
 {
   double integral = 0., area = 0.;
@@ -94,7 +93,7 @@ Average average(const state::StateSolver<dim>  &solver,
       solver.face_load().force(X, unit_load<dim>(parameters, X.size()), f);
       for (unsigned int a = 0; a < u.size(); ++a)
         sums[0] += f[a] * u[a];
-      // int N_a dA: their sum is the area of the face.
+      // The integrals int N_a dA add up to the area of the face.
       for (const double area : solver.face_load().areas(X))
         sums[1] += area;
     }
@@ -114,7 +113,7 @@ public:
     return {"Body", "Face", "Point", "Component"};
   }
 
-  /// A point has no normal: only faces take the component normal.
+  /// Check the entries. A point has no normal, so the component normal is allowed for faces only.
   void check(const state::StateSolver<dim> &solver) const override
   {
     if (parameters.point.empty())
@@ -143,7 +142,7 @@ public:
         for (unsigned int a = 0; a < u.size(); ++a)
           value += place.weights[a] * (u[a] * e);
       }
-    // One rank has the point, the others add 0: the sum is exact.
+    // The sum is exact, because one rank has the point and all other ranks add 0.
     return dealii::Utilities::MPI::sum(value, solver.context().communicator());
   }
 
@@ -153,7 +152,8 @@ public:
     return parameters.point.empty() ? partials_on_face(solver, state) : partials_at_point(solver);
   }
 
-  /// Of a point, no field: its load is concentrated there.
+  /// Return dJ/du on a face. The result is empty for a point, because its load is
+  /// concentrated there.
   FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
                                         const state::ContactState<dim> &state) const override
   {
@@ -172,7 +172,8 @@ public:
   }
 
 private:
-  /// Weights are of the place in the cell, which the design does not change: dJ/dX = 0.
+  /// Return the derivatives at a point. The weights depend on the place in the cell, which
+  /// the design does not change. Therefore dJ/dX = 0.
   Partials<dim> partials_at_point(const state::StateSolver<dim> &solver) const
   {
     Partials<dim> result;
@@ -190,8 +191,9 @@ private:
     return result;
   }
 
-  /// With J = I / A, I = int u . e dA and A = int dA: J' = I' / A - J A' / A. I is the work f(X) .
-  /// u of a unit load, so dI/du = f and dI/dX is the gradient of that work.
+  /// Return the derivatives on a face. With J = I / A, I = int u . e dA and A = int dA, the
+  /// derivative is J' = I' / A - J A' / A. I is the work f(X) . u of a unit load, so dI/du = f and
+  /// dI/dX is the gradient of that work.
   Partials<dim> partials_on_face(const state::StateSolver<dim>  &solver,
                                  const state::ContactState<dim> &state) const
   {
@@ -214,19 +216,20 @@ private:
         Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
         load.force(X, unit, f);
         for (unsigned int a = 0; a < f.size(); ++a)
-          // On the copies of the face's own subdomain. Directions u' are equal on all copies, so
-          // that it does not matter which of them has the share.
+          // Add the share to the copies of the nodes in the subdomain of the face. The choice
+          // of the copy does not matter, because derivatives u' are equal on all copies.
           in_cell[face.places[a]] += f[a] / whole.area;
         assembler.add_cell_vector(face.cell, 1., in_cell, result.u[face.subdomain].column(0));
         load.add_force_gradient(X, unit, u, 1. / whole.area, gradient);
-        // int dA = int e . e dA
+        // The area is int dA = int e . e dA with a unit vector e.
         dealii::Tensor<1, dim> e;
         e[0] = 1.;
         load.add_force_gradient(X, {{}, Nodes<dim>(X.size(), e), {}}, Nodes<dim>(X.size(), e),
                                 -J / whole.area, gradient);
         const auto &nodes = solver.mesh().boundary_faces()[face.index].nodes;
         for (unsigned int a = 0; a < nodes.size(); ++a)
-          // At the nodes of the face: shape functions of other nodes of the cell vanish on it.
+          // Only the nodes of the face receive a gradient, because the shape functions of all
+          // other nodes of the cell vanish on the face.
           result.positions[nodes[a]] += gradient[a];
       }
     return result;

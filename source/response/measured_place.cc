@@ -14,22 +14,22 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-/// Cells reach this part of their size beyond their faces.
+/// Cells contain points up to this share of their size beyond their faces.
 const double tolerance = 1e-6;
 
-/// Whether the cell with nodes @p X may hold @p point: curved ones reach
-/// beyond the box of their nodes.
+/// Return whether the cell with nodes @p X may contain @p point. Curved cells extend beyond
+/// the box of their nodes.
 template <int dim>
 bool is_near(const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
 {
-  // A part of the box of the nodes, in each direction.
+  // margin relative to the size of the box, in each direction
   const double margin = 0.25;
   for (unsigned int d = 0; d < dim; ++d)
     {
       const auto [low, high] =
         std::minmax_element(X.begin(), X.end(),
                             [d](const auto &a, const auto &b) { return a[d] < b[d]; });
-      // Newton's method in all cells would cost far more than these comparisons.
+      // Compare with the box first, because Newton's method in all cells would cost far more.
       const double size = (*high)[d] - (*low)[d];
       if (point[d] < (*low)[d] - margin * size || point[d] > (*high)[d] + margin * size)
         return false;
@@ -37,8 +37,8 @@ bool is_near(const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
   return true;
 }
 
-/// Shape functions of the cell with nodes @p X at @p point, by Newton's
-/// method; none if it lies outside.
+/// Return the shape functions of the cell with nodes @p X at @p point, computed by Newton's
+/// method. Return nothing if the point lies outside.
 template <int dim>
 std::optional<std::vector<double>>
 shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
@@ -46,32 +46,35 @@ shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tenso
   dealii::Point<dim> xi;
   for (unsigned int d = 0; d < dim; ++d)
     xi[d] = 0.5;
-  // Converges at once in parallelepipeds and within a few steps in cells that are curved a little.
+  // Newton's method converges at once in parallelepipeds and within a few steps in slightly
+  // curved cells.
   for (unsigned int step = 0; step < 20; ++step)
     {
       const auto shape = mesh::lagrange_point<dim>(degree, xi);
       const auto J     = elasticity::jacobian(shape, X);
-      // NaN included: such an iterate has left the cell.
+      // The negated comparison includes NaN: such an iterate has left the cell.
       if (!(std::abs(determinant(J)) > 0.))
         return {};
       const dealii::Tensor<1, dim> move = invert(J) * (point - elasticity::value(shape, X));
       if (move.norm() < 1e-12)
         {
           for (unsigned int d = 0; d < dim; ++d)
-            // A point on a face between cells must not fall between them by round-off.
+            // The tolerance ensures that rounding does not exclude a point on a face from
+            // both of its cells.
             if (xi[d] < -tolerance || xi[d] > 1. + tolerance)
               return {};
           return shape.value;
         }
       xi += move;
-      // Points far outside send Newton's method away; NaN ends it as well.
+      // Newton's method diverges for points far outside. The negated comparison includes NaN.
       if (!(xi.norm() < 10.))
         return {};
     }
   return {};
 }
 
-/// Throw unless exactly one body holds the point: where bodies touch, their displacements differ.
+/// Throw unless exactly one body contains the point, because displacements of touching bodies
+/// differ.
 void require_one_body(const ResponseParameters        &parameters,
                       const std::vector<std::string>  &names,
                       const std::vector<unsigned int> &holds)
@@ -110,7 +113,8 @@ std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim
     {
       const auto names = solver.mesh().geometry(body).boundary_names();
       for (unsigned int boundary = 0; boundary < names.size(); ++boundary)
-        // Names are compared as written: face names belong to the geometry of the body.
+        // Names are compared literally, because the geometry of the body defines the names of
+        // its faces.
         if (parameters.face == bodies[body] + "." + names[boundary])
           return {body, boundary};
     }
@@ -130,14 +134,14 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
   std::vector<unsigned int> holds(mesh.n_bodies(), 0);
   const auto                look = [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
-    // In the reference: the same material point in every design.
+    // Use reference positions, so that the point is the same material point in every design.
     const auto X = assembler.cell_field(i, mesh.reference_positions());
     if (!is_near<dim>(X, x))
       return;
     const auto weights = shape_values<dim>(mesh.degree(), X, x);
     if (!weights)
       return;
-    // Each body once, though several of its cells may hold the point.
+    // Count each body once, even if several of its cells contain the point.
     holds[mesh.cells()[assembler.cells()[i]].body] = 1;
     if (found.empty())
       found.push_back({s, i, *weights});
@@ -147,7 +151,7 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
   require_one_body(parameters, solver.model().body_names, holds);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
   const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
-  // Cells of several ranks meet at the point: only the lowest rank counts it.
+  // Cells of several ranks may contain the point, so only the lowest rank counts it.
   if (dealii::Utilities::MPI::min(found.empty() ? n_ranks : rank, comm) != rank)
     found.clear();
   return found;

@@ -5,18 +5,17 @@
 
 namespace snug::response {
 namespace {
-/// J = 0 with zero derivatives: without any pressure the formulas below are 0 / 0.
+/// Return J = 0 with zero derivatives. The formulas below would be 0 / 0 without pressure.
 Measured nothing(const PressureRows &rows)
 {
   const std::vector<double> zero(rows.force.size(), 0.);
   return {0., zero, zero};
 }
 
-/// S = sum_i A_i (q_i / m)^p with the largest pressure m taken as a
-/// constant, and its derivatives.
-/// A_i q_i^p = p_i^p A_i^(1-p), hence the factors p and 1 - p of the derivatives. Over the largest
-/// pressure large powers do not overflow. m cancels in all the measures below, so that their
-/// derivatives may take it as a constant.
+/// S = sum_i A_i (q_i / m)^p, where the maximum pressure m is a constant, and the derivatives
+/// of S. A_i q_i^p = p_i^p A_i^(1-p) gives the factors p and 1 - p of the derivatives.
+/// Division by the maximum pressure avoids overflow of large powers. The derivatives may
+/// treat m as a constant, because m cancels in all measures below.
 struct PowerSum : Measured
 {
   PowerSum(const PressureRows &rows, const double p) : Measured(nothing(rows))
@@ -27,7 +26,7 @@ struct PowerSum : Measured
       return;
     for (unsigned int i = 0; i < rows.force.size(); ++i)
       {
-        // rounded below zero where contacts are open
+        // Rounding makes pressures of open contacts slightly negative.
         const double q = std::max(0., rows.force[i] / rows.area[i] / largest);
         value += rows.area[i] * std::pow(q, p);
         by_force[i] = p * std::pow(q, p - 1.) / largest;
@@ -45,10 +44,11 @@ Measured contact_area(const PressureRows &rows, const double e)
   auto           result = nothing(rows);
   if (force.largest == 0.)
     return result;
-  // All pressures are over the largest one. The threshold e m, m = int q^2 dA / int q dA, depends
-  // on all rows: slope sums up what it makes, which is added to all derivatives in the end.
+  // All pressures are divided by the maximum pressure. The threshold e m with
+  // m = int q^2 dA / int q dA depends on all rows. The loop sums dJ/d(threshold) in slope. The
+  // derivatives of the threshold times slope are added to all derivatives at the end.
   const double threshold = e * square.value / force.value;
-  // Of an even pressure q = m, and even q^2 / (q^2 + e^2 m^2) = 1.
+  // For a uniform pressure q = m and even * q^2 / (q^2 + e^2 m^2) = 1.
   const double even  = 1. + e * e;
   double       slope = 0.; // dJ/d(threshold)
   for (unsigned int i = 0; i < rows.force.size(); ++i)
@@ -58,7 +58,7 @@ Measured contact_area(const PressureRows &rows, const double e)
       const double share = even * q * q / sum;
       const double by_q  = even * 2. * q * threshold * threshold / (sum * sum);
       result.value += rows.area[i] * share;
-      // share(q_i) A_i with q_i = p_i / A_i at a fixed threshold
+      // The terms are the derivatives of share(q_i) A_i with q_i = p_i / A_i at a fixed threshold.
       result.by_force[i] = by_q / force.largest;
       result.by_area[i]  = share - q * by_q;
       slope -= even * rows.area[i] * 2. * q * q * threshold / (sum * sum);
@@ -74,7 +74,7 @@ Measured contact_area(const PressureRows &rows, const double e)
   return result;
 }
 
-/// J = m S^(1/p), J' = J / (p S) S'.
+/// Compute J = m S^(1/p) and J' = J / (p S) S'.
 Measured pressure_norm(const PressureRows &rows, const double p)
 {
   const PowerSum sum(rows, p);
@@ -88,7 +88,7 @@ Measured pressure_norm(const PressureRows &rows, const double p)
   return result;
 }
 
-/// J = m (S_(p+1) / S_1)^(1/p), J' = J / p (S_(p+1)' / S_(p+1) - S_1' / S_1).
+/// Compute J = m (S_(p+1) / S_1)^(1/p) and J' = J / p (S_(p+1)' / S_(p+1) - S_1' / S_1).
 Measured peak_pressure(const PressureRows &rows, const double p)
 {
   const PowerSum sum(rows, p + 1.), force(rows, 1.);
@@ -107,7 +107,8 @@ Measured peak_pressure(const PressureRows &rows, const double p)
   return result;
 }
 
-/// Of all rows, also those that are open: a bare part of the side is uneven, too.
+/// Compute the variance over all rows, including open rows, because an open part of the side
+/// makes the pressure nonuniform too.
 Measured pressure_variance(const PressureRows &rows)
 {
   auto   result = nothing(rows);
@@ -125,7 +126,8 @@ Measured pressure_variance(const PressureRows &rows)
       const double q = rows.force[i] / rows.area[i];
       result.value += rows.area[i] * (q - mean) * (q - mean) / area;
     }
-  // m may count as a constant, as it makes the integral stationary: int (q - m) dA = 0.
+  // The mean m may be treated as a constant, because it makes the integral stationary:
+  // int (q - m) dA = 0.
   for (unsigned int i = 0; i < rows.force.size(); ++i)
     {
       const double q     = rows.force[i] / rows.area[i];

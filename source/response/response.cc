@@ -4,7 +4,8 @@ namespace snug::response {
 namespace {
 using Parameters = ResponseParameters;
 
-/// Work takes its partial derivatives from the factors of 1/2 u'Ku and f'u that it is given.
+/// Return the responses of bodies. Work derives its partial derivatives from the given
+/// factors of 1/2 u'Ku and f'u.
 template <int dim>
 ChoiceTable<MakeResponse<dim>> body_responses()
 {

@@ -29,7 +29,7 @@ void ResponseParameters::declare(Entries &entries)
 
 bool ResponseParameters::reads(const std::string &entry) const
 {
-  // The same in 2D and 3D.
+  // The responses of 2D and 3D read the same entries.
   const auto entries = make_response<3>(*this)->entries();
   return std::find(entries.begin(), entries.end(), entry) != entries.end();
 }

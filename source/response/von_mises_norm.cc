@@ -20,14 +20,14 @@ public:
 
   std::vector<std::string> entries() const override { return {"Body", "Exponent"}; }
 
-  /// Below a contact, stresses are those of its pressure.
+  /// Return true, because the contact pressure determines the stresses near a contact.
   bool reads_pressure() const override { return true; }
 
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
     const auto of = integrals(solver, state);
-    // Divided by the volume, J is the stress itself where it is even.
+    // Division by the volume makes J equal to the stress if the stress is uniform.
     return of.scale * std::pow(of.power / of.volume, 1. / p);
   }
 
@@ -41,7 +41,7 @@ public:
       result.u.emplace_back(assembler->n_dofs());
     if (of.scale == 0.)
       return result;
-    // dJ = J/p (dS/S - dV/V). The scale in S is a constant: it cancels in J.
+    // dJ = J/p (dS/S - dV/V). The scale in S cancels in J and is differentiated as a constant.
     const double                         J = of.scale * std::pow(of.power / of.volume, 1. / p);
     const elasticity::VonMisesPower<dim> power(solver.mesh().degree(), solver.mesh().idealization(),
                                                p, of.scale);
@@ -52,16 +52,16 @@ public:
       power.add_gradients(X, assembler.material(i), assembler.cell_values(i, state.u[s].column(0)),
                           J / (p * of.power), by_u, by_X);
       assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
-      // dJ/du belongs to the unknowns of the subdomain, where masters act for hanging nodes; dJ/dX
-      // to the nodes of the mesh, hanging ones included.
+      // dJ/du belongs to the unknowns of the subdomain, where masters replace hanging nodes.
+      // dJ/dX belongs to the nodes of the mesh, including hanging nodes.
       assembler.add_cell_vector(i, 1., by_u, result.u[s].column(0));
       state::add_to_cell_nodes(solver, s, i, by_X, result.positions);
     });
     return result;
   }
 
-  /// J' v = J/S int s^(p-1) ds dV with s = sigma_vM / scale, and sigma_vM' = 3 mu dev sigma :
-  /// eps(v) / sigma_vM. In plane stress eps_zz is -nu/(1-nu) times the trace in the plane.
+  /// Return J' v = J/S int s^(p-1) ds dV with s = sigma_vM / scale, and sigma_vM' = 3 mu dev sigma
+  /// : eps(v) / sigma_vM. In plane stress eps_zz is -nu/(1-nu) times the trace in the plane.
   FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
                                         const state::ContactState<dim> &state) const override
   {
@@ -95,8 +95,8 @@ public:
   }
 
 private:
-  /// S = int (sigma_vM / scale)^p dV with the largest stress as the scale,
-  /// and the volume; scale 0: no stress.
+  /// S = int (sigma_vM / scale)^p dV with the maximum stress as the scale, and the volume.
+  /// The scale is 0 if there is no stress.
   struct Integrals
   {
     double scale = 0., power = 0., volume = 0.;
@@ -109,7 +109,7 @@ private:
     const auto    &mesh = solver.mesh();
     const MPI_Comm comm = solver.context().communicator();
     Integrals      result;
-    // First the scale: without it, large exponents overflow or underflow.
+    // Compute the scale first, because otherwise large exponents overflow or underflow.
     const Power stress(mesh.degree(), mesh.idealization(), p, 1.);
     state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
       const auto &assembler = *solver.assemblers()[s];
@@ -121,7 +121,7 @@ private:
     });
     result.scale  = dealii::Utilities::MPI::max(result.scale, comm);
     result.volume = dealii::Utilities::MPI::sum(result.volume, comm);
-    // On all ranks, since the scale is the largest of all.
+    // All ranks return here together, because the scale is the maximum over all ranks.
     if (result.scale == 0.)
       return result;
     const Power power(mesh.degree(), mesh.idealization(), p, result.scale);
@@ -134,7 +134,7 @@ private:
     return result;
   }
 
-  const std::string body; ///< empty: all
+  const std::string body; ///< empty: all bodies
   const double      p;
 };
 } // namespace

@@ -13,12 +13,13 @@ public:
     : member(value), stiffness(stiffness), load(load)
   {}
 
-  /// 1/2 u'Ku - f'u: dJ/du = Ku - f = -B'lambda.
+  /// Return whether J = 1/2 u'Ku - f'u, which has dJ/du = Ku - f = -B'lambda.
   bool stationary() const override { return stiffness == 1. && load == -1.; }
 
   double value(const state::StateSolver<dim> &, const State &state) const override
   {
-    // As described by the state: the energy is the dual value, more exact than one made from u.
+    // Use the values stored in the state: its energy is the dual value, which is more
+    // accurate than an energy computed from u.
     return state.*member;
   }
 
@@ -35,9 +36,9 @@ public:
   {
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
-    // Assembled again, as the solver holds the loads of the case solved last.
+    // Assemble the loads again, because the solver holds the loads of the load case solved last.
     const auto f = solver.loads(state.positions, state.load_case);
-    // Collective: every rank asks, also one without subdomains.
+    // The call of feti() is collective, so every rank makes it, even a rank without subdomains.
     const auto *feti = stiffness != 0. ? &solver.feti(state) : nullptr;
     for (unsigned int s = 0; s < state.u.size(); ++s)
       {
@@ -47,10 +48,10 @@ public:
           feti->subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
       }
     if (stiffness != 0.)
-      // d/dX (u'Ku) at fixed u; w = u here
+      // The gradient is d/dX (u'Ku) at fixed u, with w = u.
       state::add_stiffness_gradient(solver, state, state.u, stiffness / 2., result.positions);
     if (load != 0.)
-      // dead loads: f depends on X, not on u
+      // The loads are dead loads: f depends on X, not on u.
       state::add_load_gradient(solver, state, state.u, load, result.positions);
     return result;
   }

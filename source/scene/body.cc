@@ -36,7 +36,7 @@ std::vector<Region> regions_in(const Body &body)
   return regions;
 }
 
-/// Every region has a material, and every material a region.
+/// Check that every region has a material, and every material a region.
 void check_regions(const SectionCheck &section, const Body &body)
 {
   const auto regions = section.dimension == 2 ? regions_in<2>(body) : regions_in<3>(body);

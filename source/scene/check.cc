@@ -42,7 +42,7 @@ void check_model(const Scene &scene, const SectionCheck &top)
   top.require(!scene.output_directory.empty(), "Output directory", "", "must not be empty");
 }
 
-/// Loads of bodies and load cases.
+/// Check the loads of bodies and load cases.
 void check_all_loads(const Scene &scene, const Origins &origins)
 {
   LoadParameters::Held held;
@@ -66,7 +66,7 @@ void check_all_loads(const Scene &scene, const Origins &origins)
 
 void check_gradient(const Scene &scene, const SectionCheck &section)
 {
-  // The same in 2D and 3D.
+  // The responses of 2D and 3D are the same in this respect.
   const std::string &objective = scene.optimization.objective;
   const auto         measured  = response_called(scene, objective);
   section.require(scene.gradient.method != sensitivity::Method::energy ||
@@ -76,7 +76,8 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
                     objective + "'");
 }
 
-/// A search needs the error of its objective, and variables that are the same on all meshes.
+/// Check the targets. A search needs the error of its objective, and variables that are the same
+/// on all meshes.
 void check_targets(const Scene &scene, const SectionCheck &section)
 {
   const auto &targets = scene.accuracy.targets;

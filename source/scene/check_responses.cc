@@ -7,17 +7,17 @@ namespace snug::scene {
 namespace {
 using Parameters = response::ResponseParameters;
 
-/// Names of the responses an objective or a constraint may be.
+/// Return the names of the responses that an objective or a constraint may use.
 std::vector<std::string> response_names(const Scene &scene)
 {
   auto names = names_of(scene.responses);
-  // The same in 2D and 3D.
+  // The tables of 2D and 3D have the same names.
   for (const auto &row : response::response_table<3>())
     names.push_back(row.name);
   return names;
 }
 
-/// What the response names is there.
+/// Check that the body, face and pair named by the response exist.
 void check_places(const Scene &scene, const SectionCheck &section, const Parameters &response)
 {
   section.require(response.body.empty() || body_index(scene, response.body) < scene.bodies.size(),
@@ -51,7 +51,8 @@ bool has_density(const Scene &scene, const Body &body)
   return false;
 }
 
-/// Whether what @p response measures is there, not zero in all designs.
+/// Return whether a body of @p response has a density, so that the response is not zero in all
+/// designs.
 bool has_mass(const Scene &scene, const Parameters &response)
 {
   for (const auto &body : scene.bodies)
@@ -60,7 +61,7 @@ bool has_mass(const Scene &scene, const Parameters &response)
   return false;
 }
 
-/// The response that a part of the @p value of an entry calls @p name.
+/// Return the response called @p name, which is a part of the @p value of an entry.
 Parameters require_response(const Scene        &scene,
                             const SectionCheck &section,
                             const std::string  &entry,

@@ -4,7 +4,7 @@
 
 namespace snug::scene {
 namespace {
-/// What the shape names is there.
+/// Check that the bodies and boundaries named by the shape exist.
 void check_places(const Scene                  &scene,
                   const SectionCheck           &section,
                   const shape::ShapeParameters &shape)

@@ -3,7 +3,8 @@
 
 namespace snug::scene {
 namespace {
-/// The names of what has subsections of its own, which is made before.
+/// Add the entry with the names of @p list. The items have subsections of their own, which are
+/// made before.
 template <typename Named>
 void add_names(Entries                  &entries,
                const std::string        &entry,
@@ -57,7 +58,7 @@ void declare_general(Entries &entries, Scene &scene)
               "but tangled ones.");
 }
 
-/// The subsections of what has names.
+/// Declare the subsections of the named items.
 template <typename Named>
 void declare_named(Entries &entries, std::vector<Named> &list, const std::string &meaning)
 {

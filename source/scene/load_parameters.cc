@@ -4,7 +4,7 @@
 
 namespace snug::scene {
 namespace {
-/// The vector of @p key has a number per dimension.
+/// Check that the vector of @p key has one number per dimension.
 void require_count(const SectionCheck &section,
                    const std::string  &entry,
                    const std::string  &value,

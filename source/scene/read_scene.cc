@@ -11,10 +11,11 @@
 
 namespace snug::scene {
 namespace {
-/// The most that is read from devices and pipes [bytes].
+/// Maximum number of bytes read from devices and pipes.
 constexpr std::size_t longest_stream = 16u << 20;
 
-/// What a device or a pipe holds, or the reason why it is not taken.
+/// Read the contents of a device or a pipe into @p text. If they are too long, store the reason
+/// there and return false.
 bool try_to_read_stream(std::istream &in, std::string &text)
 {
   text.resize(longest_stream + 1);
@@ -26,7 +27,8 @@ bool try_to_read_stream(std::istream &in, std::string &text)
   return false;
 }
 
-/// Contents of @p file, or the reason why it cannot be read.
+/// Read the contents of @p file into @p text. If the file cannot be read, store the reason there
+/// and return false.
 bool try_to_read(const std::string &file, const TextSource source, std::string &text)
 {
   std::error_code unknown;
@@ -51,7 +53,7 @@ bool try_to_read(const std::string &file, const TextSource source, std::string &
   return good;
 }
 
-/// All statements that count, in the order they are applied.
+/// Return all statements that take effect, in the order in which they are applied.
 std::vector<Statement> statements_of(const SceneSource &source)
 {
   auto statements = parse_statements(source.text, source.file);
@@ -59,7 +61,7 @@ std::vector<Statement> statements_of(const SceneSource &source)
     statements.push_back(parse_override(set));
   if (!source.output_directory.empty())
     statements.push_back({"", "Output directory", source.output_directory, "--output"});
-  // A value with these would not survive printing and reading again.
+  // Reject values that printing and reading again would change.
   for (const auto &statement : statements)
     if (statement.value.find_first_of("#\n\r") != std::string::npos ||
         (!statement.value.empty() && statement.value.back() == '\\'))
@@ -69,7 +71,7 @@ std::vector<Statement> statements_of(const SceneSource &source)
   return statements;
 }
 
-/// The last value of the entry @p path, a list of names.
+/// Return the last value of the entry @p path, a list of names.
 std::vector<std::string> names_in(const std::vector<Statement> &statements, const std::string &path)
 {
   std::string names;
@@ -79,7 +81,7 @@ std::vector<std::string> names_in(const std::vector<Statement> &statements, cons
   return split(names, ',');
 }
 
-/// An item for each name in the entry @p path.
+/// Make one item for each name in the entry @p path.
 template <typename Named>
 void make(const std::vector<Statement> &statements,
           const std::string            &path,
@@ -93,8 +95,8 @@ void make(const std::vector<Statement> &statements,
     }
 }
 
-/// First pass: bodies, load cases, materials, obstacles, responses and
-/// shapes, without what they are made of.
+/// Make bodies, load cases, materials, obstacles, responses and shapes in a first pass, with
+/// names but without contents.
 void make_named(const std::vector<Statement> &statements, Scene &scene)
 {
   make(statements, "Bodies", scene.bodies);
@@ -112,8 +114,8 @@ bool belongs_to_pair(const Statement &statement)
   return statement.section.rfind("Pair ", 0) == 0;
 }
 
-/// Pairs take over what subsection Contact says, but for entries of
-/// their own, wherever these stand.
+/// Assign all statements. Pairs inherit the entries of subsection Contact, except entries of
+/// their own subsection, independent of the order of the statements.
 void assign(const std::vector<Statement> &statements, Scene &scene)
 {
   {
@@ -132,7 +134,7 @@ void assign(const std::vector<Statement> &statements, Scene &scene)
       entries.set(statement);
 }
 
-/// Give what was left empty its default.
+/// Set members that were left empty to their defaults.
 void complete(Scene &scene)
 {
   if (!scene.model)
@@ -143,7 +145,7 @@ void complete(Scene &scene)
     obstacle.complete(scene.dimension);
 }
 
-/// What a mesh file holds. @throws InputError naming the entry.
+/// Return the contents of a mesh file. @throws InputError naming the entry.
 std::string mesh_text(const SceneSource &source, const std::string &file)
 {
   try
@@ -156,8 +158,8 @@ std::string mesh_text(const SceneSource &source, const std::string &file)
     }
 }
 
-/// Read the mesh files of all bodies. Their paths become absolute, so
-/// that the scene may be printed elsewhere.
+/// Read the mesh files of all bodies. Their paths become absolute, so that the scene may be
+/// printed in another directory.
 void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene)
 {
   for (auto &body : scene.bodies)
@@ -247,7 +249,7 @@ void print_reference(std::ostream &out)
   scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});
   Entries entries;
   declare(entries, scene);
-  // Lists of names have those that the reference needs, and no default.
+  // Lists of names contain the names that the reference needs, and have no default.
   const auto initial = [](const std::string &text) {
     return text.empty() || text == "NAME" || text == "SLAVE: MASTER" ? "" : "`" + text + "`";
   };

@@ -83,7 +83,7 @@ std::optional<response::ResponseParameters> response_called(const Scene       &s
   for (const auto &response : scene.responses)
     if (response.name == name)
       return response;
-  // The same in 2D and 3D.
+  // The tables of 2D and 3D have the same names.
   for (const auto &row : response::response_table<3>())
     if (row.name == name)
       {

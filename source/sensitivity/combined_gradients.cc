@@ -9,7 +9,7 @@ void add(const double factor, const std::vector<double> &values, std::vector<dou
     sum[j] += factor * values[j];
 }
 
-/// sum += factor * gradient, begun with an empty sum.
+/// Compute sum += factor * gradient. The sum is empty at the first call.
 template <int dim>
 void add(const double factor, const Gradient<dim> &gradient, Gradient<dim> &sum)
 {
@@ -36,7 +36,7 @@ Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
   result.of_response.resize(1 + others.size());
   for (unsigned int c = 0; c < load_cases.size(); ++c)
     {
-      // the objective and all others of a load case share one block solve
+      // The objective and all other responses of a load case share one block solve.
       Responses<dim>            responses = {&objective};
       std::vector<unsigned int> places;
       for (unsigned int i = 0; i < others.size(); ++i)

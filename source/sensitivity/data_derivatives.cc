@@ -20,7 +20,7 @@ double largest(const Nodes<dim> &V)
   return norm;
 }
 
-/// Of derivatives that are not exact.
+/// Return the stencil of derivatives that are not exact.
 elasticity::Stencil stencil_of(const Derivatives derivatives)
 {
   const bool forward =
@@ -28,7 +28,7 @@ elasticity::Stencil stencil_of(const Derivatives derivatives)
   return stencil(forward ? elasticity::Differences::forward : elasticity::Differences::central);
 }
 
-/// The differences of derivatives that are not exact.
+/// Return the differences for derivatives that are not exact.
 template <int dim>
 elasticity::SemiAnalytic<dim> semi_analytic(const state::StateSolver<dim> &solver,
                                             const GradientParameters      &parameters)
@@ -39,7 +39,7 @@ elasticity::SemiAnalytic<dim> semi_analytic(const state::StateSolver<dim> &solve
                                        parameters.semi_analytic_step, solver.mesh().idealization());
 }
 
-/// What the derivatives of one subdomain are taken of.
+/// The subdomain and the state whose data are differentiated.
 template <int dim>
 struct SubdomainDerivative
 {
@@ -51,7 +51,7 @@ struct SubdomainDerivative
   const elasticity::SemiAnalytic<dim> *differences; ///< null: exact
   unsigned int                         s;
 
-  /// To column j of @p ft for velocity j.
+  /// Add the derivative along velocity j to column j of @p ft.
   void add_cells(const std::vector<Field> &velocities, qp::MultiVector &ft) const;
   void add_faces(const Field     &velocity,
                  const Tractions &tractions,
@@ -105,7 +105,7 @@ void SubdomainDerivative<dim>::add_cells(const std::vector<Field> &velocities,
     }
 }
 
-/// Of cell i at X, for each of the velocities.
+/// Return the derivatives of the internal force of cell i at X, one for each velocity.
 template <int dim>
 std::vector<Nodes<dim>>
 SubdomainDerivative<dim>::internal_force_derivatives(const unsigned int             i,
@@ -124,8 +124,8 @@ SubdomainDerivative<dim>::internal_force_derivatives(const unsigned int         
   return r;
 }
 
-/// Resultants change the loads of a whole face where any of it moves:
-/// their tractions are differentiated exactly.
+/// Resultants change the loads of a whole face even if only a part of the face
+/// moves. The tractions of resultants are therefore differentiated exactly.
 template <int dim>
 void SubdomainDerivative<dim>::add_faces(const Field     &velocity,
                                          const Tractions &tractions,
@@ -155,7 +155,7 @@ void SubdomainDerivative<dim>::add_faces(const Field     &velocity,
     }
 }
 
-/// rows <- rows + weight of; all have the same entries.
+/// Compute rows <- rows + weight * of. Both arguments have the same entries.
 template <int dim>
 void add(double weight, const state::RowCoefficients<dim> &of, state::RowCoefficients<dim> &rows)
 {
@@ -177,8 +177,8 @@ void add(double weight, const state::RowCoefficients<dim> &of, state::RowCoeffic
       }
 }
 
-/// Diagonal of the smallest face of the bodies over the largest velocity
-/// of a face node. Collective.
+/// Return the minimum diagonal of the boundary faces of the bodies over the maximum
+/// velocity of a face node. Collective.
 template <int dim>
 double
 time_across_face(const state::StateSolver<dim> &solver, const Nodes<dim> &X, const Nodes<dim> &V)
@@ -196,8 +196,7 @@ time_across_face(const state::StateSolver<dim> &solver, const Nodes<dim> &X, con
   return speed > 0. ? size / speed : 0.;
 }
 
-/// Derivatives of what the rows of B are made of along a velocity.
-/// Collective.
+/// Return the derivatives of the coefficients of the rows of B along a velocity. Collective.
 template <int dim>
 state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim> &solver,
                                             const Nodes<dim>              &X,
@@ -226,7 +225,7 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim> &solve
   return result;
 }
 
-/// ft -= B'^T lambda and B' u into the local rows, column j.
+/// Add -B'^T lambda to ft and B' u to the local rows Bu, both for one column.
 void add_row_derivatives(const std::vector<feti::BEntry> &B_derivative,
                          const qp::MultiVector           &lambda,
                          const qp::MultiVector           &u,

@@ -2,7 +2,7 @@
 
 namespace snug::sensitivity {
 namespace {
-/// What is differenced, at one design.
+/// The values at one design from which the differences are formed.
 template <int dim>
 struct Values
 {
@@ -24,7 +24,7 @@ Values<dim> values_at(const GradientProblem<dim> &problem,
                       const Responses<dim>       &responses,
                       const std::vector<double>  &design)
 {
-  // cold start: a warm one would stop at once and hide u'
+  // Use a cold start, because a warm start would converge at once and hide u'.
   const auto state =
     problem.solver.solve(shape::positions(problem.solver.mesh(), problem.basis, design),
                          qp::WarmStart(), problem.state.load_case);

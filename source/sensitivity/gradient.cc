@@ -6,7 +6,8 @@
 
 namespace snug::sensitivity {
 namespace {
-/// Each response by its method, those of one method together.
+/// Compute the gradient of each response by its method. Responses with the same
+/// method are differentiated together.
 template <int dim>
 Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
                           const Responses<dim>            &responses,
@@ -43,8 +44,8 @@ Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
   return result;
 }
 
-/// The method of each response: adjoint and direct need none for what
-/// depends on the geometry alone.
+/// Return the method of each response. If the method is adjoint or direct, a response that depends
+/// on the geometry alone takes the energy method, because it needs no solve.
 template <int dim>
 std::vector<MethodChoice> methods(const GradientProblem<dim> &problem,
                                   const Responses<dim>       &responses)
@@ -59,8 +60,8 @@ std::vector<MethodChoice> methods(const GradientProblem<dim> &problem,
   return choices;
 }
 
-/// The field in the span of the velocities that has the products
-/// @p values with them, V (V'V)^+ values: this rank's share.
+/// Return this rank's share of the field V (V'V)^+ values. This field lies in the
+/// span of the velocities V and has the products @p values with them.
 template <int dim>
 typename mesh::BodyMesh<dim>::Field spanned_field(const GradientProblem<dim> &problem,
                                                   const std::vector<double>  &values)
@@ -70,7 +71,7 @@ typename mesh::BodyMesh<dim>::Field spanned_field(const GradientProblem<dim> &pr
   const unsigned int rank = problem.solver.context().rank();
   const auto         own  = [&](auto field) {
     for (unsigned int point = 0; point < field.size(); ++point)
-      // Samples belong to nodes: the products are those of nodes.
+      // Set the values at samples to zero, because the products are sums over nodes.
       if (point >= mesh.n_local_nodes() || mesh.owner(point) != rank)
         field[point] = 0.;
     return field;

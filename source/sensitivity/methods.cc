@@ -19,7 +19,7 @@ TangentSystem tangent_system(const state::StateSolver<dim>  &solver,
                        state.dual.directions);
 }
 
-/// values_j += column i of products (adjoint, residual derivatives).
+/// Add row i of the products (adjoint, residual derivatives) to @p values.
 void add_row(const qp::MultiVector &products, unsigned int i, std::vector<double> &values)
 {
   for (unsigned int j = 0; j < values.size(); ++j)

@@ -14,7 +14,7 @@ KktVectors column_of(const KktVectors &x, unsigned int j)
   return column;
 }
 
-/// x <- [x, -x].
+/// Compute x <- [x, -x].
 void append_negative(qp::MultiVector &x)
 {
   qp::MultiVector negative(x.n_rows(), x.n_columns());
@@ -32,8 +32,8 @@ qp::RowSet weak_rows(const state::StateSolver<dim> &solver, const state::Contact
   return rows;
 }
 
-/// The solution of @p problem, started from @p linear, the derivative
-/// where the weak contacts are open.
+/// Return the solution of @p problem. The solver starts from @p linear, the
+/// derivative with open weak contacts.
 KktVectors solve_from(const SensitivityQp        &problem,
                       const feti::TotalFeti      &feti,
                       const qp::SolverParameters &parameters,

@@ -7,7 +7,7 @@ namespace {
 template <int dim>
 using Field = typename mesh::BodyMesh<dim>::Field;
 
-/// gradient += d/dX (eta'(g - B u) - lambda'B w). Collective.
+/// Add d/dX (eta'(g - B u) - lambda'B w) to @p gradient. Collective.
 template <int dim>
 void add_rows(const state::StateSolver<dim>  &solver,
               const state::ContactState<dim> &state,
@@ -25,7 +25,7 @@ void add_rows(const state::StateSolver<dim>  &solver,
       of_eta.push_back(scales[i] == 0. ? 0. : -eta[i] / scales[i]);
       of_lambda.push_back(state.contact[i].force);
     }
-  // the contact energy force (c.u - gap) without its gap is linear in u
+  // The contact energy force (c.u - gap) without its gap is linear in u.
   auto       sum  = surface.gather(state.displacement);
   const auto of_u = solver.contact().energy_gradient(X, sum, of_eta);
   sum             = surface.gather(state::nodal_values(solver, adjoint.primal, j));
@@ -37,7 +37,7 @@ void add_rows(const state::StateSolver<dim>  &solver,
   surface.add_owned(total, gradient);
 }
 
-/// The same for what supports hold: q . u = s there, and q . w = 0.
+/// Add the same derivative for the supports, where q . u = s and q . w = 0.
 template <int dim>
 void add_held(const state::StateSolver<dim>  &solver,
               const state::ContactState<dim> &state,

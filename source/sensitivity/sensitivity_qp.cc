@@ -1,7 +1,7 @@
 #include <snug/sensitivity/sensitivity_qp.h>
 
 namespace snug::sensitivity {
-/// A face of the state's problem, seen from the rows of this one.
+/// A face of the state's problem in terms of the rows of the sensitivity problem.
 class SensitivityQp::PartOfFreeSet : public qp::FreeSet
 {
 public:

@@ -7,9 +7,9 @@
 
 namespace snug::sensitivity {
 namespace {
-/// A residual whose projection is this part of it has none: projecting
-/// leaves that much of it (1e-13 on meshes of 100 cells). To iterate on
-/// rounding spoils the directions of all columns.
+/// Relative size below which a projected residual is rounding: projecting a
+/// residual leaves that share of it (1e-13 on meshes of 100 cells). Iterating on
+/// rounding would spoil the directions of all columns.
 const double rounding = 1e-12;
 } // namespace
 
@@ -35,8 +35,8 @@ TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
   , known(known.off(qp::complement(rows), feti.context().communicator()))
 {}
 
-/// ||G mu - e|| of every column within the tolerance of ||mu|| and the loads
-/// before they cancel; B and R are orthonormal but for a few rows, so ||G|| is near 1.
+/// Return whether ||G mu - e|| of every column is within the tolerance of the sum of ||mu|| and the
+/// loads before they cancel. B and R are orthonormal except for a few rows, so ||G|| is near 1.
 bool TangentSystem::balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const
 {
   auto missing = feti.rigid_part(b);
@@ -73,8 +73,8 @@ bool TangentSystem::minimize(qp::MultiVector           &mu,
   return true;
 }
 
-/// d - F mu = B K^+ (b - B' mu) - c: with d not formed by itself, its one
-/// application of K^+ is all it takes.
+/// Return d - F mu = B K^+ (b - B' mu) - c. This form needs only one application of
+/// K^+, because d is not formed separately.
 qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_sides,
                                               const qp::MultiVector &mu) const
 {
@@ -103,7 +103,7 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   if (!balanced(b, result.dual))
     throw SolveError("no derivative: the response sees, or the design unbalances, a motion that a "
                      "body is free to make");
-  // Where the rounding of soft modes stops it, it goes on without them.
+  // Where the rounding of soft modes stalls the deflated solve, repeat it without deflation.
   if (!minimize(result.dual, residual, tolerances, true) &&
       !minimize(result.dual, residual, tolerances, false))
     throw SolveError("the sensitivities were not solved to the relative "

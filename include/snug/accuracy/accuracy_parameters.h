@@ -30,13 +30,14 @@ inline Names names(Estimate)
 struct AccuracyParameters
 {
   Estimate estimate = Estimate::energy;
-  /// response -> what its error may be, see read_target(); empty: the mesh as given
+  /// response -> maximum error, see read_target(); empty: the mesh is used as given
   TextPairs    targets;
-  unsigned int maximum_levels   = 12; ///< of a cell above its coarse cell
+  unsigned int maximum_levels   = 12; ///< maximum level of a cell above its coarse cell
   double       maximum_unknowns = 2e6;
-  double       marking_share    = 0.7; ///< of the error, refined at once
-  double       contact_faces    = 8.;  ///< across a contact, before estimates are trusted
-  /// states with targets on a finer mesh; none: where it is cheap
+  double       marking_share    = 0.7; ///< maximum share of the error in the cells refined at once
+  double       contact_faces    = 8.;  ///< minimum number across a contact with trusted estimates
+  /// whether states with targets are solved on a finer mesh too; no value: if the finer mesh is
+  /// cheap
   std::optional<bool> verify = {};
 
   void declare(Entries &entries);

@@ -5,58 +5,59 @@
 #include <vector>
 
 namespace snug::accuracy {
-/// How large the error of a response may be.
+/// Maximum error of a response.
 struct Target
 {
   double value    = 0.;
-  bool   relative = true; ///< to the size of the response
+  bool   relative = true; ///< relative to the size of the response
 
   double allowed(double response) const;
 };
 
-/// The smallest target relative to a response: the rounding of states is above it.
+/// Minimum target relative to a response. Smaller targets are below the rounding of states.
 constexpr double smallest_target = 1e-10;
 
 /// Return the target of "1 %" of the response, or of a number in its units.
 /// @throws std::invalid_argument for anything else, and for relative targets below smallest_target.
 Target read_target(const std::string &text);
 
-/// The part of the allowed error that a mesh is refined for, so that the last step neither misses
-/// nor overshoots by much.
+/// Share of the allowed error at which refinement aims, so that the last step neither misses nor
+/// overshoots the target by much.
 constexpr double aim = 0.8;
 
 struct Marking
 {
   unsigned int degree; ///< p of the elements
-  double       share;  ///< of the error, that is refined at once
+  double       share;  ///< maximum share of the error in the cells refined at once
 };
 
 /**
- * The cells to refine for one response: the fewest, those with the largest indicators first, with
+ * Return the cells to refine for one response. The function marks the minimum number of
+ * cells, those with the maximum indicators first, that satisfies
  *   E - (1 - 4^-p) sum_marked <= aim * allowed,
- * where the @p indicators are scaled to the sum E = @p error, but cells with no more than
- * the share of E, and those that are all but equal to the last. Cells in an order that does not
- * depend on the ranks.
+ * where the @p indicators are scaled to the sum E = @p error. The marked cells have at most the
+ * given share of E, except that cells with almost the same indicator as the last marked cell are
+ * marked too. The cells must be in an order that does not depend on the ranks.
  */
 std::vector<bool>
 mark(const std::vector<double> &indicators, double error, double allowed, const Marking &marking);
 
-/// Solver tolerances between meshes.
+/// Tolerance of the solver on the first mesh, and its maximum on later meshes.
 constexpr double first_tolerance = 1e-2;
 
 /**
- * The tolerance at which the next mesh is solved: a tenth of the relative @p error of the response
- * of this one, of energies, which feel errors of the state squared, its root; between @p least and
- * first_tolerance.
+ * Return the tolerance at which the next mesh is solved: a tenth of the relative @p error of the
+ * response on the current mesh. For energies it is the root of this value, because energies depend
+ * on the square of the error of the state. The tolerance lies between @p least and first_tolerance.
  */
 double step_tolerance(double error, bool is_energy, double least);
 
-/// Whether errors on meshes refined for them have no limit zero: the last is above two thirds of
-/// the largest of the three before.
+/// Return whether errors on meshes refined for the response do not tend to zero: the last error is
+/// above two thirds of the maximum of the three errors before it.
 bool is_unbounded(const std::vector<double> &errors);
 
-/// Whether one of the last four values has another sign than the last, as what a solver leaves of a
-/// response that is zero.
+/// Return whether one of the last four values differs in sign from the last value. This is typical
+/// of a response that is zero except for the error of the solver.
 bool changes_sign(const std::vector<double> &values);
 } // namespace snug::accuracy
 

@@ -4,15 +4,16 @@
 #include <snug/accuracy/cell_fields.h>
 
 namespace snug::accuracy {
-/// A point of a boundary face, or of the true surface it stands for.
+/// A point of a boundary face, or the point of the true surface that corresponds to it.
 template <int dim>
 struct FacePoint
 {
   dealii::Tensor<1, dim> reference, position; ///< [length]
-  dealii::Tensor<1, dim> area;                ///< n dA, out of the body [length^2]
+  dealii::Tensor<1, dim> area;                ///< n dA, n outward [length^2]
 };
 
-/// The forces of loads, and of what else acts, at points of cells and boundary faces of this rank.
+/// The forces of loads and of response derivatives at points of cells and boundary faces of this
+/// rank.
 template <int dim>
 class AppliedForces
 {
@@ -20,22 +21,24 @@ public:
   using Cell = typename mesh::BodyMesh<dim>::Cell;
   using Face = typename mesh::BodyMesh<dim>::Face;
 
-  /// With the loads of @p state. References must outlive this. Collective.
+  /// Use the loads of @p state. References must outlive this object. Collective.
   AppliedForces(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
 
   bool act_on(const Face &face, const LoadedDisplacement<dim> &of) const;
 
-  /// t dA [force] of pressures and tractions given by area, which the true surface has in its way.
+  /// Return t dA [force] of pressures and tractions per area. On the true surface they act with
+  /// its area.
   dealii::Tensor<1, dim>
   by_area(const Face &face, const FacePoint<dim> &point, const LoadedDisplacement<dim> &of) const;
 
-  /// t dA [force] of total forces and moments, which are spread over the faces of the mesh.
+  /// Return t dA [force] of total forces and moments, which are distributed over the faces of the
+  /// mesh.
   dealii::Tensor<1, dim>
   spread(const Face &face, const FacePoint<dim> &point, const LoadedDisplacement<dim> &of) const;
 
   bool act_in(const Cell &cell, const LoadedDisplacement<dim> &of) const;
 
-  /// Body forces [force / length^3] where the reference position is @p reference.
+  /// Return the body forces [force / length^3] at the reference position @p reference.
   dealii::Tensor<1, dim> by_volume(const Cell                    &cell,
                                    const dealii::Tensor<1, dim>  &reference,
                                    const LoadedDisplacement<dim> &of) const;
@@ -49,7 +52,7 @@ private:
 
   const state::Model<dim>                  &model;
   const std::vector<state::BodyLoads<dim>> &bodies;
-  const Tractions                           tractions; ///< of resultants
+  const Tractions                           tractions; ///< tractions of the resultants
 };
 } // namespace snug::accuracy
 

@@ -10,39 +10,41 @@ namespace snug::accuracy {
 /// A response and its estimated error.
 struct Measured
 {
-  double value = 0., error = 0.; ///< not finite: not known
+  double value = 0., error = 0.; ///< not finite: unknown
 };
 
-/// "energy 1.23 +- 0.01 (0.8 %)", or without an error that is not known.
+/// Return "energy 1.23 +- 0.01 (0.8 %)", or the value alone if the error is unknown.
 std::string text_of(const std::string &name, const Measured &measured);
 
 /// A target of a response in one load case.
 struct Demand
 {
-  std::string         name; ///< of the response, with the load case if there are several
+  std::string         name; ///< name of the response, with the load case if there are several
   unsigned int        load_case;
-  unsigned int        place; ///< of the target in the entry
+  unsigned int        place; ///< index of the target in the entry
   Target              target;
   bool                is_energy;
   bool                reads_pressure; ///< see Response::reads_pressure()
-  double              factor = 1.;    ///< that errors may be larger by
-  std::vector<double> errors = {};    ///< on the last meshes that were refined for it
-  std::vector<double> values = {};    ///< on all meshes
+  double              factor = 1.;    ///< factor by which errors may exceed the target
+  std::vector<double> errors = {}; ///< errors on the last meshes that were refined for this demand
+  std::vector<double> values = {}; ///< values on all meshes
 
   double allowed(const Measured &measured) const { return factor * target.allowed(measured.value); }
 
-  /// That of the next mesh, see step_tolerance().
+  /// Return the solver tolerance of the next mesh, see step_tolerance().
   double tolerance(const Measured &measured, double least) const;
 
-  /// Note the value on a mesh that is refined for the contact: another contact is another problem.
+  /// Record the value on a mesh that is refined for the contact. Discard the errors, because a
+  /// changed contact is a different problem.
   void pass(const double value)
   {
     errors.clear();
     values.push_back(value);
   }
 
-  /// Note what came of a mesh, on which it @p is_met or not.
-  /// @return what keeps it from ever being met; empty: nothing.
+  /// Record the value and the error on a mesh. @p is_met states whether this mesh meets the demand.
+  /// @return the reason why no mesh can meet the demand, or an empty string if there is no such
+  /// reason.
   std::string note(const Measured &measured, bool is_met);
 
 private:

@@ -5,54 +5,56 @@
 #include <snug/sensitivity/gradient_parameters.h>
 
 namespace snug::accuracy {
-/// How far a displacement u_h on a mesh is from u without one.
+/// Estimated distance of a displacement u_h on a mesh from the exact displacement u.
 struct EnergyEstimate
 {
   /// eta_K of the cells of this rank, eta_K^2 = a(e, e) by LocalErrors
   std::vector<double> cells;
   /// eta = (sum eta_K^2)^(1/2) ~ |u - u_h|, |v|^2 = a(v, v) [(force length)^(1/2)]
   double error = 0.;
-  /// eta / (|u_h|^2 + eta^2)^(1/2); 0 where nothing strains
+  /// eta / (|u_h|^2 + eta^2)^(1/2); 0 if there is no strain
   double relative = 0.;
 };
 
 /**
- * How far a response J(u_h, p_h) on a mesh is from J(u, p):
+ * Estimated difference of a response J(u_h, p_h) on a mesh from J(u, p):
  * @f[ J - J_h \approx \sum_K \bigl(a_K(e_u, e_z) + \tfrac s2 a_K(e_u, e_u)\bigr)
  *     - B(u_h, z) - \tfrac s2 B(u_h, u_h)
  *     + \int q_\eta\,(g - n\cdot[u_h])\,dA
- *     + \lambda\cdot c(z + s u_h) - \int p_h\,n\cdot[z + s u_h]\,dA + J(p_h) - J_h, @f]
- * e_u and e_z the local errors of the state and of its adjoint less s u_h, B of SurfaceLayer,
- * q_eta the adjoint's contact forces by area, c the contact rows, and s the stiffness of
- * FieldDerivative. The last difference is that of pressures between nodes and those that J reads:
- * at degree 2 its size, and not what is before it.
+ *     + \lambda\cdot c(z + s u_h) - \int p_h\,n\cdot[z + s u_h]\,dA + J(p_h) - J_h. @f]
+ * e_u and e_z are the local errors of the state and of its adjoint minus s u_h. B is that of
+ * SurfaceLayer, q_eta are the contact forces of the adjoint per area, c are the contact rows, and
+ * s is the stiffness of FieldDerivative. The last difference is that between J of the pressures
+ * between nodes and J of the pressures that J reads. At degree 2 its absolute value enters, and
+ * the two terms before it are left out.
  */
 struct ResponseEstimate
 {
-  double cells   = 0.; ///< the sum over cells, less what lies beyond their faces, signed
-  double contact = 0.; ///< the integrals, the sum over rows and the last difference, signed
-  double reading = 0.; ///< the last difference, where it is not in contact
-  /// size of what the mesh misses of data: the work of LoadResidual on the adjoint and, of
-  /// pressures, RoughPressure
+  double cells   = 0.; ///< signed sum over cells, minus the contribution B of the surface layer
+  double contact = 0.; ///< signed sum of the integrals, the sum over rows and the last difference
+  double reading = 0.; ///< the last difference if it is not part of contact
+  /// estimated effect of data that the mesh does not resolve: the work of LoadResidual on the
+  /// adjoint and, for pressures, RoughPressure
   double data = 0.;
-  /// Of this rank's cells: sizes of their parts in both.
+  /// contributions of this rank's cells to both sums, as absolute values
   std::vector<double> indicators;
 
-  /// Return the sums of the parts of this rank's cells, those of contact times @p factor.
-  /// Collective.
+  /// Return the sums and indicators of the contributions of this rank's cells, with those of
+  /// contact times @p factor. Collective.
   static ResponseEstimate of_cells(const std::vector<double> &cells,
                                    const std::vector<double> &contact,
                                    double                     factor,
                                    MPI_Comm                   comm);
 
-  /// Add the parts of an error that is of the data, times @p factor. Collective.
+  /// Add the contributions @p of_cells, times @p factor, to the error of the data. Collective.
   void add_data(const std::vector<double> &of_cells, double factor, MPI_Comm comm);
 
-  /// max(|cells + contact|, |cells|/2, |contact|/2) + |reading| + data: both may cancel by chance.
+  /// Return max(|cells + contact|, |cells|/2, |contact|/2) + |reading| + data. The maximum covers
+  /// cells and contact that cancel by chance.
   double error() const;
 };
 
-/// All at a state.
+/// All estimates at one state.
 struct Estimates
 {
   EnergyEstimate                energy;
@@ -60,12 +62,13 @@ struct Estimates
 };
 
 /**
- * Estimate the error in the energy norm and those of responses, by one block solve for all that
- * need one. Where jumps between subdomains, which the solver leaves, make more than a tenth of an
- * estimated error, as near Poisson's ratio one half, the estimate would measure the solver: the
- * state and the adjoints are then solved on to smaller tolerances, as far as the solver can.
+ * Estimate the error in the energy norm and the errors of responses. One block solve gives the
+ * adjoints of all responses that need a solve. The solver leaves jumps between subdomains. If they
+ * make more than a tenth of an estimated error, as near Poisson's ratio one half, the estimate
+ * would measure the error of the solver. In this case the state and the adjoints are solved again
+ * to smaller tolerances, as far as the solver can.
  * @param[out] solved_on the state that is estimated, if it is not @p state. Collective.
- * @throws SolveError where the adjoints cannot be solved at all.
+ * @throws SolveError if the adjoints cannot be solved at all.
  */
 template <int dim>
 Estimates estimate(const state::StateSolver<dim>                      &solver,

@@ -6,48 +6,49 @@
 
 namespace snug::accuracy {
 /**
- * What contact rows miss between their nodes: at Gauss points of the slave faces of this rank
+ * The residual of the contact conditions between the nodes: at Gauss points of the slave faces of
+ * this rank
  *   d = g - n . (u_h(x) - u_h(y)) [length],
- * g the gap of the true surfaces from x along the normal n of the master to y. Below 0 bodies
- * overlap there.
+ * where g is the gap of the true surfaces from x along the normal n of the master to y. The bodies
+ * overlap where d < 0.
  */
 template <int dim>
 class GapResidual
 {
 public:
-  /// References must outlive this. Collective.
+  /// References must outlive this object. Collective.
   GapResidual(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
 
-  /// int q d dA of the cells of this rank, q of the given values per contact row, over all
-  /// slave faces. Points beyond the end of the master side do not count.
+  /// Return int q d dA over the slave faces, per cell of this rank. q interpolates the given
+  /// values per contact row. Points beyond the end of the master side are left out.
   std::vector<double> integral(const std::vector<double> &of_rows) const;
 
-  /// What the forces of the rows do on a displacement @p v of the local nodes, less what
-  /// their pressures do between the rows, too:
+  /// Return the work of the forces of the rows on a displacement @p v of the local nodes, minus
+  /// the work of the pressures between the rows:
   ///   sum_i force_i c_i . v - int p n . [v] dA  [force length],
-  /// c_i the coefficients of row i. Equal on all ranks. Collective.
+  /// with the coefficients c_i of row i. Equal on all ranks. Collective.
   double excess_work(const std::vector<state::ContactPoint>    &rows,
                      const typename mesh::BodyMesh<dim>::Field &v) const;
 
-  /// q dA and dA at all points, by named pairs, on all ranks. Collective.
+  /// Return q dA and dA at all points of all ranks, per named pair. Collective.
   std::vector<response::PressureRows> pressures(const std::vector<double> &of_rows) const;
 
-  /// Of the slave faces of a pair, at their nodes, the least d of any of their points; infinite at
-  /// other nodes of the surface. Equal on all ranks. Collective.
+  /// Return, per surface node, the minimum d over all points of the slave faces of a pair at the
+  /// node; infinite at all other nodes. Equal on all ranks. Collective.
   std::vector<double> least(unsigned int pair) const;
 
 private:
   struct Point
   {
-    unsigned int                                 pair, named, cell; ///< joined and named pair
-    std::vector<std::pair<unsigned int, double>> shape;             ///< surface nodes, values
-    double                                       area; ///< of the true surface [length^2]
+    unsigned int pair, named, cell;                     ///< joined pair, named pair, cell
+    std::vector<std::pair<unsigned int, double>> shape; ///< surface nodes and shape values
+    double                                       area;  ///< of the true surface [length^2]
     double                                       residual;
     contact::PointGap<dim>                       gap;
   };
 
   const state::StateSolver<dim>     &solver;
-  typename mesh::Surface<dim>::Field positions; ///< of the surface
+  typename mesh::Surface<dim>::Field positions; ///< positions of the surface nodes
   std::vector<Point>                 points;
 
   double              jump(const Point &point, const typename mesh::Surface<dim>::Field &v) const;

@@ -4,9 +4,9 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::accuracy {
-/// Return how far the copies of each node are apart in column @p j [length]: the square root of the
-/// sum of the squares of the changes that make them @p continuous, which is the same on any ranks.
-/// Collective.
+/// Return the jump at each node between its copies in column @p j [length]: the square root of the
+/// sum of the squares of the changes from @p torn to @p continuous. The jump does not depend on
+/// the number of ranks. Collective.
 template <int dim>
 typename mesh::BodyMesh<dim>::Field jump(const state::StateSolver<dim> &solver,
                                          const feti::PrimalVectors     &torn,

@@ -8,23 +8,25 @@
 #include <functional>
 
 namespace snug::accuracy {
-/// How densely formulas are sampled, in parts of a face or cell per direction.
+/// Sampling density of formulas, in parts of a face or cell per direction.
 enum class Sampling
 {
-  search, ///< as densely as features of a hundredth of a coarse face ask for
+  search, ///< resolves features of a hundredth of a coarse face
   measure ///< 16 times as many points as the mesh has on a face
 };
 
-/// The number of parts per direction of a face at a level above its coarse face. Collective.
+/// Return the number of parts per direction of a face as a function of its level above its coarse
+/// face. Collective.
 template <int dim>
 std::function<unsigned int(unsigned int level)> samples_of_level(const mesh::BodyMesh<dim> &mesh,
                                                                  Sampling sampling);
 
 /**
- * The part of the loads that the quadrature of a mesh misses where pressures, tractions and body
- * forces are formulas: of each face or cell the nodal forces [force]
- *   r_a = sum_q w_q N_a(x_q) t(x_q) - f_a,
- * f_a those of the mesh, the sum over the Gauss points of many parts of the face.
+ * The part of the loads that the quadrature of a mesh misses if pressures, tractions and body
+ * forces are formulas: the nodal forces [force] of each face or cell
+ *   r_a = sum_q w_q N_a(x_q) t(x_q) - f_a.
+ * The sum extends over the Gauss points of many parts of the face, and f_a are the nodal forces of
+ * the mesh.
  */
 template <int dim>
 class LoadResidual
@@ -32,13 +34,13 @@ class LoadResidual
 public:
   using Field = typename mesh::BodyMesh<dim>::Field;
 
-  /// The mesh must outlive this. Collective.
+  /// The mesh must outlive this object. Collective.
   LoadResidual(const mesh::BodyMesh<dim>  &mesh,
                const state::LoadCase<dim> &loads,
                const Field                &positions,
                Sampling                    sampling);
 
-  /// r . v of each cell of this rank for a field @p v at all local nodes [force length].
+  /// Return r . v of each cell of this rank for a field @p v at all local nodes [force length].
   std::vector<double> works(const Field &v) const;
 
   /// A loaded boundary, or the body forces of a body.
@@ -46,9 +48,9 @@ public:
   {
     std::string         name;
     double              missed;   ///< sum of |r_a| over the sum of |t| dA
-    std::vector<double> of_cells; ///< its parts in the cells of this rank
+    std::vector<double> of_cells; ///< contributions of the cells of this rank
   };
-  /// All of them, in the same order on all ranks. Collective.
+  /// Return all entries, in the same order on all ranks. Collective.
   std::vector<Entry> entries(const std::vector<std::string> &body_names) const;
 
 private:
@@ -61,7 +63,7 @@ private:
   {
     Key                       entry;
     unsigned int              cell;
-    std::vector<unsigned int> nodes;  ///< local
+    std::vector<unsigned int> nodes;  ///< local nodes
     Nodes                     forces; ///< r_a
     double                    size;   ///< int |t| dA
   };
@@ -74,15 +76,15 @@ private:
   void add_cells(const state::LoadCase<dim> &loads, const Field &positions, Sampling sampling);
 };
 
-/// Cells whose formulas are finer than the mesh, and what the mesh misses of these formulas.
+/// Cells in which formulas are finer than the mesh, and descriptions of the unresolved formulas.
 struct Unresolved
 {
-  std::vector<dealii::CellId> cells; ///< to be refined, the same on all ranks
-  std::vector<std::string>    lines; ///< that name what is missed
+  std::vector<dealii::CellId> cells; ///< cells to refine, equal on all ranks
+  std::vector<std::string>    lines; ///< descriptions of the unresolved formulas
 };
 
-/// Add the cells to refine until an error of @p missed, with the parts @p of_cells of this rank's
-/// cells, is at most @p share. Collective.
+/// Add the cells to refine until an error @p missed is at most @p share. @p of_cells are the
+/// contributions of this rank's cells. Collective.
 template <int dim>
 void add_cells(const mesh::BodyMesh<dim> &mesh,
                const std::vector<double> &of_cells,
@@ -90,11 +92,11 @@ void add_cells(const mesh::BodyMesh<dim> &mesh,
                double                     share,
                Unresolved                &result);
 
-/// "12 %"
+/// Return a share as text, like "12 %".
 std::string percent(double part);
 
-/// The cells to refine until each load case misses at most the part @p share of each entry of its
-/// loads, and the true surfaces of bodies 5 % of their volumes. Collective.
+/// Return the cells to refine until each load case misses at most the share @p share of each entry
+/// of its loads, and the true surfaces miss at most 5 % of the volumes of the bodies. Collective.
 template <int dim>
 Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
                            const std::vector<state::LoadCase<dim>> &loads,

@@ -14,16 +14,16 @@ namespace snug::accuracy {
 /// Local errors e_i of displacements in a cell, see elasticity::LocalError.
 struct CellErrors
 {
-  std::vector<double> products; ///< a(e_i, e_j), row by row; of B-bar with the errors of pressures
-  std::vector<double> norms;    ///< of the errors of stresses; a(e_i, e_i)^(1/2) but for B-bar
+  std::vector<double> products; ///< a(e_i, e_j), row by row; for B-bar with pressure errors
+  std::vector<double> norms;    ///< norms of the stress errors; a(e_i, e_i)^(1/2) except for B-bar
 };
 
 /**
  * The local problems of LocalError in all cells of this rank, with tractions
- *   t = (sigma_h + sigma_h') n / 2   between cells, sigma_h' the neighbour's,
- *   t = those of the loads           on the boundary,
+ *   t = (sigma_h + sigma_h') n / 2   between cells, with sigma_h' of the neighbor,
+ *   t = traction of the loads        on the boundary,
  *   t = -p n                         on both sides of contact (ContactPressure),
- * and held directions where supports are.
+ * and with held directions at supports.
  */
 template <int dim>
 class LocalErrors
@@ -32,10 +32,10 @@ public:
   using Field    = typename mesh::BodyMesh<dim>::Field;
   using Residual = elasticity::LocalResidual;
 
-  /// At the geometry and with the loads of @p state. References must outlive this. Collective.
+  /// Use the geometry and the loads of @p state. References must outlive this object. Collective.
   LocalErrors(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
 
-  /// Return the products of each cell of this rank, fields at all local nodes. Collective.
+  /// Return the products of each cell of this rank for fields at all local nodes. Collective.
   std::vector<CellErrors> products(const std::vector<LoadedDisplacement<dim>> &of) const;
 
 private:
@@ -43,7 +43,7 @@ private:
   using Loaded    = LoadedDisplacement<dim>;
   using Functions = typename elasticity::LocalSpace<dim>::Functions;
 
-  /// Points of a face of a cell.
+  /// Values at the points of a face of a cell.
   struct FaceShapes
   {
     std::vector<mesh::LagrangePoint<dim>> shapes;
@@ -56,8 +56,8 @@ private:
   const CellFields<dim>                    fields;
   const AppliedForces<dim>                 applied;
   std::vector<elasticity::LocalSpace<dim>> spaces;      ///< per body
-  std::array<FaceShapes, 2 * dim>          face_points; ///< of the reference cell
-  /// of the neighbours of interior faces, by how they lie to each other
+  std::array<FaceShapes, 2 * dim>          face_points; ///< points of the reference cell
+  /// points of the neighbors of interior faces, by relative position of the neighbor
   std::map<std::uint64_t, FaceShapes>     beyond;
   std::vector<elasticity::HeldFaces<dim>> held; ///< per cell of this rank
 

@@ -5,11 +5,11 @@
 
 namespace snug::accuracy {
 /**
- * Where the solve on another mesh of the same bodies begins: contact pressures at the slave nodes
- * by their positions on the slave side of @p state, times the areas there; active where they push,
- * other rows without force. Nothing, for a cold start, where none does.
- * @param positions of the nodes of the mesh of @p to.
- * Collective.
+ * Return the start of a solve on another mesh of the same bodies. The forces are the contact
+ * pressures at the slave nodes, by their positions on the slave side of @p state, times the
+ * tributary areas there. Rows with a positive force are active, all other rows have no force. If
+ * no row has a force, return an empty start, which is a cold start.
+ * @param positions positions of the nodes of the mesh of @p to. Collective.
  */
 template <int dim>
 qp::WarmStart transferred(const state::StateSolver<dim>             &from,

@@ -4,14 +4,15 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::accuracy {
-/// A pair without a force is looked at more closely where its gap is below this part of a face.
+/// Gap relative to the face size below which a pair without a force is checked for contact.
 constexpr double small_gap = 0.1;
 
 /**
- * Slave faces that are too large for estimates to mean anything: those of patches that are not
- * light and less than @p across faces wide, and the faces beside them; of a pair without a force,
- * those where it is all but closed. Indices into the surface of @p solver, ascending; empty: the
- * estimates may be trusted. Collective.
+ * Return the slave faces that are too large for the estimates to be meaningful. These are the
+ * faces of patches that are not light and are less than @p across faces wide, and the faces beside
+ * them. For a pair without a force, they are the faces at which the gap is almost closed. The
+ * result contains indices into the surface of @p solver, ascending. If it is empty, the estimates
+ * may be trusted. Collective.
  */
 template <int dim>
 std::vector<unsigned int> doubtful_faces(const state::StateSolver<dim>  &solver,

@@ -5,14 +5,13 @@
 
 namespace snug {
 /**
- * This class blocks SIGTERM in the calling thread for as long as it lives. A
- * SIGTERM that arrives meanwhile takes effect at the end.
+ * This class blocks SIGTERM in the calling thread during its lifetime. A SIGTERM that arrives in
+ * this time takes effect at the end of the lifetime.
  *
- * METIS catches SIGTERM during its calls, jumps out of whatever it does, and
- * returns an error as if it had failed: the program would end with this error
- * instead of by the signal. A signal goes to any thread that does not block it:
- * threads of MPI must begin with it blocked as well, as they do where one of
- * these lives while MPI is initialized.
+ * METIS catches SIGTERM during its calls, jumps out of its computation, and returns an error as
+ * if it had failed. The program would then end with this error instead of by the signal. A signal
+ * is delivered to any thread that does not block it. Threads of MPI must therefore begin with
+ * SIGTERM blocked too, as they do if an object of this class exists while MPI is initialized.
  */
 class BlockedSignals
 {

@@ -10,10 +10,9 @@
 
 namespace snug {
 /**
- * One row of a factory table: a name, what it means in one line with units,
- * and how it is made. The table is the only place that lists the members of
- * a family: it feeds the choices of the parameter file, the help text and
- * the constructor.
+ * One row of a factory table: a name, its meaning in one line with units, and the function that
+ * makes the object. The table is the only place that lists the members of a family. It provides
+ * the choices of the parameter file, the help text and the constructor.
  */
 template <typename Make>
 struct Choice : Name
@@ -28,7 +27,7 @@ struct Choice : Name
   {}
 
   std::function<Make> make;
-  /// names of the entries it reads, where those of a family differ
+  /// names of the entries that it reads, if those of a family differ
   std::vector<std::string> entries;
 };
 
@@ -41,7 +40,7 @@ Names names(const ChoiceTable<Make> &table)
   return Names(table.begin(), table.end());
 }
 
-/// The row called @p name. @throws InputError listing the names there are.
+/// Return the row called @p name. @throws InputError listing the existing names.
 template <typename Make>
 const Choice<Make> &choose(const ChoiceTable<Make> &table, const std::string &name)
 {

@@ -5,10 +5,10 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
-/// Calls whose form depends on the version of deal.II, from 9.4 on. Only this
-/// header asks for the version.
+/// Calls whose form depends on the version of deal.II, from 9.4 on. Only this header queries the
+/// version.
 namespace snug::deal_ii_compat {
-/// The communicator of a triangulation: the old name is deprecated since 9.7
+/// Return the communicator of a triangulation. The old name is deprecated since deal.II 9.7
 /// (deal.II's pull request 17551).
 template <typename Triangulation>
 MPI_Comm communicator(const Triangulation &triangulation)
@@ -20,9 +20,9 @@ MPI_Comm communicator(const Triangulation &triangulation)
 #endif
 }
 
-/// An empty list of constraints for the unknowns that this rank owns and those
-/// that it sees: the former are asked for, or deprecated not to be given, since
-/// 9.6 (deal.II's pull requests 15789 and 16035).
+/// Return an empty list of constraints for the unknowns that this rank owns and the unknowns that
+/// are relevant to it. Since deal.II 9.6 the owned unknowns are required, or their absence is
+/// deprecated (deal.II's pull requests 15789 and 16035).
 inline dealii::AffineConstraints<double> constraints(const dealii::IndexSet &owned,
                                                      const dealii::IndexSet &relevant)
 {

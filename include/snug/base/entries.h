@@ -13,28 +13,28 @@
 #include <vector>
 
 namespace snug {
-/// What an entry accepts: for the machine and for people.
+/// Values that an entry accepts, as functions and as text.
 struct Form
 {
-  std::string                 allowed   = {}; ///< goes on after "must be "; "": as its type
-  std::vector<std::string>    choices   = {}; ///< if it is a choice
-  std::string                 explained = {}; ///< what the choices mean
-  std::function<bool(double)> contains  = {}; ///< of every number, if any
-  std::string                 range     = {}; ///< "must be positive", where contains() is false
-  /// "numbers": one per dimension or none at all; "": any number of numbers
+  std::string                 allowed   = {}; ///< completes "must be "; "": follows from the type
+  std::vector<std::string>    choices   = {}; ///< if the entry is a choice
+  std::string                 explained = {}; ///< meaning of the choices
+  std::function<bool(double)> contains  = {}; ///< checks every number of the value; empty: no check
+  std::string                 range     = {}; ///< "must be positive", if contains() is false
+  /// "numbers": one per dimension, or an empty list; "": any number of numbers
   std::string per_dimension = {};
 };
 
 /// @name Forms of entries
 /// @{
-/// Described by @p allowed; the value's from_text() decides.
+/// Return a form described by @p allowed; the from_text() of the value decides.
 Form allowed(const std::string &description);
 
-/// One of these: those of an enum, or of a factory table. Of tables for 2D
-/// and 3D, which have the same names, the one for 3D is passed.
+/// Return a form for one of the given names, those of an enum or of a factory table. Tables for
+/// 2D and 3D have the same names; the one for 3D is passed.
 Form choice(const Names &names);
 
-/// "auto", with this meaning, or a value of the enum E.
+/// Return a form for "auto", with this meaning, or a value of the enum E.
 template <typename E>
 Form choice_or_auto(const std::string &meaning)
 {
@@ -43,23 +43,23 @@ Form choice_or_auto(const std::string &meaning)
   return choice(all);
 }
 
-/// "must be positive"
+/// Return the form "must be positive".
 Form positive();
-/// "must be at least 1", or what @p range says
+/// Return the form "must be at least 1", or the text @p range.
 Form at_least(double lower, const std::string &range = "");
-/// "must be at most 15"
+/// Return the form "must be at most 15".
 Form at_most(double upper);
-/// "must lie between 1 and 10", inclusively
+/// Return the form "must lie between 1 and 10", inclusively.
 Form between(double lower, double upper);
-/// "must be above 0 and at most 0.1", or "must be above 0"
+/// Return the form "must be above 0 and at most 0.1", or "must be above 0".
 Form above(double lower, double upper = std::numeric_limits<double>::infinity());
-/// "must be above -1 and below 0.5"
+/// Return the form "must be above -1 and below 0.5".
 Form inside(double lower, double upper);
-/// Lists of as many numbers as the scene has dimensions, or empty.
+/// Return the form of lists with one number per dimension of the scene, or without numbers.
 Form per_dimension(Form form = {}, const std::string &what = "numbers separated by commas");
 /// @}
 
-/// What an entry of a type accepts, unless it says more.
+/// Return the values that an entry of a type accepts, unless its form specifies more.
 template <typename T>
 const char *allowed_of()
 {
@@ -78,16 +78,15 @@ const char *allowed_of()
   return "text";
 }
 
-/// How the variable of an entry is read, written and checked.
+/// Functions that read, write and check the variable of an entry.
 struct Access
 {
   std::function<std::string()>             text;
   std::function<void(const std::string &)> assign;
-  std::function<std::vector<double>()>     numbers = {}; ///< in it, if any
+  std::function<std::vector<double>()>     numbers = {}; ///< numbers in the variable; empty: none
 };
 
-/// Access to a variable with a to_text() and a from_text(); lists may have
-/// a separator.
+/// Return the access to a variable with a to_text() and a from_text(); lists may have a separator.
 template <typename T, typename... Separator>
 Access access(T &value, const Separator... separator)
 {
@@ -111,19 +110,18 @@ Access access(T &value, const Separator... separator)
 }
 
 /**
- * The entries of a parameter file, each bound to the variable it sets, and
- * all that is known of them: name, default, form, range and meaning. A
- * parameter is declared here once, by the module that reads it. The
- * variables must outlive this object.
+ * The entries of a parameter file, each bound to the variable that it sets. The class stores the
+ * name, default, form, range and meaning of each entry. A parameter is declared only once, by the
+ * module that reads it. The variables must outlive this object.
  */
 class Entries
 {
 public:
   struct Description
   {
-    std::string section; ///< "" at the top
+    std::string section; ///< "" for the top
     std::string name;
-    std::string initial; ///< value when it was declared
+    std::string initial; ///< value at the time of declaration
     Form        form;
     std::string meaning;
     Access      access;
@@ -136,7 +134,7 @@ public:
     std::string name, meaning;
   };
 
-  /// Entries added from here on belong to this subsection.
+  /// Begin a subsection. Entries added after this call belong to it.
   void begin_section(const std::string &name, const std::string &meaning);
 
   void
@@ -162,15 +160,16 @@ public:
   }
 
   /// Assign a value, or nothing if the statement only opens a subsection.
-  /// @throws InputError, one line, if there is no such entry or
-  /// subsection, or the value has the wrong form.
+  /// @throws InputError, one line, if there is no such entry or subsection, or if the value has
+  /// the wrong form.
   void set(const Statement &statement);
 
-  /// @throws InputError unless every value has the form and the range of
-  /// its entry, in a scene of @p dimension dimensions.
+  /// Check every value.
+  /// @throws InputError unless every value has the form and the range of its entry, in a scene of
+  /// @p dimension dimensions.
   void check(const Origins &origins, unsigned int dimension) const;
 
-  /// Every entry with its value, readable by parse_statements().
+  /// Write every entry with its value, readable by parse_statements().
   void print(std::ostream &out) const;
 
   const std::vector<Section> &sections() const { return section_list; }
@@ -178,7 +177,7 @@ public:
   const std::vector<Description> &descriptions() const { return list; }
 
 private:
-  /// Throw, unless the statement only opens a subsection there is.
+  /// Throw, unless the statement only opens an existing subsection.
   void reject_unknown(const Statement &statement) const;
 
   std::vector<Section>     section_list = {{"", ""}};

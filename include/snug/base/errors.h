@@ -5,42 +5,43 @@
 #include <string>
 
 namespace snug {
-/// The input is wrong: where, which value, what is allowed. Exit status 2.
+/// Error for wrong input. The message gives the place, the value and the allowed values. Exit
+/// status 2.
 class InputError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// The problem has no solution, or was not solved to its tolerance: what
-/// failed and what to try. Exit status 3.
+/// Error for a problem without solution, or one that was not solved to its tolerance. The message
+/// states what failed and what to try. Exit status 3.
 class SolveError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// A design whose mesh is tangled; an optimizer may step back from it.
+/// Error for a design whose mesh is tangled; an optimizer may step back from it.
 class TangledMesh : public SolveError
 {
 public:
   using SolveError::SolveError;
 };
 
-/// A signal asked the program to end; all ranks throw it at the same place.
+/// Error for a signal that asks the program to end. All ranks throw it at the same place.
 class Interrupted : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Whether @p error says that memory ran out, in the words of C++ or deal.II.
+/// Return whether @p error, in the words of C++ or deal.II, states that memory ran out.
 bool is_out_of_memory(const std::exception &error);
 
-/// The message in one line, without deal.II's banner and stack.
+/// Return the message in one line, without deal.II's banner and stack.
 std::string one_line(const std::exception &error);
 
-/// Input error of a parameter: "<entry> = <value>: <what is allowed>".
+/// Return the input error of a parameter: "<entry> = <value>: <what is allowed>".
 inline InputError
 bad_entry(const std::string &entry, const std::string &value, const std::string &allowed)
 {

@@ -4,8 +4,8 @@
 #include <deal.II/base/exceptions.h>
 
 namespace snug {
-/// @p value as a shorter integer, such as the number of rows as the int that
-/// BLAS and MPI take. Debug builds assert that it fits.
+/// Return @p value as a shorter integer, for example the number of rows as the int of BLAS and
+/// MPI. Debug builds assert that the value fits.
 template <typename To, typename From>
 To narrow(const From value)
 {

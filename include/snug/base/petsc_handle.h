@@ -8,16 +8,18 @@
 #include <utility>
 
 namespace snug::petsc {
-/// From now on errors of PETSc are only returned, for check(); nothing is printed.
+/// Set the error handling of PETSc: after this call errors are only returned, for check(), and
+/// nothing is printed.
 void return_errors();
 
-/// @throws std::bad_alloc if memory ran out (known after return_errors()), else
+/// Check a return code of PETSc.
+/// @throws std::bad_alloc if memory ran out (detected after return_errors()), else
 /// std::runtime_error naming the PETSc error, if @p error != 0.
 void check(PetscErrorCode error);
 
 /**
- * Owner of one reference to a PETSc object: destroyed with the handle,
- * movable, not copyable, converts to the raw handle PETSc functions take.
+ * Owner of one reference to a PETSc object. The object is destroyed with the handle. The handle
+ * is movable, not copyable, and converts to the raw handle that PETSc functions take.
  */
 template <typename Object, PetscErrorCode (*destroy)(Object *)>
 class Handle
@@ -37,7 +39,7 @@ public:
 
   operator Object() const { return object; }
 
-  /// The address for PETSc's creating functions; drops the object held.
+  /// Return the address for the creating functions of PETSc, after destroying the object held.
   Object *put()
   {
     reset();

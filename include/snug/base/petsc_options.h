@@ -7,10 +7,11 @@
 #include <vector>
 
 namespace snug::petsc {
-/// What PETSc's options say of -PREFIXNAME, or @p fallback.
+/// Return the value of -PREFIXNAME among PETSc's options, or @p fallback.
 std::string option(const std::string &prefix, const std::string &name, const std::string &fallback);
 
-/// Sets -PREFIXNAME among PETSc's options for its own life, unless the user has set it.
+/// This class sets -PREFIXNAME among PETSc's options during its lifetime, unless the user has set
+/// it.
 class DefaultOption
 {
 public:
@@ -20,11 +21,12 @@ public:
   DefaultOption &operator=(const DefaultOption &) = delete;
 
 private:
-  std::string key; ///< empty if it is the user's
+  std::string key; ///< empty if the user set the option
 };
 
-/// "-NAME VALUE" of PETSc's options that no rank has asked for yet; none if -options_left makes
-/// PETSc report them at its end. Collective; the result is rank 0's, the others get none.
+/// Return "-NAME VALUE" of those options of PETSc that no rank has queried yet. Return none if
+/// -options_left makes PETSc report these options at its end. Collective; rank 0 gets the result,
+/// all other ranks get none.
 std::vector<std::string> unused_options(MPI_Comm communicator);
 } // namespace snug::petsc
 

@@ -10,8 +10,8 @@
 #include <string>
 
 namespace snug {
-/// What a run has done so far; the same on every rank except what counts matrices of
-/// subdomains, which is this rank's: their factorizations, solves and assembly.
+/// Counters of the work of a run. They are equal on every rank, except counters of subdomain
+/// matrices, which are this rank's: factorizations, solves and assembly.
 struct Work
 {
   unsigned long f_mults                     = 0;
@@ -26,14 +26,13 @@ struct Work
 };
 
 /**
- * The communicator, the printer and the books of one run: work counters
- * and wall seconds per stage. Passed by reference to the stages that work;
- * there is no global one.
+ * The communicator, the log, the work counters and the wall seconds per stage of one run. A
+ * RunContext is passed by reference to the stages of the run. There is no global one.
  */
 class RunContext
 {
 public:
-  /// @p out receives the log on rank 0; other ranks print nothing.
+  /// @p out receives the log on rank 0; all other ranks print nothing.
   RunContext(MPI_Comm communicator, std::ostream &out);
 
   MPI_Comm communicator() const { return comm; }
@@ -42,17 +41,18 @@ public:
 
   unsigned int n_ranks() const { return size; }
 
-  /// The log; swallows everything on ranks other than 0.
+  /// Return the log, which discards everything on ranks other than 0.
   std::ostream &out();
 
   /**
-   * Show @p text as the live line of a long stage, over the previous one.
-   * Only rank 0, when standard output is a terminal and no MPI launcher is
-   * in between.
+   * Show @p text as the live line of a long stage, overwriting the previous one. Only rank 0
+   * shows it, if standard output is a terminal and no MPI launcher is between the program and the
+   * terminal.
    */
   void progress(const std::string &text);
 
-  /// Adds the wall time of its life to @p stage of the context, and sees to the memory at its end.
+  /// This class adds the wall time of its lifetime to @p stage of the context, and updates the
+  /// memory of the stage at its end.
   class Timer
   {
   public:
@@ -67,20 +67,21 @@ public:
     std::chrono::steady_clock::time_point start;
   };
 
-  /// Wall seconds of a stage on this rank; 0 if it never ran.
+  /// Return the wall seconds of a stage on this rank; 0 if it never ran.
   double seconds(const std::string &stage) const;
 
-  /// Wall seconds since the context was made.
+  /// Return the wall seconds since the context was made.
   double seconds() const;
 
-  /// The most of memory in use [MB] at an end of the stage on this rank, without what it shares
-  /// with others, such as code and MPI's messages; 0 if it never ran, or where no /proc tells.
+  /// Return the maximum memory [MB] in use at an end of the stage on this rank, without memory
+  /// shared with other processes, such as code and messages of MPI. Return 0 if the stage never
+  /// ran, or if there is no /proc.
   double memory(const std::string &stage) const;
 
-  /// That when the context was made: of the libraries.
+  /// Return the memory in use when the context was made, that is of the libraries.
   double memory_at_start() const { return start_memory; }
 
-  /// Work with this rank's counters summed over ranks. Collective.
+  /// Return the work, with this rank's counters summed over ranks. Collective.
   Work total_work() const;
 
   Work work;
@@ -98,11 +99,10 @@ private:
 };
 
 /**
- * Run @p work on this rank and make failure collective: if any rank throws,
- * every rank throws the same kind of error with the message of the lowest
- * failing rank. InputError, SolveError, TangledMesh and bad_alloc (any error
- * that is_out_of_memory()) stay what they are, all else becomes a
- * runtime_error. Collective on @p communicator; @p work must not be.
+ * Run @p work on this rank and make failure collective: if any rank throws, every rank throws the
+ * same kind of error with the message of the lowest failing rank. InputError, SolveError,
+ * TangledMesh and bad_alloc (any error that is_out_of_memory()) keep their kind. All other errors
+ * become a runtime_error. Collective on @p communicator; @p work must not be collective.
  */
 void everywhere(MPI_Comm communicator, const std::function<void()> &work);
 } // namespace snug

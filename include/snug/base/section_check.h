@@ -7,25 +7,25 @@
 #include <vector>
 
 namespace snug {
-/// One subsection of a scene, for checks of what entries cannot say of
-/// themselves because it depends on others.
+/// One subsection of a scene, for checks that concern several entries and are not part of the
+/// form of one entry.
 class SectionCheck
 {
 public:
-  /// @p name "": the top. @p where must outlive this object.
+  /// @p name "" is the top. @p where must outlive this object.
   SectionCheck(const std::string &name, const Origins &where, unsigned int of_scene)
     : dimension(of_scene), origins(where), section(name)
   {}
 
-  const unsigned int dimension; ///< of the scene
+  const unsigned int dimension; ///< dimension of the scene
 
   std::string path(const std::string &entry) const;
 
-  /// The error of an entry, with its origin.
+  /// Return the error of an entry, with its origin.
   InputError
   error(const std::string &entry, const std::string &value, const std::string &allowed) const;
 
-  /// Throw it unless the entry is @p good.
+  /// Throw the error of an entry unless the entry is @p good.
   void require(bool               good,
                const std::string &entry,
                const std::string &value,
@@ -35,13 +35,13 @@ public:
       throw error(entry, value, allowed);
   }
 
-  /// An error that a module throws, "entry 'Box cells' = ...", with origin
-  /// and section of that entry; if it names none, of @p entry.
+  /// Return an error "entry 'Box cells' = ..." of a module with origin and section of the entry
+  /// that it names. If the error names none, use @p entry.
   InputError
   placed(const InputError &error, const std::string &entry, const std::string &value) const;
 
-  /// Throw unless all entries of @p parameters that are not in @p read
-  /// have their defaults; @p allowed says why they must.
+  /// Throw unless all entries of @p parameters that are not in @p read have their defaults;
+  /// @p allowed states the reason.
   template <typename Parameters>
   void require_read(const Parameters               &parameters,
                     const std::vector<std::string> &read,

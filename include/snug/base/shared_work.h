@@ -8,10 +8,10 @@
 
 namespace snug {
 /**
- * Work that all ranks need the results of: item i, compute(i), is done by one rank only, and its
- * numbers are known to all. Ranks take neighbouring items of about equal sums of @p costs. The
- * results do not depend on the number of ranks. What one rank throws all throw, see everywhere().
- * Collective on @p communicator; compute() must not be.
+ * Compute work whose results all ranks need. Item i, compute(i), is computed by one rank only, and
+ * its numbers are sent to all ranks. Ranks take neighboring items with about equal sums of
+ * @p costs. The results do not depend on the number of ranks. If one rank throws, all ranks throw,
+ * see everywhere(). Collective on @p communicator; compute() must not be collective.
  */
 std::vector<std::vector<double>>
 shared_work(MPI_Comm                                                communicator,

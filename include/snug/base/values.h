@@ -9,31 +9,31 @@
 #include <utility>
 #include <vector>
 
-/// Values as text that reads back to exactly the same value. Lists are
-/// "a, b", pairs "key: value", and maps lists of pairs.
+/// Values as text from which exactly the same value is read. Lists are "a, b", pairs are "key:
+/// value", and maps are lists of pairs.
 namespace snug {
 using TextMap   = std::map<std::string, std::string>;
 using VectorMap = std::map<std::string, std::vector<double>>;
 using TextPairs = std::vector<std::pair<std::string, std::string>>;
 
-/// What parameter files call a choice, and what it means.
+/// Name of a choice in parameter files, and its meaning.
 struct Name
 {
   std::string name, meaning = {};
 };
 using Names = std::vector<Name>;
 
-/// Without white space at its ends.
+/// Return @p text without white space at its ends.
 std::string trim(const std::string &text);
 
-/// The trimmed parts of a text; separators within parentheses, as of
-/// max(x, y), do not count.
+/// Return the trimmed parts of a text. Separators within parentheses, as of max(x, y), are not
+/// separators.
 std::vector<std::string> split(const std::string &text, char separator);
 
-/// The parts of "0 0 -5*max(x, y)": blanks within parentheses do not count.
+/// Return the parts of "0 0 -5*max(x, y)". Blanks within parentheses do not separate parts.
 std::vector<std::string> components(const std::string &text);
 
-/// Components separated by commas or, where there is none, by blanks.
+/// Return components separated by commas or, if there is no comma, by blanks.
 std::vector<std::string> vector_components(const std::string &text);
 
 std::string to_text(double value);
@@ -41,14 +41,14 @@ std::string to_text(unsigned int value);
 std::string to_text(bool value);
 std::string to_text(const std::string &value);
 
-/// @throws std::invalid_argument if it is malformed, as all from_text() do
+/// @throws std::invalid_argument if @p text is malformed, like all from_text()
 void from_text(const std::string &text, double &value);
 void from_text(const std::string &text, unsigned int &value);
 void from_text(const std::string &text, bool &value);
 void from_text(const std::string &text, std::string &value);
 
-/// An enum that counts from 0 has a function names(E) beside it, which
-/// gives the Names of its values in their order.
+/// Return the name of a value. An enum that counts from 0 has a function names(E), which returns
+/// the Names of its values in their order.
 template <typename E, typename = std::enable_if_t<std::is_enum_v<E>>>
 std::string to_text(const E value)
 {
@@ -68,7 +68,7 @@ void from_text(const std::string &text, E &value)
   throw std::invalid_argument("no such name");
 }
 
-/// "auto" stands for no value.
+/// Return the text of a value. "auto" stands for no value.
 template <typename T>
 std::string to_text(const std::optional<T> &value)
 {
@@ -87,7 +87,7 @@ void from_text(const std::string &text, std::optional<T> &value)
 template <typename T>
 std::string to_text(const std::vector<T> &values, char separator = ',');
 
-/// "key: value"; vectors have their components separated by blanks.
+/// Return "key: value"; vectors have their components separated by blanks.
 template <typename T>
 std::string to_text(const std::pair<const std::string, T> &pair)
 {
@@ -117,7 +117,7 @@ std::string to_text(const std::map<std::string, T> &map, const char separator = 
 
 std::string to_text(const TextPairs &pairs, char separator = ',');
 
-/// Numbers may be separated by blanks as well. Counts are at least 1.
+/// Read a list. Numbers may be separated by blanks too. Counts are at least 1.
 template <typename T>
 void from_text(const std::string &text, std::vector<T> &values, const char separator = ',')
 {
@@ -132,7 +132,7 @@ void from_text(const std::string &text, std::vector<T> &values, const char separ
     }
 }
 
-/// Split at the first colon of each.
+/// Read pairs, which are split at the first colon of each.
 void from_text(const std::string &text, TextPairs &pairs, char separator = ',');
 
 template <typename T>

@@ -10,17 +10,17 @@
 #include <vector>
 
 namespace snug::elasticity {
-/// J = sum_a X_a (x) dN_a/d xi [length].
+/// Return J = sum_a X_a (x) dN_a/d xi [length].
 template <int dim>
 dealii::Tensor<2, dim> jacobian(const mesh::LagrangePoint<dim>            &shape,
                                 const std::vector<dealii::Tensor<1, dim>> &X);
 
-/// sum_a N_a u_a.
+/// Return sum_a N_a u_a.
 template <int dim>
 dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
                              const std::vector<dealii::Tensor<1, dim>> &u);
 
-/// CellPoint::gradient() of @p u by itself, at a fraction of the cost.
+/// Return CellPoint::gradient() of @p u without the rest of a CellPoint, at a fraction of the cost.
 template <int dim>
 dealii::Tensor<2, 3> gradient(const mesh::LagrangePoint<dim>            &shape,
                               const std::vector<dealii::Tensor<1, dim>> &X,
@@ -30,10 +30,9 @@ dealii::Tensor<2, 3> gradient(const mesh::LagrangePoint<dim>            &shape,
 /**
  * A point of a cell with nodes X: g_a = J^-T dN_a/d xi.
  *
- * Gradients are those of fields in space, sections or not, so that the
- * formulas of a solid hold for all idealizations: in an axisymmetric one,
- * the entry (2,2) of the gradient of u is u_r / r. Other entries out of
- * the plane are zero.
+ * Gradients are gradients of fields in space, also for sections, so that the formulas of a solid
+ * hold for all idealizations. In an axisymmetric one, the entry (2,2) of the gradient of u is u_r
+ * / r. All other out-of-plane entries are zero.
  */
 template <int dim>
 struct CellPoint
@@ -45,17 +44,17 @@ struct CellPoint
             const Nodes                    &X,
             const mesh::Idealization       &idealization);
 
-  /// sum_a u_a (x) g_a, and sum_a N_a/r u_a,r.
+  /// Return sum_a u_a (x) g_a, plus sum_a N_a/r u_a,r in axisymmetric models.
   dealii::Tensor<2, 3> gradient(const Nodes &u) const;
 
-  /// f_a += dV flux : d gradient() / d u_a = dV (flux g_a + flux_22 N_a/r).
+  /// Compute f_a += dV flux : d gradient() / d u_a = dV (flux g_a + flux_22 N_a/r).
   void add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const;
 
-  /// f_a += dV N_a source.
+  /// Compute f_a += dV N_a source.
   void add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const;
 
-  const mesh::LagrangePoint<dim> &shape;
-  double                          dV; ///< weight times det J times that of the section [length^3]
+  const mesh::LagrangePoint<dim>        &shape;
+  double                                 dV; ///< weight * det J * weight of the section [length^3]
   std::array<dealii::Tensor<1, dim>, 27> gradients;      ///< g_a [1/length]
   double                                 inverse_radius; ///< or 0
 };

@@ -26,7 +26,7 @@ namespace snug::elasticity {
  * and g_a = grad N_a:
  * g_a' = -(grad V)^T g_a, (det J)' = det J div V,
  * (grad u)' = -(grad u) (grad V).
- * With the gradients of CellPoint these hold in sections, too: r' = V_r
+ * With the gradients of CellPoint these formulas hold in sections too: r' = V_r
  * makes (u_r/r)' = -(u_r/r) (V_r/r) and (r det J)' = r det J div V.
  *
  * Formulation B-bar replaces div u by its projection p_u / kappa,
@@ -48,30 +48,29 @@ class Element
 public:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-  /// @p degree 1 or 2. B-bar is not for plane stress, which does not lock.
+  /// @p degree is 1 or 2. B-bar is not available for plane stress, which does not lock.
   explicit Element(unsigned int              degree,
                    const mesh::Idealization &idealization = mesh::Idealization::natural(dim),
                    Formulation               formulation  = Formulation::standard);
 
-  /// n.
+  /// Return n.
   unsigned int n_nodes() const { return nodes.size(); }
 
-  /// K (n*dim x n*dim, row by row), exactly symmetric
-  /// [force / length].
+  /// Compute K (n*dim x n*dim, row by row), exactly symmetric [force / length].
   void stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const;
 
-  /// r = K(X) u.
+  /// Compute r = K(X) u.
   void internal_force(const Nodes &X, const Material &material, const Nodes &u, Nodes &r) const;
 
-  /// K'(X; V) u of every velocity V, exact.
+  /// Return K'(X; V) u of every velocity V, exact.
   std::vector<Nodes> internal_force_derivatives(const Nodes              &X,
                                                 const std::vector<Nodes> &velocities,
                                                 const Material           &material,
                                                 const Nodes              &u) const;
 
-  /// gradient_a += factor * d/dX_a (w' K(X) u): at each Gauss point
-  /// dV E g_a with E = (sigma_u:grad w - theta_u p_w) I
-  /// - (grad w)^T sigma_u - (grad u)^T sigma_w, theta_u of PointState.
+  /// Compute gradient_a += factor * d/dX_a (w' K(X) u). At each Gauss point the gradient is dV E
+  /// g_a with E = (sigma_u:grad w - theta_u p_w) I - (grad w)^T sigma_u - (grad u)^T sigma_w and
+  /// theta_u of PointState.
   void add_energy_gradient(const Nodes    &X,
                            const Material &material,
                            const Nodes    &u,
@@ -79,31 +78,31 @@ public:
                            double          factor,
                            Nodes          &gradient) const;
 
-  /// The Gauss points of a cell with nodes X, n of them.
+  /// Return the n Gauss points of a cell with nodes X.
   Nodes quadrature_points(const Nodes &X) const;
 
-  /// f_a = int N_a b dV for a body force @p b [force / length^3] given at
-  /// the Gauss points, which goes with the material.
+  /// Compute f_a = int N_a b dV for a body force @p b [force / length^3] given at the Gauss points.
+  /// The body force is fixed to the material.
   void body_force(const Nodes &X, const Nodes &b, Nodes &f) const;
 
-  /// f = derivative of body_force() along V, exact.
+  /// Compute f = derivative of body_force() along V, exact.
   void body_force_derivative(const Nodes &X, const Nodes &V, const Nodes &b, Nodes &f) const;
 
-  /// gradient_a += factor * d/dX_a (f(X) . u)
+  /// Compute gradient_a += factor * d/dX_a (f(X) . u).
   void add_body_force_gradient(const Nodes &X,
                                const Nodes &b,
                                const Nodes &u,
                                double       factor,
                                Nodes       &gradient) const;
 
-  /// int dV [length^3], signed.
+  /// Return int dV [length^3], signed.
   double volume(const Nodes &X) const;
 
-  /// gradient_a += factor * d volume / dX_a.
+  /// Compute gradient_a += factor * d volume / dX_a.
   void add_volume_gradient(const Nodes &X, double factor, Nodes &gradient) const;
 
-  /// Cauchy stress at points of the reference cube [0,1]^dim, given by the functions
-  /// of degree p there.
+  /// Return the Cauchy stress at points of the reference cube [0,1]^dim. @p shapes are the
+  /// functions of degree p at the points.
   std::vector<dealii::SymmetricTensor<2, 3>>
   stresses(const Nodes                                 &X,
            const Material                              &material,
@@ -111,32 +110,30 @@ public:
            const std::vector<mesh::LagrangePoint<dim>> &shapes) const;
 
   /**
-   * Quality of the cell: the smallest det J over Gauss points and nodes,
-   * divided by the mean of |det J| over the cell. 1 for a parallelepiped,
-   * <= 0 tangled, 0 for a cell without volume, with NaN positions, or, if
-   * axisymmetric, at negative radius.
+   * Return the quality of the cell: the minimum det J over Gauss points and nodes, divided by the
+   * mean of |det J| over the cell. It is 1 for a parallelepiped, <= 0 for a tangled cell, and 0
+   * for a cell without volume, with NaN positions, or, if axisymmetric, at negative radius.
    */
   double quality(const Nodes &X) const;
 
   /**
-   * The smallest det J / prod_d |J e_d| over Gauss points and nodes: 1
-   * where the coordinate lines of the cell meet at right angles, whatever
-   * its lengths, <= 0 tangled, 0 for a cell without volume or with NaN
-   * positions.
+   * Return the minimum of det J / prod_d |J e_d| over Gauss points and nodes. It is 1 where the
+   * coordinate lines of the cell meet at right angles, whatever its lengths. It is <= 0 for a
+   * tangled cell, and 0 for a cell without volume or with NaN positions.
+   *
    * Source: Knupp, SIAM J. Sci. Comput. 23 (2001).
    */
   double scaled_jacobian(const Nodes &X) const;
 
-  /// How much longer the cell is along one of its axes than along another,
-  /// the largest ratio over its Gauss points; 1 for squares and cubes.
+  /// Return the aspect ratio: the maximum ratio, over the Gauss points, of the lengths of the
+  /// cell along two of its axes; 1 for squares and cubes.
   double aspect(const Nodes &X) const;
 
-  /// sum ((1 - q) / scale)^p over Gauss points and nodes with
-  /// q = det J / prod_d |J e_d|, p >= 1: 0 where the coordinate lines meet
-  /// at right angles.
+  /// Return sum ((1 - q) / scale)^p over Gauss points and nodes with q = det J / prod_d |J e_d|,
+  /// p >= 1. It is 0 where the coordinate lines meet at right angles.
   double distortion(const Nodes &X, double p, double scale) const;
 
-  /// gradient_a += factor * d distortion / dX_a.
+  /// Compute gradient_a += factor * d distortion / dX_a.
   void add_distortion_gradient(const Nodes &X,
                                double       p,
                                double       scale,
@@ -144,7 +141,7 @@ public:
                                Nodes       &gradient) const;
 
 private:
-  /// What a displacement makes at a point.
+  /// Values of a displacement at a point.
   struct PointState
   {
     dealii::Tensor<2, 3>          gradient;
@@ -154,8 +151,7 @@ private:
 
   std::vector<CellPoint<dim>> gauss_points(const Nodes &X) const;
 
-  /// Values of div u at the points of a cell <- what the formulation
-  /// makes of them.
+  /// Replace the values of div u at the points of a cell by their values in the formulation.
   void take_dilatation(const std::vector<CellPoint<dim>> &points,
                        std::vector<double>               &values) const;
 
@@ -171,8 +167,8 @@ private:
   Formulation                           formulation;
   std::vector<mesh::LagrangePoint<dim>> gauss;
   std::vector<mesh::LagrangePoint<dim>> nodes;
-  /// dN_a / d xi_d of gauss, [point][d][a], a padded with zeros to a
-  /// multiple of 4: the layout stiffness() vectorizes over.
+  /// dN_a / d xi_d at the Gauss points, [point][d][a], with a padded with zeros to a multiple of
+  /// 4. stiffness() vectorizes over this layout.
   std::vector<double> reference_gradients;
 };
 } // namespace snug::elasticity

@@ -8,18 +8,18 @@
 #include <vector>
 
 namespace snug::elasticity {
-/// Dead loads of one face, pressure and traction at its Gauss points
-/// [force / length^2]; empty: none.
+/// Dead loads of one face: pressure and traction at its Gauss points [force / length^2]; an empty
+/// list stands for zero.
 template <int dim>
 struct FaceLoadValues
 {
   std::vector<double>                 pressure;
   std::vector<dealii::Tensor<1, dim>> traction;
-  LinearTraction<dim>                 linear; ///< of a resultant
+  LinearTraction<dim>                 linear; ///< traction of a resultant
 };
 
-/// What the work f . u of a resultant depends on besides its traction:
-/// U = int u dA and y = I^-1 int r x u dA over the whole loaded face.
+/// Data that determine the work f . u of a resultant besides its traction: U = int u dA and
+/// y = I^-1 int r x u dA over the whole loaded face.
 template <int dim>
 struct ResultantWork
 {
@@ -38,8 +38,8 @@ struct ResultantWork
  * With tangents t_i = dx/d xi_i, n dA = w m d xi, m = t_1 x t_2 in 3D,
  * (t_y, -t_x) in 2D, and the weight w of the idealization. Derivatives
  * along node velocities V: m' = V_,1 x t_2 + t_1 x V_,2,
- * dA' = (w n.m' + w' |m|) d xi and w' = dw/dx . V. Pressures and tractions
- * at Gauss points go with the material and do not change.
+ * dA' = (w n.m' + w' |m|) d xi and w' = dw/dx . V. Pressures and tractions at Gauss points are
+ * fixed to the material and do not change.
  *
  * X: positions, V: velocities of the positions, u: displacements, n
  * vectors each. (p+1)^(dim-1) Gauss points. |m| > 0 is assumed.
@@ -53,21 +53,21 @@ public:
   explicit FaceLoad(unsigned int              degree,
                     const mesh::Idealization &idealization = mesh::Idealization::natural(dim));
 
-  /// The Gauss points of a face with nodes X.
+  /// Return the Gauss points of a face with nodes X.
   Nodes quadrature_points(const Nodes &X) const;
 
-  /// f_a [force].
+  /// Compute f_a [force].
   void force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes &f) const;
 
-  /// f = derivative of force() along V, exact, where the linear traction
-  /// has the derivative @p linear.
+  /// Compute f = derivative of force() along V, exact. @p linear is the derivative of the linear
+  /// traction.
   void force_derivative(const Nodes               &X,
                         const Nodes               &V,
                         const FaceLoadValues<dim> &load,
                         const LinearTraction<dim> &linear,
                         Nodes                     &f) const;
 
-  /// gradient_a += factor * d/dX_a (f(X) . u) for pressure and traction.
+  /// Compute gradient_a += factor * d/dX_a (f(X) . u) for pressure and traction.
   void add_force_gradient(const Nodes               &X,
                           const FaceLoadValues<dim> &load,
                           const Nodes               &u,
@@ -75,9 +75,8 @@ public:
                           Nodes                     &gradient) const;
 
   /**
-   * gradient_a += factor * d/dX_a (f . u) for a resultant, f that of the
-   * whole loaded face: with r = x - c this face's share of
-   * int kappa dA' + int k . V dA,
+   * Compute gradient_a += factor * d/dX_a (f . u) for a resultant, where f is that of the whole
+   * loaded face. With r = x - c, this face contributes int kappa dA' + int k . V dA, where
    * kappa = u.t - (a.U + (U x w).r) / A - |r|^2 y.w + (y.r)(w.r),
    * k = u x w - (U x w) / A - 2 (y.w) r + (w.r) y + (y.r) w.
    */
@@ -87,18 +86,18 @@ public:
                               double                    factor,
                               Nodes                    &gradient) const;
 
-  /// Moments of area about @p origin.
+  /// Return the moments of area about @p origin.
   AreaMoments<dim> moments(const Nodes &X, const dealii::Tensor<1, dim> &origin) const;
 
-  /// Their derivatives along V, exact.
+  /// Return the derivatives of the moments along V, exact.
   AreaMoments<dim>
   moment_derivatives(const Nodes &X, const Nodes &V, const dealii::Tensor<1, dim> &origin) const;
 
-  /// int u dA and int (x - centre) x u dA, as a force and a moment.
+  /// Return int u dA and int (x - centre) x u dA, as a force and a moment.
   Resultant<dim>
   displacement_moments(const Nodes &X, const Nodes &u, const dealii::Tensor<1, dim> &centre) const;
 
-  /// Tributary areas int N_a dA [length^2].
+  /// Return the tributary areas int N_a dA [length^2].
   std::vector<double> areas(const Nodes &X) const;
 
 private:

@@ -9,14 +9,13 @@
 #include <vector>
 
 namespace snug::elasticity {
-/// A derivative as a sum of values, f' ~ sum_k weight_k f(place_k step)
-/// / step.
+/// A derivative as a sum of values, f' ~ sum_k weight_k f(place_k step) / step.
 struct Stencil
 {
   std::vector<double> places, weights;
 };
 
-/// Errors are of order h, h, h^2 and h^4.
+/// Finite difference formulas. Their errors are of order h, h, h^2 and h^4.
 enum class Differences
 {
   forward,
@@ -33,12 +32,12 @@ inline Names names(Differences)
 }
 Stencil stencil(Differences differences);
 
-/// f <- a vector per node, computed from the node positions X.
+/// Function that computes f, one vector per node, from the node positions X.
 template <int dim>
 using NodeFunction = std::function<void(const std::vector<dealii::Tensor<1, dim>> &X,
                                         std::vector<dealii::Tensor<1, dim>>       &f)>;
 
-/// The derivative of f at X along V by @p stencil; the step multiplies V.
+/// Return the derivative of f at X along V by @p stencil. The step multiplies V.
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> difference(const Stencil                             &stencil,
                                                const NodeFunction<dim>                   &f,

@@ -4,7 +4,7 @@
 #include <snug/base/values.h>
 
 namespace snug::elasticity {
-/// How an element takes the change of volume.
+/// Treatment of the change of volume in an element.
 enum class Formulation
 {
   standard, ///< point by point

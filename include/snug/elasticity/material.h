@@ -7,7 +7,7 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::elasticity {
-/// Isotropic linear elasticity, small strain.
+/// Isotropic linear elastic material for small strains.
 struct Material
 {
   double youngs_modulus = 1.;  ///< [force / length^2], > 0
@@ -24,7 +24,7 @@ struct Material
 
   double lame_mu() const { return youngs_modulus / (2. * (1. + poissons_ratio)); }
 
-  /// kappa = lambda + 2/3 mu.
+  /// Return kappa = lambda + 2/3 mu.
   double bulk_modulus() const { return youngs_modulus / (3. * (1. - 2. * poissons_ratio)); }
 };
 } // namespace snug::elasticity

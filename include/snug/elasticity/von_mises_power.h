@@ -10,11 +10,11 @@
 
 namespace snug::elasticity {
 /**
- * Integrals of powers of the von Mises stress over cells like those of
+ * This class computes integrals of powers of the von Mises stress over cells like those of
  * Element, at the same Gauss points:
  * S = int (sigma_vM / scale)^p dV [length^3],
- * sigma_vM = sqrt(3/2 s:s), s = 2 mu dev e. As s does not depend on the
- * dilatation, all formulations share it.
+ * sigma_vM = sqrt(3/2 s:s), s = 2 mu dev e.
+ * All formulations share s, because it does not depend on the dilatation.
  *
  * Along du and the velocities V, with the flux
  * H = p (sigma_vM / scale)^(p-2) 3/2 (2 mu s) / scale^2 and grad u =: g,
@@ -32,13 +32,13 @@ public:
                 double                    p,
                 double                    scale);
 
-  /// The largest sigma_vM at the Gauss points.
+  /// Return the maximum sigma_vM at the Gauss points.
   double largest(const Nodes &X, const Material &material, const Nodes &u) const;
 
-  /// S.
+  /// Return S.
   double value(const Nodes &X, const Material &material, const Nodes &u) const;
 
-  /// Gradients += factor * dS/du_a and dS/dX_a.
+  /// Add factor * dS/du_a and factor * dS/dX_a to the gradients.
   void add_gradients(const Nodes    &X,
                      const Material &material,
                      const Nodes    &u,

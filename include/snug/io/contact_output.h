@@ -12,37 +12,35 @@
 
 namespace snug::io {
 /**
- * The series contact.pvd of contact faces: state number i is
- * contact-000i.vtu (all faces of both sides, undeformed) with a table of
- * the contact rows beside it, contact-000i.csv. Rank 0 writes.
+ * The series contact.pvd of contact faces. State number i is contact-000i.vtu (all faces of both
+ * sides, undeformed) with a table of the contact rows beside it, contact-000i.csv. Rank 0 writes.
  *
- * | field               | meaning                       | units           |
- * |---------------------|-------------------------------|-----------------|
- * | pressure            | force / area                  | force/length^2* |
- * | gap                 | left after deformation        | length          |
- * | force               | of the contact row            | force           |
- * | area                | tributary                     | length^2*       |
- * | active, weak        | 1 or 0                        |                 |
- * | candidate           | 1 where there is a row        |                 |
- * | slave               | 1 on the slave side, else 0   |                 |
- * | pair                | of the slave face, first; -1  | index           |
- * | body                | index of `Bodies`             |                 |
- * | displacement        |                               | length          |
- * | design_displacement | design minus reference        | length          |
+ * | field               | meaning                          | units           |
+ * |---------------------|----------------------------------|-----------------|
+ * | pressure            | force / area                     | force/length^2* |
+ * | gap                 | gap after deformation            | length          |
+ * | force               | force of the contact row         | force           |
+ * | area                | tributary area                   | length^2*       |
+ * | active, weak        | 1 or 0                           |                 |
+ * | candidate           | 1 where there is a row, else 0   |                 |
+ * | slave               | 1 on the slave side, else 0      |                 |
+ * | pair                | first pair of slave face, or -1  | index           |
+ * | body                | index of `Bodies`                |                 |
+ * | displacement        | displacement                     | length          |
+ * | design_displacement | design minus reference           | length          |
  *
  * (*) length in 2D, where forces are per unit thickness.
  *
- * Pressure, gap and flags stand at slave nodes; hanging ones interpolate
- * pressure and gap and are active or weak where all their masters are; so
- * do nodes that the rows of others act for (mortar). Elsewhere they are 0.
- * A node of several pairs has a point in each. In the table a row has the
- * pair with the largest share in it.
+ * Pressure, gap and flags are given at slave nodes. Hanging nodes interpolate pressure and gap,
+ * and are active or weak if all their masters are. The same holds for nodes without a row for
+ * which other rows act (mortar). At all other nodes they are 0. A node of several pairs has one
+ * point in each pair. In the table a row has the pair with the maximum share in the row.
  */
 template <int dim>
 class ContactOutput
 {
 public:
-  /// What a state is of.
+  /// Mesh and contact of a state.
   struct Sources
   {
     const mesh::BodyMesh<dim>              &mesh;
@@ -52,12 +50,12 @@ public:
     const std::vector<contact::SharedNode> &shared_nodes;
   };
 
-  /// Files go to @p directory, which must exist.
+  /// Files go to the directory @p directory, which must exist.
   ContactOutput(const std::string &directory, const scene::OutputParameters &parameters)
     : directory(directory), compression(parameters.compression)
   {}
 
-  /// Add @p state to the series as that of @p time. Collective.
+  /// Add @p state to the series with the time @p time. Collective.
   /// @throws std::runtime_error if a file cannot be written.
   void write(const Sources &of, double time, const state::ContactState<dim> &state);
 

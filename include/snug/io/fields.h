@@ -12,35 +12,34 @@
 
 namespace snug::io {
 /**
- * The series solution.pvd of fields on the bodies: state number i is
- * solution-000i.pvtu, which joins one solution-000i.GROUP.vtu per group of ranks, as many as
- * OutputParameters say, with a piece per rank.
+ * The series solution.pvd of fields on the bodies. State number i is solution-000i.pvtu, which
+ * joins one solution-000i.GROUP.vtu per group of ranks, with a piece per rank. OutputParameters
+ * give the number of ranks per group.
  *
- * Points lie on the design, before deformation: "warp by vector
- * displacement" shows the deformed bodies, by minus design_displacement
- * those of the reference. Cells share points, within each region of a body.
+ * Points lie on the design, before deformation: "warp by vector displacement" shows the deformed
+ * bodies, and warping by minus design_displacement shows the reference bodies. Cells share points
+ * within each region of a body.
  *
- * | field               | components | units            |
- * |---------------------|------------|------------------|
- * | displacement        | 3          | length           |
- * | stress              | 9          | force / length^2 |
- * | von_mises           | 1          | force / length^2 |
- * | body                | 1          | index of `Bodies`|
- * | design_displacement | 3          | length           |
- * | shape_gradient      | 3          | objective / length |
- * | region, of cells    | 1          | index in the body |
- * | subdomain, of cells | 1          | global id        |
+ * | field               | components | units                |
+ * |---------------------|------------|----------------------|
+ * | displacement        | 3          | length               |
+ * | stress              | 9          | force / length^2     |
+ * | von_mises           | 1          | force / length^2     |
+ * | body                | 1          | index of `Bodies`    |
+ * | design_displacement | 3          | length               |
+ * | shape_gradient      | 3          | objective / length   |
+ * | region, of cells    | 1          | index in the body    |
+ * | subdomain, of cells | 1          | global id            |
  * | error, of cells     | 1          | (force length)^(1/2) |
  *
- * Stress is smoothed as nodal_stress() says; von Mises is that of the
- * smoothed stress. In 2D the component zz is the stress across the section,
- * the hoop stress if axisymmetric.
+ * The stress is smoothed by nodal_stress(). The von Mises stress is that of the smoothed stress. In
+ * 2D the component zz is the stress across the section, which is the hoop stress if axisymmetric.
  */
 template <int dim>
 class FieldOutput
 {
 public:
-  /// What a state is of; its mesh may be another than that of the state before.
+  /// Mesh and bodies of a state. The mesh may differ from the mesh of the state before.
   struct Sources
   {
     const mesh::BodyMesh<dim>                &mesh;
@@ -48,17 +47,17 @@ public:
     const std::vector<state::BodyModel<dim>> &bodies; ///< materials and formulations
   };
 
-  /// Files go to @p directory, which must exist.
+  /// Files go to the directory @p directory, which must exist.
   FieldOutput(const std::string &directory, const scene::OutputParameters &parameters)
     : directory(directory), parameters(parameters)
   {}
 
   /**
-   * Add @p state to the series as that of @p time (the number of the
-   * design iteration, say). Collective.
-   * @param[in] shape_gradient dJ/dX at the local nodes, hanging ones
-   *   included, as shares that add up over ranks; null: not written.
-   * @param[in] errors Estimated, of the cells; null: not written.
+   * Add @p state to the series with the time @p time, for example the number of the design
+   * iteration. Collective.
+   * @param[in] shape_gradient dJ/dX at the local nodes, including hanging nodes, as shares that
+   * add up over ranks; null: not written.
+   * @param[in] errors estimated errors of the cells; null: not written.
    * @throws std::runtime_error if a file cannot be written.
    */
   void write(const Sources                             &of,

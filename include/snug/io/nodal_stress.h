@@ -8,31 +8,31 @@
 #include <vector>
 
 namespace snug::io {
-/// Largest number of regions of a body.
+/// Return the maximum number of regions of a body.
 template <int dim>
 unsigned int n_stress_regions(const mesh::BodyMesh<dim> &mesh);
 
 /**
- * Cauchy stress at the local nodes [force / length^2], components zz of
- * sections (axisymmetric: hoop stress) included: a field that is
- * continuous in each region of a body, for pictures: index
- * node * n_stress_regions() + region, zero where a node is not in the
- * region. In a cell of degree p the stress is taken at the p^dim Gauss
- * points, where it is most accurate (Barlow, Int. J. Numer. Meth. Engng 10
- * (1976)), and extrapolated to the nodes: of Q1 by the slopes of the linear
- * field that fits the stresses at the centres of the cells around best, as
- * in the patch recovery of Zienkiewicz and Zhu (ibid. 33 (1992)), of Q2 by
- * the function through the points that is linear per axis. A node gets the
- * mean of its cells in the region weighted by 1/volume; hanging nodes are
- * interpolated between masters in the region. Second order, and exact for
- * linear fields on any mesh of Q1; first order at the surfaces of Q1 bodies
- * of a single layer of cells.
+ * Return the Cauchy stress at the local nodes [force / length^2], including the component zz of
+ * sections (hoop stress if axisymmetric). The field is continuous in each region of a body and is
+ * used for pictures. Its index is node * n_stress_regions() + region. It is zero if a node is not
+ * in the region.
  *
- * Valid at the nodes of owned cells. Collective.
+ * In a cell of degree p the stress is evaluated at the p^dim Gauss points, where it is most
+ * accurate (Barlow, Int. J. Numer. Meth. Engng 10 (1976)), and is extrapolated to the nodes. For
+ * Q1 the extrapolation uses the slopes of the linear field that best fits the stresses at the
+ * centers of the surrounding cells, as in the patch recovery of Zienkiewicz and Zhu (ibid. 33
+ * (1992)). For Q2 it uses the function through the points that is linear per axis. A node gets
+ * the mean over its cells in the region, weighted by 1/volume. Hanging nodes are interpolated
+ * between masters in the region.
+ *
+ * The stress is of second order, and exact for linear fields on any mesh of Q1. It is of first
+ * order at the surfaces of Q1 bodies of a single layer of cells. It is valid at the nodes of
+ * owned cells. Collective.
  *
  * @param[in] bodies Materials and formulations.
- * @param[in] positions, displacement On the local nodes, valid at nodes of
- *   owned cells [length].
+ * @param[in] positions, displacement Values at the local nodes, valid at nodes of owned cells
+ * [length].
  */
 template <int dim>
 std::vector<dealii::SymmetricTensor<2, 3>>

@@ -7,13 +7,13 @@
 
 namespace snug::io {
 /**
- * Write the quadratic program of torn bodies and a solution of it for other
- * solvers, @f[ \min \tfrac12 u^T K u - f^T u \quad\text{s.t.}\quad
+ * Write the quadratic program of torn bodies and its solution for other solvers,
+ * @f[ \min \tfrac12 u^T K u - f^T u \quad\text{s.t.}\quad
  *     (Bu)_i \le g_i \text{ where bounded},\ (Bu)_i = g_i \text{ elsewhere}, @f]
- * with R, whose columns span the kernel of K: K, B, R, f, g, bounded, u and
- * lambda, each as NAME.petsc (PETSc's binary format) and NAME.mtx (Matrix
- * Market). doc/export-qp.md says what is in them. Collective.
- * @param[in] directory is made.
+ * with R, whose columns span the kernel of K. The files are K, B, R, f, g, bounded, u and lambda,
+ * each as NAME.petsc (PETSc's binary format) and NAME.mtx (Matrix Market). doc/export-qp.md
+ * describes their contents. Collective.
+ * @param[in] directory the directory, which is made.
  * @param[in] layout the rows of @p feti.
  */
 void export_qp(const std::string         &directory,

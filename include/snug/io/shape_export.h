@@ -9,10 +9,10 @@
 
 namespace snug::io {
 /**
- * The surface at @p positions of its nodes [length] as text: in 3D ASCII
- * STL named @p name, every face of degree p as 2 p^2 triangles with normals
- * out of the body; in 2D a CSV polyline x,y with the body on its left,
- * separate pieces set apart by an empty line.
+ * Return the surface at the positions @p positions of its nodes [length] as text. In 3D the text
+ * is ASCII STL named @p name. It has 2 p^2 triangles for every face of degree p, with normals out
+ * of the body. In 2D it is a CSV polyline x,y with the body on its left. An empty line separates
+ * the pieces.
  */
 template <int dim>
 std::string surface_text(const mesh::Surface<dim>                 &surface,
@@ -20,9 +20,9 @@ std::string surface_text(const mesh::Surface<dim>                 &surface,
                          const std::string                        &name);
 
 /**
- * Write surface_text() to the file @p stem with ".stl" (3D) or ".csv" (2D);
- * its last part is the name of the solid. For one rank.
- * @throws std::runtime_error if it cannot be written.
+ * Write surface_text() to the file @p stem with ".stl" (3D) or ".csv" (2D). The last part of
+ * @p stem is the name of the solid. For one rank.
+ * @throws std::runtime_error if the file cannot be written.
  */
 template <int dim>
 void write_surface(const std::string                        &stem,
@@ -30,11 +30,10 @@ void write_surface(const std::string                        &stem,
                    const typename mesh::Surface<dim>::Field &positions);
 
 /**
- * Write the control points as CSV with columns shape, index, x, y, z (3D),
- * dx, dy, dz, how far they moved, variables, entries of the design with their
- * signs, and body_x, body_y, body_z, the point of the body there [length]. For
- * one rank.
- * @throws std::runtime_error if it cannot be written.
+ * Write the control points as CSV. The columns are shape, index, x, y, z (3D), dx, dy, dz
+ * (displacements of the control point), variables (entries of the design with their signs), and
+ * body_x, body_y, body_z (point of the body at the control point) [length]. For one rank.
+ * @throws std::runtime_error if the file cannot be written.
  */
 template <int dim>
 void write_control_points(const std::string                         &path,

@@ -15,10 +15,10 @@
 
 namespace snug::io {
 /**
- * The numbers of a run, as summary.json holds them. Other tools read that
- * file: the members down to `times` stand in it under their own names, in
- * their order, whatever the task was; what was not computed is null, like
- * every number that is not finite. Keys may be added, never renamed.
+ * The numbers of a run, as written to summary.json. Other tools read that file. The members down
+ * to `times` are written under their own names, in their order, for every task. Values that were
+ * not computed are null, like every number that is not finite. Keys may be added, but are never
+ * renamed.
  */
 struct Summary
 {
@@ -33,14 +33,14 @@ struct Summary
   struct Mesh
   {
     unsigned int  bodies     = 0;
-    unsigned long cells      = 0; ///< active, of all ranks
-    unsigned long dofs       = 0; ///< of the untorn bodies, none hanging
+    unsigned long cells      = 0; ///< active cells of all ranks
+    unsigned long dofs       = 0; ///< unknowns of the untorn bodies, without hanging nodes
     unsigned int  subdomains = 0;
     unsigned int  ranks      = 1;
     unsigned long dual_rows = 0, contact_rows = 0, kernel_dimension = 0;
   };
 
-  /// Members as in state::PairState.
+  /// Members are those of state::PairState.
   struct Pair
   {
     std::string         name;
@@ -51,21 +51,21 @@ struct Summary
     double              peak_size = none;
   };
 
-  /// Members as in state::Reaction.
+  /// Members are those of state::Reaction.
   struct Reaction
   {
     std::string         name;
     std::vector<double> centre, force, moment;
   };
 
-  /// Members as in accuracy::EnergyEstimate, and the estimated errors of responses by name.
+  /// Members are those of accuracy::EnergyEstimate, and the estimated errors of responses by name.
   struct Accuracy
   {
     double                                      error = none, relative = none;
     std::vector<std::pair<std::string, double>> responses;
   };
 
-  /// Members as in state::ContactState; linear_f_mults 0 becomes null.
+  /// Members are those of state::ContactState; linear_f_mults 0 becomes null.
   struct State
   {
     double                least_scaled_jacobian = none;
@@ -77,19 +77,19 @@ struct Summary
     double                degeneracy_distance = none;
     unsigned int          outer_iterations    = 0;
     unsigned long         f_mults = 0, linear_f_mults = 0;
-    std::string           method; ///< the solver that finished
+    std::string           method; ///< method of the solver that finished
     std::vector<Pair>     pairs;
     std::vector<Reaction> reactions;
     std::vector<double>   load, balance;
     /// names and values of the scene's responses
     std::vector<std::pair<std::string, double>> responses;
     state::Certificate                          certificate;
-    double                                      tolerance = none; ///< met by the certificate
-    state::Assumptions                          assumptions;
-    std::optional<Accuracy>                     accuracy;
+    double                  tolerance = none; ///< tolerance met by the certificate
+    state::Assumptions      assumptions;
+    std::optional<Accuracy> accuracy;
   };
 
-  /// One way to compute the gradient, with what it cost.
+  /// A method to compute the gradient, with its cost.
   struct GradientRow
   {
     std::string         method;
@@ -97,41 +97,40 @@ struct Summary
     unsigned long       numeric_factorizations = 0;
     double              seconds                = none;
     std::vector<double> values;      ///< [objective / length]
-    double              step = none; ///< relative, of differences
+    double              step = none; ///< relative step of the differences
     /// ||u' - u'_direct|| / ||u'_direct|| over all nodes and variables
     double displacement_difference = none;
-    bool   differentiable          = true; ///< or one-sided only
+    bool   differentiable          = true; ///< false if there are only one-sided derivatives
   };
 
   struct Gradient : GradientRow
   {
-    std::string reason; ///< why 'auto' took the method
-    /// All methods side by side, where the task compares them.
+    std::string reason; ///< reason if 'auto' chose the method
+    /// all methods, if the task compares them
     std::vector<GradientRow> methods;
   };
 
-  /// The objective of the first and the last design, each with its estimated error.
+  /// Objective of the first and the last design, each with its estimated error.
   struct Gain
   {
     double initial = none, initial_error = none, final = none, final_error = none;
-    bool   counts = false; ///< it is larger than the error at the last design
+    bool   counts = false; ///< whether the gain is larger than the error at the last design
   };
 
   struct Optimization : optimization::OptimizationResult
   {
     std::string         algorithm;
-    std::optional<Gain> gain = {}; ///< if errors of the objective are estimated
-    /// of the design found with contact paired anew there, if that is
-    /// another pairing
+    std::optional<Gain> gain = {}; ///< present if errors of the objective are estimated
+    /// values of the final design after a new contact search, if the contact is paired differently
     double objective_paired_anew = none, constraint_violation_paired_anew = none;
   };
 
-  /// One of several load cases.
+  /// A load case of a run with several load cases.
   struct LoadCase
   {
     std::string          name;
     double               weight = 1.;
-    State                state; ///< of the final design
+    State                state; ///< state of the final design
     std::optional<State> initial_state;
   };
 
@@ -142,22 +141,22 @@ struct Summary
     double      value = none, error = none;
   };
 
-  /// One of the meshes on the way to a target.
+  /// One of the meshes refined for a target.
   struct AdaptedMesh
   {
-    unsigned long                 dofs          = 0;
-    double                        contact_faces = none; ///< across; none where closed all over
-    double                        tolerance     = none;
-    unsigned long                 f_mults       = 0;
-    double                        seconds       = none;
+    unsigned long dofs          = 0;
+    double        contact_faces = none; ///< across a contact; none if the whole side is closed
+    double        tolerance     = none;
+    unsigned long f_mults       = 0;
+    double        seconds       = none;
     std::vector<MeasuredResponse> responses;
   };
 
   struct Adaptation
   {
-    bool                     met = false; ///< all targets
+    bool                     met = false; ///< whether all targets are met
     std::vector<AdaptedMesh> meshes;
-    /// of the mesh with all cells refined, if that is solved
+    /// responses on the mesh with all cells refined, if that mesh is solved
     std::vector<MeasuredResponse> verified;
   };
 
@@ -167,19 +166,20 @@ struct Summary
            gradient = 0., accuracy = 0., output = 0., total = 0.; ///< [s]
   };
 
-  /// Of the largest rank and of all together, when it was most [MB].
+  /// Memory of the largest rank and of all ranks together, at its maximum [MB].
   struct Memory
   {
     double largest = 0., total = 0.;
-    /// At the end of each stage that ran, and at the start, without what ranks share; the largest
-    /// rank's.
+    /// Memory at the end of each stage that ran, and at the start, without memory shared by
+    /// ranks, of the largest rank.
     std::vector<std::pair<std::string, double>> stages;
   };
 
   Program program;
   Mesh    mesh;
-  /// Of the final design. Of several load cases this is the first one; in the file it also has
-  /// the main values of all load cases by name, and the largest value of each with its load case.
+  /// State of the final design. If there are several load cases, this is the first one. In the
+  /// file it also contains the main values of all load cases by name, and the maximum of each
+  /// value with its load case.
   State                       state;
   std::optional<Gradient>     gradient;
   std::optional<Optimization> optimization;
@@ -187,46 +187,46 @@ struct Summary
   Times                       times;
   Memory                      memory;
   std::string                 task;
-  std::optional<State>        initial_state; ///< of the first design
-  std::vector<LoadCase>       load_cases;    ///< empty if there is only one
+  std::optional<State>        initial_state; ///< state of the first design
+  std::vector<LoadCase>       load_cases;    ///< empty if there is only one load case
   std::vector<std::string>    warnings;
-  std::optional<Adaptation>   accuracy; ///< to a target
+  std::optional<Adaptation>   accuracy; ///< adaptation to a target
 
-  /// If it was asked for.
+  /// advice, if the user asked for it
   std::optional<std::vector<advice::Advice>> advice;
 
-  /// The JSON text; doubles read back as the same numbers.
+  /// Return the JSON text. Doubles are read back as the same numbers.
   std::string json() const;
 
   /// Write json() to the file @p path. For one rank.
-  /// @throws std::runtime_error if it cannot be written.
+  /// @throws std::runtime_error if the file cannot be written.
   void write(const std::string &path) const;
 };
 
-/// Versions of the program and its packages, and the BLAS in use.
+/// Return the versions of the program and its packages, and the BLAS in use.
 Summary::Program program_info(const RunContext &context);
 
 /**
- * Name of a BLAS from the file its dgemm was loaded from and, for OpenBLAS,
- * its own description (else empty); "reference" for the reference BLAS.
+ * Return the name of a BLAS, from the file from which its dgemm was loaded and, for OpenBLAS, its
+ * own description (else empty). The name is "reference" for the reference BLAS.
  */
 std::string blas_name(const std::string &file, const std::string &openblas_config);
 
-/// One line of advice if the BLAS is the reference one; else empty.
+/// Return one line of advice if the BLAS is the reference BLAS; else empty.
 std::string blas_warning(const Summary::Program &program);
 
-/// All of Mesh but dual_rows, contact_rows and kernel_dimension.
+/// Return all members of Mesh except dual_rows, contact_rows and kernel_dimension.
 template <int dim>
 Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing);
 
 template <int dim>
 Summary::State summarize(const state::ContactState<dim> &state);
 
-/// What the ranks have taken so far. Collective.
+/// Return the memory of all ranks up to the call. Collective.
 Summary::Memory collect_memory(const RunContext &context);
 
-/// Seconds of the stages named as the members of Times, of the slowest
-/// rank. Collective.
+/// Return the seconds of the stages named like the members of Times, of the slowest rank.
+/// Collective.
 Summary::Times collect_times(const RunContext &context);
 } // namespace snug::io
 

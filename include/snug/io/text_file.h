@@ -8,28 +8,28 @@
 
 namespace snug::io {
 /**
- * Replace the file @p path by @p text. It is written beside it and renamed,
- * so that a reader finds the old or the new file, never half of one.
+ * Replace the file @p path by @p text. The text is written to a file beside it, which is then
+ * renamed, so that a reader finds the old or the new file, never a part of a file.
  * @throws std::runtime_error naming the file and the reason.
  */
 void write_text_file(const std::string &path, const std::string &text);
 
-/// @p x with 17 significant digits, which read back as the same number.
+/// Return @p x with 17 significant digits, from which the same number is read.
 std::string exact(double x);
 
-/// @p number with leading zeros to at least @p digits digits.
+/// Return @p number with leading zeros to at least @p digits digits.
 std::string padded(unsigned int number, unsigned int digits);
 
 /**
- * Make the directory @p path and its parents, if need be, and try to write
- * in it. Collective. @throws InputError if that fails.
+ * Make the directory @p path and its parents, if they do not exist, and try to write in it.
+ * Collective. @throws InputError if that fails.
  */
 void make_output_directory(const RunContext &context, const std::string &path);
 
 /**
- * Remove what earlier runs left in @p directories: the files of the names
- * this program gives to results, journals and warm starts, and no others.
- * Pictures of another run would stand beside this one's. Collective.
+ * Remove results of earlier runs in @p directories: the files with the names that this program
+ * gives to results, journals and warm starts, and no others. Pictures of another run would
+ * otherwise remain beside those of this run. Collective.
  */
 void remove_results(const RunContext &context, const std::vector<std::string> &directories);
 } // namespace snug::io

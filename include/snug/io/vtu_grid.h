@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace snug::io {
-/// 1 component for a scalar, dim for a vector, 9 (row by row) for a tensor.
+/// A quantity with 1 component for a scalar, dim for a vector, or 9 (row by row) for a tensor.
 struct Quantity
 {
   std::string  name;
@@ -17,9 +17,10 @@ struct Quantity
 };
 
 /**
- * Cells of dimension @p d in space of dimension @p dim that share points, with values at the points
- * and of the cells, and their text in VTU files. A cell of degree p is drawn as p^d cells, linear
- * between its points. Numbers are written in single precision, vectors with three components.
+ * Cells of dimension @p d in space of dimension @p dim that share points, with values at the
+ * points and of the cells, and their text in VTU files. A cell of degree p is drawn as p^d cells,
+ * which are linear between their points. Numbers are written in single precision, vectors with
+ * three components.
  *
  * Source: VTK file formats, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
  */
@@ -29,16 +30,19 @@ class VtuGrid
 public:
   VtuGrid(const std::vector<Quantity> &at_points, const std::vector<Quantity> &of_cells);
 
-  /// @param[in] values The components of all quantities in turn. @return the number of the point.
+  /// Add a point. @param[in] values The components of all quantities in turn. @return the number
+  /// of the point.
   unsigned int add_point(const dealii::Tensor<1, dim> &x, const std::vector<double> &values);
 
-  /// @param[in] points Of its (p+1)^d nodes, tensor-product order, first coordinate fastest.
+  /// Add a cell. @param[in] points Points of its (p+1)^d nodes, tensor-product order, first
+  /// coordinate fastest.
   void add_cell(const std::vector<unsigned int> &points, const std::vector<double> &values);
 
-  /// Its part of the text of a VTU file. @param[in] compression Level of zlib, 0 (none) to 9.
+  /// Return the grid's piece of the text of a VTU file. @param[in] compression Level of zlib, 0
+  /// (none) to 9.
   std::string piece(unsigned int compression) const;
 
-  /// The PVTU text that joins VTU files.
+  /// Return the PVTU text that joins VTU files.
   std::string pvtu(const std::vector<std::string> &files) const;
 
 private:
@@ -46,8 +50,8 @@ private:
   struct Array
   {
     std::string        name;
-    unsigned int       components; ///< that are given
-    unsigned int       written;    ///< with those that are zero
+    unsigned int       components; ///< number of given components
+    unsigned int       written;    ///< number of components including zeros
     std::vector<float> values;
   };
 
@@ -56,13 +60,13 @@ private:
 
   std::vector<Array>        at_points, of_cells;
   Array                     places{"", dim, 3, {}};
-  std::vector<std::int32_t> corners; ///< 2^d of each drawn cell, in VTK's order
+  std::vector<std::int32_t> corners; ///< 2^d corners of each drawn cell, in the order of VTK
 };
 
-/// The VTU text of pieces with the same quantities, as of several ranks.
+/// Return the VTU text of pieces with the same quantities, as those of several ranks.
 std::string vtu(const std::vector<std::string> &pieces);
 
-/// The PVD text of a series of (time, file).
+/// Return the PVD text of a series of (time, file).
 std::string pvd(const std::vector<std::pair<double, std::string>> &series);
 } // namespace snug::io
 

@@ -8,18 +8,18 @@
 #include <vector>
 
 namespace snug::response {
-/// The unit vector of the component x, y or z.
+/// Return the unit vector of the component x, y or z.
 /// @throws InputError for other names.
 template <int dim>
 dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters);
 
-/// (body, boundary) of the face "body.boundary".
+/// Return (body, boundary) of the face "body.boundary".
 /// @throws InputError if there is no such boundary.
 template <int dim>
 std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim> &solver,
                                                     const ResponseParameters      &parameters);
 
-/// A point of a cell: sum_a weights_a field_a is the value of a field.
+/// A point of a cell: the value of a field at the point is sum_a weights_a field_a.
 struct CellWeights
 {
   unsigned int        subdomain, cell; ///< see Assembler::cells()
@@ -27,11 +27,12 @@ struct CellWeights
 };
 
 /**
- * Where the point lies in the reference geometry: of all cells of the body
- * (if it is empty, of any) that hold it the first one of the lowest rank,
- * so that one rank returns one element and the others none. Collective.
- * @throws InputError if it lies in no body (outside by more than 1e-6 of a
- *   cell), or in several.
+ * Find the cell that contains the point in the reference geometry. The search covers the
+ * cells of the body, or of all bodies if the name of the body is empty. Several cells may
+ * contain the point. The function returns the first such cell of the lowest rank, so that one
+ * rank returns one element and all other ranks return none. Collective.
+ * @throws InputError if the point lies in no body (outside by more than 1e-6 of a cell), or
+ * in several bodies.
  */
 template <int dim>
 std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,

@@ -7,72 +7,71 @@
 #include <functional>
 
 namespace snug::response {
-/// Which of the pairs of contact are called @p name, either side first; empty: all.
-/// @throws InputError if there is none.
+/// Return which of the contact pairs have the name @p name, with either side first. An empty
+/// name selects all pairs.
+/// @throws InputError if there is no such pair.
 template <int dim>
 std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std::string &name);
 
-/// Which contact rows belong to the pair called @p name, either side
-/// first; empty: all. @throws InputError if there is no such pair.
+/// Return the share of each contact row in the pair called @p name, with either side first.
+/// An empty name selects all pairs. @throws InputError if there is no such pair.
 template <int dim>
 std::vector<double> row_shares(const state::StateSolver<dim> &solver, const std::string &name);
 
-/// @name What response_table() is made of
+/// @name Quantities of response_table()
 /// @{
 
 /**
- * J = s 1/2 u'Ku + l f'u [force length]. For the potential energy, s = 1
- * and l = -1, the derivative needs no solve, because u minimises J on the
- * contact constraints: J' = 1/2 u'K'u - f''u + lambda'(B'u - g').
- * @p value: where a state holds J.
+ * Return the response J = s 1/2 u'Ku + l f'u [force length] with @p stiffness s and @p load
+ * l. For the potential energy, s = 1 and l = -1, the derivative needs no solve, because u
+ * minimizes J subject to the contact constraints: J' = 1/2 u'K'u - f''u + lambda'(B'u - g').
+ * @param value member of the state that contains J.
  */
 template <int dim>
 std::unique_ptr<Response<dim>>
 work(double state::ContactState<dim>::*value, double stiffness, double load);
 
-/// J = int w dV over one body or all: their volume [length^3], w = 1, or
-/// their mass, w the density. Depends on the geometry alone.
+/// Return the response J = int w dV over one body or all bodies. J is their volume [length^3]
+/// with w = 1, or their mass with the density w. J depends on the geometry alone.
 template <int dim>
 std::unique_ptr<Response<dim>> body_integral(const ResponseParameters &parameters, bool mass);
 
 /**
- * A displacement [length]: a component of that of a point,
- * J = sum_a N_a(xi) u_a . e, where the design carries the point along,
- * xi being its place in its cell in the reference geometry; or one
- * averaged over a face, J = int u . e dA / int dA, with e = n for the
- * component along the outward normal.
+ * Return a displacement response [length]. For a point it is a component of the displacement,
+ * J = sum_a N_a(xi) u_a . e. The design moves the point with its cell: xi is its reference
+ * coordinate in the cell of the reference geometry. For a face it is the average J = int u . e dA /
+ * int dA, with e = n for the component along the outward normal.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> displacement(const ResponseParameters &parameters);
 
 /**
- * J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over
- * one body or all: the p-norm of the von Mises stress, divided by that
- * of 1. It grows with p to the largest stress at the Gauss points.
+ * Return the response J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over one
+ * body or all bodies: the p-norm of the von Mises stress, divided by the p-norm of 1. J grows with
+ * p to the maximum stress at the Gauss points.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> von_mises_norm(const ResponseParameters &parameters);
 
 /**
- * J = 1 - (sum (1 - q)^p)^(1/p) with the scaled Jacobians q at the nodes and
- * Gauss points of the cells of one body or all, see Element: below the
- * least q, the nearer to it the larger p, and 1 where all angles are right
- * ones. Depends on the geometry alone.
+ * Return the response J = 1 - (sum (1 - q)^p)^(1/p) with the scaled Jacobians q at the nodes and
+ * Gauss points of the cells of one body or all bodies, see Element. J is below the minimum q and
+ * approaches it as p grows. J is 1 if all angles are right angles. J depends on the geometry alone.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> least_scaled_jacobian(const ResponseParameters &parameters);
 
 /**
- * The same with q = det J / det J_0, J_0 of the reference mesh, at most 1:
- * cells that are squeezed keep their angles until they tangle.
+ * Return the same response with q = min(1, det J / det J_0) and J_0 of the reference mesh.
+ * This response detects compressed cells, which keep their angles until they tangle.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> least_cell_size(const ResponseParameters &parameters);
 
 /**
- * J = -sum_i p_i n_i . e [force]: component e of the force of a pair, or
- * of all pairs, on the slave side, with the normals n_i into the master.
- * For the component normal J = sum_i p_i.
+ * Return the response J = -sum_i p_i n_i . e [force]: component e of the force of a pair, or
+ * of all pairs, on the slave side, with the normals n_i into the master. For the component
+ * normal J = sum_i p_i.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> contact_force(const ResponseParameters &parameters);
@@ -80,11 +79,11 @@ std::unique_ptr<Response<dim>> contact_force(const ResponseParameters &parameter
 using Measure = std::function<Measured(const PressureRows &)>;
 
 /**
- * A function of the contact forces and tributary areas of one pair, or
- * of all pairs; see pressure_measures.h for what there is. Rows that
- * cannot carry a force, or have no area, do not count.
- * @param entries  those that the measure reads, besides the pair.
- * @param power    the highest power of the pressure under an integral of the measure.
+ * Return a response that is a function of the contact forces and tributary areas of one pair,
+ * or of all pairs; see pressure_measures.h for the functions. Rows that cannot carry a force,
+ * or have no area, are left out.
+ * @param entries  entries that the measure reads, besides the pair.
+ * @param power    maximum power of the pressure under an integral of the measure.
  */
 template <int dim>
 std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &parameters,

@@ -11,8 +11,7 @@
 #include <optional>
 
 namespace snug::response {
-/// Partial derivatives of a response J(u, force, X). An empty member is
-/// zero.
+/// Partial derivatives of a response J(u, force, X). An empty member is zero.
 template <int dim>
 struct Partials
 {
@@ -20,37 +19,39 @@ struct Partials
 
   /// dJ/du at fixed forces and positions, per subdomain of this rank.
   feti::PrimalVectors u;
-  /// dJ/d(force) at fixed u and positions, per contact row and equal on all
-  /// ranks; force = lambda_i / nr_i as in ContactPoint, never lambda_i.
+  /// dJ/d(force) at fixed u and positions, per contact row and equal on all ranks. The force
+  /// is lambda_i / nr_i as in ContactPoint, never lambda_i.
   std::vector<double> forces;
-  /// dJ/dX at fixed u and forces: this rank's share at the local nodes,
-  /// hanging ones included; the sum over ranks is the whole.
+  /// dJ/dX at fixed u and forces: this rank's share at the local nodes, including hanging
+  /// nodes. The sum over ranks is the derivative.
   Field positions;
 };
 
 /**
- * dJ/du as a functional of fields v, where Partials::u has its values at the nodes:
- * stiffness a(u, v) + load f(v) + int traction . v dA + int stress : eps(v) dV.
- * J is quadratic in u by the same stiffness, J'' (v, v) = stiffness a(v, v).
+ * dJ/du as a functional of fields v. Partials::u contains the values of the functional for the
+ * shape functions of the nodes. The functional is stiffness a(u, v) + load f(v) +
+ * int traction . v dA + int stress : eps(v) dV. J is quadratic in u with the same stiffness,
+ * J'' (v, v) = stiffness a(v, v).
  */
 template <int dim>
 struct FieldDerivative
 {
   double stiffness = 0., load = 0.;
-  /// by the unit outward normal of one boundary [response / length^dim]
+  /// traction as a function of the unit outward normal of one boundary [response / length^dim]
   std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &normal)> traction = {};
-  std::pair<unsigned int, unsigned int> boundary = {0, 0}; ///< of that body
-  /// by the stress of u there, in the components the strain of v has [response / length^3]
+  std::pair<unsigned int, unsigned int> boundary = {0, 0}; ///< (body, boundary) of the traction
+  /// stress as a function of the stress of u at a point, in the components of the strain of v
+  /// [response / length^3]
   std::function<dealii::SymmetricTensor<2, 3>(const elasticity::Material          &material,
                                               const dealii::SymmetricTensor<2, 3> &stress)>
               stress = {};
-  std::string body; ///< where; empty: everywhere
+  std::string body; ///< body of the stress; empty: all bodies
 };
 
 /**
- * A scalar function J(u, force, X) of the displacements, the contact
- * forces and the node positions, with the partial derivatives every
- * sensitivity method is built from:
+ * A scalar function J(u, force, X) of the displacements, the contact forces and the node
+ * positions, with its partial derivatives. Every sensitivity method uses these partial
+ * derivatives:
  * dJ/dalpha_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dforce . force'_j.
  */
 template <int dim>
@@ -59,62 +60,63 @@ class Response
 public:
   virtual ~Response() = default;
 
-  /// The entries of its subsection that it reads.
+  /// Return the entries of its subsection that the response reads.
   virtual std::vector<std::string> entries() const { return {}; }
 
-  /// Whether J depends on the solution at all, or on the geometry alone:
-  /// then only the positions of a state are read.
+  /// Return whether J depends on the solution. If not, J depends on the geometry alone and
+  /// only the positions of a state are read.
   virtual bool needs_solution() const { return true; }
 
-  /// Whether J is zero where no material has a density.
+  /// Return whether J is zero if no material has a density.
   virtual bool needs_density() const { return false; }
 
   /**
-   * Whether u makes J stationary among the displacements that the rows of
-   * contact and supports allow, with multipliers lambda: dJ/du = -B'lambda
-   * and dJ/dforce = 0. Then dJ/dalpha needs no solve.
+   * Return whether u makes J stationary among the displacements that satisfy the contact and
+   * support rows, with multipliers lambda: dJ/du = -B'lambda and dJ/dforce = 0. In this case
+   * dJ/dalpha needs no solve.
    */
   virtual bool stationary() const { return false; }
 
-  /// Whether J depends on how the contact pressure is distributed, and not on its resultants alone.
+  /// Return whether J depends on the distribution of the contact pressure, and not on its
+  /// resultants alone.
   virtual bool reads_pressure() const { return false; }
 
-  /// Whether J has no limit as cells get smaller where a sharp edge presses, see
+  /// Return whether J has no limit under mesh refinement if a sharp edge is in contact, see
   /// accuracy::sharp_edges().
   virtual bool unbounded_at_edges() const { return false; }
 
-  /// Throw an InputError unless the scene has what is measured.
-  /// Collective.
+  /// Throw an InputError unless the scene contains the body, face, point or pair of the
+  /// response. Collective.
   virtual void check(const state::StateSolver<dim> & /*solver*/) const {}
 
-  /// What dJ/du is between nodes; zero for forces at points. Collective.
+  /// Return dJ/du between the nodes; zero for point forces. Collective.
   virtual FieldDerivative<dim> field_derivative(const state::StateSolver<dim> & /*solver*/,
                                                 const state::ContactState<dim> & /*state*/) const
   {
     return {};
   }
 
-  /// J of pressures at other places than the slave nodes, for each pair its own; nothing if it is
-  /// not a function of them.
+  /// Return J of pressures given at places other than the slave nodes, one set of rows per
+  /// pair. Return nothing if J is not a function of the pressures.
   virtual std::optional<double> measured(const state::StateSolver<dim> & /*solver*/,
                                          const std::vector<PressureRows> & /*of_pairs*/) const
   {
     return {};
   }
 
-  /// J and its derivatives as a function of the forces and areas of all contact rows; nothing: it
-  /// depends on more. Not collective.
+  /// Return J and its derivatives as a function of the forces and areas of all contact rows.
+  /// Return nothing if J depends on further quantities. Not collective.
   virtual std::optional<Measured> of_contact(const state::StateSolver<dim> & /*solver*/,
                                              const PressureRows & /*rows*/) const
   {
     return {};
   }
 
-  /// J. Collective.
+  /// Return J. Collective.
   virtual double value(const state::StateSolver<dim>  &solver,
                        const state::ContactState<dim> &state) const = 0;
 
-  /// Collective.
+  /// Return the partial derivatives of J. Collective.
   virtual Partials<dim> partials(const state::StateSolver<dim>  &solver,
                                  const state::ContactState<dim> &state) const = 0;
 };
@@ -122,11 +124,11 @@ public:
 template <int dim>
 using MakeResponse = std::unique_ptr<Response<dim>>(const ResponseParameters &);
 
-/// Rows of the entry Quantity. Making one throws nothing.
+/// Return the rows of the entry Quantity. Making a response throws nothing.
 template <int dim>
 const ChoiceTable<MakeResponse<dim>> &response_table();
 
-/// The response that @p parameters describe.
+/// Return the response that @p parameters describe.
 template <int dim>
 std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameters);
 } // namespace snug::response

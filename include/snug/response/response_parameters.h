@@ -24,30 +24,30 @@ inline Names names(Component)
   return {{"normal"}, {"x"}, {"y"}, {"z"}};
 }
 
-/// Entries of `subsection Response NAME`, or the defaults of a response
-/// that is named by its quantity alone.
+/// Entries of `subsection Response NAME`, or the defaults of a response that is named by its
+/// quantity alone.
 struct ResponseParameters
 {
-  std::string name;                          ///< empty: that of the quantity
-  std::string quantity = "potential energy"; ///< of response_table()
-  std::string body;                          ///< empty: all
-  std::string face;                          ///< "body.boundary"
-  /// [length], in the reference geometry
+  std::string name;                          ///< empty: name of the quantity
+  std::string quantity = "potential energy"; ///< name in response_table()
+  std::string body;                          ///< empty: all bodies
+  std::string face;                          ///< name "body.boundary"
+  /// point in the reference geometry [length]
   std::vector<double> point;
   Component           component = Component::normal;
-  std::string         pair; ///< "slave: master"; empty: all
-  double              exponent  = 8.;
-  double              smoothing = 0.1; ///< of contact areas
+  std::string         pair; ///< "slave: master"; empty: all pairs
+  double              exponent = 8.;
+  double smoothing = 0.1; ///< threshold of the contact area, relative to the mean pressure
 
   std::string section() const { return "Response " + name; }
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;
 
-  /// Whether its quantity reads an entry.
+  /// Return whether the quantity reads an entry.
   bool reads(const std::string &entry) const;
 
-  /// Path of an entry, for messages.
+  /// Return the path of an entry, for messages.
   std::string path(const std::string &entry) const { return section() + "/" + entry; }
 };
 } // namespace snug::response

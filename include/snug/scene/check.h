@@ -6,37 +6,36 @@
 
 namespace snug::scene {
 /**
- * Throw an InputError that begins with the entry's origin unless the scene
- * makes sense as a whole:
+ * Check a scene as a whole. Throw an InputError that begins with the origin of the entry unless
+ * all of the following conditions hold:
  *
  * - every value has the form and range that is declared with its entry, and
  *   the parameters of each module agree with each other;
  * - every region of a body has one material;
- * - bodies are there and have different names; boundaries that supports,
+ * - there are bodies, and they have different names; boundaries that supports,
  *   loads, pairs and shapes name exist; meshes can be made;
  * - the model fits the dimension, and thickness, formulation and bodies fit
  *   the model;
  * - no face is paired with itself or twice;
  * - tasks that need design variables have some;
- * - responses measure what is there; objective and constraints are
- *   responses, with limits the algorithm can hold.
+ * - responses measure existing bodies, faces and pairs; objective and
+ *   constraints are responses, with limits that the algorithm supports.
  */
 void check(const Scene &scene, const Origins &origins = Origins());
 
 /// @name Parts of check()
 /// @{
 void check_names(const Scene &scene, const Origins &origins);
-/// Mesh, materials and supports.
+/// Check mesh, materials and supports.
 void check_body(const Scene &scene, const SectionCheck &section, const Body &body);
-/// What supports and loads hold is added to @p held.
+/// Check the loads of a body. Components held by supports and loads are added to @p held.
 void check_loads(const SectionCheck &section, const Body &body, LoadParameters::Held &held);
 void check_contact(const Scene &scene, const Origins &origins);
 void check_shapes(const Scene &scene, const Origins &origins);
 void check_responses(const Scene &scene, const Origins &origins);
 /// @}
 
-/// Throw unless the body has @p boundary, a part of the @p value of an
-/// entry.
+/// Throw unless the body has the boundary @p boundary, which is a part of the @p value of an entry.
 void require_boundary(const SectionCheck &section,
                       const std::string  &entry,
                       const std::string  &value,
@@ -50,7 +49,7 @@ void require_face(const Scene        &scene,
                   const std::string  &value,
                   const std::string  &face);
 
-/// "components are x, y and normal".
+/// Return the component names as text, like "components are x, y and normal".
 std::string component_names(unsigned int dimension);
 } // namespace snug::scene
 

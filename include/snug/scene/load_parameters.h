@@ -15,37 +15,35 @@ class SectionCheck;
 
 namespace snug::scene {
 /**
- * Dead loads on faces and prescribed displacements: those of a body, by
- * boundary, or of a load case, by "body.boundary". Formulas are of the
- * reference position.
+ * Dead loads on faces and prescribed displacements of a body, by boundary, or of a load case, by
+ * "body.boundary". Formulas are functions of the reference position.
  */
 struct LoadParameters
 {
-  /// formula [force / length^2], positive pushes on the body
+  /// formula [force / length^2]; a positive pressure pushes on the body
   std::map<std::string, std::string> pressure;
   /// formulas of the components, separated by blanks [force / length^2]
   std::map<std::string, std::string> traction;
   /// total force [force]
   std::map<std::string, std::vector<double>> force;
-  /// about the centroid of the face [force length]; one number in 2D
+  /// moment about the centroid of the face [force length]; one number in 2D
   std::map<std::string, std::vector<double>> moment;
   /// "component = formula" [length]
   std::vector<std::pair<std::string, std::string>> displacements;
 
-  /// Entries whose keys are called @p key: boundary or body.boundary, as
-  /// @p where is.
+  /// Declare the entries. Their keys are called @p key: boundary or body.boundary, as @p where is.
   void declare(Entries &entries, const std::string &key, const std::string &where);
 
-  /// A boundary, "body.boundary", and a component held there.
+  /// Pairs of a boundary, "body.boundary", and a component held there.
   using Held = std::set<std::pair<std::string, unsigned int>>;
-  /// Throws unless a key of an entry's value names a boundary.
+  /// Function that throws unless a key of an entry's value names a boundary.
   using RequireKey =
     std::function<void(const std::string &entry, const std::string &value, const std::string &key)>;
 
   void check(const SectionCheck &section, const RequireKey &require_key) const;
 
-  /// @p held: what supports hold; what is prescribed is added. @p prefix
-  /// makes "body.boundary" of a key.
+  /// Check the prescribed displacements. @p held contains the components held by supports, and
+  /// the prescribed components are added. @p prefix completes a key to "body.boundary".
   void
   check_displacements(const SectionCheck &section, const std::string &prefix, Held &held) const;
 };
@@ -54,16 +52,16 @@ struct LoadParameters
 struct LoadCaseParameters
 {
   std::string         name;
-  double              weight = 1.; ///< in the objective
-  LoadParameters      loads;       ///< besides those of the bodies
-  std::vector<double> gravity;     ///< [length / time^2], besides the scene's
+  double              weight = 1.; ///< weight in the objective
+  LoadParameters      loads;       ///< loads besides those of the bodies
+  std::vector<double> gravity;     ///< [length / time^2], in addition to the scene's gravity
 
   std::string section() const { return "Load case " + name; }
 
   void declare(Entries &entries);
 };
 
-/// The entry Gravity of a scene or a load case.
+/// Declare the entry Gravity of a scene or a load case.
 void declare_gravity(Entries &entries, std::vector<double> &gravity);
 } // namespace snug::scene
 

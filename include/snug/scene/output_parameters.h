@@ -13,12 +13,12 @@ namespace snug::scene {
 /// Entries of `subsection Output`.
 struct OutputParameters
 {
-  /// besides displacement and body
+  /// fields besides displacement and body
   std::vector<std::string> fields         = {"stress",    "von_mises",           "region",
                                              "subdomain", "design_displacement", "shape_gradient",
                                              "error"};
-  unsigned int             compression    = 1;  ///< level of zlib
-  unsigned int             ranks_per_file = 16; ///< of the fields
+  unsigned int             compression    = 1;  ///< compression level of zlib
+  unsigned int             ranks_per_file = 16; ///< number of ranks that share a file of the fields
   bool                     export_qp      = false;
 
   bool has(const std::string &field) const;

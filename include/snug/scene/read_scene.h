@@ -11,22 +11,22 @@
 #include <vector>
 
 namespace snug::scene {
-/// What a scene is read from. Later ones of equal entries win.
+/// Sources of a scene. If an entry is set several times, the last value counts.
 struct SceneSource
 {
-  std::string              file;             ///< only a name, for messages
+  std::string              file;             ///< only a name, used in messages
   std::string              text;             ///< contents of the parameter file
-  std::vector<std::string> sets;             ///< "Subsection/Entry=value"
-  std::string              output_directory; ///< if not empty, overrides
-  /// reads mesh files; with none they cannot be read
+  std::vector<std::string> sets;             ///< statements "Subsection/Entry=value"
+  std::string              output_directory; ///< if not empty, it overrides the entry
+  /// function that reads mesh files; if empty, mesh files cannot be read
   std::function<std::string(const std::string &file)> read_file = {};
 };
 
-/// From where text may be read. Devices and pipes need not end.
+/// Kinds of files from which text may be read. Devices and pipes need not end.
 enum class TextSource
 {
   regular_file,
-  any ///< devices and pipes as well, such as /dev/stdin, if they hold at most 16 MB
+  any ///< devices and pipes too, such as /dev/stdin, if they contain at most 16 MB
 };
 
 /**
@@ -38,20 +38,19 @@ std::string read_text(const std::string &file,
                       TextSource         source = TextSource::regular_file);
 
 /**
- * Read and check a scene and the mesh files it names. Lists left empty
- * that have a default (corner, size, grading, body force, initial design)
- * are filled in. Equal sources give equal scenes and equal errors;
- * collective if reading files is.
+ * Read and check a scene and the mesh files named in the scene. Empty lists that have a default
+ * (corner, size, grading, body force, initial design) are filled in. Equal sources give equal
+ * scenes and equal errors. Collective if reading files is collective.
  *
- * @throws InputError, one line with file, line, entry, value and what is
- *   allowed; see check() for what is checked beyond the form of values.
+ * @throws InputError, one line with file, line, entry, value and the allowed values; see check()
+ * for the checks beyond the form of values.
  */
 Scene read_scene(const SceneSource &source);
 
-/// Every entry as a parameter file that reads back to the same scene.
+/// Write every entry as a parameter file that reads back to the same scene.
 void print(const Scene &scene, std::ostream &out);
 
-/// All entries with defaults, allowed values and meaning, as Markdown.
+/// Write all entries with defaults, allowed values and meaning, as Markdown.
 void print_reference(std::ostream &out);
 } // namespace snug::scene
 

@@ -24,19 +24,19 @@
 #include <vector>
 
 namespace snug::scene {
-/// What a run computes.
+/// Task of a run.
 enum class Task
 {
   state,       ///< one contact problem
-  sensitivity, ///< its derivatives by all methods, side by side
-  optimize     ///< the best shape
+  sensitivity, ///< derivatives by all methods, compared
+  optimize     ///< optimization of the shape
 };
 inline Names names(Task)
 {
   return {{"state"}, {"sensitivity"}, {"optimize"}};
 }
 
-/// `subsection Material NAME`.
+/// Entries of `subsection Material NAME`.
 struct NamedMaterial
 {
   std::string          name;
@@ -52,7 +52,7 @@ struct Body
 {
   std::string                  name;
   geometry::BodyMeshParameters mesh;
-  /// of the whole body, if the next is empty
+  /// material of the whole body, if the next member is empty
   elasticity::Material material;
   /// region -> name of its material; "" is the whole body
   std::map<std::string, std::string> materials;
@@ -69,27 +69,27 @@ struct Body
 };
 
 /**
- * Everything a parameter file says. Units are the user's, but consistent:
- * with mm, N and MPa pressures and moduli are MPa and energies N mm.
+ * Entries of a parameter file. Units are chosen by the user, but must be consistent: with mm, N
+ * and MPa, pressures and moduli are in MPa and energies in N mm.
  */
 struct Scene
 {
-  std::string                              file; ///< it was read from, for messages
+  std::string                              file; ///< scene file, for messages
   Task                                     task      = Task::state;
-  unsigned int                             dimension = 3; ///< of the meshes
-  std::optional<mesh::Idealization::Kind>  model;         ///< none: natural to the dimension
+  unsigned int                             dimension = 3;              ///< dimension of the meshes
+  std::optional<mesh::Idealization::Kind>  model;                      ///< none: by dimension
   double                                   thickness             = 1.; ///< of plane models [length]
   std::string                              output_directory      = "output";
   unsigned int                             degree                = 1;  ///< of the elements, 1 or 2
-  double                                   least_scaled_jacobian = 0.; ///< that a cell may have
+  double                                   least_scaled_jacobian = 0.; ///< minimum of all cells
   std::vector<NamedMaterial>               materials;
   std::vector<Body>                        bodies;
   std::vector<contact::ObstacleParameters> obstacles;
   std::vector<double>                      gravity; ///< [length / time^2]; empty: none
-  /// empty: one, with the loads of the bodies alone
+  /// empty: one load case, with the loads of the bodies alone
   std::vector<LoadCaseParameters> load_cases;
-  unsigned int                    subdomains = 0; ///< of all ranks; 0: by size
-  /// also solve the linear problem on the final active set from zero
+  unsigned int                    subdomains = 0; ///< number over all ranks; 0: by size
+  /// whether the linear problem on the final active set is solved from zero too
   bool report_linear_reference = false;
 
   mesh::TearingParameters                   tearing;
@@ -101,15 +101,15 @@ struct Scene
   accuracy::AccuracyParameters              accuracy;
   OutputParameters                          output;
   sensitivity::GradientParameters           gradient;
-  std::vector<response::ResponseParameters> responses; ///< named ones
+  std::vector<response::ResponseParameters> responses; ///< named responses
   optimization::OptimizationParameters      optimization;
 };
 
-/// Declare all entries of @p scene, with its values as defaults. The
-/// bodies, obstacles, pairs and shapes there are get their subsections.
+/// Declare all entries of @p scene, with its values as defaults. The existing bodies, obstacles,
+/// pairs and shapes get their subsections.
 void declare(Entries &entries, Scene &scene);
 
-/// The names of bodies, materials and the like.
+/// Return the names of bodies, materials and the like.
 template <typename Named>
 std::vector<std::string> names_of(const std::vector<Named> &list)
 {
@@ -119,56 +119,56 @@ std::vector<std::string> names_of(const std::vector<Named> &list)
   return names;
 }
 
-/// What the meshes of the scene stand for; which must have a model.
+/// Return the idealization of the meshes of the scene. The scene must have a model.
 mesh::Idealization idealization(const Scene &scene);
 
-/// "body.boundary" as {body, boundary}; without a dot, boundary is "".
+/// Return "body.boundary" as {body, boundary}; without a dot, boundary is "".
 std::pair<std::string, std::string> split_face(const std::string &face);
 
-/// A displacement component: 0, 1, 2 for x, y, z and dimension for the
+/// Return the number of a displacement component: 0, 1, 2 for x, y, z and dimension for the
 /// normal; nothing for other names.
 std::optional<unsigned int> component_number(const std::string &name, unsigned int dimension);
 
-/// Component numbers of "xy", "normal" or "normal z".
-/// @throws std::invalid_argument saying what is wrong with them.
+/// Return the component numbers of "xy", "normal" or "normal z".
+/// @throws std::invalid_argument with a message that states the error in the components.
 std::vector<unsigned int> component_list(const std::string &words, unsigned int dimension);
 
-/// "z = -0.012" as {"z", "-0.012"}; without '=', the second is "".
+/// Return "z = -0.012" as {"z", "-0.012"}; without '=', the second string is "".
 std::pair<std::string, std::string> split_displacement(const std::string &text);
 
-/// The response a constraint names, and its load case: none if it holds
-/// for a response of the geometry, or there is only one load case.
+/// The response named by a constraint, and its load case. There is no load case if the response
+/// depends on the geometry, or if there is only one load case.
 struct ConstraintName
 {
   std::string                 response;
   std::optional<unsigned int> load_case;
 };
 
-/// "closing.compliance" where there is a load case closing; other names
-/// are left as they are.
+/// Split a name such as "closing.compliance" into response and load case, if there is a load case
+/// closing. All other names are the response.
 ConstraintName constraint_name(const Scene &scene, const std::string &name);
 
-/// The response called @p name: one of the scene, or a quantity with all
-/// entries at their defaults; nothing for other names.
+/// Return the response called @p name: a response of the scene, or a quantity with all entries at
+/// their defaults; nothing for other names.
 std::optional<response::ResponseParameters> response_called(const Scene       &scene,
                                                             const std::string &name);
 
-/// Position of the body called @p name; bodies.size() if there is none.
+/// Return the position of the body called @p name; bodies.size() if there is none.
 unsigned int body_index(const Scene &scene, const std::string &name);
 
-/// The entry Materials of a body: "steel" or "core: steel, coat: rubber".
+/// Return the entry Materials of a body: "steel" or "core: steel, coat: rubber".
 std::string text_of_materials(const std::map<std::string, std::string> &materials);
 
-/// The materials of the regions called @p regions, in their order.
-/// Regions without one get that of the body.
+/// Return the materials of the regions called @p regions, in their order. Regions without a
+/// material get that of the body.
 std::vector<elasticity::Material>
 materials_of(const Scene &scene, const Body &body, const std::vector<std::string> &regions);
 
-/// Whether a material of the body has a Poisson's ratio of 0.499 or more, and B-bar keeps its
-/// elements from locking.
+/// Return whether a material of the body has a Poisson's ratio of 0.499 or more, and B-bar
+/// prevents its elements from locking.
 bool is_nearly_incompressible(const Scene &scene, const Body &body);
 
-/// Names of a body's boundaries, e.g. left, right, bottom, top.
+/// Return the names of a body's boundaries, e.g. left, right, bottom, top.
 /// @throws InputError if the body has no mesh (entries without section).
 std::vector<std::string> boundary_names(const Body &body, unsigned int dimension);
 } // namespace snug::scene

@@ -18,12 +18,13 @@ struct Measured
 };
 
 /**
- * The gradient of a combined objective J(J_1, .., J_n), where J_c is the
+ * Return the gradient of a combined objective J(J_1, .., J_n), where J_c is the
  * value of @p objective in load case c,
- * @f[ J' = \sum_c \frac{\partial J}{\partial J_c} J_c', @f]
- * and after it those of @p others, each in its own load case. @p factors
- * are dJ/dJ_c. Displacements of the load cases follow one another.
- * Collective. @throws as gradients().
+ * @f[ J' = \sum_c \frac{\partial J}{\partial J_c} J_c'. @f]
+ * The gradients of the responses @p others follow, each in its own load case. @p
+ * factors are dJ/dJ_c. The displacement derivatives of the load cases follow one
+ * another. Collective.
+ * @throws the same errors as gradients().
  */
 template <int dim>
 Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
@@ -31,7 +32,7 @@ Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
                                   const std::vector<double>        &factors,
                                   const std::vector<Measured<dim>> &others);
 
-/// The one-sided derivatives of the same J. Collective. @throws SolveError.
+/// Return the one-sided derivatives of the same J. Collective. @throws SolveError.
 template <int dim>
 OneSided combined_one_sided_gradients(const LoadCases<dim>          &load_cases,
                                       const response::Response<dim> &objective,

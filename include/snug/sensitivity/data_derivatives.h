@@ -7,13 +7,14 @@
 
 namespace snug::sensitivity {
 /**
- * Right-hand sides of the sensitivity problem for k velocities V_j, one
- * column each (equation 14 of Vondrák, Kozubek, Dostál; its c_w, c_s
- * print f' where the derivative g' of the gap is meant):
+ * Compute the right-hand sides of the sensitivity problem for k velocities V_j, one
+ * column each (equation 14 of Vondrák, Kozubek, Dostál; the paper prints f' in c_w
+ * and c_s, where the derivative g' of the gap is meant):
+ *
  * primal ft_j = f'_j - K'_j u - B'_j^T lambda per subdomain,
  * dual ct_j = g'_j - B'_j u on the owned rows.
- * Exact or by differences of K, f, B and g (semi-analytic), by
- * parameters.derivatives. Collective.
+ * parameters.derivatives selects exact derivatives or differences of K, f, B and g
+ * (semi-analytic derivatives). Collective.
  */
 template <int dim>
 KktVectors data_derivatives(const state::StateSolver<dim>                          &solver,

@@ -26,10 +26,10 @@ inline Names names(Method)
           {"finite differences", "differences of cold-started states, a baseline"}};
 }
 
-/// How many right-hand sides of a direct or adjoint solve are solved together.
+/// Order in which the right-hand sides of a direct or adjoint solve are solved.
 enum class Solves
 {
-  block,   ///< all, by block PCPG
+  block,   ///< all at once, by block PCPG
   recycled ///< one after the other; each starts in the directions so far
 };
 inline Names names(Solves)
@@ -37,7 +37,7 @@ inline Names names(Solves)
   return {{"block"}, {"recycled"}};
 }
 
-/// How the derivatives K', f', B' and g' are taken.
+/// Way in which the derivatives K', f', B' and g' are computed.
 enum class Derivatives
 {
   exact,
@@ -59,19 +59,19 @@ inline Names names(Derivatives)
 /// Entries of `subsection Gradient`.
 struct GradientParameters
 {
-  /// none: see cheapest_methods()
+  /// no value: see cheapest_methods()
   std::optional<Method> method;
   Solves                solves      = Solves::block;
   Derivatives           derivatives = Derivatives::exact;
-  /// step of their differences, relative to cell size
+  /// step of the semi-analytic differences, relative to the cell size
   double semi_analytic_step = 1e-5;
-  /// overall finite differences
+  /// formula of the overall finite differences
   elasticity::Differences differences = elasticity::Differences::central;
-  /// their step, relative to the width of the bounds
+  /// step of the overall finite differences, relative to the width of the bounds
   double step = 1e-4;
-  /// also give dJ/dX on the nodes
+  /// whether dJ/dX at the nodes is computed too
   bool shape_gradient = false;
-  /// Task = sensitivity: all methods, or only the method
+  /// for Task = sensitivity: whether all methods are compared or only the chosen one is used
   bool compare = true;
 
   void declare(Entries &entries);

@@ -5,10 +5,9 @@
 
 namespace snug::sensitivity {
 /**
- * Vectors of the optimality system of a state, one per column: a part per
- * unknown and a part per row of B. Both the derivatives (u', lambda') and
- * the residuals they follow from have this form. Without subdomains the
- * primal part is zero.
+ * Vectors of the optimality system of a state, one per column. A vector has a part per unknown and
+ * a part per row of B. Both the derivatives (u', lambda') and the residuals that determine them
+ * have this form. If there is no subdomain, the primal part is zero.
  */
 struct KktVectors
 {
@@ -16,7 +15,7 @@ struct KktVectors
   qp::MultiVector     dual;   ///< owned rows
 };
 
-/// x'y summed over ranks (x columns x y columns). Collective.
+/// Return x'y summed over ranks (x columns x y columns). Collective.
 qp::MultiVector products(const KktVectors &x, const KktVectors &y, MPI_Comm comm);
 } // namespace snug::sensitivity
 

@@ -5,26 +5,26 @@
 #include <snug/sensitivity/kkt_vectors.h>
 
 namespace snug::sensitivity {
-/// Whether dJ/dalpha takes a linear solve: not if the state makes J
-/// stationary or J depends on the geometry alone.
+/// Return whether dJ/dalpha needs a linear solve. It does not if the state makes J stationary or if
+/// J depends on the geometry alone.
 template <int dim>
 bool needs_solve(const response::Response<dim> &response);
 
-/// The partial derivatives of all responses. Collective.
+/// Return the partial derivatives of all responses. Collective.
 template <int dim>
 std::vector<response::Partials<dim>> partials_of(const GradientProblem<dim> &problem,
                                                  const Responses<dim>       &responses);
 
-/// (dJ/du, dJ/dlambda), a column per response.
+/// Return (dJ/du, dJ/dlambda), one column per response.
 template <int dim>
 KktVectors state_partials(const state::StateSolver<dim>              &solver,
                           const state::ContactState<dim>             &state,
                           const std::vector<response::Partials<dim>> &partials);
 
-/// The adjoint states K w + B_s' eta = dJ/du, B_s w = dJ/dlambda_s of responses, a column each,
-/// by one block solve on the strongly active set s with the factorizations of the state,
-/// to the tolerance of @p parameters.
-/// Collective. @throws SolveError.
+/// Compute the adjoint states K w + B_s' eta = dJ/du, B_s w = dJ/dlambda_s of the
+/// responses, one column each. One block solve on the strongly active set s uses
+/// the factorizations of the state and the tolerance of @p parameters. Collective.
+/// @throws SolveError.
 template <int dim>
 KktVectors adjoint_states(const state::StateSolver<dim>              &solver,
                           const state::ContactState<dim>             &state,
@@ -32,45 +32,45 @@ KktVectors adjoint_states(const state::StateSolver<dim>              &solver,
                           Solves                                      solves,
                           const qp::SolverParameters                 &parameters);
 
-/// ft and ct of data_derivatives(), a column per variable. Collective.
+/// Return ft and ct of data_derivatives(), one column per variable. Collective.
 template <int dim>
 KktVectors residual_derivatives(const GradientProblem<dim> &problem);
 
 /**
- * u'_j (per subdomain) and lambda'_j (owned rows), a column per variable,
- * by the direct method on the strongly active set, all from the
+ * Compute u'_j (per subdomain) and lambda'_j (owned rows), one column per variable,
+ * by the direct method on the strongly active set. All columns use the
  * factorizations of the state. Collective. @throws SolveError.
  */
 template <int dim>
 KktVectors state_derivatives(const GradientProblem<dim> &problem);
 
-// Each of these is one method for any responses. All are collective and
-// throw SolveError. dJ/dX is given by the first
-// two with exact derivatives of the data, u' by the last two.
+// Each of the following functions is one method for any responses. All of them are
+// collective and throw SolveError. With exact derivatives of the data, the first
+// two functions compute dJ/dX. The last two functions compute u'.
 
 /**
- * J' = dJ/dX . V - lambda'(g' - B'u) for responses that need no solve:
- * the adjoint state is w = 0, eta = -lambda or zero.
- * @throws InputError for others.
+ * Compute J' = dJ/dX . V - lambda'(g' - B'u) for responses that need no solve:
+ * their adjoint state is w = 0, eta = -lambda or zero.
+ * @throws InputError for other responses.
  */
 template <int dim>
 Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
                                 const Responses<dim>       &responses);
 
 /**
- * J'_j = dJ/dX . V_j + w'ft_j + eta'ct_j with the adjoint_states() of all responses.
+ * Compute J'_j = dJ/dX . V_j + w'ft_j + eta'ct_j with the adjoint_states() of all responses.
  */
 template <int dim>
 Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,
                                  const Responses<dim>       &responses);
 
-/// J'_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dlambda . lambda'_j.
+/// Compute J'_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dlambda . lambda'_j.
 template <int dim>
 Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
                                 const Responses<dim>       &responses);
 
-/// Differences of states solved from cold, by parameters.differences. The
-/// solver is left at another geometry than the state's.
+/// Compute differences of states solved from a cold start, by parameters.differences. The solver is
+/// left at a geometry other than that of the state.
 template <int dim>
 Gradients<dim> difference_gradients(const GradientProblem<dim> &problem,
                                     const Responses<dim>       &responses);

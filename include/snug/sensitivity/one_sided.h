@@ -6,11 +6,11 @@
 
 namespace snug::sensitivity {
 /**
- * u'(alpha; beta) and lambda'(alpha; beta), the derivatives of the state
- * on moving from the design in the directions beta, for any directions
- * (ft and ct of data_derivatives() along them, one column each): the QP of
- * equation (14) where contacts are weakly active, started from the solution
- * on the strongly active set. They are not linear in beta. Collective.
+ * Compute u'(alpha; beta) and lambda'(alpha; beta), the derivatives of the state when the design
+ * moves in the directions beta. @p data contains ft and ct of data_derivatives() along any number
+ * of directions, one column each. If contacts are weakly active, each column is the solution of the
+ * QP of equation (14). The QP solver starts from the solution on the strongly active set. The
+ * derivatives are not linear in beta. Collective.
  * @throws SolveError.
  */
 template <int dim>
@@ -18,14 +18,14 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
                                    const state::ContactState<dim> &state,
                                    const KktVectors               &data);
 
-/// Derivatives of a response by each variable, seen from both sides.
+/// One-sided derivatives of a response with respect to each variable.
 struct OneSided
 {
   std::vector<double> increasing; ///< lim (J(a + t e_j) - J(a)) / t
   std::vector<double> decreasing; ///< lim (J(a) - J(a - t e_j)) / t
 };
 
-/// The one-sided derivatives of every response. Collective.
+/// Compute the one-sided derivatives of every response. Collective.
 /// @throws SolveError.
 template <int dim>
 std::vector<OneSided> one_sided_gradients(const GradientProblem<dim> &problem,

@@ -6,11 +6,11 @@
 
 namespace snug::sensitivity {
 /**
- * gradient += d/dX (w'(f - K u - B'lambda) + eta'(g - B u)) at fixed u,
- * lambda, w and eta: what the velocities V_j multiplied by it give is
- * w'ft_j + eta'ct_j of data_derivatives(), for any number of velocities at
- * the cost of one. (w, eta) is column @p j of @p adjoint. This rank's
- * share at the local nodes, hanging ones included. Collective.
+ * Add to @p gradient the field d/dX (w'(f - K u - B'lambda) + eta'(g - B u)) at
+ * fixed u, lambda, w and eta. The product of this field with the velocities V_j is
+ * w'ft_j + eta'ct_j of data_derivatives(), for any number of velocities at the cost
+ * of one. (w, eta) is column @p j of @p adjoint. The field is this rank's share at
+ * the local nodes, including hanging nodes. Collective.
  */
 template <int dim>
 void add_residual_gradient(const state::StateSolver<dim>       &solver,

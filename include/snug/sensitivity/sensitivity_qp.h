@@ -6,13 +6,14 @@
 
 namespace snug::sensitivity {
 /**
- * The dual of equation (14) of Vondrák, Kozubek, Dostál in one direction:
- * the derivative (z, mu) of a state solves
+ * The dual of equation (14) of Vondrák, Kozubek, Dostál in one direction: the
+ * derivative (z, mu) of a state solves
  * @f[ \min_z \tfrac12 z^T K z - \tilde f^T z \quad\text{s.t.}\quad
  *     B_E z = \tilde c_E,\ B_s z = \tilde c_s,\ B_w z \le \tilde c_w, @f]
- * where s are the strongly active contacts, w the weakly active ones and
- * the others are absent. It has the operator, the coarse space and the
- * factorizations of the state's problem, on a part of its rows: mu_w >= 0.
+ * where s are the strongly active contacts and w the weakly active ones. The rows
+ * of all other contacts are absent. The problem has the operator, the coarse space
+ * and the factorizations of the state's problem, restricted to the rows E, s and w,
+ * with mu_w >= 0.
  */
 class SensitivityQp : public qp::DualProblem
 {
@@ -29,9 +30,10 @@ public:
                 const qp::RowSet      &weak,
                 const KktVectors      &data);
 
-  /// Rows of the state's problem -> those of this one.
+  /// Return the entries of @p x at the rows of this problem. @p x has the rows of
+  /// the state's problem.
   qp::MultiVector restricted(const qp::MultiVector &x) const;
-  /// The reverse, with zeros at the rows that are absent.
+  /// Return @p x on the rows of the state's problem, with zeros at the absent rows.
   qp::MultiVector extended(const qp::MultiVector &x) const;
 
   RunContext                &context() const override { return feti.context(); }
@@ -62,7 +64,7 @@ private:
   class PartOfFreeSet;
 
   const feti::TotalFeti    &feti;
-  std::vector<unsigned int> row; ///< of the state's problem
+  std::vector<unsigned int> row; ///< row of the state's problem
   qp::RowSet                is_weak;
   std::vector<double>       F_diagonal;
   qp::MultiVector           dual_load, rigid_load;

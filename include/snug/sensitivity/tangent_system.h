@@ -6,7 +6,7 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::sensitivity {
-/// Equality rows and strongly active contact rows of a state.
+/// Return the equality rows and the strongly active contact rows of a state.
 template <int dim>
 qp::RowSet strong_rows(const state::StateSolver<dim>  &solver,
                        const state::ContactState<dim> &state);
@@ -17,19 +17,19 @@ qp::RowSet strong_rows(const state::StateSolver<dim>  &solver,
  *     \begin{pmatrix} z \\ \mu \end{pmatrix} =
  *     \begin{pmatrix} b \\ c_M \end{pmatrix},
  *     \qquad \mu = 0 \text{ off } M. @f]
- * It is symmetric: the same solve gives derivatives of the state, with
- * b = f' - K'u - B'^T lambda and c = g' - B'u, and adjoint states, with
- * the partial derivatives of a response.
+ * The system is symmetric. The same solve therefore gives derivatives of the state,
+ * with b = f' - K'u - B'^T lambda and c = g' - B'u, and adjoint states, with the
+ * partial derivatives of a response.
  *
- * Its dual, min 1/2 mu'F mu - mu'(B K^+ b - c) with G mu = R'b, is solved
- * by PCPG with the factorizations of the state, no new one, and in the
- * F-orthonormal directions that the state left behind before any other.
+ * The dual of the system, min 1/2 mu'F mu - mu'(B K^+ b - c) with G mu = R'b, is solved by PCPG.
+ * PCPG uses the factorizations of the state and needs no other one. It first minimizes in the
+ * F-orthonormal directions recorded in the solve of the state.
  */
 class TangentSystem
 {
 public:
-  /// @p feti must outlive this object. Solves begin in the directions
-  /// @p known of the state's solver. Collective.
+  /// @p feti must outlive this object. Solves begin in the directions @p known of
+  /// the state's solver. Collective.
   TangentSystem(const feti::TotalFeti      &feti,
                 const qp::RowSet           &rows,
                 const qp::SolverParameters &parameters,
@@ -37,9 +37,8 @@ public:
                 const qp::DirectionBasis   &known);
 
   /**
-   * z and mu for every column. Collective.
-   * @throws SolveError if the residual of a column is not brought below
-   *   the relative tolerance.
+   * Return z and mu for every column. Collective.
+   * @throws SolveError if the residual of a column does not fall below the relative tolerance.
    */
   KktVectors solve(const KktVectors &right_hand_sides) const;
 
