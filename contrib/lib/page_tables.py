@@ -23,7 +23,7 @@ class PageError(Exception):
 
 def pages():
     """The pages with such tables."""
-    candidates = [*sorted((ROOT / "doc/gallery").glob("*.md")), ROOT / "doc/theory.md"]
+    candidates = [*sorted((ROOT / "doc/gallery").glob("*.md")), ROOT / "doc/choices.md"]
     return [page for page in candidates if TABLE.search(page.read_text(encoding="utf-8"))]
 
 

@@ -61,7 +61,7 @@ class PageTables(unittest.TestCase):
                 names, lines = match[2].split(), match[4].splitlines()
                 n = (len(page_tables.split(lines[0])) - 3) // 2 if match[3] is None else 5
                 more = {key.strip(): "" for key in (match[3] or "").split(",")} \
-                    if page.name == "theory.md" else {}
+                    if page.name == "choices.md" else {}
                 rows = {name: (len(lines) - 2) // len(names) * [row(5, *n * [(1., 1.)], more=more)]
                         for name in names}
                 page_tables.rewritten(page, text, rows)

@@ -1,4 +1,4 @@
-"""Tables of doc/theory.md that contrib/gallery --write remakes."""
+"""Tables of doc/choices.md that contrib/gallery --write remakes."""
 
 import runpy
 
