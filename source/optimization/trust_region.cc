@@ -59,7 +59,7 @@ End TrustRegion::run()
           hessian.guess(0.);
           continue;
         }
-      if (!problem.is_known(trial.y) && problem.n_evaluations() >= parameters.maximum_evaluations)
+      if (!problem.is_cached(trial.y) && problem.n_evaluations() >= parameters.maximum_evaluations)
         return End::evaluations;
       if (!evaluated(trial))
         {

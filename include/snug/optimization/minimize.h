@@ -101,7 +101,7 @@ bool takes_equalities(Algorithm algorithm);
  *
  * The start is moved into the bounds. A design without a value (SolveError,
  * TangledMesh, a number that is not finite) ends the step that asked for
- * it, see nlopt_search.cc. An Interrupted thrown by evaluate() or a hook
+ * it, see TrustRegion and MmaSearch. An Interrupted thrown by evaluate() or a hook
  * ends the search with stop reason "interrupted"; any other exception of
  * theirs passes through unchanged.
  *

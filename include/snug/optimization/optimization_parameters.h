@@ -13,21 +13,17 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::optimization {
-/// Of NLopt.
+/// The algorithms, both of NLopt.
 enum class Algorithm
 {
   SLSQP,
-  MMA,
-  CCSAQ,
-  AUGLAG
+  MMA
 };
 inline Names names(Algorithm)
 {
   return {{"SLSQP", "sequential quadratic programming (Kraft) of the NLopt library in a trust "
                     "region, for all constraints"},
-          {"MMA", "method of moving asymptotes (Svanberg) of NLopt, for inequalities"},
-          {"CCSAQ", "its relative with separable quadratic models, for inequalities"},
-          {"AUGLAG", "augmented Lagrangian of NLopt around its L-BFGS, for all constraints"}};
+          {"MMA", "method of moving asymptotes (Svanberg) of NLopt, for inequalities"}};
 }
 
 enum class Combination

@@ -7,6 +7,9 @@
 #include <memory>
 
 namespace snug::optimization {
+/// A projected gradient above this value is no solution, whatever the tests of NLopt say.
+constexpr double steep_gradient = 1e-3;
+
 /**
  * The accepted designs of a search, the best design it has seen, and
  * whether that is enough. Knows no algorithm.

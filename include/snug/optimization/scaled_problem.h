@@ -56,7 +56,7 @@ public:
   const Evaluation &differentiated(const Point &point) const;
 
   /// Whether at() would answer without an evaluation.
-  bool is_known(const std::vector<double> &y) const { return find(y) != nullptr; }
+  bool is_cached(const std::vector<double> &y) const { return find(y) != nullptr; }
 
   /// y of a design.
   std::vector<double> scaled(const std::vector<double> &x) const;

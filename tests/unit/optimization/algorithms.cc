@@ -47,7 +47,7 @@ OptimizationParameters with(const Algorithm algorithm)
   return parameters;
 }
 
-const Algorithm all[] = {Algorithm::SLSQP, Algorithm::MMA, Algorithm::CCSAQ, Algorithm::AUGLAG};
+const Algorithm all[] = {Algorithm::SLSQP, Algorithm::MMA};
 } // namespace
 
 TEST(Algorithms, HoldInequalities)
