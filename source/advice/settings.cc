@@ -1,33 +1,30 @@
 #include <snug/advice/advice.h>
 #include <snug/advice/cost.h>
-#include <snug/mesh/distribute.h>
 
 #include <cmath>
 #include <sstream>
 
 namespace snug::advice {
 namespace {
-/// Below a quarter of the cells of a subdomain by size, 3 per edge in 3D and 6 in 2D, there are so
-/// many that the coarse problem and the F-mults outweigh smaller factorizations.
+/// Advise fewer subdomains if there are more than four times as many as 'auto' makes: then the
+/// coarse problem and the F-mults cost more than the smaller factorizations save.
 template <int dim>
 void add_subdomains(const Subject<dim> &subject, std::vector<Advice> &advice)
 {
-  const auto  &mesh = subject.mesh();
-  const double n = subject.solver.tearing().n_global, each = mesh.n_global_cells() / n,
-               by_size = mesh::cells_per_subdomain(dim, mesh.degree(), mesh.idealization()).compact;
-  const double ranks   = subject.solver.context().n_ranks();
-  if (subject.scene.tearing.subdomains == 0 || each >= 0.25 * by_size || n <= ranks)
-    return;
-  auto by_auto               = subject.scene;
+  const double       n       = subject.solver.tearing().n_global;
+  const unsigned int ranks   = subject.solver.context().n_ranks();
+  auto               by_auto = subject.scene;
   by_auto.tearing.subdomains = 0;
-  const auto seconds         = [&](const scene::Scene &scene) {
-    const auto cost = estimate_cost(scene, unsigned(ranks), 1.);
+  const double n_by_auto     = count(by_auto, ranks).subdomains;
+  if (subject.scene.tearing.subdomains == 0 || n <= 4. * n_by_auto)
+    return;
+  const auto seconds = [&](const scene::Scene &scene) {
+    const auto cost = estimate_cost(scene, ranks, 1.);
     return cost.setup + cost.factorization + cost.solve;
   };
   std::ostringstream text;
-  text << n << " subdomains have only " << each
-       << " cells each: with 'Subdomains' = auto there are about "
-       << std::max({1., ranks, std::round(mesh.n_global_cells() / by_size)});
+  text << n << " subdomains have only " << subject.mesh().n_global_cells() / n
+       << " cells each: with 'Subdomains' = auto there are about " << n_by_auto;
   advice.push_back(
     {"too many subdomains", text.str(), seconds(subject.scene) / seconds(by_auto), 0., "time"});
 }

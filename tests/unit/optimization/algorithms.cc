@@ -6,6 +6,7 @@
 
 #include "problems.h"
 
+#include <numeric>
 #include <string>
 
 using namespace snug;
@@ -91,6 +92,24 @@ TEST(Algorithms, HoldEqualitiesOrRefuseThem)
       }
     else
       EXPECT_THROW(minimize(knapsack.problem(), with(algorithm)), InputError);
+}
+
+TEST(Algorithms, AcceptViolationsUpToTheConstraintTolerance)
+{
+  const Knapsack knapsack(9);
+  const double   full = std::accumulate(knapsack.a.begin(), knapsack.a.end(), 0.);
+  for (const Algorithm algorithm : all)
+    for (const double tolerance : {1e-2, 1e-4})
+      {
+        auto problem = at_most(knapsack);
+        problem.start.assign(9, 1.001 * knapsack.total / full); // 1e-3 above the limit
+        auto parameters                 = with(algorithm);
+        parameters.constraint_tolerance = tolerance;
+        parameters.maximum_evaluations  = 1;
+        const auto result               = minimize(problem, parameters);
+        EXPECT_NEAR(result.constraint_violation, 1e-3, 1e-9) << to_text(algorithm);
+        EXPECT_EQ(complaint(result, parameters).empty(), tolerance > 1e-3) << to_text(algorithm);
+      }
 }
 
 TEST(Algorithms, ReportDesignsThatGetBetter)
