@@ -331,10 +331,9 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
                    const sensitivity::Solves                           solves,
                    std::optional<state::ContactState<dim>>            &solved_on)
 {
-  double adjoint_tolerance =
-    std::max(solver.model().solver.relative_tolerance, first_adjoint_tolerance);
-  const auto last   = [&]() -> const auto   &{ return solved_on ? *solved_on : state; };
-  auto       result = attempt(solver, state, responses, solves, adjoint_tolerance);
+  double     adjoint_tolerance = std::max(solver.tolerance(), first_adjoint_tolerance);
+  const auto last              = [&]() -> const auto              &{ return solved_on ? *solved_on : state; };
+  auto       result            = attempt(solver, state, responses, solves, adjoint_tolerance);
   for (unsigned int n = 1; n < most_attempts && !state::is_at_rest(state) &&
                            std::max(result.excess, result.adjoint_excess) > 1.;
        ++n)

@@ -4,6 +4,7 @@
 #include <snug/contact/pair_geometry.h>
 #include <snug/io/qp_export.h>
 #include <snug/io/shape_export.h>
+#include <snug/io/text_file.h>
 #include <snug/state/assumptions.h>
 #include <snug/state/symmetry_planes.h>
 
@@ -13,9 +14,24 @@
 #include <ostream>
 
 namespace snug::app {
+std::vector<std::string> output_directories(const scene::Scene &scene)
+{
+  std::vector<std::string> directories = {scene.output_directory};
+  if (scene.load_cases.size() > 1)
+    for (const auto &load_case : scene.load_cases)
+      directories.push_back(scene.output_directory + "/" + load_case.name);
+  return directories;
+}
+
+void remove_earlier_results(const RunContext &context, const scene::Scene &scene)
+{
+  io::remove_results(context, output_directories(scene));
+}
+
 template <int dim>
 Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 {
+  summary.task = to_text(of.scene.task);
   for (unsigned int c = 0; c < of.n_load_cases(); ++c)
     {
       const std::string directory = of.n_load_cases() == 1

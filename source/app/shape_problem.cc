@@ -64,15 +64,34 @@ ShapeProblem<dim>::solve(const Design &design, const std::vector<qp::WarmStart> 
 }
 
 template <int dim>
-optimization::Combined ShapeProblem<dim>::combined_objective(const States &states)
+std::vector<double> ShapeProblem<dim>::objective_values(const States &states) const
 {
   std::vector<double> values;
   for (const auto &state : states)
     values.push_back(objective->value(*solver, state));
-  if (objective_scale == 0.)
-    for (unsigned int c = 0; c < values.size(); ++c)
-      objective_scale = std::max(objective_scale, std::abs(weight(c) * values[c]));
-  return combined(values);
+  return values;
+}
+
+/// Return the largest weighted magnitude of the values of the load cases.
+template <int dim>
+double ShapeProblem<dim>::scale(const std::vector<double> &values) const
+{
+  double largest = 0.;
+  for (unsigned int c = 0; c < values.size(); ++c)
+    largest = std::max(largest, std::abs(weight(c) * values[c]));
+  return largest;
+}
+
+template <int dim>
+void ShapeProblem<dim>::scale_objective(const States &states)
+{
+  objective_scale = scale(objective_values(states));
+}
+
+template <int dim>
+optimization::Combined ShapeProblem<dim>::combined_objective(const States &states) const
+{
+  return combined(objective_values(states));
 }
 
 template <int dim>
@@ -81,10 +100,11 @@ optimization::Combined ShapeProblem<dim>::combined(const std::vector<double> &va
   std::vector<double> weights;
   for (unsigned int c = 0; c < values.size(); ++c)
     weights.push_back(weight(c));
-  return optimization::combined(scene.optimization.combine, values, weights, objective_scale);
+  return optimization::combined(scene.optimization.combine, values, weights,
+                                objective_scale > 0. ? objective_scale : scale(values));
 }
 
-/// Of a load case in the objective.
+/// Return the weight of a load case in the objective.
 template <int dim>
 double ShapeProblem<dim>::weight(const unsigned int load_case) const
 {

@@ -91,45 +91,6 @@ void report(const ShapeProblem<dim>            &problem,
   results.warn(states);
 }
 
-template <int dim>
-typename ShapeProblem<dim>::States solve_start(ShapeProblem<dim> &problem, Results<dim> &results)
-{
-  problem.context.progress("solving the contact problem ...");
-  auto states = problem.solve(problem.shapes->start());
-  report(problem, results, states);
-  return states;
-}
-
-template <int dim>
-void run_state(ShapeProblem<dim> &problem, Results<dim> &results, const bool advise)
-{
-  const auto states = solve_start(problem, results);
-  results.add_last(0., states);
-  if (advise)
-    results.advise(states);
-  results.write_summary();
-}
-
-template <int dim>
-void run_sensitivity(ShapeProblem<dim> &problem, Results<dim> &results)
-{
-  const auto             states = solve_start(problem, results);
-  const Sensitivity<dim> sensitivity(problem, results, states);
-  results.add_last(0., states, sensitivity.shape_gradient);
-  results.summary.gradient = sensitivity.gradient;
-  results.write_summary();
-}
-
-/// That of the scene and, if there are several, those of load cases.
-std::vector<std::string> output_directories(const scene::Scene &scene)
-{
-  std::vector<std::string> directories = {scene.output_directory};
-  if (scene.load_cases.size() > 1)
-    for (const auto &load_case : scene.load_cases)
-      directories.push_back(scene.output_directory + "/" + load_case.name);
-  return directories;
-}
-
 void prepare_output(const RunContext &context, const scene::Scene &scene)
 {
   for (const auto &directory : output_directories(scene))
@@ -188,63 +149,60 @@ void print_program(RunContext &context)
     context.out() << "warning: " << io::blas_warning(info) << std::endl;
 }
 
-/// A state on the mesh that its targets ask for. @return why they are not met; empty: they are.
+/// Analyse the initial design on the mesh of the scene, or on a mesh that meets the targets, and
+/// differentiate there if the task asks for it. Return why the targets are not met; empty: they
+/// are. Collective.
 template <int dim>
-std::string run_adapted(RunContext &context, const scene::Scene &scene)
+std::string analyse(RunContext &context, const scene::Scene &scene, const bool advise)
 {
-  Adaptation<dim> adaptation(context, scene);
-  io::remove_results(context, output_directories(scene));
-  const auto   complaint = adaptation.settle();
-  Results<dim> results(adaptation.problem());
-  results.summary.task     = to_text(scene.task);
-  results.summary.accuracy = adaptation.summary;
-  results.print_work();
-  results.print_header();
-  report(adaptation.problem(), results, adaptation.states());
-  // responses that are no targets are estimated if all are asked for
-  results.add_last(0., adaptation.states(), {},
-                   scene.accuracy.estimate == accuracy::Estimate::responses
-                     ? std::vector<MeshError>()
-                     : adaptation.errors());
-  results.write_summary();
-  return complaint;
-}
-
-/// A design on the meshes that its targets ask for.
-template <int dim>
-std::string run_adapted_search(RunContext &context, const scene::Scene &scene, const bool restart)
-{
-  if (!restart)
-    io::remove_results(context, output_directories(scene));
-  return optimize_to_targets<dim>(context, scene, restart);
-}
-
-template <int dim>
-std::string run_given(RunContext &context, const scene::Scene &scene, const Options &options)
-{
-  print_estimate(context, scene, 0, false);
-  ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
-  problem.check_overlaps();
-  if (!options.restart)
-    io::remove_results(context, output_directories(scene));
-  Results<dim> results(problem);
-  results.summary.task = to_text(scene.task);
-  results.print_header();
-  std::string complaint;
-  switch (options.advise ? scene::Task::state : scene.task)
+  const bool          has_targets = !scene.accuracy.targets.empty();
+  Adaptation<dim>     adaptation(context, scene);
+  AdaptedProblem<dim> adapted;
+  std::string         failure_reason;
+  if (has_targets)
     {
-      case scene::Task::state:
-        run_state(problem, results, options.advise);
-        break;
-      case scene::Task::sensitivity:
-        run_sensitivity(problem, results);
-        break;
-      case scene::Task::optimize:
-        catch_interrupts();
-        complaint = optimize(problem, results, options.restart);
-        break;
+      adaptation.start();
+      remove_earlier_results(context, scene);
+      failure_reason = adaptation.settle();
+      adapted        = adaptation.release();
     }
-  return complaint;
+  else
+    {
+      adapted.problem =
+        std::make_unique<ShapeProblem<dim>>(context, scene, timed_mesh<dim>(context, scene));
+      adapted.problem->check_overlaps();
+      remove_earlier_results(context, scene);
+    }
+  auto        &problem = *adapted.problem;
+  auto        &states  = adapted.states;
+  Results<dim> results(problem);
+  if (has_targets)
+    {
+      results.summary.accuracy = adaptation.summary;
+      results.print_work();
+    }
+  results.print_header();
+  if (!has_targets)
+    {
+      context.progress("solving the contact problem ...");
+      states = problem.solve(problem.shapes->start());
+    }
+  report(problem, results, states);
+  std::optional<typename ShapeProblem<dim>::Field> shape_gradient;
+  if (scene.task == scene::Task::sensitivity && !advise)
+    {
+      const Sensitivity<dim> sensitivity(problem, results, states);
+      shape_gradient           = sensitivity.shape_gradient;
+      results.summary.gradient = sensitivity.gradient;
+    }
+  // Responses that are no targets are estimated if the estimates of all responses are asked for.
+  const bool all_errors = scene.accuracy.estimate == accuracy::Estimate::responses;
+  results.add_last(0., states, shape_gradient,
+                   all_errors ? std::vector<MeshError>() : adapted.errors);
+  if (advise)
+    results.advise(states);
+  results.write_summary();
+  return failure_reason;
 }
 
 /// Of the largest rank, stage by stage. Collective.
@@ -267,18 +225,16 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
 {
   prepare_output(context, scene);
   print_program(context);
-  std::string complaint;
   if (scene.accuracy.targets.empty())
-    complaint = run_given<dim>(context, scene, options);
-  else if (scene.task == scene::Task::optimize)
-    complaint = run_adapted_search<dim>(context, scene, options.restart);
-  else
-    complaint = run_adapted<dim>(context, scene);
+    print_estimate(context, scene, 0, false);
+  const auto failure_reason = scene.task == scene::Task::optimize && !options.advise
+                                ? optimize<dim>(context, scene, options.restart)
+                                : analyse<dim>(context, scene, options.advise);
   print_memory(context);
   context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"
                 << std::endl;
-  if (!complaint.empty())
-    throw SolveError(complaint);
+  if (!failure_reason.empty())
+    throw SolveError(failure_reason);
 }
 
 /// A misspelt one would not show otherwise.

@@ -30,7 +30,7 @@ std::string Adaptation<dim>::verify()
   std::unique_ptr<Stage> fine;
   try
     {
-      fine = solve_next(std::move(mesh), cells);
+      fine = solve_next(std::move(mesh));
     }
   catch (const SolveError &error)
     {

@@ -64,6 +64,7 @@ StateSolver<dim>::StateSolver(const mesh::BodyMesh<dim> &mesh,
                               const Field               &positions,
                               RunContext                &context)
   : problem(std::make_unique<StateProblem<dim>>(mesh, tearing, model, positions, context))
+  , relative_tolerance(model.solver.relative_tolerance)
 {}
 
 template <int dim>
@@ -77,7 +78,7 @@ template <int dim>
 ContactState<dim>
 StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case)
 {
-  return solve(positions, start, load_case, model().solver.relative_tolerance);
+  return solve(positions, start, load_case, relative_tolerance);
 }
 
 template <int dim>

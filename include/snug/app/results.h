@@ -7,6 +7,12 @@
 #include <snug/io/summary.h>
 
 namespace snug::app {
+/// Return the output directory of a scene and, if there are several load cases, their directories.
+std::vector<std::string> output_directories(const scene::Scene &scene);
+
+/// Remove the results of earlier runs from the output directories of a scene. Collective.
+void remove_earlier_results(const RunContext &context, const scene::Scene &scene);
+
 /**
  * What a run leaves in the output directory and says in the log beside its
  * states: pictures, summary, the final shape and warnings. It watches a

@@ -7,16 +7,16 @@
 #include <snug/optimization/journal.h>
 
 namespace snug::app {
-/// What the searches of a run write to, one after the other.
+/// The journal and the history that the searches of a run write, one after the other.
 template <int dim>
-struct Books
+struct SearchRecord
 {
-  /// Those of the output directory of @p scene go on if @p restart; its problem may be that of
-  /// another mesh. Collective. @throws InputError.
-  Books(Results<dim>            &results,
-        const ShapeProblem<dim> &problem,
-        const scene::Scene      &scene,
-        bool                     restart);
+  /// Open the files in the output directory of @p scene, or continue them if @p restart. The
+  /// problem of @p scene may have another mesh. Collective. @throws InputError.
+  SearchRecord(Results<dim>            &results,
+               const ShapeProblem<dim> &problem,
+               const scene::Scene      &scene,
+               bool                     restart);
 
   Results<dim>         &results;
   double                first_violation = 0.; ///< of constraints, by the first design
@@ -25,38 +25,39 @@ struct Books
 };
 
 /**
- * Searches for the best design of a shape problem, on its mesh: with contact paired anew where the
- * design has moved slave nodes along the master, with log, history, journal and pictures.
+ * A search for the best design of a shape problem, on its mesh, with a new contact search where the
+ * design has moved slave nodes along the master, and with log, history, journal and pictures.
  */
 template <int dim>
 class Search
 {
 public:
-  /// Arguments must outlive this. May solve the first design, see Evaluator. Collective.
-  Search(ShapeProblem<dim> &problem, Books<dim> &books);
+  using Design = typename ShapeProblem<dim>::Design;
+
+  /// Arguments must outlive this object. @p paired is the design of the contact search of
+  /// @p problem. May solve the first design, see Evaluator. Collective.
+  Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const Design &paired);
 
   /**
    * Minimize from @p start, until the objective changes by less than @p tolerance, relative, or as
-   * little as the scene asks for. Counts and the first objective go on from those of @p before.
+   * little as the scene asks for. Counts and the first objective continue those of @p before.
    * Collective. @throws SolveError, TangledMesh if the start has no value.
    */
-  optimization::OptimizationResult run(const std::vector<double>              &start,
+  optimization::OptimizationResult run(const Design                           &start,
                                        const optimization::OptimizationResult &before    = {},
                                        double                                  tolerance = 0.);
 
-  /// The evaluator's own evaluation. Collective.
-  optimization::Evaluation evaluate(const std::vector<double> &design);
-
-  /// The evaluator's own gradients, with warnings. Collective.
-  void differentiate(const std::vector<double> &design, optimization::Evaluation &evaluation);
-
-  /// Draw and summarize the first design with its own pairing, if that is
-  /// not done: after a replay it has not been solved in this run. Collective.
+  /// Draw and summarize the first design with its own contact search, unless that is done. After a
+  /// replay, the first design has not been solved in this run. Collective.
   void finish_first();
+
+  /// Warn if the gradients at @p design are one-sided. Collective.
+  void warn_of_weak_contacts(const Design &design);
 
   void log(const std::string &line) const { problem.context.out() << line << std::endl; }
 
   ShapeProblem<dim> &problem;
+  SearchRecord<dim> &record;
   Results<dim>      &results;
   Evaluator<dim>     evaluator;
 
@@ -64,10 +65,9 @@ private:
   using Result = optimization::OptimizationResult;
 
   void   report(const optimization::Iteration &iteration, unsigned int before);
-  Result run_paired(const std::vector<double> &start, const Result &before, double tolerance);
-  bool   pair_anew(const Result &result);
-
-  Books<dim> &books;
+  void   report_first(const optimization::Iteration &iteration);
+  Result run_with_pairing(const Design &start, const Result &before, double tolerance);
+  bool   update_pairing(const Result &result);
 };
 } // namespace snug::app
 

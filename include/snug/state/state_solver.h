@@ -34,6 +34,11 @@ public:
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
+  /// Return the relative tolerance to which solve() solves. At first this is the tolerance of the
+  /// model.
+  double tolerance() const { return relative_tolerance; }
+  void   set_tolerance(double tolerance) { relative_tolerance = tolerance; }
+
   /// Return @p state after further iterations from its own forces, until its certificate meets
   /// @p tolerance. Collective. @throws SolveError.
   ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
@@ -83,6 +88,7 @@ private:
   /// The matrices of the problem are a cache, because states depend on positions alone.
   std::unique_ptr<StateProblem<dim>> problem;
   unsigned int                       n_pairings = 0;
+  double                             relative_tolerance;
 };
 } // namespace snug::state
 

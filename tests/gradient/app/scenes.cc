@@ -123,6 +123,7 @@ public:
     for (const auto &pair : problem.solver->contact().pairs())
       ASSERT_EQ(pair.parameters.method, contact_method);
     const auto states = problem.solve(design);
+    problem.scale_objective(states);
     for (const auto &state : states)
       {
         // a body that may move freely need not touch another

@@ -76,7 +76,7 @@ struct Told
                                                         scene.degree,
                                                         scene::idealization(scene),
                                                         scene.tearing))
-    , evaluator(shape_problem)
+    , evaluator(shape_problem, shape_problem.shapes->start())
     , problem(evaluator.design_problem(shape_problem.shapes->start()))
   {}
 

@@ -17,14 +17,29 @@ struct TwoBoxes
   using Field  = typename snug::mesh::Surface<dim>::Field;
   using Bodies = std::vector<snug::geometry::BodyMeshParameters>;
 
-  TwoBoxes(const Bodies &bodies, unsigned int degree, MPI_Comm communicator)
-    : mesh(communicator, bodies, degree)
+  TwoBoxes(const Bodies                   &bodies,
+           unsigned int                    degree,
+           MPI_Comm                        communicator,
+           const std::set<dealii::CellId> &refined = {})
+    : mesh(make_mesh(bodies, degree, communicator, refined))
     , surface(mesh, snug::contact::boundaries_of({pair()}))
     , positions(surface.gather(mesh.reference_positions()))
     , held(surface.n_nodes())
   {}
 
   TwoBoxes(const Bodies &bodies, unsigned int degree) : TwoBoxes(bodies, degree, MPI_COMM_WORLD) {}
+
+  /// Return the mesh of the boxes with further cells refined.
+  static snug::mesh::BodyMesh<dim> make_mesh(const Bodies                   &bodies,
+                                             unsigned int                    degree,
+                                             MPI_Comm                        communicator,
+                                             const std::set<dealii::CellId> &refined)
+  {
+    snug::mesh::Forest<dim> forest(communicator, bodies);
+    forest.refine(refined);
+    return {forest, degree, snug::mesh::Idealization::natural(dim),
+            snug::mesh::TearingParameters()};
+  }
 
   /// n_slave and n_master cells per tangent direction.
   static Bodies boxes(unsigned int n_slave, unsigned int n_master)

@@ -3,7 +3,7 @@
 #include <snug/base/run_context.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/formula.h>
-#include <snug/mesh/triangulate.h>
+#include <snug/mesh/forest.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -39,20 +39,24 @@ CoarseMesh<dim>::CoarseMesh(const Geometries<dim> &the_geometries) : geometries(
   places = geometry::CoarseCells<dim>(first_cell);
 }
 
-bool are_refined(const std::vector<geometry::BodyMeshParameters> &bodies)
+namespace {
+template <int dim>
+std::shared_ptr<const Geometries<dim>>
+make_geometries(const std::vector<geometry::BodyMeshParameters> &bodies)
 {
-  return std::any_of(bodies.begin(), bodies.end(), [](const auto &body) {
-    return body.refinements > 0 || (body.local_refinements > 0 && !body.refine_where.empty()) ||
-           (body.refined && !body.refined->empty());
-  });
+  auto geometries = std::make_shared<Geometries<dim>>();
+  for (const auto &body : bodies)
+    geometries->push_back(geometry::make_geometry<dim>(body));
+  return geometries;
 }
+} // namespace
 
 template <int dim>
-void create_triangulation(const CoarseMesh<dim>                             &coarse,
-                          dealii::parallel::distributed::Triangulation<dim> &triangulation)
+void Forest<dim>::create_triangulation()
 {
-  triangulation.create_triangulation(coarse.vertices, coarse.cells, dealii::SubCellData());
-  for (const auto &cell : triangulation.cell_iterators_on_level(0))
+  refined = std::make_unique<Triangulation>(comm);
+  refined->create_triangulation(coarse_mesh.vertices, coarse_mesh.cells, dealii::SubCellData());
+  for (const auto &cell : refined->cell_iterators_on_level(0))
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary())
         {
@@ -60,16 +64,16 @@ void create_triangulation(const CoarseMesh<dim>                             &coa
           for (const unsigned int v : cell->face(f)->vertex_indices())
             key.push_back(cell->face(f)->vertex_index(v));
           // at() throws if a geometry gives a boundary face no boundary.
-          cell->face(f)->set_boundary_id(coarse.boundary.at(geometry::sorted(key)));
+          cell->face(f)->set_boundary_id(coarse_mesh.boundary.at(geometry::sorted(key)));
         }
 }
 
 /// Every rank has all cells of level 0, so the constructor needs no communication.
 template <int dim>
-PlacedIds<dim>::PlacedIds(const dealii::parallel::distributed::Triangulation<dim> &forest)
-  : place(forest.n_cells(0))
+PlacedIds<dim>::PlacedIds(const typename Forest<dim>::Triangulation &triangulation)
+  : place(triangulation.n_cells(0))
 {
-  for (const auto &cell : forest.cell_iterators_on_level(0))
+  for (const auto &cell : triangulation.cell_iterators_on_level(0))
     place[cell->id().get_coarse_cell_id()] = cell->index();
 }
 
@@ -81,20 +85,16 @@ dealii::CellId PlacedIds<dim>::of(const dealii::CellId &in_forest) const
           path.data()};
 }
 
-namespace {
-/// Refine the cells for which @p wanted returns true, given body, cell and level, by one level.
-/// Return false if there are no such cells. Collective.
+/// Refine the cells for which @p wanted returns true by one level. Return false if there are no
+/// such cells. Collective.
 template <int dim>
-bool refine_step(
-  dealii::parallel::distributed::Triangulation<dim>                             &triangulation,
-  const std::function<bool(unsigned int, const dealii::CellId &, unsigned int)> &wanted)
+bool Forest<dim>::refine_step(const Wanted &wanted)
 {
-  const MPI_Comm       communicator = deal_ii_compat::communicator(triangulation);
-  const PlacedIds<dim> ids(triangulation);
+  const PlacedIds<dim> ids(*refined);
   bool                 any = false;
   // everywhere() is needed because a formula may fail on the rank of one cell only.
-  everywhere(communicator, [&]() {
-    for (const auto &cell : triangulation.active_cell_iterators())
+  everywhere(comm, [&]() {
+    for (const auto &cell : refined->active_cell_iterators())
       if (cell->is_locally_owned() &&
           wanted(cell->material_id(), ids.of(cell->id()), cell->level()))
         {
@@ -102,19 +102,20 @@ bool refine_step(
           any = true;
         }
   });
-  any = dealii::Utilities::MPI::logical_or(any, communicator);
+  any = dealii::Utilities::MPI::logical_or(any, comm);
   // The refinement is skipped without wanted cells, because balancing the trees would take as long
   // as with wanted cells.
   if (any)
-    triangulation.execute_coarsening_and_refinement();
+    refined->execute_coarsening_and_refinement();
   return any;
 }
-} // namespace
 
 template <int dim>
-void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
-            const CoarseMesh<dim>                             &coarse,
-            dealii::parallel::distributed::Triangulation<dim> &triangulation)
+Forest<dim>::Forest(MPI_Comm communicator, const std::vector<geometry::BodyMeshParameters> &bodies)
+  : comm(communicator)
+  , parameters(bodies)
+  , shapes(make_geometries<dim>(bodies))
+  , coarse_mesh(*shapes)
 {
   unsigned int                                         global_steps = 0, local_steps = 0;
   std::vector<std::unique_ptr<geometry::Formula<dim>>> formulas;
@@ -128,43 +129,42 @@ void refine(const std::vector<geometry::BodyMeshParameters>   &bodies,
         local ? std::make_unique<geometry::Formula<dim>>("Refine where", body.refine_where)
               : nullptr);
     }
+  if (global_steps + local_steps > 0)
+    create_triangulation();
   // Bodies share one triangulation, so all refinement steps are common. A body with enough levels
   // is not refined in further steps.
   for (unsigned int step = 0; step < global_steps; ++step)
-    refine_step<dim>(triangulation,
-                     [&](unsigned int body, const dealii::CellId &, unsigned int level) {
-                       return level < bodies[body].refinements;
-                     });
+    refine_step([&](unsigned int body, const dealii::CellId &, unsigned int level) {
+      return level < bodies[body].refinements;
+    });
   for (unsigned int step = 0; step < local_steps; ++step)
-    refine_step<dim>(triangulation, [&](unsigned int body, const dealii::CellId &cell,
-                                        unsigned int level) {
+    refine_step([&](unsigned int body, const dealii::CellId &cell, unsigned int level) {
       // p4est limits the level difference of neighbours to one and may refine more cells than
       // wanted.
       return formulas[body] && level < bodies[body].refinements + bodies[body].local_refinements &&
-             formulas[body]->value(coarse.geometries[body]->position(
-               coarse.places.point(cell, geometry::unit_centre<dim>()))) > 0.;
+             formulas[body]->value((*shapes)[body]->position(
+               coarse_mesh.places.point(cell, geometry::unit_centre<dim>()))) > 0.;
     });
-  // Cells are refined level by level. The set may also contain cells that p4est has refined to
-  // limit the level difference of neighbours to one.
-  while (refine_step<dim>(triangulation,
-                          [&](unsigned int body, const dealii::CellId &cell, unsigned int) {
-                            return bodies[body].refined && bodies[body].refined->count(cell) > 0;
-                          }))
+}
+
+/// Cells are refined level by level. The set may also contain cells that p4est has refined to
+/// limit the level difference of neighbours to one.
+template <int dim>
+void Forest<dim>::refine(const std::set<dealii::CellId> &cells)
+{
+  if (cells.empty())
+    return;
+  if (!refined)
+    create_triangulation();
+  while (refine_step(
+    [&](unsigned int, const dealii::CellId &cell, unsigned int) { return cells.count(cell) > 0; }))
     ;
 }
 
 template struct CoarseMesh<2>;
-template class PlacedIds<2>;
-template void create_triangulation(const CoarseMesh<2> &,
-                                   dealii::parallel::distributed::Triangulation<2> &);
-template void refine(const std::vector<geometry::BodyMeshParameters> &,
-                     const CoarseMesh<2> &,
-                     dealii::parallel::distributed::Triangulation<2> &);
 template struct CoarseMesh<3>;
+template class Forest<2>;
+template class Forest<3>;
+template class PlacedIds<2>;
 template class PlacedIds<3>;
-template void create_triangulation(const CoarseMesh<3> &,
-                                   dealii::parallel::distributed::Triangulation<3> &);
-template void refine(const std::vector<geometry::BodyMeshParameters> &,
-                     const CoarseMesh<3> &,
-                     dealii::parallel::distributed::Triangulation<3> &);
 } // namespace snug::mesh
