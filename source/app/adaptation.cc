@@ -82,9 +82,9 @@ accuracy::Measured Adaptation<dim>::objective()
   return {combined.value, objective_error(scene, combined.factors, solved->errors)};
 }
 
-/// As many as faces that meet may be levels apart at first, or nearly so. Where the cells of two
-/// bodies do not end together, each pass moves a change of size on by a face, and on the other body
-/// then as well: without a limit to the end of the side.
+/// Maximum number of passes, about the largest difference of levels between faces in contact at
+/// first. Where the cell edges of two bodies do not coincide, each pass moves a change of size on
+/// by a face on both bodies, without a limit to the end of the side.
 constexpr unsigned int most_passes = 8;
 
 /// The mesh of the scene with @p cells refined, and with those added that are coarser than what
@@ -231,7 +231,7 @@ double Adaptation<dim>::next_tolerance() const
   return tolerance;
 }
 
-/// That of all states.
+/// Return the maximum tolerance of all states of a stage.
 template <int dim>
 double Adaptation<dim>::tolerance(const Stage &stage)
 {

@@ -9,10 +9,10 @@
 
 namespace snug::app {
 namespace {
-/// Of states of which a response is called unbounded, or zero.
+/// Tolerance of the states from which a response is reported as unbounded or zero.
 const double sure_tolerance = 1e-6;
 
-/// Of a target, the part of a response that may come from a sharp edge.
+/// Maximum part of a target's response that may come from a sharp edge.
 const double small_part = 0.5;
 
 /// The least of all load cases.
@@ -57,8 +57,9 @@ void Adaptation<dim>::report(const Stage &stage)
   summary.meshes.push_back(mesh);
 }
 
-/// What keeps a demand from ever being met; empty: nothing. What a loose tolerance leaves is no
-/// error of the mesh: the answer holds for states that are solved well. Collective.
+/// Return why a target cannot be met by refinement; empty: it can. A loose tolerance leaves an
+/// algebraic error, which is no discretization error: the result is only valid for states that are
+/// solved to a tight tolerance. Collective.
 template <int dim>
 std::string Adaptation<dim>::failure()
 {

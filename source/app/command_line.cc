@@ -105,7 +105,7 @@ private:
     return name == "--version" ? &options.version : nullptr;
   }
 
-  /// What follows the equals sign, or the next argument.
+  /// Return the text behind the equals sign, or the next argument.
   std::string value_of(const std::string &argument, const std::size_t equals)
   {
     std::string value;

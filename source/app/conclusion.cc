@@ -78,8 +78,9 @@ void measure_paired_anew(Search<dim>              &search,
     search.log(line.str());
 }
 
-/// What the gain is worth, where the error of the objective is estimated. A gain within the error
-/// may be one of the mesh. A first design that breaks constraints may have to get worse.
+/// Compare the gain with the estimated error of the objective. A gain below the error may be an
+/// effect of the mesh. A first design that violates constraints may have a lower objective than
+/// every feasible design.
 template <int dim>
 void measure_gain(Search<dim>              &search,
                   const Books<dim>         &books,

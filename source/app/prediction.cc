@@ -6,7 +6,8 @@ namespace snug::app {
 using optimization::Evaluation;
 
 namespace {
-/// Of the first steps: the differences that areas are differentiated by.
+/// Step of the differences by which areas are differentiated, relative to the first
+/// steps of the search.
 constexpr double area_step = 1e-3;
 
 /// Areas do not fall below this part of what they were.
@@ -58,7 +59,8 @@ private:
   const double *numbers;
   unsigned int  n_rows, n_variables;
 
-  /// Of place 0 the values, then the derivatives.
+  /// Return the forces of @p place: the values at place 0, then the derivatives with respect to
+  /// each variable.
   const double *force(unsigned int place) const { return numbers + 2 * place * n_rows; }
   const double *area(unsigned int place) const { return force(place) + n_rows; }
 };

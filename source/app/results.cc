@@ -189,7 +189,7 @@ io::Summary::State Results<dim>::summarize(const state::ContactState<dim> &state
   return result;
 }
 
-/// Of the first load case.
+/// Export the quadratic program of the first load case.
 template <int dim>
 void Results<dim>::export_first_qp(const States &states)
 {

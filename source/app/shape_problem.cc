@@ -84,7 +84,7 @@ optimization::Combined ShapeProblem<dim>::combined(const std::vector<double> &va
   return optimization::combined(scene.optimization.combine, values, weights, objective_scale);
 }
 
-/// Of a load case in the objective.
+/// Return the weight of a load case in the objective.
 template <int dim>
 double ShapeProblem<dim>::weight(const unsigned int load_case) const
 {

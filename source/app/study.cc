@@ -120,7 +120,7 @@ void run_sensitivity(ShapeProblem<dim> &problem, Results<dim> &results)
   results.write_summary();
 }
 
-/// That of the scene and, if there are several, those of load cases.
+/// Return the output directories of the scene and, if there are several load cases, of each.
 std::vector<std::string> output_directories(const scene::Scene &scene)
 {
   std::vector<std::string> directories = {scene.output_directory};
@@ -247,7 +247,7 @@ std::string run_given(RunContext &context, const scene::Scene &scene, const Opti
   return complaint;
 }
 
-/// Of the largest rank, stage by stage. Collective.
+/// Print the peak memory of the largest rank and its memory after each stage. Collective.
 void print_memory(RunContext &context)
 {
   const auto memory = io::collect_memory(context);

@@ -45,7 +45,7 @@ Evaluation replay(const JournalRecord &record)
   return record.evaluation;
 }
 
-/// Whether there is a file that can be read, and then its bytes.
+/// Read a file into @p text. Returns whether the file exists and is readable.
 bool read_file(const std::string &path, std::string &text)
 {
   std::ifstream      in(path, std::ios::binary);
@@ -181,7 +181,7 @@ DesignProblem Journal::journaled(const DesignProblem &problem)
   return result;
 }
 
-/// Whether the next record is that of @p x.
+/// Return whether the next record belongs to @p x.
 bool Journal::is_replayed(const DesignProblem &problem, const std::vector<double> &x)
 {
   if (is_live || next == recorded.size())
@@ -246,7 +246,7 @@ void Journal::differentiate(const DesignProblem       &problem,
     false);
 }
 
-/// What @p work returns, recorded, failures too.
+/// Return the result of @p work after recording it. Failures are recorded as well.
 Evaluation Journal::recorded_live(const DesignProblem               &problem,
                                   const std::vector<double>         &x,
                                   const std::function<Evaluation()> &work,

@@ -40,13 +40,13 @@ public:
   /// Compare with the mesh on which all cells are refined. @return why the targets are not met
   /// there; empty: they are. Collective. @throws SolveError.
   std::string verify();
-  /// Those of the mesh on which verify() missed them; empty: it has not.
+  /// Return the refined cells of the mesh on which verify() missed the targets; empty: none missed.
   const RefinedCells &finer_cells() const { return finer; }
 
-  /// Of the mesh the targets are met on, or else the last.
+  /// Return the problem on the mesh that meets the targets, or else on the last mesh.
   const ShapeProblem<dim> &problem() const { return *solved->problem; }
   States                  &states() { return solved->states; }
-  /// Of these, in the responses of the targets; empty where a contact is too narrow.
+  /// Return the errors of states() in the target responses; empty where a contact is too narrow.
   const std::vector<MeshError> &errors() const { return solved->errors; }
 
   /// The value of the objective and its error; none (NaN) if it is no target. Collective.

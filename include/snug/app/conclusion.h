@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace snug::app {
-/// What is known of the result of a search from elsewhere.
+/// Values of the first and the last design of a search that the caller has computed already.
 struct Known
 {
   bool is_paired = false; ///< contact is, at the last design

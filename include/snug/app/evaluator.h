@@ -59,9 +59,10 @@ public:
   sensitivity::Gradients<dim> gradients;
   /// @}
 
-  /// Whether a design's contact forces and areas are used as linear functions of the variables, see
-  /// predicted(): if the objective or a constraint depends on the state by these alone, and
-  /// `Gradient/Method` is direct or auto, there with at most most_predicted variables.
+  /// Return whether the contact forces and areas of a design are used as linear functions of the
+  /// variables, see predicted(): if the objective or a constraint depends on the state by forces
+  /// and areas alone, and `Gradient/Method` is direct, or auto with at most most_predicted
+  /// variables.
   bool                          is_predicted() const;
   static constexpr unsigned int most_predicted = 60;
 

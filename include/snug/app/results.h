@@ -21,7 +21,7 @@ public:
 
   explicit Results(const ShapeProblem<dim> &problem);
 
-  /// What follows is of this problem: the same scene on another mesh.
+  /// Set the problem of all following results: the same scene on another mesh.
   void watch(const ShapeProblem<dim> &other) { problem = &other; }
 
   /// Print what was read. Collective.
@@ -60,7 +60,7 @@ public:
                 const std::optional<Field>   &shape_gradient = {},
                 const std::vector<MeshError> &errors         = {});
 
-  /// Of the mesh, per load case, as estimated or given to add_last().
+  /// Return the discretization errors of all load cases, as estimated or given to add_last().
   const std::vector<MeshError> &errors() const { return last_errors; }
 
   /// Print what there is to say of a scene with these states, for the log and the summary.

@@ -7,12 +7,12 @@
 #include <snug/optimization/journal.h>
 
 namespace snug::app {
-/// What the searches of a run write to, one after the other.
+/// The results, the history and the journal to which the searches of a run write in turn.
 template <int dim>
 struct Books
 {
-  /// Those of the output directory of @p scene go on if @p restart; its problem may be that of
-  /// another mesh. Collective. @throws InputError.
+  /// Open the files in the output directory of @p scene, and continue them if @p restart. @p
+  /// problem may have another mesh than the one that wrote them. Collective. @throws InputError.
   Books(Results<dim>            &results,
         const ShapeProblem<dim> &problem,
         const scene::Scene      &scene,

@@ -26,7 +26,7 @@ struct Evaluation
   /// @}
 };
 
-/// What a constraint demands.
+/// Relation of a constraint's value to zero.
 enum class Relation
 {
   equal,  ///< c(x) = 0
@@ -48,11 +48,12 @@ struct DesignProblem
   /// Add the gradients to what evaluate() gave at the design, which costs little if nothing else
   /// was evaluated since. None: evaluate() gives them.
   std::function<void(const std::vector<double> &, Evaluation &)> differentiate;
-  /// What this rank takes along from one evaluate() to the next (the warm
-  /// start of a solver); differentiate() leaves it. Both or none; not collective.
+  /// Return the data that this rank keeps from one evaluate() to the next (the warm start of a
+  /// solver). differentiate() does not change the data. Both memory and remember are set, or
+  /// none; not collective.
   std::function<std::string()> memory;
-  /// Take it along again. @return false, with all forgotten, if the bytes
-  /// are not whole or not of this problem, as no bytes are.
+  /// Restore the data that memory() returned. @return false, with all data cleared, if the bytes
+  /// are empty, incomplete or not of this problem.
   std::function<bool(const std::string &)> remember;
   /// of each constraint; empty: all are equalities
   std::vector<Relation> relations;
