@@ -126,9 +126,10 @@ std::vector<double> Evaluator<dim>::linearized_contact() const
 }
 
 /**
- * What is expected at @p dx from a design: responses that are functions of contact forces and areas
- * are those of LinearRows, whatever functions they are; others are linear. A peak or a norm of
- * pressures bends far more within a step than the pressures themselves.
+ * Return the prediction at the distance @p dx from a design. Responses that are functions of
+ * contact forces and areas are computed from the forces and areas of LinearRows; other responses
+ * are linear. A peak or a norm of pressures has far more curvature within a step than the
+ * pressures.
  */
 template <int dim>
 Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<double> &dx) const

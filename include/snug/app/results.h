@@ -8,9 +8,8 @@
 
 namespace snug::app {
 /**
- * What a run leaves in the output directory and says in the log beside its
- * states: pictures, summary, the final shape and warnings. It watches a
- * shape problem and changes nothing there.
+ * This class writes the results of a run to the output directory and to the log: pictures, the
+ * summary, the final shape and warnings. It reads a shape problem and does not change it.
  */
 template <int dim>
 class Results

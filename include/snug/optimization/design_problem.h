@@ -63,9 +63,9 @@ struct DesignProblem
   /// of each variable, the change that a first step may make; empty: a tenth of the bounds' widths
   std::vector<double> lengths;
   /**
-   * What is expected at x + dx, with derivatives, by the linearization that differentiate() has
-   * left in the Evaluation at x, which is @p at: as where a response is a known function of
-   * quantities that are nearly linear. None: linear functions. Not collective.
+   * Return the prediction of the values and derivatives at x + dx from the linearization that
+   * differentiate() stores in the Evaluation @p at x, for responses that are known functions of
+   * nearly linear quantities. None: the functions are linear. Not collective.
    */
   std::function<Evaluation(const Evaluation &at, const std::vector<double> &dx)> predict;
   /// predict() has the curvature of the objective; else it is learnt from gradients.
