@@ -12,6 +12,7 @@ bool OutputParameters::has(const std::string &field) const
 
 void OutputParameters::declare(Entries &entries)
 {
+  entries.add("Verbosity", verbosity, "The amount of text in the log.");
   entries.add(
     "Fields", fields,
     "The fields of the bodies in solution.pvd, in addition to displacement and body. Fields "
