@@ -285,14 +285,14 @@ std::string Adaptation<dim>::reach(const double factor)
           if (summary.met && !is_rough())
             {
               for (const auto &line : unresolved)
-                context.out() << "warning: " << line << std::endl;
+                context.warn(line);
               return "";
             }
         }
       else if (n_doubtful > 1)
         add_marked_beside(cells);
       if (cells == refined && !is_rough())
-        return missed("allow more 'Maximum levels', or ask for less");
+        return missed("increase 'Maximum levels', or relax 'Target'");
       why = go_on(cells);
       if (!why.empty())
         return missed(why);
@@ -308,7 +308,7 @@ std::string Adaptation<dim>::go_on(RefinedCells &cells)
       auto mesh = matched_mesh(cells);
       if (!fits(*mesh))
         return "the next mesh has " + std::to_string(unknowns(*mesh)) +
-               " unknowns: allow more 'Maximum unknowns', or ask for less";
+               " unknowns: increase 'Maximum unknowns', or relax 'Target'";
       // The mesh that is solved from goes only when the next one is solved.
       auto next = solve_next(std::move(mesh), cells);
       solved    = std::move(next);
@@ -318,11 +318,11 @@ std::string Adaptation<dim>::go_on(RefinedCells &cells)
   // The scene is right, as the meshes before were solved.
   catch (const InputError &error)
     {
-      return std::string("the next mesh cannot be solved: ") + error.what();
+      return std::string("the analysis on the next mesh failed: ") + error.what();
     }
   catch (const SolveError &error)
     {
-      return std::string("the next mesh cannot be solved: ") + error.what();
+      return std::string("the analysis on the next mesh failed: ") + error.what();
     }
 }
 

@@ -22,9 +22,10 @@ void print_end(const ShapeProblem<dim>                  &problem,
                const std::vector<io::Summary::State>    &first,
                const typename ShapeProblem<dim>::States &last)
 {
-  auto &out = problem.context.out();
-  out << "stopped: " << result.stop_reason << " after " << result.iterations << " iterations and "
-      << result.evaluations << " evaluations\n"
+  auto &out = problem.context.out(Verbosity::quiet);
+  out << (result.success ? "converged: " : "stopped: ") << result.stop_reason << " after "
+      << counted(result.iterations, "iteration") << " and "
+      << counted(result.evaluations, "evaluation") << '\n'
       << problem.scene.optimization.objective << ' ' << result.objective_initial << " -> "
       << result.objective_final;
   for (unsigned int c = 0; c < last.size(); ++c)
@@ -56,7 +57,7 @@ void measure_paired_anew(Search<dim>              &search,
     }
   catch (const SolveError &no_state)
     {
-      results.warn({"with contact paired anew, the final design has no state: " +
+      results.warn({"after a new contact search, the analysis of the final design fails: " +
                     std::string(no_state.what())});
       return;
     }
@@ -65,15 +66,16 @@ void measure_paired_anew(Search<dim>              &search,
   summary.constraint_violation_paired_anew = values.violation;
   const double       change                = std::abs(values.objective - result.objective_final);
   std::ostringstream line;
-  line << "with contact paired anew, the final design has " << problem.scene.optimization.objective
-       << ' ' << values.objective << " instead of " << result.objective_final;
+  line << "after a new contact search, the final design has "
+       << problem.scene.optimization.objective << ' ' << values.objective << " instead of "
+       << result.objective_final;
   const bool breaks = values.violation > std::max(most_violation, result.constraint_violation) &&
                       values.violation > problem.scene.optimization.constraint_tolerance;
   if (breaks)
     line << " and violates a constraint by " << values.violation << " of its limit instead of "
          << result.constraint_violation;
   if (breaks || change > most_change * std::abs(result.objective_final))
-    results.warn({line.str() + "; 'Contact/Update pairing' goes on from there"});
+    results.warn({line.str() + "; 'Contact/Update pairing' can continue from there"});
   else
     search.log(line.str());
 }
@@ -103,13 +105,13 @@ void measure_gain(Search<dim>              &search,
   line << problem.scene.optimization.objective << ' ' << gain.initial;
   if (std::isfinite(gain.initial_error))
     line << " +- " << gain.initial_error;
-  line << " -> " << gain.final << " +- " << error << ", by the estimated errors of the meshes";
-  search.log(line.str());
+  line << " -> " << gain.final << " +- " << error << " (estimated discretization errors)";
+  problem.context.out(Verbosity::quiet) << line.str() << std::endl;
   search.results.summary.optimization->gain = gain;
   const bool is_free = books.first_violation <= problem.scene.optimization.constraint_tolerance;
   if (is_free && !gain.counts)
-    search.results.warn({"the gain of the objective is smaller than its estimated error: it may be "
-                         "one of the mesh alone; ask for a smaller error in 'Accuracy/Target'"});
+    search.results.warn({"the gain of the objective is smaller than its estimated error and may be "
+                         "an effect of the mesh; set a smaller error in 'Accuracy/Target'"});
 }
 } // namespace
 

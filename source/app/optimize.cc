@@ -74,7 +74,7 @@ private:
 template <int dim>
 void TargetedSearch<dim>::begin()
 {
-  context.out() << "the first design:" << std::endl;
+  context.out() << "adapting the mesh to the initial design:" << std::endl;
   Adaptation<dim> adaptation(context, scene);
   const auto      complaint = adaptation.reach(1.);
   const auto     &problem   = adaptation.problem();
@@ -85,7 +85,7 @@ void TargetedSearch<dim>::begin()
   results->warn(adaptation.states());
   // a search may leave it
   if (!complaint.empty())
-    results->warn({"of the first design, " + complaint});
+    results->warn({"initial design: " + complaint});
   results->add_first(adaptation.states(), {});
   initial  = adaptation.objective();
   result.x = problem.shapes->start();
@@ -112,8 +112,8 @@ typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned in
   const bool is_over  = n_searches > 0 && result.evaluations >= most_evaluations();
   const bool is_tuned = n_searches >= phases.size();
   const auto factor   = is_over || is_tuned ? 1. : phases[n_searches];
-  context.out() << "the design of iteration " << result.iterations << ", errors of up to " << factor
-                << " times the targets:" << std::endl;
+  context.out() << "adapting the mesh to the design of iteration " << result.iterations
+                << ", factor of the targets " << factor << ":" << std::endl;
   auto adaptation =
     std::make_unique<Adaptation<dim>>(context, scene, result.x, is_tuned ? cells : Cells());
   auto complaint = adaptation->reach(factor);
@@ -132,8 +132,8 @@ typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned in
     }
   cells = adaptation->cells();
   if (complaint.empty() && n_searches == most_searches && !agrees)
-    complaint = "the meshes made for the designs found still differ after " +
-                std::to_string(most_searches) + " searches; ask for less";
+    complaint = "the meshes of successive designs still differ after " +
+                std::to_string(most_searches) + " searches; relax 'Target'";
   n_failures += !complaint.empty();
   const bool is_last =
     is_over || agrees || n_searches == most_searches || n_failures == most_failures;

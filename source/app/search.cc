@@ -64,7 +64,7 @@ void Search<dim>::differentiate(const std::vector<double> &design,
   for (const auto &gradient : evaluator.gradients.of_response)
     if (!gradient.differentiable)
       results.warn_of_weak_contacts(evaluator.states,
-                                    "; going on with those of the strongly active ones");
+                                    "; continuing with those of the strongly active contacts");
 }
 
 /// An iteration of the search that begins after @p before of them.
@@ -79,12 +79,12 @@ void Search<dim>::report(const Iteration &iteration, const unsigned int before)
         {
           const auto &of_objective = evaluator.gradients.of_response.front();
           if (!of_objective.reason.empty())
-            out << "auto takes " << to_text(of_objective.method)
-                << " for the objective: " << of_objective.reason << std::endl;
+            out << "gradient method: " << to_text(of_objective.method) << " (auto; "
+                << of_objective.reason << ")" << std::endl;
           results.add_first(evaluator.states, of_objective.shape);
         }
       if (problem.scene.optimization.algorithm == optimization::Algorithm::SLSQP)
-        out << "initial trust region: nodes move by at most half the edge of a cell"
+        out << "initial trust region: node displacements of at most half a cell edge"
             << (evaluator.is_predicted() ? "; contact pressures are predicted from derivatives"
                                          : "")
             << std::endl;
@@ -164,9 +164,10 @@ bool Search<dim>::pair_anew(const OptimizationResult &result)
   if (drift < unmoved)
     return false;
   finish_first();
-  problem.context.out() << "contact is paired anew: the design moved slave nodes off the "
-                           "points they were paired with by up to "
-                        << drift << " of a face" << std::endl;
+  problem.context.out()
+    << "new contact search: the design moved slave nodes away from their paired "
+       "points by up to "
+    << drift << " of a face" << std::endl;
   evaluator.pair(result.x);
   return true;
 }
