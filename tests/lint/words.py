@@ -54,6 +54,6 @@ def check(root):
             messages += check_line(root, path, number, line)
         if path.suffix == ".md":
             messages += check_cells(root, path)
-    for path in text_files(root, ("include", "source"), CODE):
+    for path in text_files(root, ("include", "source", "tests"), CODE):
         messages += check_comments(root, path)
     return messages
