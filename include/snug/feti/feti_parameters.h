@@ -50,7 +50,9 @@ enum class SoftModesOf
 };
 inline Names names(SoftModesOf)
 {
-  return {{"auto", "subdomains that are stretched or have stretched cells"}, {"all"}, {"none"}};
+  return {{"auto", "all subdomains if a subdomain or its cells are stretched, otherwise none"},
+          {"all", "all subdomains"},
+          {"none", "no subdomains"}};
 }
 
 /// Entries of `subsection Solver` that Total FETI reads.
