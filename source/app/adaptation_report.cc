@@ -45,15 +45,15 @@ void Adaptation<dim>::report(const Stage &stage)
   auto &out = context.out();
   out << "mesh " << summary.meshes.size() + 1 << ": " << mesh.dofs << " unknowns";
   if (std::isfinite(mesh.contact_faces))
-    out << ", contact " << std::round(10. * mesh.contact_faces) / 10. << " faces across";
+    out << ", faces across the contact: " << std::round(10. * mesh.contact_faces) / 10.;
   for (unsigned int d = 0; d < demands.size(); ++d)
     {
       const auto &estimate = stage.measured[d];
       mesh.responses.push_back({demands[d].name, estimate.value, estimate.error});
       out << ", " << accuracy::text_of(demands[d].name, estimate);
     }
-  out << ", " << mesh.f_mults << " F-mults to " << mesh.tolerance << ", " << mesh.seconds << " s"
-      << std::endl;
+  out << ", " << counted(mesh.f_mults, "F-mult") << ", solver tolerance " << mesh.tolerance << ", "
+      << mesh.seconds << " s" << std::endl;
   summary.meshes.push_back(mesh);
 }
 
@@ -102,7 +102,7 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
       text += " " + accuracy::text_of(demands[d].name, solved->measured[d]);
   return text +
          (reads_pressure() && contact_faces(solved->states) < scene.accuracy.contact_faces
-            ? " with too few faces across a contact"
+            ? ", and a contact has fewer than " + to_text(scene.accuracy.contact_faces) + " faces"
             : "") +
          (unresolved.empty() ? "" : "; " + unresolved.front()) + "; " + advice;
 }
@@ -142,11 +142,10 @@ std::string Adaptation<dim>::unbounded_at_edge()
               summary.met = false;
               return "targets are not met: " +
                      accuracy::text_of(demands[d].name, solved->measured[d]) + "; " + edge.text +
-                     ": round the edge, or ask for energies, forces and areas alone";
+                     ": round the edge, or set targets of energies, forces and areas only";
             }
           if (part > 0.)
-            context.out() << "warning: " << edge.text << ": " << demands[d].name
-                          << " holds away from it" << std::endl;
+            context.warn(edge.text + ": " + demands[d].name + " is valid only away from the edge");
         }
     }
   return "";

@@ -26,7 +26,7 @@ std::string Adaptation<dim>::verify()
   add(mesh::all_cells(*solved->problem->mesh), cells);
   auto mesh = matched_mesh(cells);
   if (!fits(*mesh))
-    return "the finer mesh that verifies has " + std::to_string(unknowns(*mesh)) +
+    return "the mesh for verification has " + std::to_string(unknowns(*mesh)) +
            " unknowns; increase 'Maximum unknowns', or set 'Verify' to false";
   std::unique_ptr<Stage> fine;
   try
@@ -36,7 +36,7 @@ std::string Adaptation<dim>::verify()
   catch (const SolveError &error)
     {
       const std::string text =
-        std::string("the finer mesh that verifies cannot be solved: ") + error.what();
+        std::string("the analysis on the mesh for verification failed: ") + error.what();
       if (scene.accuracy.verify)
         return text;
       context.out() << text << std::endl;
@@ -55,7 +55,7 @@ std::string Adaptation<dim>::verify()
       if (error > most)
         missed += (missed.empty() ? "" : ", ") + text;
       else
-        context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
+        context.out() << "verified with " << unknowns(*fine->problem->mesh) << " unknowns: " << text
                       << std::endl;
       summary.verified.push_back({demands[d].name, value, error});
       finer_is_enough = finer_is_enough && rest * error <= most;
@@ -65,7 +65,7 @@ std::string Adaptation<dim>::verify()
   summary.met = false;
   finer       = cells;
   finer_stage = std::move(fine);
-  return "the finer mesh says " + missed + ": the target is missed; ask for less";
+  return "verification failed on the finer mesh (" + missed + "): relax 'Target'";
 }
 
 /// Without an entry, where it takes no longer than the meshes before.
@@ -99,7 +99,7 @@ std::string Adaptation<dim>::settle()
       refused = verify();
       if (refused.empty() || !finer_stage || n == most_finer)
         return refused;
-      context.out() << refused.substr(0, refused.find(':')) << ": the next mesh" << std::endl;
+      context.out() << refused.substr(0, refused.find(':')) << ": refining further" << std::endl;
       refined = finer;
       solved  = std::move(finer_stage);
     }
