@@ -196,7 +196,7 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
         result.push_back({p, of_slave ? at_slave_edge : at_master_edge,
                           "the pressure of '" + pair.name() + "' at a sharp edge of " +
                             (of_slave ? pair.slave_name : pair.master_name) +
-                            " grows without limit as cells get smaller"});
+                            " is unbounded under mesh refinement"});
     }
   return result;
 }

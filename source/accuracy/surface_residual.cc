@@ -372,7 +372,7 @@ Unresolved unresolved_gaps(const state::StateSolver<dim>  &solver,
       {
         add_cells(solver.mesh(), rough.to_refine, rough.missed, share, result);
         result.lines.push_back("the mesh does not resolve the gap of '" + rough.pair +
-                               "': what is finer than its faces would change the pressure by " +
+                               "': details smaller than its faces would change the pressure by " +
                                percent(rough.missed));
       }
   return result;

@@ -101,9 +101,9 @@ accuracy::Measured Adaptation<dim>::objective() const
   return {combined.value, objective_error(scene, combined.factors, solved->errors)};
 }
 
-/// As many as faces that meet may be levels apart at first, or nearly so. Where the cells of two
-/// bodies do not end together, each pass moves a change of size on by a face, and on the other body
-/// then as well: without a limit to the end of the side.
+/// Maximum number of passes, about the largest difference of levels between faces in contact at
+/// first. Where the cell edges of two bodies do not coincide, each pass moves a change of size on
+/// by a face on both bodies, without a limit to the end of the side.
 constexpr unsigned int most_passes = 8;
 
 /// Return the forest of the scene in which the cells of @p cells have children. The forest of the
@@ -258,7 +258,7 @@ double Adaptation<dim>::next_tolerance() const
   return tolerance;
 }
 
-/// That of all states.
+/// Return the maximum tolerance of all states of a stage.
 template <int dim>
 double Adaptation<dim>::tolerance(const Stage &stage)
 {
@@ -312,14 +312,14 @@ std::string Adaptation<dim>::reach(const double factor)
           if (summary.met && !is_rough())
             {
               for (const auto &line : unresolved)
-                context.out() << "warning: " << line << std::endl;
+                context.warn(line);
               return "";
             }
         }
       else if (n_doubtful > 1)
         add_marked_beside(cells);
       if (cells == refined && !is_rough())
-        return missed("allow more 'Maximum levels', or ask for less");
+        return missed("increase 'Maximum levels', or relax 'Target'");
       why = go_on(cells);
       if (!why.empty())
         return missed(why);
@@ -335,7 +335,7 @@ std::string Adaptation<dim>::go_on(RefinedCells &cells)
       auto mesh = matched_mesh(cells);
       if (!fits(*mesh))
         return "the next mesh has " + std::to_string(unknowns(*mesh)) +
-               " unknowns: allow more 'Maximum unknowns', or ask for less";
+               " unknowns: increase 'Maximum unknowns', or relax 'Target'";
       // The mesh that is solved from goes only when the next one is solved.
       auto next = solve_next(std::move(mesh));
       solved    = std::move(next);
@@ -345,11 +345,11 @@ std::string Adaptation<dim>::go_on(RefinedCells &cells)
   // The scene is right, as the meshes before were solved.
   catch (const InputError &error)
     {
-      return std::string("the next mesh cannot be solved: ") + error.what();
+      return std::string("the analysis on the next mesh failed: ") + error.what();
     }
   catch (const SolveError &error)
     {
-      return std::string("the next mesh cannot be solved: ") + error.what();
+      return std::string("the analysis on the next mesh failed: ") + error.what();
     }
 }
 

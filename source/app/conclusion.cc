@@ -22,9 +22,10 @@ void print_end(const ShapeProblem<dim>                  &problem,
                const std::vector<io::Summary::State>    &first,
                const typename ShapeProblem<dim>::States &last)
 {
-  auto &out = problem.context.out();
-  out << "stopped: " << result.stop_reason << " after " << result.iterations << " iterations and "
-      << result.evaluations << " evaluations\n"
+  auto &out = problem.context.out(Verbosity::quiet);
+  out << (result.success ? "converged: " : "stopped: ") << result.stop_reason << " after "
+      << counted(result.iterations, "iteration") << " and "
+      << counted(result.evaluations, "evaluation") << '\n'
       << problem.scene.optimization.objective << ' ' << result.objective_initial << " -> "
       << result.objective_final;
   for (unsigned int c = 0; c < last.size(); ++c)
@@ -54,7 +55,7 @@ values_paired_anew(Search<dim> &search, const OptimizationResult &result, const 
     }
   catch (const SolveError &no_state)
     {
-      search.results.warn({"with contact paired anew, the final design has no state: " +
+      search.results.warn({"after a new contact search, the analysis of the final design fails: " +
                            std::string(no_state.what())});
       return {};
     }
@@ -74,7 +75,7 @@ void report_paired_anew(Search<dim> &search, const OptimizationResult &result, c
   summary.constraint_violation_paired_anew = values->violation;
   const double       change                = std::abs(values->objective - result.objective_final);
   std::ostringstream line;
-  line << "with contact paired anew, the final design has " << scene.optimization.objective << ' '
+  line << "after a new contact search, the final design has " << scene.optimization.objective << ' '
        << values->objective << " instead of " << result.objective_final;
   const bool breaks = values->violation > std::max(most_violation, result.constraint_violation) &&
                       values->violation > scene.optimization.constraint_tolerance;
@@ -82,7 +83,7 @@ void report_paired_anew(Search<dim> &search, const OptimizationResult &result, c
     line << " and violates a constraint by " << values->violation << " of its limit instead of "
          << result.constraint_violation;
   if (breaks || change > most_change * std::abs(result.objective_final))
-    search.results.warn({line.str() + "; 'Contact/Update pairing' goes on from there"});
+    search.results.warn({line.str() + "; 'Contact/Update pairing' can continue from there"});
   else
     search.log(line.str());
 }
@@ -112,13 +113,13 @@ void report_gain(Search<dim>                              &search,
   line << scene.optimization.objective << ' ' << gain.initial;
   if (std::isfinite(gain.initial_error))
     line << " +- " << gain.initial_error;
-  line << " -> " << gain.final << " +- " << error << ", by the estimated errors of the meshes";
-  search.log(line.str());
+  line << " -> " << gain.final << " +- " << error << " (estimated discretization errors)";
+  search.problem.context.out(Verbosity::quiet) << line.str() << std::endl;
   search.results.summary.optimization->gain = gain;
   const bool is_free = search.record.first_violation <= scene.optimization.constraint_tolerance;
   if (is_free && !gain.counts)
-    search.results.warn({"the gain of the objective is smaller than its estimated error: it may be "
-                         "one of the mesh alone; ask for a smaller error in 'Accuracy/Target'"});
+    search.results.warn({"the gain of the objective is smaller than its estimated error and may be "
+                         "an effect of the mesh; set a smaller error in 'Accuracy/Target'"});
 }
 } // namespace
 

@@ -171,7 +171,7 @@ void print(const Inventory<dim> &inventory, std::ostream &out)
           {
             out << "  region " << region.name << ": ";
             if (region.n_cells == 0)
-              out << "its cells are in others too\n";
+              out << "all its cells belong to other regions\n";
             else
               out << region.n_cells << " cells, volume " << region.volume << '\n';
           }
@@ -205,9 +205,8 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
       if (gap <= too_far * size)
         continue;
       std::ostringstream text;
-      text << "are " << gap << " apart, but the larger body is only " << size
-           << " long; have the meshes the same units? See 'Scale' "
-           << "and 'Shift'";
+      text << "have a distance of " << gap << ", but the size of the larger body is only " << size
+           << "; check the units of the meshes, 'Scale' and 'Shift'";
       throw InputError(scene.file + ": entry 'Contact/Pairs': '" + pair.slave + "' and '" +
                        pair.master + "' " + text.str());
     }
@@ -230,7 +229,7 @@ std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMe
       if (!body.mesh.refine_where.empty() && body.mesh.local_refinements > 0 && n_cells[b] == even)
         lines.push_back("'Refine where' of body " + body.name +
                         " is positive at the centre of none of its " + to_text(n_cells[b]) +
-                        " cells: none is refined; 'Refinements' make them smaller first");
+                        " cells: no cell is refined; 'Refinements' can make cells smaller first");
     }
   return lines;
 }

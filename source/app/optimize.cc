@@ -82,7 +82,7 @@ private:
   Cells                              cells;          ///< of the last mesh
   unsigned int                       n_failures = 0; ///< number of meshes that miss the targets
 
-  void analyse_first_design();
+  void  analyse_first_design();
   bool  agrees_with_search() const;
   Phase adapt(unsigned int n_searches);
   void  search(Search<dim> &search, double tolerance);
@@ -93,7 +93,7 @@ private:
 template <int dim>
 void AdaptiveOptimization<dim>::analyse_first_design()
 {
-  context.out() << "the first design:" << std::endl;
+  context.out() << "adapting the mesh to the initial design:" << std::endl;
   adaptation.start();
   if (!restart)
     remove_earlier_results(context, scene);
@@ -105,7 +105,7 @@ void AdaptiveOptimization<dim>::analyse_first_design()
   results->warn(adaptation.states());
   // A search may leave a design for which no mesh meets the targets.
   if (!failure_reason.empty())
-    results->warn({"of the first design, " + failure_reason});
+    results->warn({"initial design: " + failure_reason});
   results->add_first(adaptation.states(), {});
   initial  = adaptation.objective();
   result.x = problem.shapes->start();
@@ -135,8 +135,8 @@ AdaptiveOptimization<dim>::adapt(const unsigned int n_searches)
     n_searches > 0 && result.evaluations >= scene.optimization.maximum_evaluations;
   const bool is_tuned = n_searches >= phases.size();
   const auto factor   = is_over || is_tuned ? 1. : phases[n_searches];
-  context.out() << "the design of iteration " << result.iterations << ", errors of up to " << factor
-                << " times the targets:" << std::endl;
+  context.out() << "adapting the mesh to the design of iteration " << result.iterations
+                << ", factor of the targets " << factor << ":" << std::endl;
   adaptation.start(result.x, is_tuned ? cells : Cells());
   auto failure_reason = adaptation.reach(factor);
   bool agrees         = is_tuned && (adaptation.cells() == cells || agrees_with_search());
@@ -153,8 +153,8 @@ AdaptiveOptimization<dim>::adapt(const unsigned int n_searches)
     }
   cells = adaptation.cells();
   if (failure_reason.empty() && n_searches == most_searches && !agrees)
-    failure_reason = "the meshes made for the designs found still differ after " +
-                     std::to_string(most_searches) + " searches; ask for less";
+    failure_reason = "the meshes of successive designs still differ after " +
+                     std::to_string(most_searches) + " searches; relax 'Target'";
   n_failures += !failure_reason.empty();
   const bool is_last =
     is_over || agrees || n_searches == most_searches || n_failures == most_failures;

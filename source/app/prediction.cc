@@ -6,7 +6,8 @@ namespace snug::app {
 using optimization::Evaluation;
 
 namespace {
-/// Of the first steps: the differences that areas are differentiated by.
+/// Step of the differences by which areas are differentiated, relative to the first
+/// steps of the search.
 constexpr double area_step = 1e-3;
 
 /// Areas do not fall below this part of what they were.
@@ -58,7 +59,8 @@ private:
   const double *numbers;
   unsigned int  n_rows, n_variables;
 
-  /// Of place 0 the values, then the derivatives.
+  /// Return the forces of @p place: the values at place 0, then the derivatives with respect to
+  /// each variable.
   const double *force(unsigned int place) const { return numbers + 2 * place * n_rows; }
   const double *area(unsigned int place) const { return force(place) + n_rows; }
 };
@@ -124,9 +126,10 @@ std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) 
 }
 
 /**
- * What is expected at @p dx from a design: responses that are functions of contact forces and areas
- * are those of LinearRows, whatever functions they are; others are linear. A peak or a norm of
- * pressures bends far more within a step than the pressures themselves.
+ * Return the prediction at the distance @p dx from a design. Responses that are functions of
+ * contact forces and areas are computed from the forces and areas of LinearRows; other responses
+ * are linear. A peak or a norm of pressures has far more curvature within a step than the
+ * pressures.
  */
 template <int dim>
 Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<double> &dx) const

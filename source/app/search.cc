@@ -56,7 +56,7 @@ void Search<dim>::warn_of_weak_contacts(const Design &design)
   for (const auto &gradient : analysis.gradients.of_response)
     if (!gradient.differentiable)
       results.warn_of_weak_contacts(analysis.states,
-                                    "; going on with those of the strongly active ones");
+                                    "; continuing with those of the strongly active contacts");
 }
 
 /// Summarize the first design of all searches, and print the header of the table of iterations.
@@ -69,12 +69,12 @@ void Search<dim>::report_first(const Iteration &iteration)
     {
       const auto &of_objective = analysis->gradients.of_response.front();
       if (!of_objective.reason.empty())
-        out << "auto takes " << to_text(of_objective.method)
-            << " for the objective: " << of_objective.reason << std::endl;
+        out << "gradient method: " << to_text(of_objective.method) << " (auto; "
+            << of_objective.reason << ")" << std::endl;
       results.add_first(analysis->states, of_objective.shape);
     }
   if (problem.scene.optimization.algorithm == optimization::Algorithm::SLSQP)
-    out << "initial trust region: nodes move by at most half the edge of a cell"
+    out << "initial trust region: node displacements of at most half a cell edge"
         << (evaluator.is_predicted() ? "; contact pressures are predicted from derivatives" : "")
         << std::endl;
   out << io::log_header() << std::endl;
@@ -163,8 +163,8 @@ bool Search<dim>::update_pairing(const OptimizationResult &result)
   if (drift < unmoved)
     return false;
   finish_first();
-  problem.context.out() << "contact is paired anew: the design moved slave nodes off the "
-                           "points they were paired with by up to "
+  problem.context.out() << "new contact search: the design moved slave nodes away from their "
+                           "paired points by up to "
                         << drift << " of a face" << std::endl;
   evaluator.pair(result.x);
   return true;

@@ -47,7 +47,7 @@ void Adaptation<dim>::resolve_data()
           continue;
         }
       for (const auto &line : found.lines)
-        context.out() << "warning: " << line << std::endl;
+        context.warn(line);
       return;
     }
 }

@@ -42,7 +42,7 @@ complaint(const Form &form, const std::vector<double> &numbers, const unsigned i
       if (form.contains && !form.contains(number))
         return form.range;
       if (std::abs(number) > largest)
-        return "must be at most " + to_text(largest) + " in size";
+        return "must be at most " + to_text(largest) + " in absolute value";
     }
   return "";
 }
@@ -62,10 +62,15 @@ Form choice(const Names &names)
     {
       form.choices.push_back(name);
       if (!meaning.empty())
-        form.explained += (form.explained.empty() ? " " : "; ") + name + ": " + meaning;
+        form.meanings.push_back({name, meaning});
     }
-  form.explained += form.explained.empty() ? "" : ".";
   form.allowed = (form.choices.size() > 1 ? "one of " : "") + to_text(form.choices);
+  return form;
+}
+
+Form with_meanings(Form form, const Names &meanings)
+{
+  form.meanings = meanings;
   return form;
 }
 
@@ -120,8 +125,7 @@ void Entries::add(const std::string &name,
                   const Form        &form,
                   const std::string &meaning)
 {
-  list.push_back(
-    {section_list.back().name, name, access.text(), form, meaning + form.explained, access});
+  list.push_back({section_list.back().name, name, access.text(), form, meaning, access});
 }
 
 void Entries::set(const Statement &statement)

@@ -228,8 +228,9 @@ void TotalFeti::find_soft_modes()
   run.work.soft_modes += counts[0];
   if (counts[0] == 0)
     return;
-  run.out() << "soft modes: " << counts[0] << " of " << counts[1] << " subdomains, the softest "
-            << largest << " times stiffer by its jumps" << std::endl;
+  run.out(Verbosity::debug) << "soft modes: " << counts[0] << " of "
+                            << counted(counts[1], "subdomain") << ", maximum eigenvalue " << largest
+                            << std::endl;
   deflation          = std::make_unique<Deflation>(systems, layout, coarse.subdomains(),
                                                    parameters.coarse_ranks, forces);
   deflation_outdated = true;

@@ -127,8 +127,8 @@ KnownSurface<dim> fitted_surface(const std::string        &boundary,
   if (!(largest <= allowed * surface.radius && surface.radius < flat * length))
     {
       std::ostringstream text;
-      text << "does not fit: nodes of '" << boundary << "' are up to " << largest
-           << " off the best one, of radius " << surface.radius;
+      text << "does not fit: the maximum distance of nodes of '" << boundary
+           << "' from the best fit, which has the radius " << surface.radius << ", is " << largest;
       throw bad_entry("Curved faces", boundary + ": " + value, text.str());
     }
   return surface;

@@ -43,7 +43,7 @@ void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, con
 void check_radius(const SectionCheck &section, const BodyMeshParameters &mesh, const double least)
 {
   const std::string allowed = "must not lead to a negative x, the radius of axisymmetric models, "
-                              "but does to " +
+                              "but leads to x = " +
                               to_text(least);
   const bool moved = !mesh.shift.empty() && mesh.shift[0] < 0.;
   const bool box   = mesh.source == Source::box && mesh.corner[0] < 0.;

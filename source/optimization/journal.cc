@@ -45,7 +45,7 @@ Evaluation replay(const JournalRecord &record)
   return record.evaluation;
 }
 
-/// Whether there is a file that can be read, and then its bytes.
+/// Read a file into @p text. Returns whether the file exists and is readable.
 bool read_file(const std::string &path, std::string &text)
 {
   std::ifstream      in(path, std::ios::binary);
@@ -102,9 +102,9 @@ void Journal::read()
   header_end    = contents.header_end;
   recorded      = std::move(contents.records);
   if (header_end == 0)
-    say("restart: nothing recorded in " + path() + ", starting afresh");
+    say("restart: no recorded evaluations in " + path() + ", starting from the initial design");
   else
-    say("restart: replaying " + std::to_string(recorded.size()) + " records of " + path());
+    say("restart: reusing " + counted(recorded.size(), "recorded evaluation") + " of " + path());
 }
 
 /// Start an empty journal.
@@ -154,8 +154,9 @@ void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n
   const int before = recorded[next - 1].n_ranks;
   if (before != n_ranks)
     {
-      say("restart: written on " + std::to_string(before) + " ranks, continued on " +
-          std::to_string(n_ranks) + ": the solver starts cold, results agree to its tolerance");
+      say("restart: recorded on " + counted(before, "rank") + ", continued on " +
+          counted(n_ranks, "rank") +
+          ": the next solve is a cold start, results agree to the solver tolerance");
       return;
     }
   // all ranks or none: a solver that starts warm on some finds another path
@@ -165,8 +166,9 @@ void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n
   if (good)
     return;
   problem.remember("");
-  say("restart: no warm-start data that fit: the solver starts cold, results agree to its "
-      "tolerance");
+  say(
+    "restart: no warm-start data of this problem: the next solve is a cold start, results agree to "
+    "the solver tolerance");
 }
 
 DesignProblem Journal::journaled(const DesignProblem &problem)
@@ -181,7 +183,7 @@ DesignProblem Journal::journaled(const DesignProblem &problem)
   return result;
 }
 
-/// Whether the next record is that of @p x.
+/// Return whether the next record belongs to @p x.
 bool Journal::is_replayed(const DesignProblem &problem, const std::vector<double> &x)
 {
   if (is_live || next == recorded.size())
@@ -192,8 +194,8 @@ bool Journal::is_replayed(const DesignProblem &problem, const std::vector<double
       return true;
     }
   say("restart: evaluation " + std::to_string(next) +
-      " asks for another design than the one recorded: the record is "
-      "cut there, the solver starts cold");
+      " requests another design than the recorded one: later records are discarded, the next solve "
+      "is a cold start");
   forget_warm_start();
   return false;
 }
@@ -246,7 +248,7 @@ void Journal::differentiate(const DesignProblem       &problem,
     false);
 }
 
-/// What @p work returns, recorded, failures too.
+/// Return the result of @p work after recording it. Failures are recorded as well.
 Evaluation Journal::recorded_live(const DesignProblem               &problem,
                                   const std::vector<double>         &x,
                                   const std::function<Evaluation()> &work,

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace snug::optimization {
-/// As the summary and the log call them.
+/// Return the names of the reasons in the summary and in the log.
 static Names names(End)
 {
   return {{""},
@@ -36,7 +36,8 @@ bool Progress::is_better(const ScaledProblem::Point &a, const ScaledProblem::Poi
   return a.violation < b.violation;
 }
 
-/// Of a trial design that no search went on from they may not have been asked for yet.
+/// Return whether the gradients of a design are available. A trial design from which no search
+/// continued may have none.
 bool Progress::has_gradients(const ScaledProblem::Point &point) const
 {
   try

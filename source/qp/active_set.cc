@@ -291,7 +291,7 @@ std::string ActiveSetRun::reason() const
 {
   if (care == SetHistory::give_up)
     return history.reason();
-  return is_long_cycle() ? "cycles" : "does not solve on its sets";
+  return is_long_cycle() ? "cycles" : "does not converge on its free sets";
 }
 
 bool ActiveSetRun::run(const WarmStart &from)
@@ -337,8 +337,9 @@ DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start
   ActiveSetRun run(problem, parameters, options);
   if (run.run(start))
     return run.solution();
-  problem.context().out() << "The active set " << run.reason() << " after " << run.f_mults()
-                          << " F-mults; going on with SMALSE-M." << std::endl;
+  problem.context().out() << "active set method: " << run.reason() << " after "
+                          << counted(run.f_mults(), "F-mult") << ", continuing with SMALSE-M"
+                          << std::endl;
   SolverParameters remaining = parameters;
   remaining.max_iterations -=
     narrow<unsigned int>(std::min<unsigned long>(run.f_mults(), remaining.max_iterations));

@@ -46,7 +46,7 @@ void SetHistory::watch_residual(const double kkt_residual, const bool shrinks)
     {
       care = give_up;
       std::ostringstream text;
-      text << "makes no progress (KKT residual " << least_residual << " at best)";
+      text << "stalls (minimum KKT residual " << least_residual << ")";
       why = text.str();
     }
 }

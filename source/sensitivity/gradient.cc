@@ -98,14 +98,14 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
   for (const auto *response : responses)
     n_solves += needs_solve(*response);
   const MethodChoice solving{n_solves < n_variables ? Method::adjoint : Method::direct,
-                             "solves for " + std::to_string(n_solves) + " responses against " +
-                               std::to_string(n_variables) + " variables"};
+                             counted(n_solves, "response") + ", " +
+                               counted(n_variables, "variable")};
   std::vector<MethodChoice> choices;
   for (const auto *response : responses)
     if (!response->needs_solution())
-      choices.push_back({Method::energy, "depends on the geometry alone"});
+      choices.push_back({Method::energy, "depends only on the geometry"});
     else if (response->stationary())
-      choices.push_back({Method::energy, "stationary at the state, no solve"});
+      choices.push_back({Method::energy, "needs no linear solve"});
     else
       choices.push_back(solving);
   return choices;

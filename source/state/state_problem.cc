@@ -50,7 +50,7 @@ void check_reference(const StateProblem<dim> &problem)
       const auto  found   = flaw(model.body_names[cell.body], X.front(), element.quality(X),
                                  element.scaled_jacobian(X), model.least_scaled_jacobian);
       if (!found.empty())
-        throw InputError(found + " before any design; see its 'Warp' and 'Curved faces'");
+        throw InputError(found + " in the initial mesh; check its 'Warp' and 'Curved faces'");
     }
 }
 } // namespace
@@ -157,7 +157,7 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
             const auto found = flaw(model.body_names[systems[s].body], X.front(), quality, jacobian,
                                     model.least_scaled_jacobian);
             if (!found.empty())
-              throw TangledMesh(found + "; tighten the bounds of the shape");
+              throw TangledMesh(found + "; reduce the bounds of the shape");
           }
         result[s] = jacobian;
       }
@@ -262,9 +262,9 @@ void StateProblem<dim>::check_vanished_rows(unsigned int load_case) const
     if (gluing->gap(i, geometry.rows, load_case) < -1e-10 * length)
       {
         std::ostringstream text;
-        text << "no equilibrium: contact row " << i << " overlaps by "
+        text << "no equilibrium: contact row " << i << " has an overlap of "
              << -gluing->gap(i, geometry.rows, load_case)
-             << " between nodes that are held in its direction";
+             << ", but supports hold its nodes in the contact direction";
         throw SolveError(text.str());
       }
 }

@@ -53,7 +53,7 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
     }
   std::ostringstream text;
   text << "the certificate of the contact state stays at " << state.certificate.worst()
-       << ", above the tolerance " << wanted << "; allow a larger 'Solver/Relative tolerance'";
+       << ", above the tolerance " << wanted << "; increase 'Solver/Relative tolerance'";
   throw SolveError(text.str());
 }
 
@@ -85,7 +85,8 @@ template <int dim>
 ContactState<dim> StateSolver<dim>::solve_on(const ContactState<dim> &state,
                                              const double             tolerance) const
 {
-  Assert(state.pairing == n_pairings, dealii::ExcMessage("the state is of another pairing"));
+  Assert(state.pairing == n_pairings,
+         dealii::ExcMessage("the state belongs to another contact search"));
   auto result =
     solve(state.positions, {state.dual.lambda, state.dual.active, state.dual.directions},
           state.load_case, tolerance);
@@ -115,7 +116,8 @@ ContactState<dim> StateSolver<dim>::solve(const Field         &positions,
 template <int dim>
 const feti::TotalFeti &StateSolver<dim>::feti(const ContactState<dim> &state) const
 {
-  Assert(state.pairing == n_pairings, dealii::ExcMessage("the state is of another pairing"));
+  Assert(state.pairing == n_pairings,
+         dealii::ExcMessage("the state belongs to another contact search"));
   problem->set(state.positions, state.load_case);
   return *problem->feti;
 }

@@ -121,7 +121,7 @@ BUSH = {"Optimization/Constraints": "vb: <= initial", "Responses": "peak, vb",
 
 SEARCHES = [
     Row("no F-mult allowed but 3", blocks(dim=3, solver={"Maximum F-mults": 3}),
-        Refused(3, "F-mults; allow more"), quick=True),
+        Refused(3, "F-mults; increase 'Maximum F-mults'"), quick=True),
     Row("one evaluation, limits met", search(BLOCKS, **{"Optimization/Maximum evaluations": 1}),
         Solved(ends("maximum evaluations")), ONE),
     Row("one evaluation, a limit broken",

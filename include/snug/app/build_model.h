@@ -6,8 +6,8 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::app {
-/// What @p make makes of a scene; errors begin with its file, as all of
-/// the input do.
+/// Return the result of @p make. An InputError of @p make is thrown again with the file of the
+/// scene in front, as in all errors of the input.
 template <typename Make>
 auto made_of(const scene::Scene &scene, const Make &make)
 {

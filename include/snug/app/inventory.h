@@ -7,7 +7,7 @@
 #include <iosfwd>
 
 namespace snug::app {
-/// What the meshes of a scene look like, for who writes one.
+/// Summary of the meshes of a scene for the author of the scene: sizes, boundaries, regions.
 template <int dim>
 struct Inventory
 {
@@ -24,7 +24,7 @@ struct Inventory
     Box         box;
   };
 
-  /// What a material can be given to.
+  /// A set of cells that can have its own material.
   struct Region
   {
     std::string   name;

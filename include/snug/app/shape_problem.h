@@ -20,7 +20,7 @@ class ShapeProblem
 public:
   using Field  = typename mesh::BodyMesh<dim>::Field;
   using Design = std::vector<double>;
-  /// Of one design in all load cases.
+  /// States of one design in all load cases.
   using States = std::vector<state::ContactState<dim>>;
 
   /// Makes all but the mesh. Collective. @throws InputError naming the file.
@@ -55,8 +55,8 @@ public:
   /// scene has nothing it could measure.
   std::unique_ptr<response::Response<dim>> make_response(const std::string &name) const;
 
-  /// What combined_gradients() differentiates at; all arguments must
-  /// outlive the result.
+  /// Return the argument of combined_gradients() for @p states. All arguments must outlive the
+  /// result.
   sensitivity::LoadCases<dim> load_cases(const States                          &states,
                                          const Design                          &design,
                                          const sensitivity::GradientParameters &parameters) const;

@@ -29,8 +29,8 @@ public:
   /// the start is cold.
   std::vector<qp::WarmStart> at(const std::vector<double> &design) const;
 
-  /// Of each load case the @p forces solved for, n_owned x 1. Forgets the
-  /// oldest design if there are many.
+  /// Add the solution of a design: for each load case its contact @p forces, n_owned x 1. Removes
+  /// the oldest design if there are many.
   void add(const std::vector<double> &design, std::vector<qp::MultiVector> forces);
 
   void clear() { entries.clear(); }
@@ -38,8 +38,8 @@ public:
   /// For a restart, bit for bit.
   std::string bytes() const;
 
-  /// What bytes() gave, of @p n_owned rows and @p n_cases; false, and
-  /// empty then, if the sizes do not fit.
+  /// Restore the history from the result of bytes(), with @p n_owned rows and @p n_cases load
+  /// cases. Returns false, with an empty history, if the sizes do not fit.
   bool read(const std::string &bytes, unsigned int n_owned, unsigned int n_cases);
 
 private:

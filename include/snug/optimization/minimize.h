@@ -88,11 +88,11 @@ struct OptimizationResult
   bool success = false;
 };
 
-/// What is wrong with @p result: no word if it is a success, or met the
-/// constraints when the evaluations ran out or it was interrupted.
+/// Return why @p result is not usable. The text is empty if the search converged, or if it ran out
+/// of evaluations or was interrupted at a design that satisfies the constraints.
 std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters);
 
-/// Whether an algorithm can hold equality constraints.
+/// Return whether an algorithm supports equality constraints.
 bool takes_equalities(Algorithm algorithm);
 
 /**

@@ -43,9 +43,8 @@ public:
   /// has_gained() and the two-steps rule count from here.
   void begin_run();
 
-  /// Whether the best design has become better since begin_run() by more
-  /// than the objective tolerance or, as long as none is feasible, halved
-  /// its violation.
+  /// Return whether the best design has improved since begin_run() by more than the objective
+  /// tolerance or, as long as no design is feasible, has halved its violation.
   bool has_gained() const;
 
   /// The design accepted last.
@@ -62,14 +61,14 @@ public:
   /// design of End::no_value has none.
   OptimizationResult finish(End end, const std::string &failure);
 
-  /// Whether a design meets the constraints to their tolerance.
+  /// Return whether a design satisfies the constraints to their tolerance.
   bool is_feasible(const ScaledProblem::Point &point) const
   {
     return point.violation <= parameters.constraint_tolerance;
   }
 
-  /// Whether @p a is lower than @p b, where both are feasible, or else
-  /// violates less.
+  /// Return whether @p a has a lower objective than @p b if both are feasible, or else a smaller
+  /// violation.
   bool is_better(const ScaledProblem::Point &a, const ScaledProblem::Point &b) const;
 
 private:

@@ -61,7 +61,7 @@ subsection Solver
 end
 )";
 
-/// What an optimizer is told of a scene.
+/// The design problem of a scene, as an optimizer sees it.
 struct Told
 {
   explicit Told(const std::vector<std::string> &sets)

@@ -29,7 +29,7 @@ double error(const StartHistory &history, const std::vector<double> &x, const do
   return worst;
 }
 
-/// Of three designs at distance @p h around (0.4, 0.2).
+/// Return the history of three designs at the distance @p h from (0.4, 0.2).
 StartHistory around(const double h, const double curvature)
 {
   StartHistory history({1., 1.});
@@ -72,7 +72,7 @@ TEST(StartHistory, IsExactToSecondOrder)
   EXPECT_NEAR(std::log10(coarse / fine), 2., 0.1);
 }
 
-/// Of a line search: between its ends the secant, up to the error that forces have.
+/// A line search extrapolates by the secant between its ends, up to the error of the forces.
 TEST(StartHistory, IsASecantOnALine)
 {
   for (const double length : {1e-1, 1e-2, 1e-3})

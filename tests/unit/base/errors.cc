@@ -28,7 +28,7 @@ int n_ranks()
   return size;
 }
 
-/// What everywhere() throws on this rank: type and message.
+/// Type and message of the error that everywhere() throws on this rank.
 struct Thrown
 {
   const std::type_info *type;
@@ -67,7 +67,7 @@ void expect_everywhere(const std::function<void()> &fail, const std::string &mes
 }
 
 const std::string no_memory =
-  "out of memory: take a coarser mesh, or spread the ranks over more machines";
+  "out of memory: use a coarser mesh, or distribute the ranks over more machines";
 } // namespace
 
 TEST(Everywhere, KindAndMessageReachAllRanks)

@@ -85,7 +85,7 @@ void expect_new_pairing(TwoBoxes<dim> scene)
   EXPECT_GT(n, 2u);
 }
 
-/// Of a row whose master is one node.
+/// Return whether the master of a row is a single node.
 template <int dim>
 bool is_node_to_node(const Row<dim> &row)
 {

@@ -141,10 +141,10 @@ struct TwoBoxes
         }
   }
 
-  /// Of displacements.
+  /// Return a random field of displacements.
   Field random_field(unsigned int seed) const { return random_field(seed, surface.n_nodes()); }
 
-  /// Of positions.
+  /// Return a random field of velocities of positions.
   Field random_velocity(unsigned int seed) const { return random_field(seed, surface.n_points()); }
 
   static Field random_field(unsigned int seed, unsigned int size)

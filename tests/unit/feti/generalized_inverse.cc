@@ -89,7 +89,7 @@ TEST_P(Packages, FollowsNewNumbers)
   EXPECT_LT(largest(error), 1e-12 * largest(Kx));
 }
 
-/// Those of a grid have the same K, and R that differ by rounding.
+/// Subdomains of a grid have the same K, and matrices R that differ by rounding.
 TEST_P(Packages, CongruentSubdomainsShareTheirInverse)
 {
   const auto system = examples()[1];

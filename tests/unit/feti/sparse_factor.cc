@@ -16,7 +16,7 @@ using namespace snug::test;
 
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// As the program has them: PETSc's default handler would print.
+/// Factors with the error handler of the program, because PETSc's default handler prints.
 class Factors : public ::testing::TestWithParam<feti::Factorization>
 {
 protected:
@@ -33,7 +33,7 @@ feti::CsrMatrix truss_on_springs()
   return K;
 }
 
-/// What factorizing "the punch" complains of.
+/// Return the error message of the factorization of "the punch".
 std::string complaint(feti::SparseFactor &factor, const feti::CsrMatrix &A)
 {
   try
@@ -122,7 +122,7 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
   expect_clear(complaint(factor, K));
 }
 
-/// Those of PETSc hold while this lives.
+/// This class sets an option of PETSc during its lifetime.
 class PetscOption
 {
 public:
@@ -138,7 +138,7 @@ private:
   std::string name;
 };
 
-/// Of any number of ranks, and also bad matrices are errors on all of them.
+/// Any number of ranks factorizes together, and bad matrices are errors on all of them.
 TEST(TeamFactors, InvertOnAllRanks)
 {
   petsc::return_errors();

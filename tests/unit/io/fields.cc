@@ -119,7 +119,7 @@ TEST(FieldOutput, HoldsALinearStateIn3D)
   expect_linear_fields<3>(2);
 }
 
-/// Of this rank: as many points as its cells have nodes.
+/// The file of this rank has as many points as its cells have nodes.
 TEST(FieldOutput, CellsShareTheirPoints)
 {
   const test::ScratchDirectory scratch;

@@ -8,9 +8,9 @@ using namespace snug::test;
 using dealii::Point;
 
 namespace {
-/// What gmsh moved the nodes of reference elements by before it wrote the files in
-/// tests/meshes/quadratic: of degree 2, and of degree 2 in each coordinate for elements with
-/// nodes in the middle of faces, of a prism without x^2 y^2.
+/// Return the displacement by which gmsh moved the nodes of reference elements before it wrote the
+/// files in tests/meshes/quadratic: of degree 2, and of degree 2 in each coordinate for elements
+/// with nodes in the middle of faces, for a prism without x^2 y^2.
 template <int dim>
 Point<dim> moved(const Point<dim> &p, const bool all, const bool cube)
 {

@@ -104,7 +104,7 @@ std::vector<double> random_vector(std::size_t n)
   return v;
 }
 
-/// Of the coupling of @p integrals, and the weights that corrections take from these.
+/// Return the entries of the coupling of @p integrals, and the weights of the corrections.
 template <typename Number>
 std::vector<Number> entries(const FaceIntegrals<Number> &integrals,
                             const MultiplierFunctions   &functions)

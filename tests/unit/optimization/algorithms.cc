@@ -165,8 +165,8 @@ static DesignProblem blind(const std::vector<double> &t,
   return problem;
 }
 
-/// As the volume of a symmetric body: the least over all slopes of a
-/// constraint says nothing at the start.
+/// The gradient of the constraint vanishes at the start, like that of the volume of a symmetric
+/// body.
 TEST(Algorithms, LeaveAStartWhereAConstraintHasNoGradient)
 {
   const std::vector<double> t = {0.5, 0.2};
