@@ -3,8 +3,8 @@
 import math
 
 import known_answers
-from gallery_runs import solve
 from measures import Below, Check, at, same
+from runs import solve
 
 
 def adapted(result, _):
@@ -70,8 +70,9 @@ def pressed_ball(result, _):
 def on_fine_faces(design):
     """The peak of edge-2d's design on faces of 1/512 mm, and 1/64 mm elsewhere."""
     levels = [f"Body {name}/Local refinements=6" for name in ("cylinder", "plane")]
-    return solve("tests/scenes/edge-2d.prm", "Task=state", "Accuracy/Target=",
-                 f"Shape/Initial={design[0]!r}", *levels).state["responses"]["peak"]
+    fine = solve("tests/scenes/edge-2d.prm", [
+        "Task=state", "Accuracy/Target=", f"Shape/Initial={design[0]!r}", *levels])
+    return fine.state["responses"]["peak"]
 
 
 def promise(result, _):

@@ -1,19 +1,19 @@
 """What contrib/gallery measures in its scenes, and the known answers.
 
-A measure takes the result of a scene and that of the scene it is compared with,
-if there is one, and returns quantities as (name, value, known answer)."""
+A measure takes the Result of a scene and that of the scene it is compared with, if there is
+one, and returns quantities as (name, value, known answer)."""
 
 import copy
 import math
 
 
 def moduli(*bodies):
-    """Hertz' modulus E* of (E, nu) pairs."""
+    """Return Hertz' modulus E* of (E, nu) pairs."""
     return 1 / sum((1 - nu**2) / E for E, nu in bodies)
 
 
 def hertz_line(result, load, radius, modulus):
-    """Half-width and peak pressure of cylinders under a load per length."""
+    """Return peak pressure and half width of cylinders under a load per length."""
     a = math.sqrt(4 * load * radius / (math.pi * modulus))
     p0 = 2 * load / (math.pi * a)
     return [("p0", max(result.pressures()), p0),
@@ -21,46 +21,35 @@ def hertz_line(result, load, radius, modulus):
 
 
 def hertz_point(result, load, radius, modulus, r):
-    """Contact radius and peak pressure of spheres under a load."""
+    """Return peak pressure and contact radius of spheres under a load."""
     a = (3 * load * radius / (4 * modulus))**(1 / 3)
     p0 = 3 * load / (2 * math.pi * a**2)
     return [("p0", max(result.pressures()), p0),
             ("a", result.half_width(a, r), a)]
 
 
-def line_contact(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 4., moduli((1000, .3), (1000, .3)))
+def line(radius, *bodies):
+    """Return the measure of half of two cylinders; bodies: (E, nu)."""
+    return lambda result, _: hertz_line(result, 2 * abs(result.state["contact_force"][1]),
+                                        radius, moduli(*bodies))
 
 
-def two_cylinders(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 1 / (1 / 4 + 1 / 8),
-                      moduli((1000, .3), (4000, .2)))
+EQUAL = (1000, .3), (1000, .3)
 
-
-def two_cylinders_plane_stress(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 1 / (1 / 4 + 1 / 8),
-                      moduli((1000, 0), (4000, 0)))
-
-
-def nafems_roller(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 50.,
-                      moduli((210000, .3), (70000, .3)))
+line_contact = line(4., *EQUAL)
+two_cylinders = line(1 / (1 / 4 + 1 / 8), (1000, .3), (4000, .2))
+two_cylinders_plane_stress = line(1 / (1 / 4 + 1 / 8), (1000, 0), (4000, 0))
+nafems_roller = line(50., (210000, .3), (70000, .3))
 
 
 def point_contact(result, _):
     load = 4 * abs(result.state["contact_force"][2])
-    return hertz_point(result, load, 4., moduli((1000, .3), (1000, .3)),
-                       lambda p: math.hypot(p["x"], p["y"]))
+    return hertz_point(result, load, 4., moduli(*EQUAL), lambda p: math.hypot(p["x"], p["y"]))
 
 
 def axisymmetric_point_contact(result, _):
     load = abs(result.state["contact_force"][1])
-    return hertz_point(result, load, 4., moduli((1000, .3), (1000, .3)),
-                       lambda p: p["x"])
+    return hertz_point(result, load, 4., moduli(*EQUAL), lambda p: p["x"])
 
 
 def solid_against_axisymmetric(result, section):

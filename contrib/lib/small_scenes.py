@@ -1,6 +1,4 @@
-"""The small scenes of tests/scenes with known answers, and what their options must do.
-
-See measures.py."""
+"""The small scenes of tests/scenes with known answers, and what their options must do."""
 
 import base64
 import math
@@ -10,8 +8,8 @@ import zlib
 
 import adapted_scenes
 import known_answers
-from gallery_runs import solve
 from measures import Below, Check, at, error, same
+from runs import print_head, print_row, solve
 
 
 def guided_modulus(E, nu):
@@ -52,19 +50,13 @@ def named_boundaries(result, _):
             ("top", -result.state["responses"]["top"], .5 / 1000)]
 
 
-def mean_pressure(result, pair):
-    points = [p for p in result.points if p["pair"] == pair]
-    return (math.fsum(p["force"] for p in points) /
-            math.fsum(p["area"] for p in points))
-
-
 def lame_cylinder(result, _):
     """Of radius 1, a rod 0.002 too thick; a tube up to radius 2 on a pin 0.001 too
     thick; plane strain."""
     E, nu = 1000, .3
-    return [("p on the rod", mean_pressure(result, 0),
+    return [("p on the rod", result.mean_pressure(0),
              .002 * E / ((1 + nu) * (1 - 2 * nu))),
-            ("p in the tube", mean_pressure(result, 1),
+            ("p in the tube", result.mean_pressure(1),
              .001 * E * 3 / ((1 + nu) * (1 - 2 * nu + 4)))]
 
 
@@ -72,8 +64,8 @@ def lame_sphere(result, _):
     """A ball 0.002 too large for its rigid cavity, one 0.001 too large for the elastic
     shell around it."""
     cavity, shell = known_answers.lame_spheres()
-    return [("p in the cavity", mean_pressure(result, 0), .002 * cavity),
-            ("p in the shell", mean_pressure(result, 1), .001 * shell)]
+    return [("p in the cavity", result.mean_pressure(0), .002 * cavity),
+            ("p in the shell", result.mean_pressure(1), .001 * shell)]
 
 
 def pair_entries(result, _):
@@ -178,8 +170,8 @@ def one_method(result, beside):
 def paired_anew(result, _):
     """The state of the final design, which pairs at that design."""
     found = result.summary["optimization"]
-    state = solve("tests/scenes/paired-anew.prm", "Task=state",
-                  "Shape/Initial=" + ", ".join(map(repr, found["design"])))
+    state = solve("tests/scenes/paired-anew.prm", [
+        "Task=state", "Shape/Initial=" + ", ".join(map(repr, found["design"]))])
     return [("peak", found["objective_paired_anew"], state.state["responses"]["peak"])]
 
 
@@ -300,22 +292,23 @@ CHECKS = [
 
 
 def text_of(value):
-    """A number, or the largest of several."""
+    """Return a number as text, or the largest of several."""
     if isinstance(value, list):
         return f"{max(value, key=abs):.6g} of {len(value)}"
     return ("< " if isinstance(value, Below) else "") + f"{value:.6g}"
 
 
-def run(failures):
-    """Print the table of all checks; what is wrong goes to failures as lines."""
-    print("| scene | with | quantity | found | answer | error |\n" + "|---" * 6 + "|")
+def run():
+    """Print the table of all checks, and return what is wrong as lines."""
+    print_head("scene", "with", "quantity", "found", "answer", "error")
+    failures = []
     for check in CHECKS:
         scene, given = f"tests/scenes/{check.scene}.prm", "; ".join(check.entries)
-        beside = solve(scene, *check.beside) if check.beside is not None else None
-        for name, value, answer in check.measure(solve(scene, *check.entries), beside):
+        beside = solve(scene, check.beside) if check.beside is not None else None
+        for name, value, answer in check.measure(solve(scene, check.entries), beside):
             off = error(value, answer)
-            print(f"| {check.scene} | {given} | {name} | {text_of(value)} "
-                  f"| {text_of(answer)} | {off:.1e} |", flush=True)
+            print_row(check.scene, given, name, text_of(value), text_of(answer), f"{off:.1e}")
             if not off <= check.allowed:
                 failures.append(f"{check.scene}, {given}: {name} is {value} instead of "
                                 f"{text_of(answer)}")
+    return failures

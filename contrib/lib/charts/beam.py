@@ -27,7 +27,7 @@ def zeros(*shape):
 
 
 def solve(matrix, right):
-    """Gaussian elimination; numpy's is for double precision only."""
+    """Return matrix^-1 right by elimination; numpy's is for double precision only."""
     a = np.concatenate([matrix, right], axis=1)
     for i in range(len(matrix)):
         a[i] = a[i] / a[i, i]
@@ -38,7 +38,7 @@ def solve(matrix, right):
 
 
 def stiffness(width, height, modulus, ratio):
-    """Of a rectangle in plane strain; nodes in columns, each from below."""
+    """Return the stiffness of a rectangle in plane strain; nodes in columns, each from below."""
     mu = modulus / (2 * (1 + ratio))
     lame = modulus * ratio / ((1 + ratio) * (1 - 2 * ratio))
     D = np.array([[lame + 2 * mu, lame, 0], [lame, lame + 2 * mu, 0],
@@ -54,7 +54,7 @@ def stiffness(width, height, modulus, ratio):
 
 
 def compliance(length, columns, rows, modulus, ratio):
-    """f'u of a cantilever of height 1 under a shear traction of 1 at its end."""
+    """Return f'u of a cantilever of height 1 under a shear traction of 1 at its end."""
     element = stiffness(length / columns, Decimal(1) / rows, modulus, ratio)
     n = 2 * (2 * rows + 1)  # unknowns of a column of nodes
     K = zeros(3 * n, 3 * n)  # of a column of elements
@@ -75,7 +75,7 @@ def compliance(length, columns, rows, modulus, ratio):
 
 
 def compliance_derivative(length, columns, rows, modulus, ratio):
-    """By the logarithm of the length."""
+    """Return the derivative by the logarithm of the length."""
     ends = [compliance(Decimal(length) * (1 + sign * STEP), columns, rows,
                        Decimal(modulus), Decimal(ratio)) for sign in (1, -1)]
     return (ends[0] - ends[1]) / (2 * STEP)

@@ -2,8 +2,9 @@
 
 import math
 
-from cases import (Case, Figure, label, mean_pressure, run, scene, torque,
-                   warned)
+from runs import run_once, scene
+
+from cases import Figure, family, torque, warned
 
 QUARTERS = {"quarter": 1, "half": 2, "full": 4, "eighth": 1}
 
@@ -32,7 +33,7 @@ def nested_pressure(model, radii, materials, pressure, interference):
 def lame_figures(right, radius, mean_bound, node_bound, forced=False):
     def asked(result):
         pressures = result.pressures()
-        return [Figure("mean p", mean_pressure(result), right, mean_bound),
+        return [Figure("mean p", result.mean_pressure(), right, mean_bound),
                 Figure("least p", min(pressures), right, node_bound),
                 Figure("largest p", max(pressures), right, node_bound),
                 torque(result, radius),
@@ -71,26 +72,21 @@ def nested(dim, cells, part, radii, materials, degree, method, slave, model, tur
 SAME = ((1000, .3), (1000, .3))
 
 
-def rings(inner, outer, part="full", radii=(20, 30, 40), materials=SAME, degree=None,
-          method=None, slave=None, model="plane strain", turned=None, refinements=None,
-          subdomains=None, ranks=1):
-    """Cells along the part; nodes below 1 % from 15 per quarter on, 0.1 % from 120, the
-    mean of second order; nodal rows on unlike meshes within 10 and 1 %."""
+@family("rings", "{inner}/{outer}")
+def rings(inner, outer, part="full", radii=(20, 30, 40), degree=None, method=None, slave=None,
+          model="plane strain", materials=SAME, turned=None, refinements=None, subdomains=None):
+    """Cells along the part. Nodes are within 1 % from 15 cells per quarter on, within 0.1 % from
+    120 on, and the mean is of second order; nodal rows on unlike meshes within 10 and 1 %."""
     fine = [n * 2**(refinements or 0) / QUARTERS[part] for n in (inner, outer)]
+    layers = [max(3, round(.4 * n / QUARTERS[part])) for n in (inner, outer)]
     text = nested(2, (inner, outer), part, radii, materials, degree, method, slave, model,
-                  turned, refinements or 0, subdomains,
-                  [max(3, round(.4 * n / QUARTERS[part])) for n in (inner, outer)])
+                  turned, refinements or 0, subdomains, layers)
     right = nested_pressure(model, radii, materials, 10, .01 * radii[1] / 30)
     forced = method == "nodal" and (inner != outer or bool(turned))
     nodes = 1e-3 if min(fine) >= 96 else 1e-2 if min(fine) >= 12 else 1e-2 * 12 / min(fine)
     nodes *= UNLIKE if materials in (STIFF, STIFF[::-1]) else 1
     bounds = (1e-2, 1e-1) if forced else (min(nodes, 1e-2 * (12 / min(fine))**2), nodes)
-    return Case("rings", f"{inner}/{outer} " + label(
-        part=part, radii=None if radii[1] == 30 else radii, degree=degree,
-        method=method, slave=slave, model=None if model == "plane strain" else model,
-        materials=None if materials is SAME else materials, turned=turned,
-        refinements=refinements, subdomains=subdomains, ranks=ranks), text,
-        lame_figures(right, radii[1], *bounds, forced), ranks)
+    return text, lame_figures(right, radii[1], *bounds, forced)
 
 
 TWO = ((1000, .3), (2500, .2))
@@ -132,7 +128,7 @@ RINGS = [
 
 def pin_scene(pin, plate, part, scale=1, clearance=.02, force=500, degree=None,
               method=None, slave=None, turned=None, refinements=None, subdomains=None):
-    """A pin of radius 10 in a hole of a plate that is held at radius 30."""
+    """Return the text of a pin of radius 10 in a hole of a plate that is held at radius 30."""
     half = part == "half"
     guides = "start: x, end: x" if half else ""
     around = {"Mesh": "ring", "Part": part, "Young's modulus": 210000,
@@ -152,33 +148,23 @@ def pin_scene(pin, plate, part, scale=1, clearance=.02, force=500, degree=None,
         {"Subdomains": subdomains or "auto"}, Dimension=2, Element_degree=degree or 1)
 
 
-def matching_pin(clearance, force):
-    """The largest pressure on fine meshes that match: 65.8 for 0.02 and 500."""
-    found = run(pin_scene(192, 192, "half", clearance=clearance, force=force))
-    return found.result.state["max_pressure"] if found.result else math.nan
+@family("pins", "{pin}/{plate}")
+def pins(pin, plate, part="half", scale=1, clearance=.02, force=500, degree=None, method=None,
+         slave=None, turned=None, refinements=None, subdomains=None):
+    """The largest pressure is within 2 % of that on fine meshes that match; with nodal rows on
+    unlike meshes within 10 %."""
+    forced = method == "nodal" and (pin != plate or turned is not None)
 
-
-def pin_figures(part, scale, clearance, force, bound, forced=False):
     def asked(result):
+        fine = run_once(pin_scene(192, 192, "half", clearance=clearance, force=force)).result
+        right = fine.state["max_pressure"] if fine else math.nan
         share = scale * force * (.5 if part == "half" else 1)
-        return [Figure("largest p", result.state["max_pressure"],
-                       matching_pin(clearance, force), bound),
+        return [Figure("largest p", result.state["max_pressure"], right, .1 if forced else 2e-2),
                 Figure("force", abs(result.state["contact_force"][1]), share, 1e-5),
                 torque(result, 10 * scale),
                 *([warned(result)] if forced else [])]
-    return asked
-
-
-def pins(pin, plate, part="half", scale=1, clearance=.02, force=500, ranks=1, **settings):
-    """The largest pressure within 2 %; nodal rows on unlike meshes within 10 %."""
-    forced = (settings.get("method") == "nodal" and
-              (pin != plate or settings.get("turned") is not None))
-    return Case("pins", f"{pin}/{plate} " + label(
-        part=part, scale=None if scale == 1 else scale,
-        clearance=None if clearance == .02 else clearance,
-        force=None if force == 500 else force, **settings, ranks=ranks),
-        pin_scene(pin, plate, part, scale, clearance, force, **settings),
-        pin_figures(part, scale, clearance, force, .1 if forced else 2e-2, forced), ranks)
+    return pin_scene(pin, plate, part, scale, clearance, force, degree, method, slave, turned,
+                     refinements, subdomains), asked
 
 
 PINS = [
@@ -207,11 +193,11 @@ PINS = [
 ]
 
 
+@family("shells", "{inner}/{outer}")
 def shells(inner, outer, part="eighth", radii=(20, 30, 40), materials=SAME, layers=None,
-           degree=None, method=None, slave=None, refinements=None, subdomains=None,
-           ranks=1):
-    """Cells of a block; mean within 1 %, nodes within 3 % from 10/8 on, the mean of
-    second and nodes of first order below."""
+           degree=None, method=None, slave=None, refinements=None, subdomains=None):
+    """Cells of a block. From 10/8 on the mean is within 1 % and nodes within 3 %; below that the
+    mean is of second and nodes of first order."""
     fine = min(inner, outer) * 2**(refinements or 0)
     text = nested(3, (inner, outer), part, radii, materials, degree, method, slave,
                   "solid", None, refinements or 0, subdomains, layers or (inner, outer))
@@ -220,12 +206,7 @@ def shells(inner, outer, part="eighth", radii=(20, 30, 40), materials=SAME, laye
     coarse = max(1, 8 / fine)
     # nodal rows keep an error of their own at nodes, here 16 %, on rings 8 %
     nodes = .2 if forced else 3e-2 * (UNLIKE / 3 if materials is STIFF else 1)
-    return Case("shells", f"{inner}/{outer} " + label(
-        part=part, radii=None if radii[1] == 30 else radii,
-        materials=None if materials is SAME else materials,
-        layers=layers and "/".join(map(str, layers)), degree=degree, method=method,
-        slave=slave, refinements=refinements, subdomains=subdomains, ranks=ranks), text,
-        lame_figures(right, radii[1], 1e-2 * coarse**2, nodes * coarse, forced), ranks)
+    return text, lame_figures(right, radii[1], 1e-2 * coarse**2, nodes * coarse, forced)
 
 
 SHELLS = [

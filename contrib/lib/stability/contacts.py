@@ -1,6 +1,8 @@
 """Rows about what touches: too little, too much, and in odd places."""
 
-from cases import Figure, scene
+from runs import scene
+
+from cases import Figure
 from outcomes import ALL, ONE, Refused, Row, Solved
 from scenes import blocks, energy, even, finish, force, hump, nothing_touches, sinks
 

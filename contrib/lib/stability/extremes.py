@@ -1,6 +1,7 @@
 """Rows about numbers: contrast, units, tolerances, slender bodies, subdomains."""
 
-from cases import scene
+from runs import scene
+
 from outcomes import ALL, ONE, SOLVERS, Refused, Row, Solved, SolvedOrRefused
 from scenes import blocks, even, finish, hump, sinks, untorn
 

@@ -2,7 +2,9 @@
 
 import math
 
-from cases import Figure, run, scene, section
+from runs import run_once, scene, section
+
+from cases import Figure
 
 
 def finish(text, solver=None, extra=()):
@@ -62,7 +64,7 @@ def energy(value, bound=1e-5):
 def untorn(text, bound=1e-5, names=("energy", "max_pressure")):
     """The figures of bodies in one piece each, with another factorization."""
     def asked(result):
-        whole = run(text + section("Decomposition", {"Subdomains": 2}) +
+        whole = run_once(text + section("Decomposition", {"Subdomains": 2}) +
                     section("Solver", {"Factorization": "MUMPS"})).result
         return [Figure(name, result.state[name], whole.state[name] if whole else math.nan, bound)
                 for name in names]

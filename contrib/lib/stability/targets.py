@@ -2,7 +2,9 @@
 
 import math
 
-from cases import Figure, run, section
+from runs import run_once, section
+
+from cases import Figure
 from contacts import two_punches
 from outcomes import ONE, Refused, Row, Solved, states_of
 from scenes import blocks, nothing_touches
@@ -44,7 +46,7 @@ def value(state, name):
 def as_truth(truth, bound=1e-2, names=("energy",)):
     """What a mesh that is not adapted says, of degree 2, in all load cases."""
     def asked(result):
-        right = run(truth).result
+        right = run_once(truth).result
         if not right:
             return [NOT_SOLVED]
         return [met(result), *(
@@ -56,7 +58,7 @@ def as_truth(truth, bound=1e-2, names=("energy",)):
 def same_meshes(text):
     """As large as on one rank."""
     def asked(result):
-        one = run(text).result
+        one = run_once(text).result
         if not one:
             return [NOT_SOLVED]
         of_one, found = ([mesh["dofs"] for mesh in of.summary["accuracy"]["meshes"]]

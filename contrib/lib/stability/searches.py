@@ -1,25 +1,12 @@
 """Rows about searches, limits and derivatives, and scenes of files and of other studies."""
 
-import re
+from runs import changed, section
 
-from cases import Figure, section
-from gallery_runs import ROOT
+from cases import Figure
 from outcomes import ALL, ONE, SOLVERS, Refused, Row, Solved
 from rollers import cylinders, rollers, spheres
 from round_bodies import PINS, RINGS, SHELLS
 from scenes import blocks, force
-
-
-def of_file(path, **entries):
-    """The text of a scene with these entries, {"Subsection/Entry": value}, at its end."""
-    text = (ROOT / path).read_text()
-    for name, value in entries.items():
-        title, _, entry = name.rpartition("/")
-        line = {entry: value}
-        # what stands outside of subsections comes first
-        text = text + section(title, line) if title else f"set {entry} = {value}\n" + re.sub(
-            rf"(?m)^set {entry} .*\n", "", text)
-    return text
 
 
 def known(case, name=None, methods=SOLVERS, quick=False):
@@ -29,29 +16,28 @@ def known(case, name=None, methods=SOLVERS, quick=False):
 
 
 def dense(name, methods=SOLVERS, quick=False):
-    return Row(f"tests/scenes/{name}.prm", of_file(f"tests/scenes/{name}.prm"), Solved(),
+    return Row(f"tests/scenes/{name}.prm", changed(f"tests/scenes/{name}.prm", {}), Solved(),
                methods, True, None, quick)
 
 
 FILES = [
     dense("beyond-edges"), dense("soft-layer", ALL), dense("leaning-stack", ALL),
-    Row("tests/scenes/pull-off.prm", of_file("tests/scenes/pull-off.prm"),
+    Row("tests/scenes/pull-off.prm", changed("tests/scenes/pull-off.prm", {}),
         Refused(3, "no equilibrium: body punch escapes: translation (0 0 1)")),
-    Row("tests/scenes/tipping.prm", of_file("tests/scenes/tipping.prm"),
+    Row("tests/scenes/tipping.prm", changed("tests/scenes/tipping.prm", {}),
         Refused(3, "no equilibrium: body punch escapes")),
-    Row("tests/scenes/solver-entries.prm", of_file("tests/scenes/solver-entries.prm"),
+    Row("tests/scenes/solver-entries.prm", changed("tests/scenes/solver-entries.prm", {}),
         Solved(force(20, component=2)), ALL),
     *map(known, (RINGS[0], RINGS[10], RINGS[11], PINS[1], PINS[3], PINS[11], SHELLS[2])),
     known(rollers(cylinders), "cylinders, graded to 1:32"),
     known(rollers(spheres, cells=(4, 5), levels=(4, 4)), "spheres as sections, graded to 1:16"),
 ]
 
-OPTIMIZE = {"Task": "optimize"}
 BARS, BLOCKS = "tests/scenes/two-bars.prm", "tests/scenes/two-blocks-2d.prm"
 
 
 def search(path, **entries):
-    return of_file(path, **{"Task": "optimize", **entries})
+    return changed(path, {"Task": "optimize", **entries})
 
 
 def compliance(value, bound):
@@ -92,7 +78,7 @@ def volume_gradient(result):
 
 
 def sensitivity(**entries):
-    return of_file(BLOCKS, **{"Task": "sensitivity", "Gradient/Compare": "false", **entries})
+    return changed(BLOCKS, {"Task": "sensitivity", "Gradient/Compare": "false", **entries})
 
 
 def rocking(cases):
