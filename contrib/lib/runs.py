@@ -185,7 +185,7 @@ def run(scene_file, entries=(), ranks=1, *, mesh=None, options=(), program=None,
         timeout=SECONDS, accepted=(0,), inspect=Result):
     """Return the Run of a scene. mesh: the bytes of mesh.msh beside it; options: further words
     of the command, launcher those of mpirun; accepted: the statuses of runs that leave a
-    result, which inspect(directory, share) reads."""
+    result, None for all, which inspect(directory, share) reads."""
     with tempfile.TemporaryDirectory() as folder:
         directory = pathlib.Path(folder)
         path = ROOT / scene_file if "\n" not in str(scene_file) else directory / "scene.prm"
@@ -199,7 +199,8 @@ def run(scene_file, entries=(), ranks=1, *, mesh=None, options=(), program=None,
         cpu = usage.ru_utime + usage.ru_stime
         message = next((line for line in errors.splitlines() if line.startswith("snug: ")),
                        f"stopped after {timeout} s" if seconds > timeout else "")
-        left = status in accepted and (output / "summary.json").exists()
+        left = ((accepted is None or status in accepted) and
+                (output / "summary.json").exists())
         return Run(status, message, inspect(output, cpu / seconds) if left else None, said,
                    seconds, cpu, usage.ru_maxrss / 1024)
 
