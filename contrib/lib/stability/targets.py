@@ -108,6 +108,44 @@ def over_corner(cells, lower=None, **settings):
                   {"Pairs": "lower.top: upper.bottom", "Slave": "first"}, **settings)
 
 
+def narrow(upper=None, lower=None, **settings):
+    """Return two wide blocks under an even pressure, with four cells along them."""
+    wide = {"Box size": "2, 1", "Box cells": "4, 2"}
+    return blocks({**wide, "Box corner": "-1, 1", "Supports": "left: x, right: x",
+                   "Pressure": "top: 3", **(upper or {})},
+                  {**wide, "Box corner": "-1, 0", "Supports": "left: x, right: x, bottom: y",
+                   **(lower or {})}, **settings)
+
+
+def last(name, right, bound):
+    """Return what is asked of a response on the last mesh."""
+    return lambda result: [met(result), Figure(
+        name, result.summary["accuracy"]["meshes"][-1]["responses"][name]["value"], right, bound)]
+
+
+# Data with a scale of 0.06 to 0.19 of a face of the first mesh. The force is that of the load;
+# the others are those of meshes of degree 2 that are graded to a seventh of this scale.
+NARROW = [
+    Row("a narrow load",
+        target(narrow({"Pressure": "top: 3 + 100*(abs(x - .186) < .025)"}), "contact force: 2 %"),
+        Solved(last("contact force", 11., 4e-2)), ONE, quick=True),
+    Row("a narrow gap",
+        target(narrow(contact={"Method": "mortar", "Gap":
+                               "-0.0013566*exp(-((x-(0.257715))^2)/0.00222474)"}, parts=1),
+               "peak pressure: 2 %"),
+        Solved(last("peak pressure", 8.08053, 4e-2)), ONE, quick=True),
+    Row("a narrow curve of a face",
+        target(narrow({"Curved faces":
+                       "bottom: 0.000457783*exp(-((x-(0.480657))^2)/0.000212561)"},
+                      contact={"Method": "nodal"}, parts=3), "peak pressure: 2 %"),
+        Solved(last("peak pressure", 7.51748, 4e-2)), ONE, quick=True),
+    Row("a narrow warp",
+        target(narrow(lower={"Warp": "0; y^4*(-0.00107158*"
+                                     "exp(-((x-(0.624041))^2)/0.00217587))"}, parts=3),
+               "contact area: 5 %"),
+        Solved(last("contact area", 1.91439, .1)), ONE, quick=True),
+]
+
 DOUBTFUL = [
     Row("contact on a fifth of a face", target(pressed()), Solved(as_truth(fine())), quick=True),
     Row("no node touches on the first mesh, a bump between its nodes does", BUMP,
@@ -179,4 +217,4 @@ MET = [
           ("bump", BUMP), ("solid", target(pressed(**SOLID), "peak pressure: 5 %")))),
 ]
 
-ROWS = [*DOUBTFUL, *MET]
+ROWS = [*DOUBTFUL, *MET, *NARROW]
