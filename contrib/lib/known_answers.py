@@ -100,38 +100,19 @@ def lame(model):
                               for which in (min, max)]
 
 
-def perfect_fit():
-    """Persson's pin of equal material without clearance: half of the contact
-    angle and the largest pressure times radius over load."""
-    def logarithm(s, r):
-        return math.log((r + s) / (r - s))
-
-    def clearance(b):
-        n, total = 2000, 0.
-        for i in range(n):
-            angle = math.pi * ((i + .5) / n - .5)
-            t, weight = b * math.sin(angle), b * math.cos(angle) * math.pi / n
-            total += weight * logarithm(b * math.cos(angle),
-                                        math.hypot(1, b)) / (1 + t * t)
-        return 2 * (1 - b * b) - total / (math.pi * (1 + b * b))
-    low, high = .5, 1.
-    for _ in range(50):
-        middle = (low + high) / 2
-        low, high = ((middle, high) if clearance(middle) > 0
-                     else (low, middle))
-    r = math.hypot(1, low)
-    return low, (2 * low / (math.pi * r) + logarithm(low, r) /
-                 (2 * math.pi * low**2 * (1 + low**2)))
+# Persson's pin of equal material without clearance: the tangent of half of the contact angle
+# over 2, where the clearance of his solution is zero, and the largest pressure times radius over
+# load: (2b / (pi r) + log((r + b) / (r - b)) / (2 pi b^2 (1 + b^2))) with r^2 = 1 + b^2.
+PERFECT_FIT, PEAK_OF_FIT = .9135727915594121, .5996286689174073
 
 
 def pin_in_hole(result, _):
     load = 2 * abs(result.state["contact_force"][1])
-    b, pressure = perfect_fit()
-    end = result.half_width(b, lambda p: math.tan(
+    end = result.half_width(PERFECT_FIT, lambda p: math.tan(
         math.atan2(abs(p["x"]), -p["y"]) / 2), first=.8, last=.98)
-    return [("p0", max(result.pressures()), pressure * load),
+    return [("p0", max(result.pressures()), PEAK_OF_FIT * load),
             ("end [degrees]", math.degrees(2 * math.atan(end)),
-             math.degrees(2 * math.atan(b)))]
+             math.degrees(2 * math.atan(PERFECT_FIT)))]
 
 
 def gear_pair(result, _):

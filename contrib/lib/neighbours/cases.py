@@ -4,12 +4,11 @@ import collections
 import functools
 import inspect
 import math
-import sys
 
-from runs import print_head, print_row, run_once
+from runs import print_head, print_row, run_once, scene
 
 # setting: what tells a case from its neighbours; text: of the parameter file; asked: returns the
-# figures of a Result; mesh: makes the bytes of mesh.msh beside the file, None if it cannot.
+# figures of a Result; mesh: returns the bytes of mesh.msh beside the file.
 Case = collections.namedtuple("Case", "family setting text asked ranks mesh", defaults=[1, None])
 # bound: on |found / right - 1|, or on |found| where right is 0.
 Figure = collections.namedtuple("Figure", "name found right bound")
@@ -21,31 +20,39 @@ def error(figure):
 
 
 def label(settings):
-    """Return 'subdomains 3, ranks 2' for settings by name, without those that are None."""
-    return ", ".join(f"{name.replace('_', ' ')} {value}"
-                     for name, value in settings.items() if value is not None)
+    """Return 'subdomains 3, ranks 2' for settings by name."""
+    return ", ".join(f"{name} {value}" for name, value in settings.items())
 
 
 def family(name, head):
     """Return a decorator of functions that return (text, asked) or (text, asked, mesh) for some
     settings: with it they return Cases of the family, also for so many ranks. What tells a case
-    from its neighbours are the settings of the head, the part, and all that are not the
-    default."""
+    from its neighbours are the settings of the head, the part, and all others that are given."""
     def decorator(make):
         signature = inspect.signature(make)
 
         @functools.wraps(make)
         def case(*numbers, ranks=1, **settings):
             given = signature.bind(*numbers, **settings)
-            given.apply_defaults()
+            named = [key for key in given.arguments if "{" + key + "}" in head]
             shown = {key: value for key, value in given.arguments.items()
-                     if "{" + key + "}" not in head and
-                     (key == "part" or value != signature.parameters[key].default)}
+                     if key not in (*named, "settings")}
+            given.apply_defaults()
+            if "part" in signature.parameters:
+                shown = {"part": given.arguments["part"], **shown}
+            shown.update(given.arguments.get("settings", {}))
             text, asked, *mesh = make(*numbers, **settings)
             return Case(name, f"{head.format(**given.arguments)} " + label(
                 {**shown, "ranks": ranks}), text, asked, ranks, *mesh)
         return case
     return decorator
+
+
+def contact_scene(bodies, contact, degree=1, method="auto", slave="finer", subdomains="auto",
+                  **entries):
+    """Return the text of bodies in contact with the settings that all families have."""
+    return scene(bodies, {**contact, "Method": method, "Slave": slave},
+                 {"Subdomains": subdomains}, Element_degree=degree, **entries)
 
 
 def torque(result, radius, bound=1e-9):
@@ -75,11 +82,7 @@ def print_head_of_figures():
 def examine(case):
     """Print the rows of a case, and return what is wrong with it as messages."""
     name = f"{case.family}, {case.setting}"
-    mesh = case.mesh() if case.mesh else None
-    if case.mesh and not mesh:
-        print(f"{name}: left out, there is no Gmsh", file=sys.stderr)
-        return []
-    done = run_once(case.text, ranks=case.ranks, mesh=mesh)
+    done = run_once(case.text, ranks=case.ranks, mesh=case.mesh and case.mesh())
     if not done.result:
         print_row(case.family, case.setting, done.message, *4 * "-", done.status, "-", "-")
         return [f"{name}: status {done.status}, {done.message}"]
