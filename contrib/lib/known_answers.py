@@ -83,21 +83,28 @@ def lame_spheres():
     return E / (1 - 2 * nu), 1 / ((1 - 2 * nu) / E + shell)
 
 
-def lame(model):
-    """Pressure of an interference 0.002 at radius 2 between rings from 1 to 2
-    and 2 to 3."""
+def lame_pressure(model):
+    """Return the pressure of an interference 0.002 at radius 2 between rings from 1 to 2 and 2
+    to 3."""
     a, b, c = 1., 2., 3.
     compliance = 0.
     for E, nu, ratio, sign in ((2000, .2, (c * c + b * b) / (c * c - b * b), 1),
-                               (1000, .3, (b * b + a * a) / (b * b - a * a),
-                                -1)):
+                               (1000, .3, (b * b + a * a) / (b * b - a * a), -1)):
         if model == "plane strain":
             E, nu = E / (1 - nu * nu), nu / (1 - nu)
         compliance += (ratio + sign * nu) / E
-    pressure = .002 / (b * compliance)
-    return lambda result, _: [(f"pressure, {which.__name__}",
-                               which(result.pressures()), pressure)
-                              for which in (min, max)]
+    return .002 / (b * compliance)
+
+
+def extremes(result, answer, pair=None):
+    """Return the least and the largest pressure as quantities."""
+    name = "pressure" if pair is None else f"pressure, pair {pair + 1}"
+    return [(f"{name}, {which.__name__}", which(result.pressures(pair)), answer)
+            for which in (min, max)]
+
+
+def lame(model):
+    return lambda result, _: extremes(result, lame_pressure(model))
 
 
 # Persson's pin of equal material without clearance: the tangent of half of the contact angle
@@ -178,15 +185,11 @@ def incompressible(result, fine):
 
 
 def uniform_pressure(result, _):
-    return [(f"pressure, {which.__name__}", which(result.pressures()), 1.)
-            for which in (min, max)]
+    return extremes(result, 1.)
 
 
 def stack(result, _):
-    return [(f"pressure, {name}, {which.__name__}",
-             which(result.pressures(pair)), 2.)
-            for pair, name in ((0, "upper"), (1, "lower"))
-            for which in (min, max)]
+    return extremes(result, 2., 0) + extremes(result, 2., 1)
 
 
 def floating_block(result, _):
