@@ -3,7 +3,7 @@
 from runs import scene
 
 from outcomes import ALL, ONE, SOLVERS, Refused, Row, Solved, SolvedOrRefused
-from scenes import blocks, even, finish, hump, sinks, untorn
+from scenes import blocks, even, hump, sinks, untorn
 
 POWERS = (-9, -6, -3, 3, 6, 9)
 ENDS = (-12, -6, 6, 12)
@@ -27,9 +27,9 @@ def inside(power, region, solver=None, **body):
                                            "Young's modulus": "", "Region formulas": region,
                                            **body},
                   Materials="core, rest", solver=solver,
-                  extra=[("Material core", {"Young's modulus": 10.**power * 1000,
-                                            "Poisson's ratio": 0}),
-                         ("Material rest", {"Young's modulus": 1000, "Poisson's ratio": 0})]
+                  sections={"Material core": {"Young's modulus": 10.**power * 1000,
+                                              "Poisson's ratio": 0},
+                            "Material rest": {"Young's modulus": 1000, "Poisson's ratio": 0}}
                   ).replace("  set Young's modulus = \n", "")
 
 
@@ -182,13 +182,13 @@ TEARING = [
                {"Box size": ".01, .01, 1", "Box cells": "1, 1, 20"}, parts=40, dim=3),
         Solved(even(bound=1e-4))),
     Row("a stiff block on a nearly incompressible one",
-        finish(scene({"punch": {"Box corner": "1, 1.5, 2.5", "Box cells": "5, 5, 5",
-                                "Young's modulus": 1000, "Poisson's ratio": 0,
-                                "Displacement": "top: x = 0, top: y = 0, top: z = -.7142857"},
-                      "base": {"Box size": "9, 4, 2.5", "Box cells": "24, 12, 6",
-                               "Young's modulus": 1, "Poisson's ratio": .499,
-                               "Formulation": "B-bar", "Supports": "bottom: xyz"}},
-                     {"Pairs": "punch.bottom: base.top", "Method": "mortar"}, Dimension=3)),
+        scene({"punch": {"Box corner": "1, 1.5, 2.5", "Box cells": "5, 5, 5",
+                         "Young's modulus": 1000, "Poisson's ratio": 0,
+                         "Displacement": "top: x = 0, top: y = 0, top: z = -.7142857"},
+               "base": {"Box size": "9, 4, 2.5", "Box cells": "24, 12, 6",
+                        "Young's modulus": 1, "Poisson's ratio": .499,
+                        "Formulation": "B-bar", "Supports": "bottom: xyz"}},
+              {"Pairs": "punch.bottom: base.top", "Method": "mortar"}, Dimension=3),
         methods=ONE),
 ]
 

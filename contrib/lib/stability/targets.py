@@ -82,12 +82,12 @@ IDLE = blocks({"Pressure": "", "Curved faces": ROUND["Curved faces"]})
 AS_WHOLE = blocks({"Pressure": "", "Supports": "left: x", "Displacement": "top: y = -.001"},
                   {"Supports": "bottom: xy"}, {"Gap": 10})
 NO_LOAD = {"Pressure": ""}
-OFF_AND_ON = {"Load_cases": "off, on", "extra": (
-    ("Load case off", {"Displacement": "upper.top: y = .01"}),
-    ("Load case on", {"Displacement": "upper.top: y = -.0004"}))}
-TWO_CASES = {"Load_cases": "light, heavy", "extra": (
-    ("Load case light", {"Pressure": "upper.top: .05"}),
-    ("Load case heavy", {"Pressure": "upper.top: .4"}))}
+OFF_AND_ON = {"Load_cases": "off, on", "sections": {
+    "Load case off": {"Displacement": "upper.top: y = .01"},
+    "Load case on": {"Displacement": "upper.top: y = -.0004"}}}
+TWO_CASES = {"Load_cases": "light, heavy", "sections": {
+    "Load case light": {"Pressure": "upper.top: .05"},
+    "Load case heavy": {"Pressure": "upper.top: .4"}}}
 CORNER = blocks({"Box size": ".5, 1"}, {"Box cells": "8, 4", "Supports": "bottom: xy"})
 SOLID = {"dim": 3, "upper": {"Curved faces": "bottom: -(x^2+y^2)/(2*4)"}}
 AT_POINT = {"Refine where": ".3 - sqrt(x^2 + y^2 + (z-1)^2)", "Local refinements": 2}
@@ -95,9 +95,8 @@ AT_POINT = {"Refine where": ".3 - sqrt(x^2 + y^2 + (z-1)^2)", "Local refinements
 
 def held():
     """A point that a support holds."""
-    return blocks(ROUND, extra=(("Response held", {
-        "Quantity": "displacement", "Point": "0, .5", "Component": "x"}),)).replace(
-            "Responses = top", "Responses = top, held")
+    return blocks(ROUND, Responses="top, held", sections={"Response held": {
+        "Quantity": "displacement", "Point": "0, .5", "Component": "x"}})
 
 
 def over_corner(cells, lower=None, **settings):
