@@ -40,7 +40,7 @@ STAGES = ["setup", "assembly", "factorization", "soft_modes", "solve", "gradient
 
 
 def cubes(n, *entries):
-    """Both bodies of the paper's scene with n cells per edge."""
+    """Return entries of both bodies of the paper's scene with n cells per edge."""
     return [f"Body {body}/Box cells={n}, {n}, {n}" for body in ("punch", "foundation")] + [
         *entries]
 
@@ -107,7 +107,7 @@ def gradient_cases(sizes, quick):
 
 
 def bounds(text, factor):
-    """The entries of all bounds in a parameter file, wider by a factor."""
+    """Return the entries of all bounds in a parameter file, wider by a factor."""
     section, entries = "", []
     for line in text.splitlines():
         words = line.split("=")

@@ -53,7 +53,7 @@ def axisymmetric_point_contact(result, _):
 
 
 def solid_against_axisymmetric(result, section):
-    """The same cylinders as a section; loads of the full ones."""
+    """The answer is that of the same cylinders as a section, for the load of full ones."""
     load = 4 * abs(result.state["contact_force"][2])
     known = abs(section.state["contact_force"][1])
     a = section.half_width(.23, lambda p: p["x"])
@@ -76,7 +76,7 @@ def gmsh_pin(result, _):
 
 
 def lame_spheres():
-    """Of a ball in a rigid cavity and in a shell, the pressures over the interference; all
+    """Return the pressures over the interference of a ball in a rigid cavity and in a shell; all
     radii are 1, the shell's outer one is 2."""
     E, nu = 1000, .3
     shell = ((1 - 2 * nu) + (1 + nu) * 2**3 / 2) / (E * (2**3 - 1))
@@ -123,7 +123,8 @@ def pin_in_hole(result, _):
 
 
 def gear_pair(result, _):
-    """Statics, and cylinders with the radii of the involutes at the pitch point."""
+    """The answers are those of statics, and of cylinders with the radii of the involutes at the
+    pitch point."""
     radii, width, moment, alpha = (40., 60.), 10., 1e5, math.radians(20)
     tooth = moment / (radii[0] * math.cos(alpha))
     force = math.hypot(*result.state["contact_force"])
@@ -137,7 +138,7 @@ def gear_pair(result, _):
 
 
 def hip_joint(result, section):
-    """The same joint as a section. Pressures of both are on the cup; left out are nodes on
+    """The answer is that of the same joint as a section. Pressures of both are on the cup; left out are nodes on
     the symmetry planes, where the head covers less of their areas."""
     def polar(point, axis):
         return math.acos(max(-1., -point[axis] / 14.1))
@@ -157,7 +158,7 @@ def hip_joint(result, section):
 
 
 def flat_punch(result, _):
-    """The force within 0.9 of the half width and the pressure in the middle."""
+    """Quantities are the force within 0.9 of the half width and the pressure in the middle."""
     load = abs(result.state["contact_force"][1])
     middle = min(result.points, key=lambda p: abs(p["x"]))
     inner = math.fsum(abs(p["force"]) for p in result.points if p["x"] < .9)
@@ -193,7 +194,7 @@ def stack(result, _):
 
 
 def floating_block(result, _):
-    """Pressure 1 on the unit top of the block."""
+    """The pressure on the unit top of the block is 1."""
     return [("contact force", abs(result.state["contact_force"][2]), 1.)]
 
 
@@ -205,7 +206,7 @@ def five_bodies(result, _):
 
 
 def crowned_punch(result, _):
-    """The even pressure 1 and the profile of a rigid punch that has it: how far the
+    """The answers are the even pressure 1 and the profile of a rigid punch that has it: how far the
     half plane sinks less at x than in the middle (Johnson, 2.5)."""
     points = sorted(result.points, key=lambda p: p["x"])
 
@@ -219,7 +220,7 @@ def crowned_punch(result, _):
 
 
 def shrunk_hub(result, _):
-    """The force it started with; no peak is below that over the area."""
+    """The force is that of the start, and no peak is below the force over the area."""
     force = result.summary["initial_state"]["responses"]["hold"]
     found = result.state["responses"]
     return [("force", found["hold"], force),
@@ -235,8 +236,7 @@ def bush(result, _):
 
 
 def leaf_spring(result, _):
-    """Masses as they were; the stress of 40 cells along the upper leaf and 2
-    across."""
+    """Masses are as they were; the stress is that of 40 cells along the upper leaf and 2 across."""
     start = result.summary["initial_state"]["responses"]
     found = result.state["responses"]
     return [(name, found[name], start[name])

@@ -18,7 +18,7 @@ WORDS = ("label", "skip", "value", "error", "error %")
 
 
 class PageError(Exception):
-    """One line that names the page and what is wrong."""
+    """This class is one line that names the page and what is wrong."""
 
 
 def pages():

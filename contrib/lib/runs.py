@@ -22,7 +22,7 @@ SECONDS = 300  # after which a run is stopped
 
 
 class RunError(Exception):
-    """The program did not solve a scene."""
+    """This class tells that the program did not solve a scene."""
 
 
 # Scenes.

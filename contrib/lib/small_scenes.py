@@ -32,7 +32,7 @@ RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
 
 
 def two_materials(result, _):
-    """Per thickness: int N^2 / 2M over the bar's length, whose height is 10."""
+    """The energy per thickness is int N^2 / 2M over the bar's length, whose height is 10."""
     soft, hard = guided_modulus(10, .4), guided_modulus(210000, .3)
     core, coat = 1.2e-9 * 9810 * 10, 7.85e-9 * 9810 * 10  # stresses by weight
     hanging = (10 * (4 * coat**2 + 2 * coat * core + core**2 / 3) / soft +
@@ -49,8 +49,8 @@ def named_boundaries(result, _):
 
 
 def lame_cylinder(result, _):
-    """Of radius 1, a rod 0.002 too thick; a tube up to radius 2 on a pin 0.001 too
-    thick; plane strain."""
+    """A rod of radius 1 is 0.002 too thick, and a tube up to radius 2 is on a pin 0.001 too thick,
+    in plane strain."""
     E, nu = 1000, .3
     return [("p on the rod", result.mean_pressure(0),
              .002 * E / ((1 + nu) * (1 - 2 * nu))),
@@ -59,8 +59,8 @@ def lame_cylinder(result, _):
 
 
 def lame_sphere(result, _):
-    """A ball 0.002 too large for its rigid cavity, one 0.001 too large for the elastic
-    shell around it."""
+    """A ball is 0.002 too large for its rigid cavity, one is 0.001 too large for the elastic shell
+    around it."""
     cavity, shell = known_answers.lame_spheres()
     return [("p in the cavity", result.mean_pressure(0), .002 * cavity),
             ("p in the shell", result.mean_pressure(1), .001 * shell)]
@@ -82,7 +82,7 @@ def rows_of_disc(floor, lid):
 
 
 def six_blocks(result, _):
-    """What presses from above: the traction on top, body forces of the fifth and the
+    """Forces are what presses from above: the traction on top, body forces of the fifth and the
     second block, and the traction on the side of the second."""
     top = 1.097 * 2.2965 * 1.2125
     fourth = top - .047401 * 2.0248 * 1.2925 * .50111
@@ -93,7 +93,7 @@ def six_blocks(result, _):
 
 
 def even_stress(result, _):
-    """Any mesh finds it."""
+    """Any mesh has an even stress without error."""
     error = result.state["accuracy"]
     return [("estimated error", error["relative"], Below(1e-6)),
             *((f"estimated error of {name}", of_response, Below(1e-6))
@@ -116,7 +116,7 @@ def scaling_law(accuracy):
 
 
 def array(picture, name, width):
-    """The rows of a field of a .vtu file: Float32, blocks packed by zlib."""
+    """Return the rows of a field of a .vtu file: Float32, blocks packed by zlib."""
     text = re.search(rf'{name}[^>]*>\s*([^\s<]+)', picture).group(1)
     head = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
     # lengths: of the list, a block, the last block, and each packed one
@@ -130,8 +130,8 @@ def array(picture, name, width):
 
 
 def shape_gradient(result, _):
-    """Against fields of the design variables, (x, 0) and (0, y - 0.5): each node once,
-    though cells share it."""
+    """Its products with the fields of the design variables, (x, 0) and (0, y - 0.5), are the
+    gradient; each node counts once, though cells share it."""
     of_nodes = dict(zip(array(result.picture, "<Points>\\s*<DataArray", 3),
                         array(result.picture, 'Name="shape_gradient"', 3)))
     values = result.summary["gradient"]["values"]
@@ -141,7 +141,7 @@ def shape_gradient(result, _):
 
 
 def one_method(result, beside):
-    """Only the method that is asked for, which finds what the other does."""
+    """There is only the method that is asked for, which finds what the other does."""
     found, other = (of.summary["gradient"] for of in (result, beside))
     return [("methods", len(found["methods"]), 1),
             (f"{found['method']} against {other['method']}", found["values"],
@@ -149,7 +149,7 @@ def one_method(result, beside):
 
 
 def paired_anew(result, _):
-    """The state of the final design, which pairs at that design."""
+    """The answer is the state of the final design, which pairs at that design."""
     found = result.summary["optimization"]
     state = solve("tests/scenes/paired-anew.prm", [
         "Task=state", "Shape/Initial=" + ", ".join(map(repr, found["design"]))])
@@ -163,7 +163,7 @@ def mirror_images(result, beside):
 
 
 def two_bars(result, _):
-    """Sum of F^2 L / EA is least for areas as the forces: (1 + 2)^2 2 / (1000 2)."""
+    """The sum of F^2 L / EA is least for areas as the forces: (1 + 2)^2 2 / (1000 2)."""
     found = result.summary["optimization"]
     return [("compliance", found["objective_final"], 9e-3),
             ("height of the weak bar", 1 + found["design"][0], 2 / 3),
@@ -171,7 +171,7 @@ def two_bars(result, _):
 
 
 def stops_by(reason):
-    """Earlier than the scene beside, and for that reason."""
+    """Return the measure that a search stops earlier than that beside, and for that reason."""
     def measure(result, beside):
         found = result.summary["optimization"]
         return [(f"stops by {reason}", float(found["stop_reason"] == reason), 1.),

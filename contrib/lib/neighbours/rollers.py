@@ -81,8 +81,9 @@ FINEST = {cylinders: {"levels": (6, 6)}, spheres: {"levels": (5, 5)},
 
 
 def rollers(make, *, ranks=1, finer=False, **settings):
-    """The largest pressure within 1 % of that of the finest matching run; within 10 % and
-    with a warning of nodal rows on unlike meshes, or of a finer side made the slave."""
+    """Return the case that the largest pressure is within 1 % of that of the finest matching run;
+    within 10 % and with a warning of nodal rows on unlike meshes, or of a finer side made the
+    slave."""
     problem = {name: value for name, value in settings.items() if name in PROBLEM}
     forced = ("is nodal, but" if settings.get("method") == "nodal" and "cells" in settings
               else "times finer" if settings.get("slave") == "first" and finer else None)

@@ -10,8 +10,8 @@ QUARTERS = {"quarter": 1, "half": 2, "full": 4, "eighth": 1}
 
 
 def thick_wall(model, E, nu, inner, outer, r):
-    """Displacements at r of a cylinder or a shell by unit pressure inside and outside
-    (Lame)."""
+    """Return the displacements at r of a cylinder or a shell by unit pressure inside and outside
+    (Lamé)."""
     power = 3 if model == "solid" else 2
     if model == "plane strain":
         E, nu = E / (1 - nu**2), nu / (1 - nu)
@@ -23,7 +23,7 @@ def thick_wall(model, E, nu, inner, outer, r):
 
 
 def nested_pressure(model, radii, materials, pressure, interference):
-    """Between two nested bodies, with the pressure inside."""
+    """Return the pressure between two nested bodies, with the pressure inside."""
     a, b, c = radii
     by_inside, by_contact = thick_wall(model, *materials[0], a, b, b)
     outer, _ = thick_wall(model, *materials[1], b, c, b)
@@ -72,7 +72,7 @@ SAME = ((1000, .3), (1000, .3))
 @family("rings", "{inner}/{outer}")
 def rings(inner, outer, part="full", radii=(20, 30, 40), materials=SAME, model="plane strain",
           turned=0, refinements=0, method="auto", **settings):
-    """Cells along the part. Nodes are within 1 % from 15 cells per quarter on, within 0.1 % from
+    """The cells are those along the part. Nodes are within 1 % from 15 cells per quarter on, within 0.1 % from
     120 on, and the mean is of second order; nodal rows on unlike meshes within 10 and 1 %."""
     layers = [max(3, round(.4 * n / QUARTERS[part])) for n in (inner, outer)]
     text = nested(2, (inner, outer), layers, part, radii, materials, turned, refinements,
@@ -190,7 +190,7 @@ PINS = [
 @family("shells", "{inner}/{outer}")
 def shells(inner, outer, part="eighth", radii=(20, 30, 40), materials=SAME, layers=None,
            refinements=0, method="auto", **settings):
-    """Cells of a block. From 10/8 on the mean is within 1 % and nodes within 3 %; below that the
+    """The cells are those of a block. From 10/8 on the mean is within 1 % and nodes within 3 %; below that the
     mean is of second and nodes of first order."""
     text = nested(3, (inner, outer), layers or (inner, outer), part, radii, materials,
                   refinements=refinements, method=method, Model="solid", **settings)

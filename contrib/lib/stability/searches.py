@@ -10,7 +10,7 @@ from scenes import blocks, force
 
 
 def known(case, name=None, methods=SOLVERS, quick=False):
-    """A neighbour with its figures."""
+    """Return the row of a neighbour with its figures."""
     return Row(name or f"{case.family}, {case.setting}", case.text, Solved(case.asked), methods,
                False, case.mesh, quick)
 
@@ -46,7 +46,7 @@ def compliance(value, bound):
 
 
 def tight(algorithm):
-    """Heights between 0.9 and 1.1, the right ones being 2/3 and 4/3: both end at a bound, as
+    """Return the row of heights between 0.9 and 1.1, the right ones being 2/3 and 4/3: both end at a bound, as
     areas of 2 mm^2 in all do. Compliance of a bar: F^2 L / EA."""
     return Row(f"design at its bounds, {algorithm}",
                search(BARS, **{"Shape lower/Bounds": "-.1, .1", "Shape upper/Bounds": "-.1, .1",
@@ -55,7 +55,7 @@ def tight(algorithm):
 
 
 def at_bound(algorithm):
-    """From there to the right ones."""
+    """Return the row of a search that begins at bounds and ends at the right heights."""
     return Row(f"starts at its bounds, {algorithm}",
                search(BARS, **{"Shape lower/Initial": ".9", "Shape upper/Initial": "-.9",
                                "Optimization/Algorithm": algorithm}),
@@ -73,7 +73,7 @@ def gradient_zero(result):
 
 
 def volume_gradient(result):
-    """Of a unit of length of each of 3 heights of a quadratic Bezier patch of width 1."""
+    """The gradients of 3 heights of a quadratic Bezier patch of width 1 have the sum 1."""
     return [Figure("gradient", sum(result.summary["gradient"]["values"]), 1., 1e-8)]
 
 
@@ -82,7 +82,7 @@ def sensitivity(**entries):
 
 
 def rocking(cases):
-    """Pressed on the left, pulled there, pressed again, and so on: contacts open and close."""
+    """Return a block that is pressed on the left, pulled there, pressed again, and so on."""
     names = [f"c{i}" for i in range(cases)]
     text = blocks({"Box cells": "8, 4", "Pressure": "", "Supports": "left: x"},
                   {"Box cells": "8, 4", "Supports": "bottom: xy"}, Load_cases=", ".join(names))

@@ -15,12 +15,12 @@ NEAR = {"Box cells": "16, 16", "Refine where": ".2 - x^2 - (y-1)^2", "Local refi
 
 
 def pressed(upper=None, lower=None, **settings):
-    """A round block on a flat one, in contact on a fifth of a face."""
+    """Return a round block on a flat one, in contact on a fifth of a face."""
     return blocks({**ROUND, **(upper or {})}, lower, **settings)
 
 
 def fine(upper=None, lower=None, **settings):
-    """The same on the mesh of the truth."""
+    """Return the same on the mesh of the truth."""
     return pressed({**NEAR, **(upper or {})}, {**NEAR, **(lower or {})}, Element_degree=2,
                    **settings)
 
@@ -44,7 +44,8 @@ def value(state, name):
 
 
 def as_truth(truth, bound=1e-2, names=("energy",)):
-    """What a mesh that is not adapted says, of degree 2, in all load cases."""
+    """Return what is asked: the values of a mesh of degree 2 that is not adapted, in all load
+    cases."""
     def asked(result):
         right = run_once(truth).result
         if not right:
@@ -56,7 +57,7 @@ def as_truth(truth, bound=1e-2, names=("energy",)):
 
 
 def same_meshes(text):
-    """As large as on one rank."""
+    """Return what is asked: meshes as large as on one rank."""
     def asked(result):
         one = run_once(text).result
         if not one:
@@ -68,7 +69,7 @@ def same_meshes(text):
 
 
 def bump(cells=4, **near):
-    """Narrower than a face and between its nodes, which alone would not touch."""
+    """Return a bump narrower than a face and between its nodes, which alone would not touch."""
     body = {"Box cells": f"{cells}, {cells}", **near}
     return blocks({**body, "Pressure": "", "Supports": "left: x, top: x",
                    "Curved faces": "bottom: -.1 + .099*exp(-((x - .375)/.08)^2)",
@@ -94,7 +95,7 @@ AT_POINT = {"Refine where": ".3 - sqrt(x^2 + y^2 + (z-1)^2)", "Local refinements
 
 
 def held():
-    """A point that a support holds."""
+    """Return blocks with the displacement of a point that a support holds as response."""
     return blocks(ROUND, Responses="top, held", sections={"Response held": {
         "Quantity": "displacement", "Point": "0, .5", "Component": "x"}})
 
