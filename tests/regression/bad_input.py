@@ -16,7 +16,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "contrib/lib" / folder)
-                for folder in ("", "neighbours", "stability")]
+                for folder in ("", "stability")]
 
 from many import End, run_many  # noqa: E402
 from wrong_entries import (input_cases, option_cases, partial_cases,  # noqa: E402

@@ -1,57 +1,43 @@
 """Rows about searches, limits and derivatives, and scenes of files and of other studies."""
 
-import re
+from runs import changed, section
 
-from cases import Figure, section
-from gallery_runs import ROOT
+from cases import Figure
 from outcomes import ALL, ONE, SOLVERS, Refused, Row, Solved
 from rollers import cylinders, rollers, spheres
 from round_bodies import PINS, RINGS, SHELLS
 from scenes import blocks, force
 
 
-def of_file(path, **entries):
-    """The text of a scene with these entries, {"Subsection/Entry": value}, at its end."""
-    text = (ROOT / path).read_text()
-    for name, value in entries.items():
-        title, _, entry = name.rpartition("/")
-        line = {entry: value}
-        # what stands outside of subsections comes first
-        text = text + section(title, line) if title else f"set {entry} = {value}\n" + re.sub(
-            rf"(?m)^set {entry} .*\n", "", text)
-    return text
-
-
 def known(case, name=None, methods=SOLVERS, quick=False):
-    """A neighbour with its figures."""
+    """Return the row of a neighbour with its figures."""
     return Row(name or f"{case.family}, {case.setting}", case.text, Solved(case.asked), methods,
                False, case.mesh, quick)
 
 
 def dense(name, methods=SOLVERS, quick=False):
-    return Row(f"tests/scenes/{name}.prm", of_file(f"tests/scenes/{name}.prm"), Solved(),
+    return Row(f"tests/scenes/{name}.prm", changed(f"tests/scenes/{name}.prm", {}), Solved(),
                methods, True, None, quick)
 
 
 FILES = [
     dense("beyond-edges"), dense("soft-layer", ALL), dense("leaning-stack", ALL),
-    Row("tests/scenes/pull-off.prm", of_file("tests/scenes/pull-off.prm"),
+    Row("tests/scenes/pull-off.prm", changed("tests/scenes/pull-off.prm", {}),
         Refused(3, "no equilibrium: body punch escapes: translation (0 0 1)")),
-    Row("tests/scenes/tipping.prm", of_file("tests/scenes/tipping.prm"),
+    Row("tests/scenes/tipping.prm", changed("tests/scenes/tipping.prm", {}),
         Refused(3, "no equilibrium: body punch escapes")),
-    Row("tests/scenes/solver-entries.prm", of_file("tests/scenes/solver-entries.prm"),
+    Row("tests/scenes/solver-entries.prm", changed("tests/scenes/solver-entries.prm", {}),
         Solved(force(20, component=2)), ALL),
     *map(known, (RINGS[0], RINGS[10], RINGS[11], PINS[1], PINS[3], PINS[11], SHELLS[2])),
     known(rollers(cylinders), "cylinders, graded to 1:32"),
     known(rollers(spheres, cells=(4, 5), levels=(4, 4)), "spheres as sections, graded to 1:16"),
 ]
 
-OPTIMIZE = {"Task": "optimize"}
 BARS, BLOCKS = "tests/scenes/two-bars.prm", "tests/scenes/two-blocks-2d.prm"
 
 
 def search(path, **entries):
-    return of_file(path, **{"Task": "optimize", **entries})
+    return changed(path, {"Task": "optimize", **entries})
 
 
 def compliance(value, bound):
@@ -60,7 +46,7 @@ def compliance(value, bound):
 
 
 def tight(algorithm):
-    """Heights between 0.9 and 1.1, the right ones being 2/3 and 4/3: both end at a bound, as
+    """Return the row of heights between 0.9 and 1.1, the right ones being 2/3 and 4/3: both end at a bound, as
     areas of 2 mm^2 in all do. Compliance of a bar: F^2 L / EA."""
     return Row(f"design at its bounds, {algorithm}",
                search(BARS, **{"Shape lower/Bounds": "-.1, .1", "Shape upper/Bounds": "-.1, .1",
@@ -69,7 +55,7 @@ def tight(algorithm):
 
 
 def at_bound(algorithm):
-    """From there to the right ones."""
+    """Return the row of a search that begins at bounds and ends at the right heights."""
     return Row(f"starts at its bounds, {algorithm}",
                search(BARS, **{"Shape lower/Initial": ".9", "Shape upper/Initial": "-.9",
                                "Optimization/Algorithm": algorithm}),
@@ -87,16 +73,16 @@ def gradient_zero(result):
 
 
 def volume_gradient(result):
-    """Of a unit of length of each of 3 heights of a quadratic Bezier patch of width 1."""
+    """The gradients of 3 heights of a quadratic Bezier patch of width 1 have the sum 1."""
     return [Figure("gradient", sum(result.summary["gradient"]["values"]), 1., 1e-8)]
 
 
 def sensitivity(**entries):
-    return of_file(BLOCKS, **{"Task": "sensitivity", "Gradient/Compare": "false", **entries})
+    return changed(BLOCKS, {"Task": "sensitivity", "Gradient/Compare": "false", **entries})
 
 
 def rocking(cases):
-    """Pressed on the left, pulled there, pressed again, and so on: contacts open and close."""
+    """Return a block that is pressed on the left, pulled there, pressed again, and so on."""
     names = [f"c{i}" for i in range(cases)]
     text = blocks({"Box cells": "8, 4", "Pressure": "", "Supports": "left: x"},
                   {"Box cells": "8, 4", "Supports": "bottom: xy"}, Load_cases=", ".join(names))
