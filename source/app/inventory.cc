@@ -164,7 +164,7 @@ void print(const Inventory<dim> &inventory, std::ostream &out)
   for (const auto &body : inventory.bodies)
     {
       const double size = body.box.lower.distance(body.box.upper);
-      out << "body " << body.name << ": " << body.n_cells << " cells, "
+      out << "body " << body.name << ": " << counted(body.n_cells, "cell") << ", "
           << extents<dim>(body.box, size) << '\n';
       if (body.regions.size() > 1)
         for (const auto &region : body.regions)
@@ -173,7 +173,7 @@ void print(const Inventory<dim> &inventory, std::ostream &out)
             if (region.n_cells == 0)
               out << "all its cells belong to other regions\n";
             else
-              out << region.n_cells << " cells, volume " << region.volume << '\n';
+              out << counted(region.n_cells, "cell") << ", volume " << region.volume << '\n';
           }
       std::size_t width = 0;
       for (const auto &boundary : body.boundaries)

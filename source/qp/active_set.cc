@@ -174,8 +174,8 @@ void ActiveSetRun::solve_on_set()
   negligible = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
   ++outer;
   std::ostringstream line;
-  line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", " << f_mults()
-       << " F-mults";
+  line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", "
+       << counted(f_mults(), "F-mult");
   context.progress(line.str());
 }
 

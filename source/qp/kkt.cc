@@ -197,7 +197,7 @@ SolveError not_converged(const std::string &method,
   std::ostringstream text;
   text.precision(2);
   text << "the " << method << " solver reached a relative KKT residual of " << reached
-       << " instead of " << tolerance << " in " << f_mults << " F-mults"
+       << " instead of " << tolerance << " in " << counted(f_mults, "F-mult")
        << (out_of_f_mults ? "; increase 'Maximum F-mults' or 'Relative tolerance', "
                           : ", and further steps do not reduce it; increase 'Relative tolerance', ")
        << "or use the other solver";

@@ -217,7 +217,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
       solution.kkt_residual = kkt_here().relative;
       std::ostringstream line;
       line << "SMALSE-M, step " << solution.outer_iterations << ": KKT residual "
-           << solution.kkt_residual << ", " << f_mults() << " F-mults";
+           << solution.kkt_residual << ", " << counted(f_mults(), "F-mult");
       context.progress(line.str());
       // Certification removes the violation of the bounds by P x, which increases the residual. The
       // violation falls with ||G_b x||, also where the KKT residual is at its rounding error.

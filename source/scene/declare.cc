@@ -107,7 +107,8 @@ void declare(Entries &entries, Scene &scene)
   declare_named(
     entries, scene.load_cases,
     "The loads of a load case, in addition to the loads of the bodies and of the scene. A "
-    "displacement component that one load case prescribes is zero in the load cases that do not "
+    "displacement component that one load case prescribes is held at zero in the load cases that "
+    "do not "
     "prescribe it.");
   declare_named(entries, scene.obstacles, "A rigid obstacle.");
   entries.begin_section("Contact",

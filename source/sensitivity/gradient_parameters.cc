@@ -15,10 +15,12 @@ void GradientParameters::declare(Entries &entries)
   entries.add("Derivatives", derivatives,
               "The method that differentiates stiffness, loads and contact rows.");
   entries.add("Semi-analytic step", semi_analytic_step, above(0., 0.1),
-              "The step of the differences of 'Derivatives', relative to the cell size.");
+              "The step of the differences of 'Derivatives', relative to the cell size, above 0 "
+              "and at most 0.1.");
   entries.add("Differences", differences, "The formula of overall finite differences.");
   entries.add("Step", step, above(0., 0.1),
-              "The step of overall finite differences, relative to the width of the bounds.");
+              "The step of overall finite differences, relative to the width of the bounds, above "
+              "0 and at most 0.1.");
   entries.add(
     "Shape gradient", shape_gradient,
     "Whether to write the derivative of the objective with respect to the node positions, "

@@ -172,7 +172,7 @@ def check_mesh_files(runner):
             "6 1 hex", "6 9 hex"), {"Materials": "1: steel"},
          ["the region '9' has no material"]),
         ("units that put bodies far apart", good, {"Shift": "0, 0, 1000"},
-         ["part.bottom", "999 apart", "Scale"]),
+         ["part.bottom", "distance of 999", "Scale"]),
         ("face that is not round", good, {"Curved faces": "top: sphere"},
          ["top: sphere", "does not fit"])]
     for title, mesh, entries, names in cases:
@@ -279,7 +279,7 @@ def check_good(runner, scene):
             print(f"FAILED a state: leaves no {name}")
     runner.expect_success("a state without a load", [
         scene, "--output", results, "--set", "Task=state",
-        "--set", "Body upper/Pressure="], "warning: nothing moves")
+        "--set", "Body upper/Pressure="], "warning: all displacements are zero")
     check_pictures(runner, scene)
     runner.expect_success("what was read reads again",
                           ["--validate", results / "parameters.prm"])

@@ -264,8 +264,9 @@ TEST(Warnings, OfFacetsThatContactSees)
   assumptions.facet_height = 0.0051;
   const auto lines         = state::warnings(assumptions);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("are 0.0051 high"), std::string::npos) << lines[0];
-  EXPECT_NE(lines[0].find("closes is 0.1:"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("facet height 0.0051 of a contact surface is 5.1 %"), std::string::npos)
+    << lines[0];
+  EXPECT_NE(lines[0].find("gap or overlap that closes"), std::string::npos) << lines[0];
 }
 
 TEST(Warnings, OfRefineWhereThatCatchesNothing)
