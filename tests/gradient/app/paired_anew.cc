@@ -51,7 +51,7 @@ private:
   void check(const std::vector<double> &design)
   {
     problem.solver->pair(problem.positions(problem.shapes->start()));
-    const auto   states  = problem.solve(design);
+    const auto states = problem.solve(design);
     problem.scale_objective(states);
     const auto   factors = problem.combined_objective(states).factors;
     const double found   = problem.combined_objective(states).value;
