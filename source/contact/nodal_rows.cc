@@ -115,7 +115,7 @@ public:
         // Use the positions of the hanging nodes themselves, because the gap is that of the actual
         // mesh.
         const double gap =
-          n * to_master<dim>(foot.paired.slave, place.surface, positions) + foot.paired.relief;
+          n * to_master<dim>(foot.paired.slave, place.surface, positions) + foot.paired.softening;
         result.push_back(make_row(factors(foot, 1., place.masters), n, gap));
         result.back().off_face = place.off_face;
       }

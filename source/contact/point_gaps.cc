@@ -84,7 +84,7 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       // Normalize, because interpolated normals are shorter between nodes, as in mortar rows, and
       // an offset is too large in comparison.
       result.normal /= result.normal.norm();
-      result.gap             = result.normal * (place(*nearest) - x) + nearest->relief;
+      result.gap             = result.normal * (place(*nearest) - x) + nearest->softening;
       result.masters         = nearest->masters;
       const auto &face       = surface.faces()[nearest->face];
       result.master_boundary = {face.body, face.boundary};

@@ -97,13 +97,13 @@ std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1,
   const auto [face, xi] = ray.value_or(std::make_pair(closest.face, closest.point.xi));
   const auto &of        = surface.faces()[face];
   const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
-  // Where the ray begins on the side, as in a symmetry plane, the side does not end, so the relief
-  // is 0.
+  // Where the ray begins on the side, as in a symmetry plane, the side does not end, so the
+  // softening is 0.
   const double beyond = ray ? 0. : std::max(0., excess);
   const auto   meets =
     of.samples.empty() ? masters : nonzero(rays(face).on_surface(xi).values.value, of.samples);
-  const double relief = edge_relief(beyond, mean_face_size(surface, {face}, positions));
-  return PointProjection<dim>{face, xi, bool(ray), masters, meets, relief};
+  const double softening = edge_softening(beyond, mean_face_size(surface, {face}, positions));
+  return PointProjection<dim>{face, xi, bool(ray), masters, meets, softening};
 }
 
 template <int dim>

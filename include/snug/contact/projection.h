@@ -31,7 +31,7 @@ struct PointProjection
   bool                   is_ray;  ///< false: the closest point, as no ray leads to the node
   Weights                masters; ///< nodes of the face
   Weights                surface; ///< points that give the true surface where the ray meets it
-  double relief; ///< edge_relief() beyond the end of the master side, else 0 [length]
+  double softening; ///< edge_softening() beyond the end of the master side, else 0 [length]
 };
 
 /// Projection of a slave node, computed once per pairing.
@@ -56,7 +56,7 @@ constexpr double edge_tolerance = 0.05;
  * no kink, and it is infinite where nodes cease to carry a row. So forces fade as nodes leave the
  * master side.
  */
-constexpr double edge_relief(double excess, double h)
+constexpr double edge_softening(double excess, double h)
 {
   const double t = excess / edge_tolerance;
   return 0.5 * edge_tolerance * h * t * t * t * t / (1. - t * t);

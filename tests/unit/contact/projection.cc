@@ -178,9 +178,9 @@ TEST(Projection, TheMasterGivesWayBeyondItsEdge)
     }
   EXPECT_EQ(beyond, 5u);
   // without a kink at the edge, without a limit where rows end
-  EXPECT_EQ(edge_relief(0., 1.), 0.);
-  EXPECT_LT(edge_relief(0.01 * edge_tolerance, 1.), 3e-10);
-  EXPECT_GT(edge_relief((1. - 1e-9) * edge_tolerance, 1.), 1e6);
+  EXPECT_EQ(edge_softening(0., 1.), 0.);
+  EXPECT_LT(edge_softening(0.01 * edge_tolerance, 1.), 3e-10);
+  EXPECT_GT(edge_softening((1. - 1e-9) * edge_tolerance, 1.), 1e6);
   EXPECT_LT(derivative_error(scene, contact, 1e-4), 1e-9);
 }
 
