@@ -25,8 +25,8 @@ double offset_across(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, di
 template <int dim>
 Matching matching(const PairGeometry<dim> &pair)
 {
-  const auto           &x = pair.positions;
-  const Opposition<dim> opposition(pair);
+  const auto               &x = pair.positions;
+  const SearchCriteria<dim> criteria(pair);
   using Normals = SupportedNormals<dim>;
   const Normals of_slave(pair.surface, pair.sides.slave, pair.shape, x, pair.held);
   const Normals of_master(pair.surface, pair.sides.master, pair.shape, x, pair.held);
@@ -42,7 +42,7 @@ Matching matching(const PairGeometry<dim> &pair)
           into_slave += master.second * of_master.normals()[master.first];
         }
       const double distance = (point - x[projection.slave]).norm();
-      if (!opposition.is_near(distance))
+      if (!criteria.is_near(distance))
         continue;
       double nearest = std::numeric_limits<double>::max();
       for (const unsigned int node : pair.surface.faces()[projection.face].nodes)

@@ -154,7 +154,7 @@ void MortarRows<dim>::collect_row_nodes()
 template <int dim>
 void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
 {
-  const Opposition<dim>         opposition(pair);
+  const SearchCriteria<dim>     criteria(pair);
   const auto                    all           = rows(pair.positions);
   const mortar::MultiplierNodes old           = multipliers;
   const auto                    old_row_nodes = row_nodes;
@@ -163,7 +163,7 @@ void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
   row_nodes.clear();
   for (unsigned int i = 0; i < all.size(); ++i)
     // Check the gap alone, because the angles of faces were checked when they were paired.
-    if (opposition.is_near(all[i].gap))
+    if (criteria.is_near(all[i].gap))
       {
         index[i] = row_nodes.size();
         multipliers.nodes.push_back(old.nodes[i]);

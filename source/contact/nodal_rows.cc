@@ -76,8 +76,8 @@ public:
   explicit NodalRows(const PairGeometry<dim> &pair)
     : surface(pair.surface), shape(pair.shape), sides(pair.sides), held(pair.held)
   {
-    const Opposition<dim> opposition(pair);
-    const auto            normals = master_normals(pair.positions);
+    const SearchCriteria<dim> criteria(pair);
+    const auto                normals = master_normals(pair.positions);
     for (const Projection<dim> &projection :
          project(surface, sides, shape, pair.positions, normals.normals()))
       {
@@ -85,7 +85,7 @@ public:
         const double distance    = to_master<dim>(slave, projection.surface, pair.positions).norm();
         const auto   n           = row_normal<dim>(projection.masters, normals.normals()).n;
         // Check the distance on both sides, because a deep overlap is as far away as a wide gap.
-        if (pair.taken[slave] || !opposition.holds(slave, distance, n))
+        if (pair.taken[slave] || !criteria.are_met(slave, distance, n))
           continue;
         if (faces::is_without_area(surface, shape.degree(), pair.positions[slave]))
           {

@@ -20,8 +20,8 @@ public:
     , shift(to_point<dim>(pair.pair.obstacle->displacement))
     , slave_faces(pair.sides.slave)
   {
-    const Opposition<dim> opposition(pair);
-    std::vector<bool>     visited = pair.taken;
+    const SearchCriteria<dim> criteria(pair);
+    std::vector<bool>         visited = pair.taken;
     for (const unsigned int face : slave_faces)
       for (const unsigned int node : surface.faces()[face].nodes)
         {
@@ -31,7 +31,7 @@ public:
             continue;
           visited[node] = true;
           const auto d  = obstacle->distance(dealii::Point<dim>(pair.positions[node]));
-          if (!d || !opposition.holds(node, d->value, -d->gradient))
+          if (!d || !criteria.are_met(node, d->value, -d->gradient))
             continue;
           // A row of a node without an area would hold the node, but show no pressure.
           const bool has_area =

@@ -106,7 +106,7 @@ std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
 }
 
 template <int dim>
-Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
+SearchCriteria<dim>::SearchCriteria(const PairGeometry<dim> &pair)
   : normals(faces::NodalNormals<dim>(pair.surface, pair.sides.slave, pair.shape, pair.positions)
               .normals())
 {
@@ -131,7 +131,7 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
                                                   const std::vector<unsigned int> &,            \
                                                   const std::vector<unsigned int> &);           \
   template struct PairGeometry<dim>;                                                            \
-  template class Opposition<dim>;
+  template class SearchCriteria<dim>;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

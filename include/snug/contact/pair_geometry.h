@@ -76,10 +76,10 @@ std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
 /// This class checks whether slave nodes and their opposite points on the master are close enough
 /// and face each other.
 template <int dim>
-class Opposition
+class SearchCriteria
 {
 public:
-  explicit Opposition(const PairGeometry<dim> &pair);
+  explicit SearchCriteria(const PairGeometry<dim> &pair);
 
   /// Return whether the absolute value of @p distance is within the search distance, up to
   /// round-off.
@@ -87,7 +87,7 @@ public:
 
   /// Return whether the node is near and its normal is within the largest angle to the unit
   /// @p normal into the master.
-  bool holds(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const
+  bool are_met(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const
   {
     return is_near(distance) && normals[slave] * normal >= least_cosine;
   }
