@@ -89,7 +89,7 @@ public:
           continue;
         if (faces::is_without_area(surface, shape.degree(), pair.positions[slave]))
           {
-            idle.push_back(slave);
+            zero_area_nodes.push_back(slave);
             continue;
           }
         feet.emplace_back(surface, shape, projection, pair.positions, normals.normals());
@@ -101,7 +101,7 @@ public:
 
   std::vector<SharedNode> shared_nodes() const override
   {
-    return shared_on_axis(surface, sides.slave, slave_nodes, idle);
+    return shared_on_axis(surface, sides.slave, slave_nodes, zero_area_nodes);
   }
 
   std::vector<Row<dim>> rows(const Field &positions) const override
@@ -212,7 +212,8 @@ private:
   faces::HeldDirections<dim>   held;
   std::vector<Foot<dim>>       feet; ///< one per row
   std::vector<unsigned int>    slave_nodes;
-  std::vector<unsigned int>    idle; ///< slave nodes opposite to the master, but without an area
+  std::vector<unsigned int>
+    zero_area_nodes; ///< slave nodes opposite to the master, but without an area
 
   /// Return the surface nodes of a row, ascending, and their factors of n in the coefficients. The
   /// factor of the slave is @p of_slave, the factors of masters are -w_k, and masters that hang are

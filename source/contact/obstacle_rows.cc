@@ -36,7 +36,7 @@ public:
           // A row of a node without an area would hold the node, but show no pressure.
           const bool has_area =
             !faces::is_without_area(surface, shape.degree(), pair.positions[node]);
-          (has_area ? slave_nodes : idle).push_back(node);
+          (has_area ? slave_nodes : zero_area_nodes).push_back(node);
         }
   }
 
@@ -44,7 +44,7 @@ public:
 
   std::vector<SharedNode> shared_nodes() const override
   {
-    return shared_on_axis(surface, slave_faces, slave_nodes, idle);
+    return shared_on_axis(surface, slave_faces, slave_nodes, zero_area_nodes);
   }
 
   std::vector<Row<dim>> rows(const Field &positions) const override
@@ -111,7 +111,8 @@ private:
   std::unique_ptr<Obstacle<dim>> obstacle;
   dealii::Tensor<1, dim>         shift; ///< w
   std::vector<unsigned int>      slave_faces, slave_nodes;
-  std::vector<unsigned int> idle; ///< slave nodes opposite to the obstacle, but without an area
+  std::vector<unsigned int>
+    zero_area_nodes; ///< slave nodes opposite to the obstacle, but without an area
 
   ObstacleDistance<dim> distance(const dealii::Tensor<1, dim> &x) const
   {

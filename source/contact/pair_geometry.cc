@@ -86,14 +86,14 @@ template <int dim>
 std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
                                        const std::vector<unsigned int> &faces,
                                        const std::vector<unsigned int> &slaves,
-                                       const std::vector<unsigned int> &idle)
+                                       const std::vector<unsigned int> &zero_area_nodes)
 {
   std::map<unsigned int, unsigned int> rows_of;
   for (unsigned int i = 0; i < slaves.size(); ++i)
     rows_of[slaves[i]] = i;
   std::vector<SharedNode> result;
   for (const unsigned int f : faces)
-    for (const unsigned int node : idle)
+    for (const unsigned int node : zero_area_nodes)
       {
         auto nodes = surface.faces()[f].nodes;
         if (nodes.back() == node)
