@@ -36,13 +36,13 @@ double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &norm
 /// Shift the row indices: groups number their own rows, but rows of Contact count through all
 /// groups.
 template <int dim>
-void Contact<dim>::collect_shared_nodes()
+void Contact<dim>::collect_dependent_multipliers()
 {
   shared.clear();
   unsigned int first = 0;
   for (const Group &group : groups)
     {
-      for (SharedNode &node : group.rows->shared_nodes())
+      for (DependentMultiplier &node : group.rows->dependent_multipliers())
         {
           for (auto &row : node.rows)
             row.first += first;

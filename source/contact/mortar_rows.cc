@@ -141,12 +141,12 @@ MortarRows<dim>::correction(unsigned int                          i,
 
 /// Leave out hanging nodes, because they have no unknowns on which a force could act.
 template <int dim>
-std::vector<SharedNode> MortarRows<dim>::shared_nodes() const
+std::vector<DependentMultiplier> MortarRows<dim>::dependent_multipliers() const
 {
   std::vector<bool> own(surface.n_nodes(), false);
   for (const unsigned int node : multipliers.nodes)
     own[node] = true;
-  std::vector<SharedNode> result;
+  std::vector<DependentMultiplier> result;
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     if (!own[node] && surface.masters(node).empty() && !multipliers.shares[node].empty())
       result.push_back({node, multipliers.shares[node]});

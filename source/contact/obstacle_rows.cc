@@ -42,9 +42,9 @@ public:
 
   const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
 
-  std::vector<SharedNode> shared_nodes() const override
+  std::vector<DependentMultiplier> dependent_multipliers() const override
   {
-    return shared_on_axis(surface, slave_faces, slave_nodes, zero_area_nodes);
+    return dependent_on_axis(surface, slave_faces, slave_nodes, zero_area_nodes);
   }
 
   std::vector<Row<dim>> rows(const Field &positions) const override

@@ -83,15 +83,15 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
 }
 
 template <int dim>
-std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
-                                       const std::vector<unsigned int> &faces,
-                                       const std::vector<unsigned int> &slaves,
-                                       const std::vector<unsigned int> &zero_area_nodes)
+std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim>        &surface,
+                                                   const std::vector<unsigned int> &faces,
+                                                   const std::vector<unsigned int> &slaves,
+                                                   const std::vector<unsigned int> &zero_area_nodes)
 {
   std::map<unsigned int, unsigned int> rows_of;
   for (unsigned int i = 0; i < slaves.size(); ++i)
     rows_of[slaves[i]] = i;
-  std::vector<SharedNode> result;
+  std::vector<DependentMultiplier> result;
   for (const unsigned int f : faces)
     for (const unsigned int node : zero_area_nodes)
       {
@@ -118,19 +118,19 @@ SearchCriteria<dim>::SearchCriteria(const PairGeometry<dim> &pair)
   least_cosine     = std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) - round_off;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                   \
-  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);        \
-  template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
-                                 const mesh::Surface<dim>::Field &);                            \
-  template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,        \
-                              const Side &);                                                    \
-  template std::vector<double>     node_face_sizes(const mesh::Surface<dim> &,                  \
-                                                   const mesh::Surface<dim>::Field &);          \
-  template std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim> &,                   \
-                                                  const std::vector<unsigned int> &,            \
-                                                  const std::vector<unsigned int> &,            \
-                                                  const std::vector<unsigned int> &);           \
-  template struct PairGeometry<dim>;                                                            \
+#define SNUG_INSTANTIATE(dim)                                                                     \
+  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);          \
+  template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &,   \
+                                 const mesh::Surface<dim>::Field &);                              \
+  template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,          \
+                              const Side &);                                                      \
+  template std::vector<double>              node_face_sizes(const mesh::Surface<dim> &,           \
+                                                            const mesh::Surface<dim>::Field &);   \
+  template std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim> &,         \
+                                                              const std::vector<unsigned int> &,  \
+                                                              const std::vector<unsigned int> &,  \
+                                                              const std::vector<unsigned int> &); \
+  template struct PairGeometry<dim>;                                                              \
   template class SearchCriteria<dim>;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

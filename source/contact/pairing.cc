@@ -151,7 +151,7 @@ void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirectio
       row_places.push_back({p, slave});
   share_rows(positions, held);
   check_named_pairs();
-  collect_shared_nodes();
+  collect_dependent_multipliers();
   measure_pairing(positions);
 }
 

@@ -126,7 +126,7 @@ row_shares(const JoinedPair &joined, const PairGeometry<dim> &geometry, const Ro
   for (const unsigned int slave : slaves)
     result.push_back(areas.at(slave));
   // Add the areas of nodes without a row, whose multiplier functions belong to the rows.
-  for (const auto &shared : group.shared_nodes())
+  for (const auto &shared : group.dependent_multipliers())
     for (const auto &[row, share] : shared.rows)
       for (const auto &[pair, area] : areas.at(shared.node))
         result[row][pair] += share * area;

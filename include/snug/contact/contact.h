@@ -82,7 +82,7 @@ public:
   unsigned int                 n_rows() const { return row_places.size(); }
   const std::vector<RowPlace> &places() const { return row_places; }
   /// Return the shared nodes of all groups, with row indices that count through all groups.
-  const std::vector<SharedNode> &shared_nodes() const { return shared; }
+  const std::vector<DependentMultiplier> &dependent_multipliers() const { return shared; }
 
   std::vector<Row<dim>> rows(const Field &positions) const;
   std::vector<Row<dim>> row_derivatives(const Field &positions, const Field &velocity) const;
@@ -124,17 +124,17 @@ private:
     double step; ///< step of the difference quotients of offset [length]
   };
 
-  const mesh::Surface<dim>   &surface;
-  const faces::FaceShape<dim> shape;
-  std::vector<JoinedPair>     joined;
-  std::vector<Pair>           chosen; ///< the pairs of joined
-  std::vector<NamedPair>      named;
-  std::vector<Matching>       matching_of; ///< one per pair
-  std::vector<Group>          groups;      ///< one per pair
-  std::vector<RowPlace>       row_places;
-  std::vector<SharedNode>     shared;
-  Field                       paired_offsets; ///< one per row, at the pairing
-  std::vector<PairedGaps>     gaps;           ///< one per pair, at the pairing
+  const mesh::Surface<dim>        &surface;
+  const faces::FaceShape<dim>      shape;
+  std::vector<JoinedPair>          joined;
+  std::vector<Pair>                chosen; ///< the pairs of joined
+  std::vector<NamedPair>           named;
+  std::vector<Matching>            matching_of; ///< one per pair
+  std::vector<Group>               groups;      ///< one per pair
+  std::vector<RowPlace>            row_places;
+  std::vector<DependentMultiplier> shared;
+  Field                            paired_offsets; ///< one per row, at the pairing
+  std::vector<PairedGaps>          gaps;           ///< one per pair, at the pairing
 
   PairGeometry<dim> geometry(unsigned int                      p,
                              const Field                      &positions,
@@ -146,7 +146,7 @@ private:
   std::vector<std::vector<bool>> contested_nodes(const Field &positions) const;
   void                           check_named_pairs() const;
   void  share_rows(const Field &positions, const faces::HeldDirections<dim> &held);
-  void  collect_shared_nodes();
+  void  collect_dependent_multipliers();
   void  measure_pairing(const Field &positions);
   Group make_group(const PairGeometry<dim> &geometry) const;
 };

@@ -40,7 +40,7 @@ public:
   explicit MortarRows(const PairGeometry<dim> &pair);
 
   const std::vector<unsigned int> &slaves() const override { return multipliers.nodes; }
-  std::vector<SharedNode>          shared_nodes() const override;
+  std::vector<DependentMultiplier> dependent_multipliers() const override;
   std::vector<Row<dim>>            rows(const Field &positions) const override;
   std::vector<Row<dim>>            row_derivatives(const Field &positions,
                                                    const Field &velocity) const override;

@@ -68,10 +68,11 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
 /// axis has the value (4 p_1 - p_2) / 3 there. @p slaves are the nodes of the rows, and @p
 /// zero_area_nodes are the nodes without an area.
 template <int dim>
-std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
-                                       const std::vector<unsigned int> &faces,
-                                       const std::vector<unsigned int> &slaves,
-                                       const std::vector<unsigned int> &zero_area_nodes);
+std::vector<DependentMultiplier>
+dependent_on_axis(const mesh::Surface<dim>        &surface,
+                  const std::vector<unsigned int> &faces,
+                  const std::vector<unsigned int> &slaves,
+                  const std::vector<unsigned int> &zero_area_nodes);
 
 /// This class checks whether slave nodes and their opposite points on the master are close enough
 /// and face each other.

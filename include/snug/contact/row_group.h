@@ -26,7 +26,7 @@ struct Row
 
 /// A slave node without a row of its own, with the rows that act for it and their shares. The
 /// shares sum to 1, or to less where rows are out of reach.
-struct SharedNode
+struct DependentMultiplier
 {
   unsigned int                                 node; ///< surface node
   std::vector<std::pair<unsigned int, double>> rows;
@@ -55,7 +55,7 @@ public:
   virtual const std::vector<unsigned int> &slaves() const = 0;
 
   /// Return the nodes for which rows of other nodes act. None of these nodes hangs.
-  virtual std::vector<SharedNode> shared_nodes() const { return {}; }
+  virtual std::vector<DependentMultiplier> dependent_multipliers() const { return {}; }
 
   virtual std::vector<Row<dim>> rows(const Field &positions) const = 0;
 
