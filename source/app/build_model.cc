@@ -140,7 +140,7 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
       if (!pair.obstacle)
         {
           const auto [least, largest] = std::minmax({modulus(pair.slave), modulus(pair.master)});
-          pair.contrast               = largest / least;
+          pair.modulus_ratio          = largest / least;
         }
       model.pairs.push_back(std::move(pair));
     }
