@@ -96,7 +96,7 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
         return exchanged.count(part.pair) > 0;
       });
       const auto exchange = [&]() {
-        of.exchange_sides();
+        of.swap_slave_master();
         is_exchanged = !is_exchanged;
       };
       if (known != of.parts.end() && exchanged[known->pair])
