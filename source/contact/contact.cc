@@ -197,9 +197,9 @@ Contact<dim>::point_gaps(const unsigned int                p,
 }
 
 template <int dim>
-std::vector<double> Contact<dim>::slips(const Field                 &positions,
-                                        const std::vector<Row<dim>> &rows,
-                                        const Field                 &displacement) const
+std::vector<double> Contact<dim>::tangential_slips(const Field                 &positions,
+                                                   const std::vector<Row<dim>> &rows,
+                                                   const Field                 &displacement) const
 {
   const auto          sizes = node_face_sizes(surface, positions);
   std::vector<double> result;
@@ -210,8 +210,8 @@ std::vector<double> Contact<dim>::slips(const Field                 &positions,
 }
 
 template <int dim>
-std::vector<double> Contact<dim>::drifts(const Field                 &positions,
-                                         const std::vector<Row<dim>> &rows) const
+std::vector<double> Contact<dim>::pairing_drifts(const Field                 &positions,
+                                                 const std::vector<Row<dim>> &rows) const
 {
   const auto          sizes = node_face_sizes(surface, positions);
   std::vector<double> result;

@@ -76,8 +76,8 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
   std::vector<double> sizes(surface.n_nodes(), 0.);
   for (const auto &face : surface.faces())
     for (const unsigned int node : face.nodes)
-      // Take the largest face, because slips and drifts are compared with what the mesh resolves at
-      // the node.
+      // Take the largest face, because tangential slips and pairing drifts are compared with what
+      // the mesh resolves at the node.
       sizes[node] = std::max(sizes[node], face_size<dim>(face.nodes, positions));
   return sizes;
 }

@@ -104,13 +104,15 @@ public:
   /// @{
   /// Return the displacement of the slave nodes along the master, at right angles to the normals,
   /// for @p rows at @p positions.
-  std::vector<double>
-  slips(const Field &positions, const std::vector<Row<dim>> &rows, const Field &displacement) const;
+  std::vector<double> tangential_slips(const Field                 &positions,
+                                       const std::vector<Row<dim>> &rows,
+                                       const Field                 &displacement) const;
   /// Return how far the slave nodes have moved along the master off the points they were paired
   /// with. The feet of nodal rows follow the nodes within their faces, so only the distance off the
   /// face counts for these rows. For obstacles the value is 0, because the closest point follows
   /// the node.
-  std::vector<double> drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
+  std::vector<double> pairing_drifts(const Field                 &positions,
+                                     const std::vector<Row<dim>> &rows) const;
   /// Return the gaps of each pair at its pairing.
   const std::vector<PairedGaps> &paired_gaps() const { return gaps; }
   /// @}

@@ -67,7 +67,7 @@ void expect_new_pairing(TwoBoxes<dim> scene)
   const auto paired  = contact.rows(scene.positions);
   shake(scene, 2e-3);
   const auto rows   = contact.rows(scene.positions);
-  const auto drifts = contact.drifts(scene.positions, rows);
+  const auto drifts = contact.pairing_drifts(scene.positions, rows);
   const auto other  = scene.contact();
   const auto anew   = other.rows(scene.positions);
   ASSERT_EQ(rows.size(), anew.size());
@@ -195,7 +195,7 @@ TEST(Foot, DriftIsTheWayOffTheFace)
       const auto  contact = scene.contact();
       for (const auto &place : contact.places())
         scene.positions[place.slave] += 0.25 * shift * dealii::Point<2>(1., 0.);
-      const auto drifts = contact.drifts(scene.positions, contact.rows(scene.positions));
+      const auto drifts = contact.pairing_drifts(scene.positions, contact.rows(scene.positions));
       for (unsigned int i = 0; i < drifts.size(); ++i)
         {
           const double x  = scene.surface.reference_positions()[contact.places()[i].slave][0];
