@@ -220,7 +220,7 @@ std::vector<double> Contact<dim>::pairing_drifts(const Field                 &po
       const auto offset             = slave_minus_master(rows[i], positions);
       const auto &[pair, slave, of] = row_places[i];
       const auto &off_face          = rows[i].off_face;
-      // Where the foot follows the node, the offset is along the normal, except for fixed
+      // Where the foot point follows the node, the offset is along the normal, except for fixed
       // coordinates.
       const auto moved = off_face ? offset : offset - paired_offsets[i];
       // The closest point on an obstacle follows the node, so the node cannot drift off this point.

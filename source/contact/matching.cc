@@ -1,7 +1,7 @@
 #include <snug/contact/matching.h>
 #include <snug/contact/nearest_face.h>
 #include <snug/contact/projection.h>
-#include <snug/contact/supported_normals.h>
+#include <snug/faces/nodal_normals.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -27,9 +27,9 @@ Matching matching(const PairGeometry<dim> &pair)
 {
   const auto               &x = pair.positions;
   const SearchCriteria<dim> criteria(pair);
-  using Normals = SupportedNormals<dim>;
-  const Normals of_slave(pair.surface, pair.sides.slave, pair.shape, x, pair.held);
-  const Normals of_master(pair.surface, pair.sides.master, pair.shape, x, pair.held);
+  using Normals = faces::NodalNormals<dim>;
+  const Normals of_slave(pair.surface, pair.sides.slave, pair.shape, x, &pair.held);
+  const Normals of_master(pair.surface, pair.sides.master, pair.shape, x, &pair.held);
   Matching      result;
   for (const Projection<dim> &projection :
        project(pair.surface, pair.sides, pair.shape, x, of_master.normals()))

@@ -108,9 +108,9 @@ public:
                                        const std::vector<Row<dim>> &rows,
                                        const Field                 &displacement) const;
   /// Return how far the slave nodes have moved along the master off the points they were paired
-  /// with. The feet of nodal rows follow the nodes within their faces, so only the distance off the
-  /// face counts for these rows. For obstacles the value is 0, because the closest point follows
-  /// the node.
+  /// with. The foot points of nodal rows follow the nodes within their faces, so only the distance
+  /// off the face counts for these rows. For obstacles the value is 0, because the closest point
+  /// follows the node.
   std::vector<double> pairing_drifts(const Field                 &positions,
                                      const std::vector<Row<dim>> &rows) const;
   /// Return the gaps of each pair at its pairing.

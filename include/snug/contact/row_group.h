@@ -1,6 +1,7 @@
 #ifndef snug_contact_row_group_h
 #define snug_contact_row_group_h
 
+#include <snug/faces/recording.h>
 #include <snug/mesh/surface.h>
 
 #include <optional>
@@ -12,17 +13,29 @@ namespace snug::contact {
  * One row of non-penetration, sum_a c_a . u_a <= gap [length]. The coefficients c_a have no units,
  * so the multiplier of the row is a force: -c_a times the multiplier acts on node a.
  */
-template <int dim>
+template <int dim, typename Number = double>
 struct Row
 {
   /// surface nodes, ascending and without hanging nodes, and c_a
-  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> coefficients;
-  double                                                       gap = 0.;
+  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim, Number>>> coefficients;
+  Number                                                               gap = 0.;
   /// unit normal into the master; -force * normal acts on the slave side
-  dealii::Tensor<1, dim> normal;
-  /// only for a moving foot: distance off its face, as a fraction of the face
+  dealii::Tensor<1, dim, Number> normal;
+  /// only for a moving foot point: distance off its face, as a fraction of the face
   std::optional<double> off_face = {};
 };
+
+/// Return the derivatives of coefficients, gap and normal.
+template <int dim>
+Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &row);
+
+/// Add the derivatives of force (sum_a c_a . u_a - gap) with respect to the numbers of the row to
+/// the scalar of @p recording.
+template <int dim>
+void add_energy_derivatives(const Row<dim, faces::Recorded>          &row,
+                            const typename mesh::Surface<dim>::Field &displacement,
+                            double                                    force,
+                            faces::Recording                         &recording);
 
 /// A slave node without a row of its own, with the rows that act for it and their shares. The
 /// shares sum to 1, or to less where rows are out of reach.
