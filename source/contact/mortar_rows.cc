@@ -2,6 +2,7 @@
 #include <snug/base/narrow.h>
 #include <snug/base/shared_work.h>
 #include <snug/contact/mortar_rows.h>
+#include <snug/contact/row_derivatives.h>
 #include <snug/mortar/moment_correction.h>
 
 #include <cmath>

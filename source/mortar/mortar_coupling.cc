@@ -91,15 +91,14 @@ std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &off
   const faces::FaceValues<dim, double, mesh::surface_degree> values(mesh::surface_degree, at);
   for (int d = 0; d < dim; ++d)
     {
-      std::array<double, dim - 1> slopes{};
-      for (unsigned int k = 0; k < offsets.size(); ++k)
-        {
-          result[d] += values.value[k] * offsets[k][d];
-          for (int a = 0; a < dim - 1; ++a)
-            slopes[a] += values.gradient[k][a] * faces::value_of(offsets[k][d]);
-        }
-      for (int a = 0; a < dim - 1; ++a)
-        result[d] += slopes[a] * (xi[a] - at[a]);
+      result[d] = faces::combination<Number>(
+        offsets.size(), [&](unsigned int k) { return values.value[k]; },
+        [&](unsigned int k) -> const Number & { return offsets[k][d]; });
+      for (int a = 0; a < dim - 1 && !std::is_same<Number, double>::value; ++a)
+        result[d] +=
+          (xi[a] - at[a]) * faces::combination<double>(
+                              offsets.size(), [&](unsigned int k) { return values.gradient[k][a]; },
+                              [&](unsigned int k) { return faces::value_of(offsets[k][d]); });
     }
   return result;
 }
@@ -117,7 +116,7 @@ void for_each_part(const SegmentQuadrature<dim>    &quadrature,
   const unsigned int n        = slave.nodes.size();
   const bool         linear   = n == 1u << (dim - 1);
   const bool         curved   = !slave.offsets.empty() || !master.offsets.empty();
-  const auto         N_slave  = quadrature.shape(point.slave).value;
+  const auto        &N_slave  = point.slave_shape.value;
   const auto         N_master = quadrature.shape(point.master).value;
   auto               delta    = offset_at<dim>(master.offsets, point.master);
   const auto         of_slave = offset_at<dim>(slave.offsets, point.slave);

@@ -20,10 +20,17 @@ MortarFace<dim, Number> mortar_face(const mesh::Surface<dim>             &surfac
     result.nodes.push_back(to_array(node));
   for (unsigned int k = 0; k < of.samples.size(); ++k)
     {
-      result.offsets.push_back(to_array(of.samples[k]));
-      for (unsigned int a = 0; a < of.nodes.size(); ++a)
-        for (int d = 0; d < dim; ++d)
-          result.offsets[k][d] -= shape.at_sample(k).value[a] * result.nodes[a][d];
+      const auto              sample = to_array(of.samples[k]);
+      const auto             &values = shape.at_sample(k).value;
+      std::array<Number, dim> offset;
+      for (int d = 0; d < dim; ++d)
+        // The sample comes first, then the nodes.
+        offset[d] = faces::combination<Number>(
+          of.nodes.size() + 1, [&](unsigned int a) { return a == 0 ? 1. : -values[a - 1]; },
+          [&](unsigned int a) -> const Number & {
+            return a == 0 ? sample[d] : result.nodes[a - 1][d];
+          });
+      result.offsets.push_back(offset);
     }
   return result;
 }

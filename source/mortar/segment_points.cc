@@ -217,9 +217,9 @@ void SegmentQuadrature<dim>::for_each_point(
             const Number size = determinant(simplex);
             for (const Point &q : rule)
               visit([&]() {
-                SegmentPoint<dim, Number> point;
-                point.slave = combined(q.barycentric, simplex);
-                const faces::FaceValues<dim, Number> shape(degree, point.slave);
+                const faces::FaceCoordinates<dim, Number> xi = combined(q.barycentric, simplex);
+                SegmentPoint<dim, Number>                 point{0., xi, {}, {degree, xi}};
+                const auto                               &shape = point.slave_shape;
                 point.weight = size * area(tangents<dim>(shape, slave)) *
                                section_weight(idealization, combined(shape.value, slave)) *
                                q.weight;

@@ -2,7 +2,7 @@
 #define snug_contact_node_rows_h
 
 #include <snug/contact/pair_geometry.h>
-#include <snug/contact/row_group.h>
+#include <snug/contact/row_derivatives.h>
 #include <snug/faces/nodal_normals.h>
 #include <snug/faces/point_field.h>
 #include <snug/faces/tributary.h>

@@ -1,7 +1,6 @@
 #ifndef snug_contact_row_group_h
 #define snug_contact_row_group_h
 
-#include <snug/faces/recording.h>
 #include <snug/mesh/surface.h>
 
 #include <optional>
@@ -24,18 +23,6 @@ struct Row
   /// only for a moving foot point: distance off its face, as a fraction of the face
   std::optional<double> off_face = {};
 };
-
-/// Return the derivatives of coefficients, gap and normal.
-template <int dim>
-Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &row);
-
-/// Add the derivatives of force (sum_a c_a . u_a - gap) with respect to the numbers of the row to
-/// the scalar of @p recording.
-template <int dim>
-void add_energy_derivatives(const Row<dim, faces::Recorded>          &row,
-                            const typename mesh::Surface<dim>::Field &displacement,
-                            double                                    force,
-                            faces::Recording                         &recording);
 
 /// A slave node without a row of its own, with the rows that act for it and their shares. The
 /// shares sum to 1, or to less where rows are out of reach.

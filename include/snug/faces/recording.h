@@ -5,6 +5,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <type_traits>
 #include <vector>
 
 namespace snug::faces {
@@ -44,6 +45,10 @@ public:
   static Recorded
   operation(double value, const Recorded &a, double by_a, const Recorded &b, double by_b);
 
+  /// Return sum_k factors(k) numbers(k) of @p n numbers, which is one step however many they are.
+  template <typename Factors, typename Numbers>
+  static Recorded combination(unsigned int n, const Factors &factors, const Numbers &numbers);
+
   /// Add @p derivative to the derivative of the scalar with respect to @p x.
   void add(const Recorded &x, double derivative);
 
@@ -66,34 +71,50 @@ public:
   {
     sweep(begin);
     steps.resize(begin);
+    operands.resize(first_operand(begin));
   }
 
   /// Complete the derivatives of all steps.
   void sweep(std::size_t begin = 0)
   {
     for (std::size_t i = steps.size(); i-- > begin;)
-      {
-        const Step &step = steps[i];
-        if (step.derivative != 0.)
-          {
-            steps[step.a].derivative += step.by_a * step.derivative;
-            steps[step.b].derivative += step.by_b * step.derivative;
-          }
-      }
+      if (const double derivative = steps[i].derivative; derivative != 0.)
+        for (std::size_t k = first_operand(i); k < steps[i].last_operand; ++k)
+          steps[operands[k].step].derivative += operands[k].factor * derivative;
   }
 
   /// Remove all steps.
-  void clear() { steps.clear(); }
+  void clear()
+  {
+    steps.clear();
+    operands.clear();
+  }
 
 private:
   struct Step
   {
-    unsigned int a, b; ///< steps of the operands
-    double       by_a, by_b;
-    double       derivative = 0.; ///< of the scalar with respect to the result of this step
+    unsigned int last_operand; ///< end of the operands of this step, which begin where those of
+                               ///< the step before end
+    double derivative = 0.;    ///< of the scalar with respect to the result of this step
   };
 
-  std::vector<Step> steps;
+  /// An operand of a step and the derivative of the step's result with respect to it.
+  struct Operand
+  {
+    unsigned int step;
+    double       factor;
+  };
+
+  std::vector<Step>    steps;
+  std::vector<Operand> operands;
+
+  std::size_t first_operand(std::size_t step) const
+  {
+    return step == 0 ? 0 : steps[step - 1].last_operand;
+  }
+
+  /// Add a step with the operands that have been added since the last one.
+  Recorded add_step(double value);
 };
 
 /// A number whose operations are recorded, or a constant.
@@ -155,11 +176,15 @@ inline double value_of(const Recorded &a)
   return a.value;
 }
 
+inline Recorded Recording::add_step(const double value)
+{
+  steps.push_back({static_cast<unsigned int>(operands.size())});
+  return {value, this, static_cast<unsigned int>(steps.size() - 1)};
+}
+
 inline Recorded Recording::variable(const double value)
 {
-  const unsigned int step = steps.size();
-  steps.push_back({step, step, 0., 0.});
-  return {value, this, step};
+  return add_step(value);
 }
 
 inline Recorded Recording::operation(const double    value,
@@ -171,10 +196,41 @@ inline Recorded Recording::operation(const double    value,
   Recording *const recording = a.recording ? a.recording : b.recording;
   if (!recording)
     return value;
-  // A constant counts as the other operand, with the derivative 0.
-  recording->steps.push_back({a.recording ? a.step : b.step, b.recording ? b.step : a.step,
-                              a.recording ? by_a : 0., b.recording ? by_b : 0.});
-  return {value, recording, static_cast<unsigned int>(recording->steps.size() - 1)};
+  if (a.recording)
+    recording->operands.push_back({a.step, by_a});
+  if (b.recording)
+    recording->operands.push_back({b.step, by_b});
+  return recording->add_step(value);
+}
+
+template <typename Factors, typename Numbers>
+Recorded
+Recording::combination(const unsigned int n, const Factors &factors, const Numbers &numbers)
+{
+  Recording *recording = nullptr;
+  double     value     = 0.;
+  for (unsigned int k = 0; k < n; ++k)
+    {
+      const Recorded &number = numbers(k);
+      value += factors(k) * number.value;
+      if (!number.recording)
+        continue;
+      recording = number.recording;
+      recording->operands.push_back({number.step, factors(k)});
+    }
+  return recording ? recording->add_step(value) : Recorded(value);
+}
+
+/// Return sum_k factors(k) numbers(k) of @p n numbers of a type; numbers(k) must not compute.
+template <typename Number, typename Factors, typename Numbers>
+Number combination(const unsigned int n, const Factors &factors, const Numbers &numbers)
+{
+  if constexpr (std::is_same<Number, Recorded>::value)
+    return Recording::combination(n, factors, numbers);
+  Number sum = 0.;
+  for (unsigned int k = 0; k < n; ++k)
+    sum += factors(k) * numbers(k);
+  return sum;
 }
 
 inline void Recording::add(const Recorded &x, const double derivative)

@@ -13,6 +13,7 @@ struct SegmentPoint
 {
   Number                              weight; ///< slave area [length^2]
   faces::FaceCoordinates<dim, Number> slave, master;
+  faces::FaceValues<dim, Number>      slave_shape; ///< at the point of the slave
 };
 
 /// Positions of the nodes of a face.

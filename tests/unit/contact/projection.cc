@@ -131,7 +131,7 @@ TEST(Projection, WeightsReproduceLinearFields)
   expect_linear_reproduction<3>(2);
 }
 
-TEST(Projection, RaysBeginNearTheClosestPoint)
+TEST(Projection, NormalsBeginNearTheClosestPoint)
 {
   for (const double distance : {0.02, 2.})
     for (const unsigned int degree : {1, 2})

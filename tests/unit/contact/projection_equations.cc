@@ -107,7 +107,7 @@ void expect_exact_weights(unsigned int degree)
   const auto    &scene    = round.scene;
   const auto     velocity = scene.random_velocity(1);
   const auto     dn       = TwoBoxes<dim>::random_field(2, round.normals.size());
-  const double   h        = 1e-4;
+  const double   h        = 1e-5;
   unsigned int   n_moving = 0;
   for (const auto &projection : scene.projections())
     {

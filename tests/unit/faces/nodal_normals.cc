@@ -35,7 +35,7 @@ void expect_exact_derivatives(BoxTop<dim> box)
   const auto              velocity = box.random_velocity(1);
   const NodalNormals<dim> here(box.surface, box.faces, box.shape, box.positions, &held);
   const auto              exact = here.derivative(velocity);
-  const double            h     = 1e-4;
+  const double            h     = 1e-5;
   Field<dim>              numbers(exact.size());
   for (const auto &[step, factor] : {std::make_pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}})
     {

@@ -66,8 +66,8 @@ struct BoxTop
     return result;
   }
 
-  /// Move all points at random by up to 2e-2 of a face.
-  void shake() { positions = moved(5e-3, random_velocity(3)); }
+  /// Move all points at random by up to 5e-4, some percent of the distances of samples.
+  void shake() { positions = moved(5e-4, random_velocity(3)); }
 
   snug::faces::FaceShape<dim> shape;
   snug::mesh::BodyMesh<dim>   mesh;

@@ -1,4 +1,4 @@
-#include <snug/contact/row_group.h>
+#include <snug/contact/row_derivatives.h>
 
 namespace snug::contact {
 namespace {
