@@ -61,7 +61,7 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
         values[contact.places()[i].slave]  = of_rows[i];
         has_row[contact.places()[i].slave] = true;
       }
-  for (const auto &shared : contact.shared_nodes())
+  for (const auto &shared : contact.dependent_multipliers())
     if (!has_row[shared.node])
       for (const auto &[row, share] : shared.rows)
         if (contact.places()[row].pair == pair)

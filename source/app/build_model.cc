@@ -147,7 +147,7 @@ std::vector<contact::Pair> build_pairs(const scene::Scene &scene, const mesh::Bo
       if (!pair.obstacle)
         {
           const auto [least, largest] = std::minmax({modulus(pair.slave), modulus(pair.master)});
-          pair.contrast               = largest / least;
+          pair.modulus_ratio          = largest / least;
         }
       pairs.push_back(std::move(pair));
     }

@@ -183,7 +183,7 @@ void Results<dim>::draw(const double                  time,
                                states[c], gradient ? &*gradient : nullptr,
                                errors.empty() ? nullptr : &errors[c].energy.cells);
       pictures[c].contact.write({*problem->mesh, solver.surface(), contact.joined_pairs(),
-                                 contact.places(), contact.shared_nodes()},
+                                 contact.places(), contact.dependent_multipliers()},
                                 time, states[c]);
     }
 }

@@ -131,7 +131,7 @@ double ShapeProblem<dim>::drift(const Design &design) const
 {
   const auto x       = solver->surface().gather(positions(design));
   double     largest = 0.;
-  for (const double drift : solver->contact().drifts(x, solver->contact().rows(x)))
+  for (const double drift : solver->contact().pairing_drifts(x, solver->contact().rows(x)))
     largest = std::max(largest, drift);
   return largest;
 }

@@ -59,7 +59,7 @@ std::vector<state::ContactPoint> nodal_points(const Sources<dim>                
       }
   // Set shared nodes before hanging nodes, because masters of hanging nodes may show shares of
   // rows.
-  for (const auto &shared : sources.shared_nodes)
+  for (const auto &shared : sources.dependent_multipliers)
     if (!seen[shared.node] && sources.places[shared.rows[0].first].pair == p)
       points[shared.node] = shared_point(shared.rows, [&](unsigned int row) { return rows[row]; });
   for (unsigned int node = 0; node < points.size(); ++node)

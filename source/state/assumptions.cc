@@ -111,8 +111,9 @@ Assumptions assess(const StateSolver<dim>               &solver,
 
   const auto &surface = solver.surface();
   const auto  x       = surface.gather(state.positions);
-  const auto  slips   = solver.contact().slips(x, contact_rows, surface.gather(state.displacement));
-  const auto  drifts  = solver.contact().drifts(x, contact_rows);
+  const auto  slips =
+    solver.contact().tangential_slips(x, contact_rows, surface.gather(state.displacement));
+  const auto drifts = solver.contact().pairing_drifts(x, contact_rows);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
     {
       // Open contacts count as well, because they would close at the wrong point.

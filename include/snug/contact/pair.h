@@ -126,7 +126,7 @@ struct Pair
   std::optional<ObstacleParameters> obstacle   = {};
   /// ratio of Young's moduli of the softest materials of the two bodies, the larger over the
   /// smaller
-  double contrast = 1.;
+  double modulus_ratio = 1.;
 
   /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }

@@ -41,8 +41,8 @@ public:
   }
 
 private:
-  /// Between a pairing at the start and one at the design, where no foot has left its face: of the
-  /// objective, and of its slopes, as far as differences of second order tell.
+  /// Between a pairing at the start and one at the design, where no foot point has left its face:
+  /// of the objective, and of its slopes, as far as differences of second order tell.
   static constexpr double tolerance = 1e-9, slope_tolerance = 1e-4;
   /// Distances of designs from the first one, relative to the width of the bounds.
   static constexpr double way  = 0.25;

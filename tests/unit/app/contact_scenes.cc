@@ -231,7 +231,7 @@ TEST(Warnings, OfDesignsThatLeaveTheirPairing)
       x[place.slave][2] += 0.3; // opens, but stays opposite
     }
   double largest = 0.;
-  for (const double drift : contact.drifts(x, contact.rows(x)))
+  for (const double drift : contact.pairing_drifts(x, contact.rows(x)))
     largest = std::max(largest, drift);
   EXPECT_NEAR(largest, 0.4, 1e-12);
 }

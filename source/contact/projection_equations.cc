@@ -1,5 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/contact/normal_rays.h>
+#include <snug/contact/projection_equations.h>
 
 #include <cmath>
 #include <limits>
@@ -42,17 +42,7 @@ const double wild = 10.;
 } // namespace
 
 template <int dim>
-dealii::Tensor<1, dim> RayEquations<dim>::residual(const dealii::Tensor<1, dim> &F) const
-{
-  auto result = rows * F;
-  for (int a = 0; a < dim - 1; ++a)
-    if (fixed[a])
-      result[a] = 0.;
-  return result;
-}
-
-template <int dim>
-dealii::Tensor<2, dim> RayEquations<dim>::matrix(const dealii::Tensor<2, dim> &slope) const
+dealii::Tensor<2, dim> ReducedEquations<dim>::matrix(const dealii::Tensor<2, dim> &slope) const
 {
   dealii::Tensor<2, dim> result = rows * slope;
   for (int a = 0; a < dim - 1; ++a)
@@ -65,18 +55,10 @@ dealii::Tensor<2, dim> RayEquations<dim>::matrix(const dealii::Tensor<2, dim> &s
 }
 
 template <int dim>
-dealii::Tensor<1, dim> RayEquations<dim>::residual_transpose(dealii::Tensor<1, dim> factors) const
-{
-  for (int a = 0; a < dim - 1; ++a)
-    if (fixed[a])
-      factors[a] = 0.;
-  return factors * rows;
-}
-
-template <int dim>
-typename NormalRays<dim>::Point NormalRays<dim>::at(const Xi                     &xi,
-                                                    const dealii::Tensor<1, dim> &origin,
-                                                    std::optional<double>         t) const
+typename ProjectionEquations<dim>::Point
+ProjectionEquations<dim>::at(const Xi                     &xi,
+                             const dealii::Tensor<1, dim> &origin,
+                             std::optional<double>         t) const
 {
   Point point;
   point.values = shape.at(xi);
@@ -98,10 +80,10 @@ typename NormalRays<dim>::Point NormalRays<dim>::at(const Xi                    
 }
 
 template <int dim>
-std::optional<typename NormalRays<dim>::Point>
-NormalRays<dim>::to(const dealii::Tensor<1, dim> &p,
-                    const Xi                     &start,
-                    const RayEquations<dim>      &equations) const
+std::optional<typename ProjectionEquations<dim>::Point>
+ProjectionEquations<dim>::solve(const dealii::Tensor<1, dim> &p,
+                                const Xi                     &start,
+                                const ReducedEquations<dim>  &equations) const
 {
   Xi          xi    = start;
   Point       point = at(xi, p);
@@ -123,48 +105,49 @@ NormalRays<dim>::to(const dealii::Tensor<1, dim> &p,
 }
 
 template <int dim>
-typename NormalRays<dim>::Hit NormalRays<dim>::on_surface(const Xi &xi) const
+typename ProjectionEquations<dim>::Intersection
+ProjectionEquations<dim>::intersection(const Xi &xi) const
 {
   // Positions are relative to the face, because round-off far off the origin of the scene would
   // prevent convergence.
-  const auto  origin = positions[face.nodes[0]];
-  const auto  point  = at(xi, origin, 0.);
-  Xi          zeta   = xi;
-  Hit         hit;
-  Convergence convergence;
+  const auto   origin = positions[face.nodes[0]];
+  const auto   point  = at(xi, origin, 0.);
+  Xi           zeta   = xi;
+  Intersection result;
+  Convergence  convergence;
   for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
     {
-      hit.values               = shape.samples_at(zeta);
-      dealii::Tensor<1, dim> y = -(point.x + hit.s * point.v);
+      result.values            = shape.samples_at(zeta);
+      dealii::Tensor<1, dim> y = -(point.x + result.s * point.v);
       for (unsigned int k = 0; k < face.samples.size(); ++k)
-        y += hit.values.value[k] * (positions[face.samples[k]] - origin);
-      const auto ty = faces::tangents<dim>(hit.values, face.samples, positions);
+        y += result.values.value[k] * (positions[face.samples[k]] - origin);
+      const auto ty = faces::tangents<dim>(result.values, face.samples, positions);
       for (int d = 0; d < dim; ++d)
         {
           for (int a = 0; a < dim - 1; ++a)
-            hit.slope[d][a] = ty[a][d];
-          hit.slope[d][dim - 1] = -point.v[d];
+            result.slope[d][a] = ty[a][d];
+          result.slope[d][dim - 1] = -point.v[d];
         }
-      if (!(std::abs(dealii::determinant(hit.slope)) > 0.))
+      if (!(std::abs(dealii::determinant(result.slope)) > 0.))
         break;
-      const auto   step = -(dealii::invert(hit.slope) * y);
+      const auto   step = -(dealii::invert(result.slope) * y);
       const double move = advance<dim>(zeta, step);
-      hit.s += step[dim - 1];
+      result.s += step[dim - 1];
       if (!(move < wild))
         break;
       if (convergence.reached(move))
         {
-          hit.foot_slope = at(xi, origin, hit.s).slope;
-          return hit;
+          result.point_slope = at(xi, origin, result.s).slope;
+          return result;
         }
     }
   throw TangledMesh("a contact face is folded: the normal at one of its points does not meet its "
                     "true surface");
 }
 
-#define SNUG_INSTANTIATE(dim)        \
-  template struct RayEquations<dim>; \
-  template class NormalRays<dim>;
+#define SNUG_INSTANTIATE(dim)            \
+  template struct ReducedEquations<dim>; \
+  template class ProjectionEquations<dim>;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -38,7 +38,7 @@ void shake(TwoBoxes<dim> &scene, double size)
       }
 }
 
-/// Far from where contact was paired, so that feet have moved.
+/// Far from where contact was paired, so that foot points have moved.
 template <int dim>
 void expect_exact_derivatives(TwoBoxes<dim> scene)
 {
@@ -59,7 +59,7 @@ double change(const Row<dim> &a, const Row<dim> &b)
   return largest;
 }
 
-/// Rows whose feet are still on their faces are those of a new pairing.
+/// Rows whose foot points are still on their faces are those of a new pairing.
 template <int dim>
 void expect_new_pairing(TwoBoxes<dim> scene)
 {
@@ -67,7 +67,7 @@ void expect_new_pairing(TwoBoxes<dim> scene)
   const auto paired  = contact.rows(scene.positions);
   shake(scene, 2e-3);
   const auto rows   = contact.rows(scene.positions);
-  const auto drifts = contact.drifts(scene.positions, rows);
+  const auto drifts = contact.pairing_drifts(scene.positions, rows);
   const auto other  = scene.contact();
   const auto anew   = other.rows(scene.positions);
   ASSERT_EQ(rows.size(), anew.size());
@@ -79,7 +79,7 @@ void expect_new_pairing(TwoBoxes<dim> scene)
         continue;
       ++n;
       ASSERT_EQ(rows[i].coefficients.size(), anew[i].coefficients.size());
-      EXPECT_LT(difference<dim>({rows[i]}, {anew[i]}), 1e-12);
+      EXPECT_LT(::difference<dim>({rows[i]}, {anew[i]}), 1e-12);
       EXPECT_GT(change(rows[i], paired[i]), 1e-6);
     }
   EXPECT_GT(n, 2u);
@@ -94,7 +94,7 @@ bool is_node_to_node(const Row<dim> &row)
 }
 } // namespace
 
-TEST(Foot, DerivativesWhereItHasMoved)
+TEST(NormalProjection, DerivativesWhereItHasMoved)
 {
   for (const unsigned int degree : {1, 2})
     {
@@ -105,7 +105,7 @@ TEST(Foot, DerivativesWhereItHasMoved)
     }
 }
 
-TEST(Foot, OnItsFaceItIsThatOfANewPairing)
+TEST(NormalProjection, OnItsFaceItIsThatOfANewPairing)
 {
   for (const unsigned int degree : {1, 2})
     {
@@ -116,7 +116,7 @@ TEST(Foot, OnItsFaceItIsThatOfANewPairing)
     }
 }
 
-TEST(Foot, OnANodeItStays)
+TEST(NormalProjection, OnANodeItStays)
 {
   for (const unsigned int degree : {1, 2})
     {
@@ -136,8 +136,8 @@ TEST(Foot, OnANodeItStays)
     }
 }
 
-/// Meshes that match along x: feet stay on the lines of nodes and follow along these.
-TEST(Foot, OnAnEdgeItFollowsAlongIt)
+/// Meshes that match along x: foot points stay on the lines of nodes and follow along these.
+TEST(NormalProjection, OnAnEdgeItFollowsAlongIt)
 {
   auto bodies        = TwoBoxes<3>::boxes(4, 3);
   bodies[1].cells[0] = 4;
@@ -161,7 +161,7 @@ TEST(Foot, OnAnEdgeItFollowsAlongIt)
   EXPECT_GE(n_moved, 10u);
 }
 
-TEST(Foot, BeyondTheSideItStays)
+TEST(NormalProjection, BeyondTheSideItStays)
 {
   auto bodies         = TwoBoxes<2>::boxes(6, 4);
   bodies[0].corner[0] = -0.26;
@@ -183,7 +183,7 @@ TEST(Foot, BeyondTheSideItStays)
   EXPECT_EQ(n, 1u);
 }
 
-TEST(Foot, DriftIsTheWayOffTheFace)
+TEST(NormalProjection, DriftIsTheWayOffTheFace)
 {
   // slave nodes at 0.1, 0.9, 0.7, 0.5 and 0.3 of master faces
   auto bodies         = TwoBoxes<2>::boxes(4, 4);
@@ -195,7 +195,7 @@ TEST(Foot, DriftIsTheWayOffTheFace)
       const auto  contact = scene.contact();
       for (const auto &place : contact.places())
         scene.positions[place.slave] += 0.25 * shift * dealii::Point<2>(1., 0.);
-      const auto drifts = contact.drifts(scene.positions, contact.rows(scene.positions));
+      const auto drifts = contact.pairing_drifts(scene.positions, contact.rows(scene.positions));
       for (unsigned int i = 0; i < drifts.size(); ++i)
         {
           const double x  = scene.surface.reference_positions()[contact.places()[i].slave][0];
@@ -205,7 +205,7 @@ TEST(Foot, DriftIsTheWayOffTheFace)
     }
 }
 
-TEST(Foot, FarOffItsFaceIsTangled)
+TEST(NormalProjection, FarOffItsFaceIsTangled)
 {
   for (const double shift : {0.24, 0.5})
     {
