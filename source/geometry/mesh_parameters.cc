@@ -49,18 +49,21 @@ void declare_round(Entries &entries, BodyMeshParameters &mesh)
 
 void declare_file(Entries &entries, BodyMeshParameters &mesh)
 {
-  entries.add("Mesh file", mesh.file, allowed("the path of a file"),
-              "Gmsh .msh 2 or 4.1, Abaqus .inp, VTK legacy, or UCD in ASCII; relative to the "
-              "parameter file. Triangles, tetrahedra and prisms are split into quadrilaterals and "
-              "hexahedra. Boundaries are curved as their quadratic elements are, or lie on smooth "
-              "surfaces through their nodes; those on spheres, cylinders, cones and tori are "
-              "recognized.");
+  entries.add(
+    "Mesh file", mesh.file, allowed("the path of a file"),
+    "Gmsh .msh 2 or 4.1, or Abaqus .inp; relative to the parameter file. 'meshio convert -o "
+    "gmsh22 part.vtk part.msh' converts other formats. Triangles, tetrahedra and prisms are split "
+    "into quadrilaterals and "
+    "hexahedra. Boundaries are curved as their quadratic elements are, or lie on smooth "
+    "surfaces through their nodes; those on spheres, cylinders, cones and tori are "
+    "recognized.");
   entries.add("Mesh regions", mesh.regions,
               "Groups of cells of the file that make the body; empty: all cells.");
-  entries.add("Boundary names", mesh.boundary_numbers,
-              allowed("a list 'number: name, ...' of different numbers"),
-              "Names for the groups of faces to which the file gives only numbers, as VTK and UCD "
-              "do: '1: bottom, 7: bore'.");
+  entries.add(
+    "Boundary names", mesh.boundary_numbers,
+    allowed("a list 'number: name, ...' of different numbers"),
+    "Names for the groups of faces to which the file gives only numbers, such as physical "
+    "groups of Gmsh without a name: '1: bottom, 7: bore'.");
   entries.add("Surface", mesh.surfaces,
               allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
               "What a boundary of a mesh file is, if not what its nodes and elements say: plane "

@@ -56,20 +56,6 @@ ElementType abaqus_type(const std::string &name, unsigned long line)
   throw error_at_line(line, "elements of the type '" + name + "' cannot be read");
 }
 
-/// Of C3D27, whose centre comes before its faces, which are in the order S1 to S6.
-const MiddleOrder &abaqus_hexahedron()
-{
-  static const MiddleOrder order = []() {
-    MiddleOrder result = vtk_middles(ElementShape::hexahedron);
-    result.resize(12);
-    result.push_back({0, 1, 2, 3, 4, 5, 6, 7});
-    const auto &faces = faces_of(ElementShape::hexahedron);
-    result.insert(result.end(), faces.begin(), faces.end());
-    return result;
-  }();
-  return order;
-}
-
 /// Reads an .inp file keyword by keyword.
 ///
 /// A keyword line begins with one * and has options "KEY=VALUE" behind commas; data lines follow
@@ -200,8 +186,7 @@ private:
     // Abaqus lists the corners first, then the nodes on edges, but of lines the middle second.
     if (type.shape == ElementShape::line)
       std::swap(nodes[1], nodes.back());
-    add_nodes(mesh, element, nodes,
-              type.n_nodes == 27 ? abaqus_hexahedron() : vtk_middles(type.shape));
+    add_nodes(mesh, element, nodes, abaqus_middles(type.shape));
     mesh.elements.push_back(element);
     pending.clear();
     if (!options["ELSET"].empty())

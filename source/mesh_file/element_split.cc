@@ -68,8 +68,8 @@ bool is_cell_shape(const ElementShape shape)
 
 std::vector<unsigned int> cell_vertices(const MeshFile::Element &element)
 {
-  // VTK goes around bottom and top, deal.II has the first coordinate fastest: corners 2 and 3
-  // change places, and so do 6 and 7.
+  // Elements number their corners around bottom and top, deal.II with the first coordinate fastest.
+  // Corners 2 and 3 change places, and so do corners 6 and 7.
   auto vertices = element.corners;
   for (unsigned int v = 2; v + 1 < vertices.size(); v += 4)
     std::swap(vertices[v], vertices[v + 1]);

@@ -101,10 +101,10 @@ void turn(Element &element)
     std::swap_ranges(c.begin(), c.begin() + n / 2, c.begin() + n / 2);
 }
 
-/// Some programs number all elements of a shape the other way round.
-/// VTK's documentation does so for prisms (the normal of the first triangle points away from the
-/// second one), and UCD files in deal.II's order do so for hexahedra. A shape of which some
-/// elements are right-handed is not mirrored as a whole; left-handed ones are errors then.
+/// Turn all elements of a shape if they are left-handed, because some programs number all elements
+/// of a shape in the opposite order: prisms of VTK, whose first triangle has its normal away from
+/// the second one, and converted hexahedra. If some elements of a shape are right-handed, then the
+/// shape is not mirrored as a whole, and a left-handed element is an error.
 template <int dim>
 void turn_mirrored(std::vector<Element>                &cells,
                    const std::vector<dealii::Point<3>> &points,

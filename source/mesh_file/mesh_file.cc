@@ -54,22 +54,18 @@ unsigned int PointNumbers::index(const unsigned long number,
 }
 
 namespace {
-/// Tells formats by their first words, since endings of names are not reliable: "$MeshFormat" of
-/// Gmsh, "*..." of Abaqus, "# vtk DataFile" of VTK. UCD has comments # or the number of nodes.
+/// Read the format that the first word indicates: "$MeshFormat" of Gmsh or "*..." of Abaqus.
+/// Endings of file names are not reliable.
 MeshFile read_any(const std::string &text)
 {
   MeshText          begin(text);
-  const std::string first = begin.word("a mesh of Gmsh, Abaqus, VTK or UCD");
+  const std::string first = begin.word("a mesh of Gmsh or Abaqus");
   if (first == "$MeshFormat")
     return read_gmsh(text);
   if (first[0] == '*')
     return read_abaqus(text);
-  if (first == "#" && begin.word("a mesh") == "vtk")
-    return read_vtk(text);
-  if (first[0] == '#' || first.find_first_not_of("0123456789") == std::string::npos)
-    return read_ucd(text);
-  begin.fail("this is no mesh file of Gmsh (.msh), Abaqus (.inp), VTK "
-             "(.vtk) or UCD (.ucd)");
+  begin.fail("not a mesh file of Gmsh (.msh) or Abaqus (.inp); 'meshio convert -o gmsh22 FILE "
+             "part.msh' converts other formats");
 }
 } // namespace
 

@@ -22,12 +22,6 @@ bool MeshText::at_end()
   return place == text.size();
 }
 
-bool MeshText::is_next(const std::string &word) const
-{
-  const auto next = text.find_first_not_of(" \t\r\n\f\v", place);
-  return next != std::string::npos && text.compare(next, word.size(), word) == 0;
-}
-
 std::string MeshText::rest_of_line()
 {
   const auto        end  = std::min(text.find('\n', place), text.size());

@@ -8,8 +8,7 @@
 #include <vector>
 
 namespace snug::mesh_file {
-/// Shapes of elements. Corners are numbered as in VTK: around the
-/// bottom, then around the top.
+/// Shapes of elements. Corners are numbered around the bottom, then around the top.
 enum class ElementShape
 {
   vertex,
@@ -52,9 +51,8 @@ struct MeshFile
 };
 
 /**
- * Read the contents of a mesh file: Gmsh .msh 2 and 4.1 (ASCII, binary),
- * Abaqus .inp, VTK legacy (unstructured grid) or UCD (ASCII), told
- * by how they begin.
+ * Read the contents of a mesh file: Gmsh .msh 2 and 4.1 (ASCII, binary) or Abaqus .inp. The first
+ * word of the text determines the format.
  * @throws InputError: "line 17: what is wrong".
  */
 MeshFile read_mesh_file(const std::string &text);

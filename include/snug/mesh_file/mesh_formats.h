@@ -19,22 +19,14 @@ MeshFile read_gmsh(const std::string &text);
  * reference.
  */
 MeshFile read_abaqus(const std::string &text);
-
-/// VTK legacy file of an unstructured grid, ASCII or binary; groups are the
-/// numbers of the cell data MaterialID or CellEntityIds. Source: VTK file
-/// formats.
-MeshFile read_vtk(const std::string &text);
-
-/// UCD of AVS in ASCII; groups are the material numbers.
-MeshFile read_ucd(const std::string &text);
 /// @}
 
 /// Of the nodes of a quadratic element that follow its corners: the corners of the edge, face or
 /// element in whose middle each of them lies.
 using MiddleOrder = std::vector<std::vector<unsigned int>>;
 
-/// The order of VTK and, for elements of up to 20 nodes, of Abaqus; that of Gmsh.
-const MiddleOrder &vtk_middles(ElementShape shape);
+/// Return the order of Abaqus or of Gmsh.
+const MiddleOrder &abaqus_middles(ElementShape shape);
 const MiddleOrder &gmsh_middles(ElementShape shape);
 
 /// Of the @p nodes of an element, corners first, add the corners to @p element and the others to

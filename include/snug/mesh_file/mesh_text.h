@@ -27,9 +27,6 @@ public:
   /// Whether nothing but blanks follows, which are skipped.
   bool at_end();
 
-  /// Whether the text goes on with @p word, on this line or a later one.
-  bool is_next(const std::string &word) const;
-
   /// The rest of the line, without blanks at its ends.
   std::string rest_of_line();
 
