@@ -22,14 +22,14 @@ void declare_box(Entries &entries, BodyMeshParameters &mesh)
     allowed("a list 'boundary: sphere R; boundary: cylinder AXIS R; boundary: FORMULA' of "
             "different boundaries, separated by semicolons; 'at' and the coordinates of the apex "
             "may follow R"),
-    "Faces that are not flat, separated by semicolons (formulas may hold commas): 'bottom: sphere "
+    "Faces of a box that are not flat, separated by semicolons (formulas may hold commas): "
+    "'bottom: sphere "
     "4', 'bottom: cylinder x 4' (radius [length], positive if convex; the axis is the cylinder's, "
     "z in 2D) or a formula of x, y, z for the outward displacement of the face [length], 'bottom: "
     "-(x^2)/8'. The apex of a sphere or a cylinder, where it touches the flat face, is the centre "
     "of the face; 'bottom: sphere 4 at 0, 0' or 'bottom: cylinder y 4 at 0' give its coordinates "
     "across the normal and the axis [length], as for half of a body, whose apex lies on the plane "
-    "of symmetry. Of a mesh file: boundaries that lie on a sphere or a cylinder, 'ball: sphere; "
-    "bore: cylinder z', whose centre and radius are found.");
+    "of symmetry.");
 }
 
 void declare_round(Entries &entries, BodyMeshParameters &mesh)
@@ -64,12 +64,15 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
     allowed("a list 'number: name, ...' of different numbers"),
     "Names for the groups of faces to which the file gives only numbers, such as physical "
     "groups of Gmsh without a name: '1: bottom, 7: bore'.");
-  entries.add("Surface", mesh.surfaces,
-              allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
-              "What a boundary of a mesh file is, if not what its nodes and elements say: plane "
-              "facets between its nodes, or a smooth surface through them: 'nut: facets, bore: "
-              "smooth'. Facets that turn by more than 30 degrees always meet in an edge; those "
-              "that turn by more than 15 degrees stay facets unless 'smooth' is said.");
+  entries.add(
+    "Surface", mesh.surfaces,
+    allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
+    "The geometry of boundaries of a mesh file that is not to be determined from the nodes "
+    "and elements: 'nut: facets, bore: smooth'. Facets are plane between the nodes. A "
+    "smooth surface passes through the nodes and has no edges. Of other boundaries, facets "
+    "that meet at more than 30 degrees meet in an edge, and facets that meet at 15 to 30 "
+    "degrees are kept. Spheres, cylinders, cones and tori are recognized, also where "
+    "'smooth' is given.");
 }
 
 void declare_placement(Entries &entries, BodyMeshParameters &mesh)

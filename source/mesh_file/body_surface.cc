@@ -18,7 +18,7 @@ template <int dim>
 BodySurface<dim>::BodySurface(std::vector<Point>            the_points,
                               Middles                       the_middles,
                               std::vector<Facet>            the_facets,
-                              const std::set<unsigned int> &whole)
+                              const std::set<unsigned int> &smooth)
   : points(std::move(the_points)), middles(std::move(the_middles)), facets(std::move(the_facets))
 {
   for (unsigned int f = 0; f < facets.size(); ++f)
@@ -32,7 +32,7 @@ BodySurface<dim>::BodySurface(std::vector<Point>            the_points,
         ridges[ridge].facets.push_back(f);
     }
   for (auto &ridge : ridges)
-    ridge.second.is_feature = stands_out(ridge.first, whole);
+    ridge.second.is_feature = stands_out(ridge.first, smooth);
   divide();
   find_flats();
 }
@@ -147,12 +147,12 @@ double BodySurface<dim>::kink(const Corners &ridge) const
 }
 
 template <int dim>
-bool BodySurface<dim>::stands_out(const Corners &ridge, const std::set<unsigned int> &whole) const
+bool BodySurface<dim>::stands_out(const Corners &ridge, const std::set<unsigned int> &smooth) const
 {
   const auto &at = ridges.at(ridge).facets;
   if (at.size() != 2 || facets[at[0]].boundary != facets[at[1]].boundary)
     return true;
-  return whole.count(facets[at[0]].boundary) == 0 && kink(ridge) > 30.;
+  return smooth.count(facets[at[0]].boundary) == 0 && kink(ridge) > 30.;
 }
 
 template <int dim>

@@ -1,5 +1,4 @@
 #include <snug/geometry/cell_numbering.h>
-#include <snug/geometry/curved_face.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/mesh_file/curved_blocks.h>
 #include <snug/mesh_file/file_cells.h>
@@ -230,13 +229,14 @@ private:
 
   void curve_boundaries()
   {
-    std::set<unsigned int> whole;
-    for (const auto &entry : parameters.curved_faces)
-      whole.insert(geometry::curved_boundary(mesh.boundary_names, entry.first, entry.second));
+    std::set<unsigned int> smooth;
+    for (const auto &entry : parameters.surfaces)
+      if (entry.second == "smooth")
+        smooth.insert(geometry::index_of(mesh.boundary_names, entry.first));
     for (const auto &point : points)
       mesh.vertices.push_back(in_space(point));
     BodySurface<dim> surface({mesh.vertices.begin(), mesh.vertices.begin() + file.points.size()},
-                             middles(), facets(), whole);
+                             middles(), facets(), smooth);
     const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes);
     mesh.shapes = shapes.of_boundaries();
     curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
@@ -326,7 +326,7 @@ import_mesh(const std::string                  &text,
     }
   catch (const InputError &error)
     {
-      // What already names an entry (Mesh regions, Curved faces) stays; the rest is of the file.
+      // What already names an entry (Mesh regions, Surface) stays; the rest is of the file.
       const std::string message = printable(error.what());
       if (message.rfind("entry '", 0) == 0)
         throw InputError(message);

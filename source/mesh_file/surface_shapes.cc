@@ -1,4 +1,3 @@
-#include <snug/geometry/curved_face.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/mesh_file/surface_shapes.h>
 
@@ -81,17 +80,6 @@ void SurfaceShapes<dim>::read_entries()
         throw bad_entry("Surface", given, "must be 'facets' or 'smooth'");
       wanted[boundary] = entry.second;
     }
-  for (const auto &entry : parameters.curved_faces)
-    {
-      const unsigned int boundary = geometry::curved_boundary(names, entry.first, entry.second);
-      std::vector<unsigned int> facets;
-      for (unsigned int f = 0; f < surface.facets.size(); ++f)
-        if (surface.facets[f].boundary == boundary)
-          facets.push_back(f);
-      said[boundary] = surfaces.size();
-      surfaces.push_back(
-        geometry::fitted_surface(entry.first, entry.second, sample(facets, false)));
-    }
 }
 
 template <int dim>
@@ -125,15 +113,9 @@ typename SurfaceShapes<dim>::Shape
 SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
 {
   Shape              result;
-  const unsigned int boundary = surface.facets[part[0]].boundary;
-  if (said.count(boundary) > 0)
-    {
-      result.kind        = Kind::known;
-      result.known_index = said[boundary];
-      return result;
-    }
-  const std::string want      = wanted.count(boundary) > 0 ? wanted[boundary] : "";
-  const bool        quadratic = want != "smooth" && surface.is_quadratic(part[0]);
+  const unsigned int boundary  = surface.facets[part[0]].boundary;
+  const std::string  want      = wanted.count(boundary) > 0 ? wanted[boundary] : "";
+  const bool         quadratic = want != "smooth" && surface.is_quadratic(part[0]);
   if (want == "facets")
     return result;
   const auto points = sample(part, quadratic);

@@ -173,8 +173,8 @@ def check_mesh_files(runner):
          ["the region '9' has no material"]),
         ("units that put bodies far apart", good, {"Shift": "0, 0, 1000"},
          ["part.bottom", "999 apart", "Scale"]),
-        ("face that is not round", good, {"Curved faces": "top: sphere"},
-         ["top: sphere", "does not fit"])]
+        ("curved face of a mesh file", good, {"Curved faces": "top: sphere"},
+         ["top: sphere", "is for boxes"])]
     for title, mesh, entries, names in cases:
         path = runner.folder / (title.replace(" ", "-") + ".msh")
         path.write_text(mesh, encoding="utf-8")

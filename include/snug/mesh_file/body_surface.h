@@ -30,11 +30,11 @@ public:
   using Vector  = dealii::Tensor<1, dim>;
   using Middles = std::map<Corners, unsigned int>;
 
-  /// @p middles as in MeshFile. Kinks within the boundaries @p whole are no features.
+  /// @p middles as in MeshFile. Kinks within the boundaries @p smooth are no features.
   BodySurface(std::vector<Point>            points,
               Middles                       middles,
               std::vector<Facet>            facets,
-              const std::set<unsigned int> &whole);
+              const std::set<unsigned int> &smooth);
 
   std::vector<Point>       points;
   const Middles            middles;
@@ -75,7 +75,7 @@ private:
   double size = 0.; ///< of the body
 
   Vector normal_at(unsigned int facet, const Corners &ridge) const;
-  bool   stands_out(const Corners &ridge, const std::set<unsigned int> &whole) const;
+  bool   stands_out(const Corners &ridge, const std::set<unsigned int> &smooth) const;
   void   divide();
   void   find_flats();
 };

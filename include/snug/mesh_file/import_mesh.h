@@ -14,8 +14,8 @@ namespace snug::mesh_file {
  *   directions, see order_consistently();
  * - groups of elements one dimension lower are the boundaries; boundary
  *   faces without a group are called free;
- * - boundaries that lie on spheres or cylinders, as the entry Curved faces
- *   says, are fitted to them, and stay so when refined.
+ * - boundaries are parts of the true surface, see SurfaceShapes, and remain so when cells are
+ *   refined.
  *
  * @throws InputError naming an entry and, for what is wrong in the file,
  *   its line and element.

@@ -8,7 +8,6 @@
 namespace snug::mesh_file {
 /**
  * What each part of the surface of a body is, the first of these that applies:
- * - what "Curved faces" says of its boundary;
  * - facets, if "Surface" says so;
  * - a plane, if its nodes lie in one;
  * - facets, with a note, if these turn by more than 15 degrees and are not quadratic;
@@ -16,7 +15,7 @@ namespace snug::mesh_file {
  *   last digit of the file;
  * - of the shape of its elements, if these are quadratic;
  * - smooth.
- * The fourth and the last but one do not count where "Surface" says smooth.
+ * Where "Surface" says smooth, the third and the last but one do not count.
  */
 template <int dim>
 class SurfaceShapes
@@ -45,7 +44,7 @@ public:
   };
 
   /// Moves nodes of @p surface onto the spheres and others they belong to, and adds to @p notes
-  /// what each boundary is. @throws InputError naming Curved faces or Surface.
+  /// what each boundary is. @throws InputError naming Surface.
   SurfaceShapes(BodySurface<dim>                   &surface,
                 const geometry::BodyMeshParameters &parameters,
                 const std::vector<std::string>     &boundary_names,
@@ -72,7 +71,6 @@ private:
   double                                          digit; ///< see last_digit()
   std::vector<geometry::KnownSurface<dim>>        surfaces;
   std::vector<Shape>                              shapes; ///< of parts
-  std::map<unsigned int, unsigned int>            said;   ///< boundary -> index of its surface
   std::map<unsigned int, std::string>             wanted; ///< boundary -> facets or smooth
   std::map<unsigned int, geometry::BoundaryShape> boundary_shapes;
 

@@ -160,7 +160,7 @@ TEST(MeshFiles, CurvedBoundariesStayOnTheirCircles)
   const auto text       = gmsh_text(nodes.str(), elements.str());
   auto       body       = file_body();
   body.boundary_numbers = {{"1", "inner"}, {"2", "outer"}};
-  body.curved_faces     = {{"inner", "sphere"}, {"outer", "cylinder z"}};
+  body.surfaces         = {{"inner", "smooth"}, {"outer", "smooth"}};
   body.refinements      = 2;
   body.imported         = mesh_file::import_mesh(text, body, 2);
   const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, {body}, 2);
@@ -174,14 +174,6 @@ TEST(MeshFiles, CurvedBoundariesStayOnTheirCircles)
         for (const unsigned int node : face.nodes)
           EXPECT_NEAR((mesh.reference_positions()[node] - Point<2>(3., 0.)).norm(), radius, 1e-12);
       }
-  for (const std::string value : {"sphere 2", "cylinder x", "x^2"})
-    {
-      body.curved_faces = {{"inner", value}};
-      EXPECT_NE(complaint(text, body, 2).find("'Curved faces'"), std::string::npos);
-    }
-  body.boundary_numbers = {{"1", "round"}, {"2", "round"}};
-  body.curved_faces     = {{"round", "sphere"}};
-  EXPECT_NE(complaint(text, body, 2).find("does not fit"), std::string::npos);
 }
 
 TEST(MeshFiles, CurvedBoundariesThatMeetLeaveNoGaps)
@@ -219,7 +211,7 @@ TEST(MeshFiles, CurvedBoundariesThatMeetLeaveNoGaps)
         }
       auto body             = file_body();
       body.boundary_numbers = {{"1", "side"}, {"2", "cap"}};
-      body.curved_faces     = {{"side", "cylinder z"}, {"cap", "sphere"}};
+      body.surfaces         = {{"side", "smooth"}, {"cap", "smooth"}};
       body.imported       = mesh_file::import_mesh(gmsh_text(nodes.str(), elements.str()), body, 3);
       const auto geometry = geometry::make_geometry<3>(body);
       const auto cells    = geometry->coarse_mesh().cells;
