@@ -171,7 +171,7 @@ void print(const Inventory<dim> &inventory, std::ostream &out)
           {
             out << "  region " << region.name << ": ";
             if (region.n_cells == 0)
-              out << "its cells are in others too\n";
+              out << "its cells also belong to other groups\n";
             else
               out << region.n_cells << " cells, volume " << region.volume << '\n';
           }

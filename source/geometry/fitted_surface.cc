@@ -19,7 +19,7 @@ double SurfaceSample<dim>::largest_distance(const KnownSurface<dim> &surface) co
 }
 
 template <int dim>
-KnownSurface<dim> SurfaceSample<dim>::faced(KnownSurface<dim> surface) const
+KnownSurface<dim> SurfaceSample<dim>::oriented(KnownSurface<dim> surface) const
 {
   surface.convex = true;
   double sum     = 0.;
@@ -89,7 +89,7 @@ KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::T
       square += x(d) * x(d);
     }
   result.radius = size * std::sqrt(square);
-  return sample.faced(result);
+  return sample.oriented(result);
 }
 
 template <int dim>

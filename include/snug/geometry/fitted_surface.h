@@ -24,7 +24,7 @@ struct SurfaceSample
   double largest_distance(const KnownSurface<dim> &surface) const;
 
   /// Return @p surface with the member convex set according to the normals.
-  KnownSurface<dim> faced(KnownSurface<dim> surface) const;
+  KnownSurface<dim> oriented(KnownSurface<dim> surface) const;
 };
 
 /// Return (A + 1e-14 tr(A) I)^-1 for the matrix @p A of normal equations, which may be singular.

@@ -43,22 +43,22 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
   const std::string       first   = "5 5 2 1 1 1 9 10 3 5 11 12 8";
   const std::vector<Case> cases   = {
     {unnamed.substr(0, unnamed.find(first) + 13), "line 25: the file ends where a node"},
-    {replaced(unnamed, "7 2 1 1\n", "7 2 one 1\n"), "line 12: 'one' is no number"},
+    {replaced(unnamed, "7 2 1 1\n", "7 2 one 1\n"), "line 12: 'one' is not a number"},
     {replaced(unnamed, "2 2 0 0", "1 2 0 0"), "line 7: node 1 occurs twice"},
-    {replaced(unnamed, "5 5 2 1", "5 99 2 1"), "line 25: elements of Gmsh's type 99"},
+    {replaced(unnamed, "5 5 2 1", "5 99 2 1"), "line 25: element type 99 of Gmsh"},
     {replaced(unnamed, first, "5 5 2 1 1 1 9 10 3 5 11 12 99"),
        "line 25: element 5 has the node 99"},
     // the whole mesh may be left-handed, but not one element
     {replaced(unnamed, first, "5 5 2 1 1 5 11 12 8 1 9 10 3"), "line 25: element 5 is inverted"},
     {replaced(unnamed, "12 1 1 1", "12 1 1 -0.5"), "element 5 is inverted"},
     {replaced(unnamed, "1 3 2 2 5 1 9 10 3", "1 3 2 2 5 1 9 12 3"),
-       "line 21: element 1 is no face of a cell"},
-    {replaced(unnamed, "3 3 2 3", "3 3 2 4"), "line 23: element 3 is in group 4"},
+       "line 21: element 1 is not a face of a cell"},
+    {replaced(unnamed, "3 3 2 3", "3 3 2 4"), "line 23: element 3 belongs to group 4"},
     {replaced(msh, "\"bottom\"", "bottom"), "line 6: a physical name in quotes"},
     {replaced(msh, "2.2 0 8", "3.0 0 8"), "version 3.0"},
     {msh.substr(0, msh.find("$Elements")), "the file has no elements"},
-    {replaced(inp, "type=C3D8", "type=B31H"), "elements of the type 'B31H'"},
-    {replaced(inp, "5, 6, \n", "5, 66, \n"), "the element 66"},
+    {replaced(inp, "type=C3D8", "type=B31H"), "element type 'B31H'"},
+    {replaced(inp, "5, 6, \n", "5, 66, \n"), "the element 66, which does not exist"},
     {"solid part\n", "not a mesh file of Gmsh"},
     {"# vtk DataFile Version 2.0\n", "'meshio convert -o gmsh22 FILE part.msh' converts"},
     {"", "the file ends"}};
@@ -69,18 +69,18 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
       EXPECT_NE(message.find(item.says), std::string::npos)
         << message << "\n  and not: " << item.says;
     }
-  EXPECT_NE(complaint(unnamed, file_body(), 3).find("in group 2, which has no name"),
+  EXPECT_NE(complaint(unnamed, file_body(), 3).find("belongs to group 2, which has no name"),
             std::string::npos);
   EXPECT_NE(complaint(contents("square.msh"), file_body(), 3)
-              .find("it has 4 lines, 2 triangles, 1 quadrilaterals"),
+              .find("it has 4 lines, 2 triangles and 1 quadrilateral"),
             std::string::npos);
   EXPECT_NE(complaint(msh, file_body(), 2).find("is a solid"), std::string::npos);
   EXPECT_NE(complaint(replaced(msh, "2 2 \"bottom\"", "2 7 \"bottom\""), file_body(), 3)
-              .find("in group 2, which has no name"),
+              .find("belongs to group 2, which has no name"),
             std::string::npos);
   auto region    = file_body();
   region.regions = {"blocks"};
-  EXPECT_NE(complaint(msh, region, 3).find("they are block"), std::string::npos);
+  EXPECT_NE(complaint(msh, region, 3).find("which has the regions block"), std::string::npos);
 }
 
 TEST(MeshFiles, TruncatedFilesAreErrorsOrWhole)
@@ -136,7 +136,7 @@ TEST(MeshFiles, HexahedraInATwistedRingAreSplit)
     }
   auto body     = file_body();
   body.imported = mesh_file::import_mesh(gmsh_text(nodes.str(), elements.str()), body, 3);
-  EXPECT_NE(body.imported->notes[0].find("no common directions"), std::string::npos);
+  EXPECT_NE(body.imported->notes[0].find("no consistent directions"), std::string::npos);
   const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, {body}, 2);
   EXPECT_EQ(mesh.n_global_cells(), 8 * n);
   EXPECT_GT(file_volume(mesh), 0.);
@@ -245,7 +245,7 @@ TEST(MeshFiles, NamedRegionsGoBeforeOthers)
   EXPECT_EQ(mesh->regions, (std::vector<unsigned int>{0, 2, 2}));
   body.named_regions = {"core", "all"};
   EXPECT_NE(complaint(text, body, 2)
-              .find("line 13: element 1 is in the "
+              .find("line 13: element 1 belongs to the "
                     "regions 'core' and 'all'"),
             std::string::npos);
 }

@@ -142,7 +142,7 @@ TEST(ReadScene, RefusesBytesThatAreZero)
     }
   catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find("holds a byte that is zero"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("contains a null byte"), std::string::npos);
     }
 }
 
