@@ -77,9 +77,9 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
 }
 
 template <int dim>
-ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>             &solver,
-                                      const typename mesh::BodyMesh<dim>::Field &local_positions,
-                                      const std::vector<double>                 &of_rows)
+ContactPressure<dim>::ContactPressure(const state::StateSolver<dim> &solver,
+                                      const mesh::Field<dim>        &local_positions,
+                                      const std::vector<double>     &of_rows)
   : solver(solver)
   , positions(solver.surface().gather(local_positions))
   , shape(solver.mesh().degree())

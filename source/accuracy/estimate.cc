@@ -105,7 +105,7 @@ public:
     return z;
   }
 
-  typename mesh::BodyMesh<dim>::Field jump_of(const unsigned int j) const
+  mesh::Field<dim> jump_of(const unsigned int j) const
   {
     return jump(solver, torn, continuous, column[j]);
   }
@@ -136,8 +136,7 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
 
 /// Return a displacement without loads.
 template <int dim>
-LoadedDisplacement<dim> unloaded(const typename mesh::BodyMesh<dim>::Field &displacement,
-                                 const std::size_t                          n_rows)
+LoadedDisplacement<dim> unloaded(const mesh::Field<dim> &displacement, const std::size_t n_rows)
 {
   return {displacement, std::vector<double>(n_rows, 0.), 0.};
 }

@@ -69,11 +69,11 @@ public:
   const typename mesh::Surface<dim>::Field &positions() const { return x; }
 
 private:
-  const state::StateSolver<dim>             &solver;
-  const mesh::Surface<dim>                  &surface;
-  const faces::FaceShape<dim>                shape;
-  const typename mesh::BodyMesh<dim>::Field &local;
-  const typename mesh::Surface<dim>::Field   x;
+  const state::StateSolver<dim>           &solver;
+  const mesh::Surface<dim>                &surface;
+  const faces::FaceShape<dim>              shape;
+  const mesh::Field<dim>                  &local;
+  const typename mesh::Surface<dim>::Field x;
 
   /// Return the faces of this rank beside a side.
   std::vector<FaceBeside<dim>> faces_beside(const contact::Side &side) const

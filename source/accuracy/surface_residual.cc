@@ -73,7 +73,7 @@ class FaceSampler
 {
 public:
   using Face     = typename mesh::BodyMesh<dim>::Face;
-  using Field    = typename mesh::BodyMesh<dim>::Field;
+  using Field    = mesh::Field<dim>;
   using Function = std::function<double(const dealii::Tensor<1, dim> &)>;
 
   /// @p degree is the degree of the polynomial. References must outlive this object. Collective.

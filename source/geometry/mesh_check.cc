@@ -101,6 +101,14 @@ void BodyMeshParameters::check(const SectionCheck &section, const bool axisymmet
 {
   if (source == Source::box)
     check_box(section, *this);
+  if (source == Source::file && !curved_faces.empty())
+    {
+      const auto &face = *curved_faces.begin();
+      throw section.error("Curved faces", face.first + ": " + face.second,
+                          "is for boxes; round boundaries of mesh files are recognized, with "
+                          "'Surface = " +
+                            face.first + ": smooth' at any angle between facets");
+    }
   section.dimension == 2 ? check_in<2>(section, *this, axisymmetric)
                          : check_in<3>(section, *this, axisymmetric);
   section.require(local_refinements == 0 || !refine_where.empty(), "Refine where", refine_where,

@@ -39,12 +39,8 @@ void declare_box(Entries &entries, BodyMeshParameters &mesh)
         "the same with the coordinate across the axis: 'bottom: cylinder y 4 "
         "at 0'"},
        {"FORMULA", "outward displacement of the face of a box [length] as a formula of x, y, z: "
-                   "'bottom: -(x^2)/8'"},
-       {"sphere",
-        "boundary of a mesh file that lies on a sphere, whose centre and radius are found"},
-       {"cylinder AXIS", "boundary of a mesh file that lies on a cylinder along x, y or z: 'bore: "
-                         "cylinder z'"}}),
-    "The true surfaces of faces that are not flat.");
+                   "'bottom: -(x^2)/8'"}}),
+    "The true surfaces of faces of a box that are not flat.");
 }
 
 void declare_round(Entries &entries, BodyMeshParameters &mesh)
@@ -74,16 +70,16 @@ void declare_round(Entries &entries, BodyMeshParameters &mesh)
 void declare_file(Entries &entries, BodyMeshParameters &mesh)
 {
   entries.add("Mesh file", mesh.file, allowed("the path of a file"),
-              "The mesh file, relative to the parameter file: Gmsh .msh 2 or 4.1, Abaqus .inp, VTK "
-              "legacy, or UCD in ASCII. Triangles, tetrahedra and prisms are split into "
-              "quadrilaterals and hexahedra.");
+              "The mesh file, relative to the parameter file: Gmsh .msh 2 or 4.1, or Abaqus .inp. "
+              "Triangles, tetrahedra and prisms are split into quadrilaterals and hexahedra. "
+              "'meshio convert -o gmsh22 part.vtk part.msh' converts other formats.");
   entries.add("Mesh regions", mesh.regions,
               "The groups of cells of the mesh file that form the body. An empty list means all "
               "cells.");
   entries.add("Boundary names", mesh.boundary_numbers,
               allowed("a list 'number: name, ...' of different numbers"),
-              "The names of groups of faces that have only numbers in the file, as in VTK and UCD: "
-              "'1: bottom, 7: bore'.");
+              "The names of groups of faces that have only numbers in the file, such as physical "
+              "groups of Gmsh without a name: '1: bottom, 7: bore'.");
   entries.add(
     "Surface", mesh.surfaces,
     with_meanings(

@@ -63,8 +63,8 @@ std::vector<MethodChoice> methods(const GradientProblem<dim> &problem,
 /// Return this rank's share of the field V (V'V)^+ values. This field lies in the
 /// span of the velocities V and has the products @p values with them.
 template <int dim>
-typename mesh::BodyMesh<dim>::Field spanned_field(const GradientProblem<dim> &problem,
-                                                  const std::vector<double>  &values)
+mesh::Field<dim> spanned_field(const GradientProblem<dim> &problem,
+                               const std::vector<double>  &values)
 {
   const auto        &mesh = problem.solver.mesh();
   const unsigned int k    = values.size();

@@ -206,9 +206,9 @@ std::vector<std::pair<unsigned int, unsigned int>> Shape<dim>::faces() const
 }
 
 template <int dim>
-typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
-                                              const ShapeBasis<dim>     &basis,
-                                              const std::vector<double> &design)
+mesh::Field<dim> positions(const mesh::BodyMesh<dim> &mesh,
+                           const ShapeBasis<dim>     &basis,
+                           const std::vector<double> &design)
 {
   auto       x = mesh.reference_positions();
   const auto v = basis.apply(design);
@@ -272,13 +272,12 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
   return table;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                         \
-  template struct Modes<dim>;                                                         \
-  template class ShapeBasis<dim>;                                                     \
-  template class Shape<dim>;                                                          \
-  template mesh::BodyMesh<dim>::Field         positions(const mesh::BodyMesh<dim> &,  \
-                                                        const ShapeBasis<dim> &,      \
-                                                        const std::vector<double> &); \
+#define SNUG_INSTANTIATE(dim)                                                               \
+  template struct Modes<dim>;                                                               \
+  template class ShapeBasis<dim>;                                                           \
+  template class Shape<dim>;                                                                \
+  template mesh::Field<dim> positions(const mesh::BodyMesh<dim> &, const ShapeBasis<dim> &, \
+                                      const std::vector<double> &);                         \
   template const ChoiceTable<MakeShape<dim>> &shape_basis_table();
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -156,27 +156,27 @@ def check_files(runner, scene):
 
 def check_mesh_files(runner):
     """Mesh files that are wrong: the message names the file and the place."""
-    good = (MESHES / "block.ucd").read_text(encoding="utf-8")
-    first = "5 1 hex 1 9 10 3 5 11 12 8"
-    flat = good.replace("12 6 0", "12 4 0").split("5 1 hex")[0]
+    good = (MESHES / "block-unnamed.msh").read_text(encoding="utf-8")
+    first = "5 5 2 1 1 1 9 10 3 5 11 12 8"
+    flat = good.replace("\n6\n", "\n4\n").split(first)[0] + "$EndElements\n"
     cases = [
-        ("truncated mesh", good[:good.index(first) + 9], {}, ["line 19"]),
-        ("inverted cell", good.replace(first, "5 1 hex 5 11 12 8 1 9 10 3"), {},
-         ["line 19", "element 5", "inverted"]),
+        ("truncated mesh", good[:good.index(first) + 13], {}, ["line 25"]),
+        ("inverted cell", good.replace(first, "5 5 2 1 1 5 11 12 8 1 9 10 3"), {},
+         ["line 25", "element 5", "inverted"]),
         ("surface mesh", flat, {}, ["4 quadrilaterals"]),
         ("missing physical name", good, {"Boundary names": "3: top"},
-         ["line 15", "group 2"]),
+         ["line 21", "group 2"]),
         ("boundary not in the file", good, {"Supports": "left: x"},
          ["left", "bottom, top, free"]),
         ("cells of a region without a material", good.replace(
-            "6 1 hex", "6 9 hex"), {"Materials": "1: steel"},
+            "6 5 2 1", "6 5 2 9"), {"Materials": "1: steel"},
          ["the region '9' has no material"]),
         ("units that put bodies far apart", good, {"Shift": "0, 0, 1000"},
          ["part.bottom", "distance of 999", "Scale"]),
-        ("face that is not round", good, {"Curved faces": "top: sphere"},
-         ["top: sphere", "does not fit"])]
+        ("curved face of a mesh file", good, {"Curved faces": "top: sphere"},
+         ["top: sphere", "is for boxes"])]
     for title, mesh, entries, names in cases:
-        path = runner.folder / (title.replace(" ", "-") + ".ucd")
+        path = runner.folder / (title.replace(" ", "-") + ".msh")
         path.write_text(mesh, encoding="utf-8")
         scene = mesh_scene(runner, title, {"Mesh file": path.name, **entries})
         place = [] if "Shift" in entries else [scene.name]

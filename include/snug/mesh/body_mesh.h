@@ -16,6 +16,10 @@
 #include <vector>
 
 namespace snug::mesh {
+/// A vector at each local node of a mesh, or at each of its points.
+template <int dim>
+using Field = std::vector<dealii::Tensor<1, dim>>;
+
 /**
  * The mesh of all bodies on this rank. This class holds the nodes of one triangulation (scalar
  * degrees of freedom of FE_Q(degree); displacement component c of node a is
@@ -35,7 +39,7 @@ template <int dim>
 class BodyMesh
 {
 public:
-  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per local node or point
+  using Field = mesh::Field<dim>;
 
   struct Cell
   {

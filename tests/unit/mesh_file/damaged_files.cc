@@ -208,13 +208,11 @@ TEST(DamagedFiles, SetsOfThemselvesDoNotGrow)
   EXPECT_EQ(complaint(text, row.parameters, 3), "");
 }
 
-TEST(DamagedFiles, SectionsThatOccurTwiceMustAgree)
+TEST(DamagedFiles, NodesThatOccurTwiceAreErrors)
 {
-  // cell numbers of the first cells only
-  const auto text  = contents("block.vtk");
-  const auto cells = text.substr(text.find("CELLS"), text.find("CELL_DATA") - text.find("CELLS"));
-  EXPECT_NE(complaint(text + "\n" + cells, numbered_body(), 3).find("groups of"),
-            std::string::npos);
+  const auto text  = contents("block-2.msh");
+  const auto nodes = text.substr(text.find("$Nodes"), text.find("$Elements") - text.find("$Nodes"));
+  EXPECT_NE(complaint(text + nodes, file_body(), 3).find("node 1 occurs twice"), std::string::npos);
 }
 
 TEST(DamagedFiles, NumbersBeyondTheirTypeAreErrors)
