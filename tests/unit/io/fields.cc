@@ -144,11 +144,12 @@ TEST(FieldOutput, WritesWhatIsAskedForAtAnyCompression)
   };
   const auto all = written(a_file_per_rank());
   for (const unsigned int level : {0, 9})
-    EXPECT_EQ(written({scene::OutputParameters().fields, level, 1}).arrays, all.arrays);
+    EXPECT_EQ(written({Verbosity::normal, scene::OutputParameters().fields, level, 1}).arrays,
+              all.arrays);
   auto few = all.arrays;
   for (const char *name : {"stress", "region", "subdomain", "design_displacement"})
     few.erase(name);
-  EXPECT_EQ(written({{"von_mises"}, 1, 1}).arrays, few);
+  EXPECT_EQ(written({Verbosity::normal, {"von_mises"}, 1, 1}).arrays, few);
 }
 
 TEST(FieldOutput, ListsTimesAndPieces)
