@@ -39,7 +39,7 @@ constexpr Constants solid = {6e-5, {1.4e-4, 1.2e-3}, 6e-6,    4e-6,   7e-9, 2., 
 const double base_memory = 175.; ///< of a process [MB]
 const double start_up    = 0.4;  ///< of libraries and MPI [s]
 
-/// Of a cold solve; subdomains that are no boxes need twice as many.
+/// Return the F-mults of a cold solve. Subdomains that are no boxes need twice as many.
 double expected_f_mults(const scene::Scene &scene, const Counts &counts)
 {
   double result = 10. + 6. * std::log2(std::max(1., counts.subdomains));
@@ -55,7 +55,7 @@ double expected_f_mults(const scene::Scene &scene, const Counts &counts)
   return result * (0.5 - std::log10(tolerance) / 12.);
 }
 
-/// Of one design, whatever its basis makes of it.
+/// Return the expected number of design variables of a scene.
 double expected_variables(const scene::Scene &scene, const Counts &counts)
 {
   double result = 0.;
