@@ -114,8 +114,8 @@ LoadResidual<dim>::LoadResidual(const mesh::BodyMesh<dim>  &mesh,
       if (loads.bodies[body].body_force)
         keys.emplace_back(body, no_boundary);
     }
-  // Call everywhere(), because a formula may fail at a position that only one rank has.
-  everywhere(mesh.communicator(), [&]() {
+  // Call throw_collectively(), because a formula may fail at a position that only one rank has.
+  throw_collectively(mesh.communicator(), [&]() {
     add_faces(loads, positions, sampling);
     add_cells(loads, positions, sampling);
   });

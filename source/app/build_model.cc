@@ -99,7 +99,7 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
 template <int dim>
 std::unique_ptr<mesh::Forest<dim>> build_forest(const scene::Scene &scene, MPI_Comm communicator)
 {
-  return made_of(scene, [&]() {
+  return with_file_context(scene, [&]() {
     return std::make_unique<mesh::Forest<dim>>(communicator, mesh_parameters(scene));
   });
 }
@@ -117,7 +117,7 @@ build_mesh(const scene::Scene &scene, const mesh::Forest<dim> &forest, const boo
       for (const auto &body : scene.bodies)
         tearing->nearly_incompressible.push_back(scene::is_nearly_incompressible(scene, body));
     }
-  return made_of(scene, [&]() {
+  return with_file_context(scene, [&]() {
     return std::make_unique<mesh::BodyMesh<dim>>(forest, scene.degree, idealization(scene),
                                                  tearing);
   });

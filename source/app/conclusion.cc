@@ -43,7 +43,7 @@ std::optional<DesignValues>
 values_paired_anew(Search<dim> &search, const OptimizationResult &result, const bool is_paired)
 {
   auto &problem = search.problem;
-  if (result.end == optimization::End::interrupted ||
+  if (result.end == optimization::StopReason::interrupted ||
       (!is_paired && problem.drift(result.x) < no_drift))
     return {};
   if (is_paired)

@@ -43,7 +43,7 @@ std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene,
   Search<dim>       search(problem, record, start);
   const auto        result = search.run(start);
   report_result(search, result);
-  return optimization::complaint(result, scene.optimization);
+  return optimization::failure_reason(result, scene.optimization);
 }
 
 /// Searches on meshes that are made for targets. Each search begins where the search before has
@@ -192,7 +192,7 @@ void AdaptiveOptimization<dim>::search(Search<dim> &search, const double toleran
     {
       if (result.evaluations == 0)
         throw;
-      result.end         = optimization::End::interrupted;
+      result.end         = optimization::StopReason::interrupted;
       result.stop_reason = "interrupted";
     }
 }
@@ -214,12 +214,12 @@ std::string AdaptiveOptimization<dim>::run()
       on_mesh.evaluator.start_from(result.x, std::move(forces));
       if (!phase.is_last)
         search(on_mesh, phase.tolerance);
-      const bool is_interrupted = result.end == optimization::End::interrupted;
+      const bool is_interrupted = result.end == optimization::StopReason::interrupted;
       if (!phase.is_last && !is_interrupted)
         continue;
       report_result(on_mesh, result, is_interrupted ? PriorResults() : phase.prior);
       results->print_work();
-      return phase.failure_reason.empty() ? optimization::complaint(result, scene.optimization)
+      return phase.failure_reason.empty() ? optimization::failure_reason(result, scene.optimization)
                                           : phase.failure_reason;
     }
 }

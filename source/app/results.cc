@@ -1,5 +1,5 @@
 #include <snug/accuracy/adaptation.h>
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/io/qp_export.h>
@@ -330,7 +330,7 @@ void Results<dim>::export_shape(const std::vector<double> &design)
   const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
   const auto               at_faces = faces.gather(problem->positions(design));
   const auto               points   = problem->shapes->control_points(design);
-  everywhere(problem->context.communicator(), [&]() {
+  throw_collectively(problem->context.communicator(), [&]() {
     if (problem->context.rank() != 0)
       return;
     io::write_surface(path("surface"), faces, at_faces);
@@ -358,7 +358,7 @@ void Results<dim>::write_summary()
   if (!io::blas_warning(summary.program).empty())
     summary.warnings.push_back(io::blas_warning(summary.program));
   summary.warnings.insert(summary.warnings.end(), warnings.begin(), warnings.end());
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     if (context.rank() == 0)
       summary.write(path("summary.json"));
   });

@@ -97,7 +97,7 @@ void Search<dim>::report(const Iteration &iteration, const unsigned int before)
   line.seconds              = iteration.evaluation.seconds;
   line.design               = iteration.x;
   log(io::log_line(line));
-  everywhere(problem.context.communicator(), [&]() {
+  throw_collectively(problem.context.communicator(), [&]() {
     if (problem.context.rank() == 0)
       record.history.add(line);
   });

@@ -1,4 +1,4 @@
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/app/shape_problem.h>
 #include <snug/state/assumptions.h>
 
@@ -19,12 +19,12 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
     shape::BodyNames names;
     for (const auto &body : scene.bodies)
       names.names.push_back(body.name);
-    shapes = made_of(scene, [&]() {
+    shapes = with_file_context(scene, [&]() {
       return std::make_unique<shape::Shapes<dim>>(*mesh, names, scene.shapes);
     });
   }
   // contact is paired where the optimization starts, not at the reference
-  solver    = made_of(scene, [&]() {
+  solver    = with_file_context(scene, [&]() {
     return std::make_unique<state::StateSolver<dim>>(*mesh, tearing, build_model(scene, *mesh),
                                                         positions(shapes->start()), context);
   });
@@ -36,7 +36,7 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
 template <int dim>
 void ShapeProblem<dim>::check_overlaps() const
 {
-  made_of(scene, [&]() {
+  with_file_context(scene, [&]() {
     state::check_overlaps(solver->contact().pairs(), solver->contact().paired_gaps());
   });
 }
@@ -46,7 +46,7 @@ std::unique_ptr<response::Response<dim>>
 ShapeProblem<dim>::make_response(const std::string &name) const
 {
   auto response = response::make_response<dim>(*scene::response_called(scene, name));
-  made_of(scene, [&]() { response->check(*solver); });
+  with_file_context(scene, [&]() { response->check(*solver); });
   return response;
 }
 
@@ -57,7 +57,7 @@ ShapeProblem<dim>::solve(const Design &design, const std::vector<qp::WarmStart> 
   States     states;
   const auto x = positions(design);
   for (unsigned int c = 0; c < n_load_cases(); ++c)
-    states.push_back(made_of(scene, [&]() {
+    states.push_back(with_file_context(scene, [&]() {
       return solver->solve(x, starts.empty() ? qp::WarmStart() : starts[c], c);
     }));
   return states;

@@ -1,7 +1,7 @@
 #include <snug/advice/cost.h>
 #include <snug/app/adaptation.h>
 #include <snug/app/interrupt.h>
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
 #include <snug/app/sensitivity.h>
 #include <snug/app/study.h>
@@ -102,7 +102,7 @@ void prepare_output(const RunContext &context, const scene::Scene &scene)
 {
   for (const auto &directory : output_directories(scene))
     io::make_output_directory(context, directory);
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     std::ostringstream text;
     scene::print(scene, text);
     if (context.rank() == 0)
@@ -116,9 +116,9 @@ void print_estimate(RunContext         &context,
                     unsigned int        ranks,
                     const bool          stages)
 {
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     if (context.rank() == 0)
-      made_of(scene, [&]() {
+      with_file_context(scene, [&]() {
         print(advice::estimate_cost(scene, ranks > 0 ? ranks : context.n_ranks(),
                                     advice::machine_speed()),
               stages, context.out(stages ? Verbosity::quiet : Verbosity::normal));
@@ -131,7 +131,7 @@ void validate_in(RunContext &context, const scene::Scene &scene)
 {
   auto mesh = timed_mesh<dim>(context, scene);
   print_import_notes(scene, context.out());
-  print(take_inventory(scene, *mesh), context.out(Verbosity::quiet));
+  print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   for (const auto &line : unrefined(scene, *mesh))
     context.warn(line);
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
@@ -142,8 +142,8 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.
   for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
-    made_of(scene, [&]() {
-      everywhere(context.communicator(), [&]() { problem.solver->loads(positions, c); });
+    with_file_context(scene, [&]() {
+      throw_collectively(context.communicator(), [&]() { problem.solver->loads(positions, c); });
     });
 }
 

@@ -36,7 +36,7 @@ void Adaptation<dim>::resolve_data()
       std::vector<std::string> names;
       for (const auto &body : scene.bodies)
         names.push_back(body.name);
-      const auto found = made_of(scene, [&]() {
+      const auto found = with_file_context(scene, [&]() {
         return accuracy::unresolved_data(*mesh, build_load_cases(scene, *mesh), names,
                                          missed_loads(scene));
       });

@@ -31,7 +31,7 @@ void assign(const Entries::Description &entry, const Origins &origins, const std
 
 /// Return the error of the numbers of an entry; "" if there is no error.
 std::string
-complaint(const Form &form, const std::vector<double> &numbers, const unsigned int dimension)
+failure_reason(const Form &form, const std::vector<double> &numbers, const unsigned int dimension)
 {
   // Limit of numbers, such that sums of squares of products of two numbers do not overflow.
   const double largest = 1e60;
@@ -148,7 +148,7 @@ void Entries::check(const Origins &origins, const unsigned int dimension) const
       assign(entry, origins, text);
       if (!entry.access.numbers)
         continue;
-      const auto wrong = complaint(entry.form, entry.access.numbers(), dimension);
+      const auto wrong = failure_reason(entry.form, entry.access.numbers(), dimension);
       if (!wrong.empty())
         throw origins.error(entry.path(), text, wrong);
     }

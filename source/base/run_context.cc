@@ -174,7 +174,7 @@ Kind kind_of(const std::exception &error)
 }
 } // namespace
 
-void everywhere(MPI_Comm communicator, const std::function<void()> &work)
+void throw_collectively(MPI_Comm communicator, const std::function<void()> &work)
 {
   int         kind = none;
   std::string message;

@@ -214,7 +214,7 @@ void SparseFactor::factorize(const CsrMatrix   &A,
   if (!team)
     factorize_values(A, what);
   else
-    everywhere(team->all(), [&]() {
+    throw_collectively(team->all(), [&]() {
       if (team->has_this_rank())
         factorize_values(A, what);
     });

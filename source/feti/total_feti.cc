@@ -80,11 +80,11 @@ TotalFeti::TotalFeti(const std::vector<SubdomainSystem> &the_systems,
   knows_soft_modes = !dealii::Utilities::MPI::logical_or(slender, run.communicator());
 }
 
-/// A factorization may fail on one rank only. everywhere() turns this failure into an error on all
-/// ranks, because otherwise the other ranks would wait in the next collective call.
+/// A factorization may fail on one rank only. throw_collectively() turns this failure into an error
+/// on all ranks, because otherwise the other ranks would wait in the next collective call.
 void TotalFeti::update(const std::vector<bool> &changed)
 {
-  everywhere(run.communicator(), [&]() {
+  throw_collectively(run.communicator(), [&]() {
     const RunContext::Timer timer(run, "factorization");
     // Release all factors first, because a factor in use cannot serve another matrix.
     for (unsigned int s = 0; s < systems.size(); ++s)
@@ -104,7 +104,7 @@ void TotalFeti::update(const std::vector<bool> &changed)
 
 void TotalFeti::update_preconditioner()
 {
-  everywhere(run.communicator(), [&]() {
+  throw_collectively(run.communicator(), [&]() {
     const RunContext::Timer timer(run, "factorization");
     for (unsigned int s = 0; s < schur.size(); ++s)
       if (outdated[s])
@@ -175,7 +175,7 @@ void TotalFeti::gather_rows()
   coarse.update(std::vector<double>(gathered.begin() + std::min<std::size_t>(2, gathered.size()),
                                     gathered.end()),
                 width, Z);
-  everywhere(run.communicator(), [&]() { gram.update(gathered, width); });
+  throw_collectively(run.communicator(), [&]() { gram.update(gathered, width); });
 }
 
 void TotalFeti::weight_rows()

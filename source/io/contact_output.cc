@@ -177,7 +177,7 @@ void ContactOutput<dim>::write(const Sources                  &of,
                                const double                    time,
                                const state::ContactState<dim> &state)
 {
-  // The gather is collective, so it must not be called within everywhere().
+  // The gather is collective, so it must not be called within throw_collectively().
   const SurfaceFields<dim> fields{of.surface.gather(of.mesh.reference_positions()),
                                   of.surface.gather(state.positions),
                                   of.surface.gather(state.displacement)};
@@ -187,7 +187,7 @@ void ContactOutput<dim>::write(const Sources                  &of,
   const MPI_Comm comm = of.mesh.communicator();
   // Rank 0 writes. If it fails, all ranks fail, because otherwise all other ranks would wait for
   // rank 0 in the next reduction.
-  everywhere(comm, [&] {
+  throw_collectively(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
     write_text_file(directory + "/" + stem + ".vtu",

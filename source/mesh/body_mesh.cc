@@ -299,8 +299,8 @@ BodyMesh<dim>::BodyMesh(const Forest<dim>                      &forest,
   const Source source(forest, degree, cells_per_subdomain(dim, fe_degree, meaning), tearing);
   n_cells = source.triangulation().n_global_active_cells();
   number_nodes(source);
-  // everywhere() is needed because a formula may fail at a position that only one rank has.
-  everywhere(comm, [&]() { collect_nodes(source); });
+  // throw_collectively() is needed because a formula may fail at a position that only one rank has.
+  throw_collectively(comm, [&]() { collect_nodes(source); });
   collect_hanging(source);
   collect_cells(source);
   if (source.is_distributed)
@@ -309,7 +309,7 @@ BodyMesh<dim>::BodyMesh(const Forest<dim>                      &forest,
   // the masters. The displacement at hanging nodes is interpolated, so the position must be
   // interpolated as well. Otherwise rigid motions would cause strains.
   interpolate_hanging(reference);
-  everywhere(comm, [&]() { collect_samples(forest.bodies(), source); });
+  throw_collectively(comm, [&]() { collect_samples(forest.bodies(), source); });
   if (idealization.is_axisymmetric())
     snap_to_axis();
 }

@@ -92,8 +92,8 @@ bool Forest<dim>::refine_step(const Wanted &wanted)
 {
   const PlacedIds<dim> ids(*refined);
   bool                 any = false;
-  // everywhere() is needed because a formula may fail on the rank of one cell only.
-  everywhere(comm, [&]() {
+  // throw_collectively() is needed because a formula may fail on the rank of one cell only.
+  throw_collectively(comm, [&]() {
     for (const auto &cell : refined->active_cell_iterators())
       if (cell->is_locally_owned() &&
           wanted(cell->material_id(), ids.of(cell->id()), cell->level()))

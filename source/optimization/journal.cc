@@ -93,7 +93,7 @@ void Journal::say(const std::string &line) const
 void Journal::read()
 {
   std::string text;
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank == 0 && std::filesystem::exists(path()) && !read_file(path(), text))
       throw InputError("cannot read " + path());
   });
@@ -113,7 +113,7 @@ void Journal::begin()
   forget_warm_start();
   const std::string header = journal_header(settings.fingerprint);
   header_end               = header.size();
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank != 0)
       return;
     file.open(path(), std::ios::binary | std::ios::trunc);
@@ -128,7 +128,7 @@ void Journal::begin()
 void Journal::cut()
 {
   const std::size_t end = next == 0 ? header_end : recorded[next - 1].end;
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank != 0)
       return;
     std::error_code error;
@@ -281,7 +281,7 @@ void Journal::store(const DesignProblem &problem,
                     const bool           stores_memory)
 {
   if (problem.memory && stores_memory)
-    everywhere(settings.communicator, [&] {
+    throw_collectively(settings.communicator, [&] {
       // renamed when whole: a kill while writing leaves the older one
       const std::string final_path = warm_start_path(values);
       const std::string temporary  = final_path + ".new";
@@ -292,7 +292,7 @@ void Journal::store(const DesignProblem &problem,
       if (!written || error)
         throw InputError("cannot write " + final_path);
     });
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank != 0)
       return;
     file << journal_text(record, next) << std::flush;

@@ -79,7 +79,7 @@ OptimizationResult search(ScaledProblem                &problem,
                           const Hooks                  &hooks)
 {
   Algorithm   algorithm = parameters.algorithm;
-  End         end       = End::none;
+  StopReason  end       = StopReason::none;
   std::string failure;
   try
     {
@@ -90,7 +90,7 @@ OptimizationResult search(ScaledProblem                &problem,
           MmaSearch mma(problem, progress, parameters, hooks);
           end     = mma.run();
           failure = mma.failure;
-          if (end == End::round_off)
+          if (end == StopReason::round_off)
             {
               if (hooks.log)
                 hooks.log("MMA stalled: continuing with SLSQP from iteration " +
@@ -108,20 +108,22 @@ OptimizationResult search(ScaledProblem                &problem,
     }
   catch (const Interrupted &)
     {
-      end = End::interrupted;
+      end = StopReason::interrupted;
     }
   auto result      = progress.finish(end, failure);
   result.algorithm = algorithm;
-  if (end != End::interrupted)
+  if (end != StopReason::interrupted)
     check_blind_start(problem, result);
   return result;
 }
 } // namespace
 
-std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters)
+std::string failure_reason(const OptimizationResult     &result,
+                           const OptimizationParameters &parameters)
 {
-  const bool is_feasible  = result.constraint_violation <= parameters.constraint_tolerance;
-  const bool is_cut_short = result.end == End::interrupted || result.end == End::evaluations;
+  const bool is_feasible = result.constraint_violation <= parameters.constraint_tolerance;
+  const bool is_cut_short =
+    result.end == StopReason::interrupted || result.end == StopReason::evaluations;
   if (result.success || (is_feasible && is_cut_short))
     return "";
   std::ostringstream text;

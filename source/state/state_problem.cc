@@ -75,7 +75,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   boxes = body_boxes(mesh);
   if (mesh.idealization().is_axisymmetric())
     check_radii(mesh, model.body_names);
-  everywhere(context.communicator(), [&]() { check_reference(*this); });
+  throw_collectively(context.communicator(), [&]() { check_reference(*this); });
   held    = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
                                                                   model.load_cases.size(), positions);
   contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
@@ -170,7 +170,8 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
 {
   const RunContext::Timer timer(context, "assembly");
   std::vector<double>     jacobians;
-  everywhere(context.communicator(), [&]() { jacobians = checked_jacobians(positions, moved); });
+  throw_collectively(context.communicator(),
+                     [&]() { jacobians = checked_jacobians(positions, moved); });
   // An exception from here on leaves matrices of no geometry, so forget the geometry first.
   geometry.positions.clear();
   loaded_case.reset();
@@ -198,7 +199,7 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
           loads[c][s] = assemblers[s]->load(positions, c, tractions);
         }
   };
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     for (unsigned int s = 0; s < systems.size(); ++s)
       assemble_subdomain(s);
   });

@@ -9,7 +9,7 @@ namespace snug::app {
 /// Return the result of @p make. An InputError of @p make is thrown again with the file of the
 /// scene in front, as in all errors of the input.
 template <typename Make>
-auto made_of(const scene::Scene &scene, const Make &make)
+auto with_file_context(const scene::Scene &scene, const Make &make)
 {
   try
     {

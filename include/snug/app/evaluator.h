@@ -2,7 +2,7 @@
 #define snug_app_evaluator_h
 
 #include <snug/app/shape_problem.h>
-#include <snug/app/start_history.h>
+#include <snug/app/warm_start_extrapolation.h>
 #include <snug/optimization/design_problem.h>
 #include <snug/optimization/limit.h>
 
@@ -107,7 +107,7 @@ private:
   ShapeProblem<dim>                      &problem;
   std::vector<Constraint>                 constraints;
   std::vector<sensitivity::Measured<dim>> measured; ///< of the constraints
-  StartHistory                            starts;
+  WarmStartExtrapolation                  starts;
   States                                  of_first;
   std::optional<Analysis<dim>>            current;
 

@@ -129,7 +129,7 @@ private:
  * TangledMesh and bad_alloc (any error that is_out_of_memory()) keep their kind. All other errors
  * become a runtime_error. Collective on @p communicator; @p work must not be collective.
  */
-void everywhere(MPI_Comm communicator, const std::function<void()> &work);
+void throw_collectively(MPI_Comm communicator, const std::function<void()> &work);
 } // namespace snug
 
 #endif

@@ -46,7 +46,7 @@ struct Hooks
 };
 
 /// Why a search, or one of its runs, ended.
-enum class End
+enum class StopReason
 {
   none,
   gradient,
@@ -74,7 +74,7 @@ struct OptimizationResult
   double              objective_final      = 0.;
   double              constraint_violation = 0.; ///< as in Iteration
   double              projected_gradient   = 0.; ///< as in Iteration
-  End                 end                  = End::none;
+  StopReason          end                  = StopReason::none;
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
   /// "interrupted", "a constraint without a gradient at the first design..."
@@ -90,7 +90,8 @@ struct OptimizationResult
 
 /// Return why @p result is not usable. The text is empty if the search converged, or if it ran out
 /// of evaluations or was interrupted at a design that satisfies the constraints.
-std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters);
+std::string failure_reason(const OptimizationResult     &result,
+                           const OptimizationParameters &parameters);
 
 /// Return whether an algorithm supports equality constraints.
 bool takes_equalities(Algorithm algorithm);

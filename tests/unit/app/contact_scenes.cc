@@ -1,4 +1,4 @@
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/base/errors.h>
 #include <snug/state/assumptions.h>
 

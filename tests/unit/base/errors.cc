@@ -28,7 +28,7 @@ int n_ranks()
   return size;
 }
 
-/// Type and message of the error that everywhere() throws on this rank.
+/// Type and message of the error that throw_collectively() throws on this rank.
 struct Thrown
 {
   const std::type_info *type;
@@ -39,7 +39,7 @@ Thrown thrown_by(const std::function<void()> &work)
 {
   try
     {
-      everywhere(MPI_COMM_WORLD, work);
+      throw_collectively(MPI_COMM_WORLD, work);
     }
   catch (const std::exception &error)
     {
@@ -133,7 +133,7 @@ TEST(Everywhere, TheLowestOfTheFailingRanksSpeaks)
 TEST(Everywhere, NoFailureIsNoError)
 {
   int done = 0;
-  everywhere(MPI_COMM_WORLD, [&] { ++done; });
+  throw_collectively(MPI_COMM_WORLD, [&] { ++done; });
   EXPECT_EQ(done, 1);
 }
 

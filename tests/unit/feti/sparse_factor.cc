@@ -34,7 +34,7 @@ feti::CsrMatrix truss_on_springs()
 }
 
 /// Return the error message of the factorization of "the punch".
-std::string complaint(feti::SparseFactor &factor, const feti::CsrMatrix &A)
+std::string failure_reason(feti::SparseFactor &factor, const feti::CsrMatrix &A)
 {
   try
     {
@@ -86,10 +86,10 @@ TEST_P(Factors, SingularMatricesAreErrors)
   for (const auto *matrix : {&floating, &loose, &zero})
     {
       feti::SparseFactor factor(*matrix, feti::FactorOf::kplus, GetParam());
-      expect_clear(complaint(factor, *matrix));
+      expect_clear(failure_reason(factor, *matrix));
       if (matrix == &loose)
         {
-          ASSERT_EQ(complaint(factor, truss_on_springs()), "");
+          ASSERT_EQ(failure_reason(factor, truss_on_springs()), "");
           expect_inverse(truss_on_springs(), factor);
         }
     }
@@ -111,15 +111,15 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
         K.values[K.position(3, column)] = bad;
         K.values[K.position(column, 3)] = bad;
         SCOPED_TRACE(bad);
-        expect_clear(complaint(factor, K));
+        expect_clear(failure_reason(factor, K));
         K.values = good;
-        ASSERT_EQ(complaint(factor, K), "");
+        ASSERT_EQ(failure_reason(factor, K), "");
         expect_inverse(K, factor);
       }
   // all diagonal entries negative
   for (double &value : K.values)
     value *= -1.;
-  expect_clear(complaint(factor, K));
+  expect_clear(failure_reason(factor, K));
 }
 
 /// This class sets an option of PETSc during its lifetime.
@@ -159,8 +159,8 @@ TEST(TeamFactors, InvertOnAllRanks)
                                 team);
       for (const auto *bad : {&loose, &not_a_number})
         {
-          expect_clear(complaint(factor, *bad));
-          ASSERT_EQ(complaint(factor, good), "");
+          expect_clear(failure_reason(factor, *bad));
+          ASSERT_EQ(failure_reason(factor, good), "");
           expect_inverse(good, factor);
         }
     }
@@ -192,7 +192,7 @@ TEST_P(Factors, UnitsAreNoErrors)
       for (std::size_t p = 0; p < good.size(); ++p)
         K.values[p] = unit * good[p];
       feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
-      ASSERT_EQ(complaint(factor, K), "") << unit;
+      ASSERT_EQ(failure_reason(factor, K), "") << unit;
       expect_inverse(K, factor);
     }
 }
@@ -201,7 +201,7 @@ TEST_P(Factors, AnEmptyMatrixHasAnEmptyInverse)
 {
   const auto         empty = feti::CsrMatrix::from_rows({}, 0);
   feti::SparseFactor factor(empty, feti::FactorOf::kplus, GetParam());
-  EXPECT_EQ(complaint(factor, empty), "");
+  EXPECT_EQ(failure_reason(factor, empty), "");
   expect_inverse(empty, factor);
 }
 
@@ -228,11 +228,11 @@ TEST_P(Factors, PetscOptionsOfAPrefixChooseThePackage)
           }
         EXPECT_NO_THROW(feti::check_factor_options(GetParam()));
         feti::SparseFactor factor(K, feti::FactorOf::dirichlet, GetParam());
-        ASSERT_EQ(complaint(factor, K), "");
+        ASSERT_EQ(failure_reason(factor, K), "");
         expect_inverse(K, factor);
         // those of another matrix do not hold
         feti::SparseFactor other(K, feti::FactorOf::kplus, GetParam());
-        ASSERT_EQ(complaint(other, K), "");
+        ASSERT_EQ(failure_reason(other, K), "");
         expect_inverse(K, other);
       }
   const PetscOption wrong("-kplus_pc_type", "jacobi");
@@ -246,7 +246,7 @@ TEST_P(Factors, PetscOptionsNobodyAskedForAreKnown)
     misspelt("-kplus_pc_factor_solver", "mumps"), flag("-k_plus", "");
   const auto         K = truss_on_springs();
   feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
-  ASSERT_EQ(complaint(factor, K), "");
+  ASSERT_EQ(failure_reason(factor, K), "");
   expect_inverse(K, factor);
   EXPECT_FALSE(is_unused("-kplus_pc_factor_mat_ordering_type rcm"));
   EXPECT_EQ(is_unused("-kplus_mat_cholmod_nmethods 2"), GetParam() != feti::Factorization::CHOLMOD);

@@ -71,10 +71,10 @@ TEST(CurvedSurfaces, CoarseFacetsStayUnlessSmoothIsAskedFor)
   for (const std::string value : {"round", ""})
     {
       body.surfaces = {{"top", value}};
-      EXPECT_NE(complaint(grid.text(), body, 2).find("'Surface'"), std::string::npos);
+      EXPECT_NE(failure_reason(grid.text(), body, 2).find("'Surface'"), std::string::npos);
     }
   body.surfaces = {{"bottom", "facets"}};
-  EXPECT_NE(complaint(grid.text(), body, 2).find("the boundaries are top, free"),
+  EXPECT_NE(failure_reason(grid.text(), body, 2).find("the boundaries are top, free"),
             std::string::npos);
 }
 

@@ -42,8 +42,9 @@ inline geometry::BodyMeshParameters numbered_body()
   return parameters;
 }
 
-inline std::string
-complaint(const std::string &text, const geometry::BodyMeshParameters &parameters, unsigned int dim)
+inline std::string failure_reason(const std::string                  &text,
+                                  const geometry::BodyMeshParameters &parameters,
+                                  unsigned int                        dim)
 {
   try
     {

@@ -10,16 +10,17 @@ TEST(MeshFormats, AbaqusKeywordsThatMakeOrMoveAMeshAreRefused)
   for (const std::string line : {"*NGEN, NSET=a\n", "*ncopy\n", "*ELGEN\n", "*INCLUDE, INPUT=a\n",
                                  "*SYSTEM\n", "*Node, system=C\n", "*NODE, INPUT=a\n"})
     {
-      const auto message = complaint(replaced(inp, node, line + node), file_body(), 2);
+      const auto message = failure_reason(replaced(inp, node, line + node), file_body(), 2);
       EXPECT_NE(message.find(": line 3: *"), std::string::npos) << line << message;
       EXPECT_NE(message.find("is not supported; write all nodes"), std::string::npos)
         << line << message;
     }
   const std::string instance = "*Instance, name=a, part=b\n";
-  EXPECT_NE(complaint(replaced(inp, node, instance + "1., 0., 0.\n" + node), file_body(), 2)
+  EXPECT_NE(failure_reason(replaced(inp, node, instance + "1., 0., 0.\n" + node), file_body(), 2)
               .find("line 4: *INSTANCE with a translation"),
             std::string::npos);
-  EXPECT_EQ(complaint(replaced(inp, node, instance + "*NODE, NSET=a, SYSTEM=R\n"), file_body(), 2),
+  EXPECT_EQ(failure_reason(replaced(inp, node, instance + "*NODE, NSET=a, SYSTEM=R\n"), file_body(),
+                           2),
             "");
 }
 
@@ -66,14 +67,14 @@ TEST(MeshFormats, OnlyTheBodyMustLieInAPlane)
                        "*ELEMENT, TYPE=S3, ELSET=tool\n9, 9, 10, 11\n"
                        "*ELEMENT, TYPE=C3D4, ELSET=solid\n10, 9, 10, 11, 12\n"
                        "*ELEMENT, TYPE=CPE4\n");
-  EXPECT_NE(complaint(text, file_body(), 2).find("is a solid"), std::string::npos);
+  EXPECT_NE(failure_reason(text, file_body(), 2).find("is a solid"), std::string::npos);
   auto body    = file_body();
   body.regions = {"all"};
-  EXPECT_EQ(complaint(text, body, 2), "");
+  EXPECT_EQ(failure_reason(text, body, 2), "");
   body.regions = {"all", "tool"};
-  EXPECT_NE(complaint(text, body, 2).find("is not in the plane"), std::string::npos);
+  EXPECT_NE(failure_reason(text, body, 2).find("is not in the plane"), std::string::npos);
   // a lone point, as Gmsh writes those of physical points
   text =
     gmsh_text("1 0 0 7\n2 0 0 0\n3 1 0 0\n4 1 1 0\n5 0 1 0\n", "1 15 2 0 1 1\n2 3 2 0 1 2 3 4 5\n");
-  EXPECT_EQ(complaint(text, file_body(), 2), "");
+  EXPECT_EQ(failure_reason(text, file_body(), 2), "");
 }

@@ -64,23 +64,23 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
     {"", "the file ends"}};
   for (const auto &item : cases)
     {
-      const auto message = complaint(item.text, numbered_body(), 3);
+      const auto message = failure_reason(item.text, numbered_body(), 3);
       EXPECT_EQ(message.rfind("entry 'Mesh file' = 'the.mesh': ", 0), 0u) << message;
       EXPECT_NE(message.find(item.says), std::string::npos)
         << message << "\n  and not: " << item.says;
     }
-  EXPECT_NE(complaint(unnamed, file_body(), 3).find("belongs to group 2, which has no name"),
+  EXPECT_NE(failure_reason(unnamed, file_body(), 3).find("belongs to group 2, which has no name"),
             std::string::npos);
-  EXPECT_NE(complaint(contents("square.msh"), file_body(), 3)
+  EXPECT_NE(failure_reason(contents("square.msh"), file_body(), 3)
               .find("it has 4 lines, 2 triangles and 1 quadrilateral"),
             std::string::npos);
-  EXPECT_NE(complaint(msh, file_body(), 2).find("is a solid"), std::string::npos);
-  EXPECT_NE(complaint(replaced(msh, "2 2 \"bottom\"", "2 7 \"bottom\""), file_body(), 3)
+  EXPECT_NE(failure_reason(msh, file_body(), 2).find("is a solid"), std::string::npos);
+  EXPECT_NE(failure_reason(replaced(msh, "2 2 \"bottom\"", "2 7 \"bottom\""), file_body(), 3)
               .find("belongs to group 2, which has no name"),
             std::string::npos);
   auto region    = file_body();
   region.regions = {"blocks"};
-  EXPECT_NE(complaint(msh, region, 3).find("which has the regions block"), std::string::npos);
+  EXPECT_NE(failure_reason(msh, region, 3).find("which has the regions block"), std::string::npos);
 }
 
 TEST(MeshFiles, TruncatedFilesAreErrorsOrWhole)
@@ -90,7 +90,7 @@ TEST(MeshFiles, TruncatedFilesAreErrorsOrWhole)
       const std::string text = contents(row.file);
       unsigned int      n    = 0;
       for (std::size_t length = 0; length < text.size(); length += 3)
-        n += complaint(text.substr(0, length), row.parameters, row.dim) != "";
+        n += failure_reason(text.substr(0, length), row.parameters, row.dim) != "";
       // what is missing at the end may be unimportant
       EXPECT_GT(3 * n, 0.8 * text.size()) << row.file;
     }
@@ -244,7 +244,7 @@ TEST(MeshFiles, NamedRegionsGoBeforeOthers)
   EXPECT_EQ(mesh->region_names, (std::vector<std::string>{"core", "all", "coat"}));
   EXPECT_EQ(mesh->regions, (std::vector<unsigned int>{0, 2, 2}));
   body.named_regions = {"core", "all"};
-  EXPECT_NE(complaint(text, body, 2)
+  EXPECT_NE(failure_reason(text, body, 2)
               .find("line 13: element 1 belongs to the "
                     "regions 'core' and 'all'"),
             std::string::npos);

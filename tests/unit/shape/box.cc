@@ -107,7 +107,7 @@ TEST(SplineBox, FreezesPointsThatMoveNothing)
 TEST(SplineBox, RejectsWhatCannotBe)
 {
   const auto good = box_in_foundation<3>("Bezier box");
-  EXPECT_EQ(complaint<3>(good), "");
+  EXPECT_EQ(failure_reason<3>(good), "");
   const auto expect = [&](const std::string &entry, const std::string &says,
                           void (*spoil)(shape::ShapeParameters &)) {
     auto bad = good;

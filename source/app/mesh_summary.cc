@@ -1,5 +1,5 @@
 #include <snug/app/build_model.h>
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/elasticity/element.h>
 #include <snug/faces/tributary.h>
 #include <snug/geometry/imported_mesh.h>
@@ -16,7 +16,7 @@
 namespace snug::app {
 namespace {
 template <int dim>
-using Box = typename Inventory<dim>::Box;
+using Box = typename MeshSummary<dim>::Box;
 
 /// The box of @p points of all ranks. Collective.
 template <int dim>
@@ -77,8 +77,8 @@ double area_of(const mesh::BodyMesh<dim> &mesh, const mesh::Surface<dim> &surfac
 }
 
 template <int dim>
-std::vector<typename Inventory<dim>::Region> regions_of_body(const mesh::BodyMesh<dim> &mesh,
-                                                             unsigned int               body)
+std::vector<typename MeshSummary<dim>::Region> regions_of_body(const mesh::BodyMesh<dim> &mesh,
+                                                               unsigned int               body)
 {
   const auto                     names = mesh.geometry(body).region_names();
   std::vector<double>            n_cells(names.size()), volume = n_cells;
@@ -94,16 +94,17 @@ std::vector<typename Inventory<dim>::Region> regions_of_body(const mesh::BodyMes
       }
   dealii::Utilities::MPI::sum(n_cells, mesh.communicator(), n_cells);
   dealii::Utilities::MPI::sum(volume, mesh.communicator(), volume);
-  std::vector<typename Inventory<dim>::Region> regions;
+  std::vector<typename MeshSummary<dim>::Region> regions;
   for (unsigned int r = 0; r < names.size(); ++r)
     regions.push_back({names[r], static_cast<unsigned long>(n_cells[r]), volume[r]});
   return regions;
 }
 
 template <int dim>
-typename Inventory<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
+typename MeshSummary<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mesh,
+                                                  unsigned int               body)
 {
-  typename Inventory<dim>::Body entry;
+  typename MeshSummary<dim>::Body entry;
   for (const auto &cell : mesh.cells())
     entry.n_cells += cell.body == body;
   entry.n_cells     = dealii::Utilities::MPI::sum(entry.n_cells, mesh.communicator());
@@ -147,9 +148,9 @@ double distance(const Box<dim> &a, const Box<dim> &b)
 } // namespace
 
 template <int dim>
-Inventory<dim> take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
 {
-  Inventory<dim> inventory;
+  MeshSummary<dim> inventory;
   for (unsigned int body = 0; body < scene.bodies.size(); ++body)
     {
       inventory.bodies.push_back(inventory_of_body(mesh, body));
@@ -159,7 +160,7 @@ Inventory<dim> take_inventory(const scene::Scene &scene, const mesh::BodyMesh<di
 }
 
 template <int dim>
-void print(const Inventory<dim> &inventory, std::ostream &out)
+void print(const MeshSummary<dim> &inventory, std::ostream &out)
 {
   for (const auto &body : inventory.bodies)
     {
@@ -242,12 +243,12 @@ void print_import_notes(const scene::Scene &scene, std::ostream &out)
         out << "body " << body.name << ", " << body.mesh.file << ": " << note << '\n';
 }
 
-template Inventory<2>             take_inventory(const scene::Scene &, const mesh::BodyMesh<2> &);
-template void                     print(const Inventory<2> &, std::ostream &);
+template MeshSummary<2>           summarize_mesh(const scene::Scene &, const mesh::BodyMesh<2> &);
+template void                     print(const MeshSummary<2> &, std::ostream &);
 template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<2> &);
 template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<2> &);
-template Inventory<3>             take_inventory(const scene::Scene &, const mesh::BodyMesh<3> &);
-template void                     print(const Inventory<3> &, std::ostream &);
+template MeshSummary<3>           summarize_mesh(const scene::Scene &, const mesh::BodyMesh<3> &);
+template void                     print(const MeshSummary<3> &, std::ostream &);
 template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<3> &);
 template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<3> &);
 } // namespace snug::app

@@ -1,5 +1,5 @@
-#ifndef snug_app_inventory_h
-#define snug_app_inventory_h
+#ifndef snug_app_mesh_summary_h
+#define snug_app_mesh_summary_h
 
 #include <snug/mesh/body_mesh.h>
 #include <snug/scene/scene.h>
@@ -9,7 +9,7 @@
 namespace snug::app {
 /// Summary of the meshes of a scene for the author of the scene: sizes, boundaries, regions.
 template <int dim>
-struct Inventory
+struct MeshSummary
 {
   /// Bounding box [length].
   struct Box
@@ -46,11 +46,11 @@ struct Inventory
 
 /// The meshes as they are, refined. Collective.
 template <int dim>
-Inventory<dim> take_inventory(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
 /// One line per body, region and boundary.
 template <int dim>
-void print(const Inventory<dim> &inventory, std::ostream &out);
+void print(const MeshSummary<dim> &inventory, std::ostream &out);
 
 /**
  * @throws InputError if the faces of a pair are farther apart than ten

@@ -1,5 +1,5 @@
-#ifndef snug_qp_set_history_h
-#define snug_qp_set_history_h
+#ifndef snug_qp_cycle_detector_h
+#define snug_qp_cycle_detector_h
 
 #include <snug/qp/active_set.h>
 
@@ -10,10 +10,10 @@
 namespace snug::qp {
 /// This class records the visited active sets and the KKT residuals, and decides how carefully the
 /// active set method must proceed.
-class SetHistory
+class CycleDetector
 {
 public:
-  enum Care
+  enum InnerAccuracy
   {
     none,
     exact,  ///< solve the inner problems more exactly
@@ -21,11 +21,11 @@ public:
     give_up
   };
 
-  explicit SetHistory(const ActiveSetOptions &options);
+  explicit CycleDetector(const ActiveSetOptions &options);
 
   /// Record a visit of the set with fingerprint @p set, coming from a set with @p kkt_residual.
   /// @p shrinks tells that the previous set contains all rows of this one.
-  Care enter(std::uint64_t set, double kkt_residual, bool shrinks);
+  InnerAccuracy enter(std::uint64_t set, double kkt_residual, bool shrinks);
 
   /// Return the reason for giving up, for the log.
   const std::string &reason() const;
@@ -33,7 +33,7 @@ public:
 private:
   ActiveSetOptions                      options;
   std::map<std::uint64_t, unsigned int> visits;
-  Care                                  care           = none;
+  InnerAccuracy                         inner_accuracy = none;
   unsigned int                          single_steps   = 0;
   double                                least_residual = std::numeric_limits<double>::max();
   unsigned int idle_steps = 0; ///< steps with entering rows since the last fall by a tenth

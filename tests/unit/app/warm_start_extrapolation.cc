@@ -1,4 +1,4 @@
-#include <snug/app/start_history.h>
+#include <snug/app/warm_start_extrapolation.h>
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 using namespace snug;
-using app::StartHistory;
+using app::WarmStartExtrapolation;
 
 namespace {
 /// Forces on three rows, smooth in two variables.
@@ -19,7 +19,8 @@ std::vector<qp::MultiVector> forces(const std::vector<double> &x, const double c
   return {lambda, lambda};
 }
 
-double error(const StartHistory &history, const std::vector<double> &x, const double curvature)
+double
+error(const WarmStartExtrapolation &history, const std::vector<double> &x, const double curvature)
 {
   const auto starts = history.at(x);
   const auto exact  = forces(x, curvature);
@@ -30,23 +31,23 @@ double error(const StartHistory &history, const std::vector<double> &x, const do
 }
 
 /// Return the history of three designs at the distance @p h from (0.4, 0.2).
-StartHistory around(const double h, const double curvature)
+WarmStartExtrapolation around(const double h, const double curvature)
 {
-  StartHistory history({1., 1.});
+  WarmStartExtrapolation history({1., 1.});
   for (const auto &x : {std::vector<double>{0.4, 0.2}, {0.4 + h, 0.2}, {0.4, 0.2 + h}})
     history.add(x, forces(x, curvature));
   return history;
 }
 } // namespace
 
-TEST(StartHistory, IsColdWithoutDesigns)
+TEST(WarmStartExtrapolation, IsColdWithoutDesigns)
 {
-  EXPECT_TRUE(StartHistory({1.}).at({0.5}).empty());
+  EXPECT_TRUE(WarmStartExtrapolation({1.}).at({0.5}).empty());
 }
 
-TEST(StartHistory, OneDesignGivesItsForces)
+TEST(WarmStartExtrapolation, OneDesignGivesItsForces)
 {
-  StartHistory history({1., 2.});
+  WarmStartExtrapolation history({1., 2.});
   history.add({0.1, 0.2}, forces({0.1, 0.2}, 1.));
   const auto starts = history.at({0.7, 0.9});
   ASSERT_EQ(starts.size(), 2u);
@@ -55,14 +56,14 @@ TEST(StartHistory, OneDesignGivesItsForces)
 }
 
 /// A warm start of the design itself, also among nearer ones than rounding tells apart.
-TEST(StartHistory, ADesignSolvedBeforeGivesItsForces)
+TEST(WarmStartExtrapolation, ADesignSolvedBeforeGivesItsForces)
 {
-  StartHistory history = around(1e-9, 1.);
+  WarmStartExtrapolation history = around(1e-9, 1.);
   EXPECT_EQ(error(history, {0.4, 0.2 + 1e-9}, 1.), 0.);
 }
 
 /// The second term of the coefficients is of second order, as what a linear model leaves.
-TEST(StartHistory, IsExactToSecondOrder)
+TEST(WarmStartExtrapolation, IsExactToSecondOrder)
 {
   const auto at = [](const double h) { return std::vector<double>{0.4 + 0.6 * h, 0.2 + 0.7 * h}; };
   const double coarse = error(around(1e-1, 1.), at(1e-1), 1.);
@@ -73,12 +74,12 @@ TEST(StartHistory, IsExactToSecondOrder)
 }
 
 /// A line search extrapolates by the secant between its ends, up to the error of the forces.
-TEST(StartHistory, IsASecantOnALine)
+TEST(WarmStartExtrapolation, IsASecantOnALine)
 {
   for (const double length : {1e-1, 1e-2, 1e-3})
     {
-      const auto   at = [&](const double t) { return std::vector<double>{0.4 + t, 0.2 - t}; };
-      StartHistory history({1., 1.});
+      const auto at = [&](const double t) { return std::vector<double>{0.4 + t, 0.2 - t}; };
+      WarmStartExtrapolation history({1., 1.});
       for (const double t : {0., length})
         history.add(at(t), forces(at(t), 0.));
       // (length^2)^2 of the second term over length^2 of the first one
@@ -88,9 +89,9 @@ TEST(StartHistory, IsASecantOnALine)
 }
 
 /// Designs closer than their forces are known tell no slope: they would multiply their errors.
-TEST(StartHistory, DoesNotMultiplyErrors)
+TEST(WarmStartExtrapolation, DoesNotMultiplyErrors)
 {
-  StartHistory history({1., 1.});
+  WarmStartExtrapolation history({1., 1.});
   for (unsigned int i = 0; i < 6; ++i)
     {
       const std::vector<double> x{0.4 + 1e-11 * i, 0.2 + 1e-13 * i * i};
@@ -101,28 +102,28 @@ TEST(StartHistory, DoesNotMultiplyErrors)
   EXPECT_LT(error(history, {0.4 + 1e-9, 0.2}, 1.), 2e-6);
 }
 
-TEST(StartHistory, TakesVariablesThatMoveNothing)
+TEST(WarmStartExtrapolation, TakesVariablesThatMoveNothing)
 {
   // the unit of such a variable, as Shapes::first_steps() returns it
-  StartHistory history({1., std::numeric_limits<double>::max()});
+  WarmStartExtrapolation history({1., std::numeric_limits<double>::max()});
   for (const double t : {0.1, 0.2})
     history.add({t, 0.5}, forces({t, 0.5}, 0.));
   EXPECT_LT(error(history, {0.15, 0.5}, 0.), 1e-2);
 }
 
-TEST(StartHistory, ForgetsTheOldest)
+TEST(WarmStartExtrapolation, ForgetsTheOldest)
 {
-  StartHistory history({1., 1.});
+  WarmStartExtrapolation history({1., 1.});
   history.add({0.5, 0.5}, forces({0.5, 0.5}, 1.));
   for (unsigned int i = 0; i < 20; ++i)
     history.add({0.01 * i, 0.}, forces({0.01 * i, 0.}, 1.));
   EXPECT_GT(error(history, {0.5, 0.5}, 1.), 1e-3);
 }
 
-TEST(StartHistory, GoesOnFromItsBytesBitForBit)
+TEST(WarmStartExtrapolation, GoesOnFromItsBytesBitForBit)
 {
-  const auto   history = around(1e-2, 1.);
-  StartHistory other({1., 1.});
+  const auto             history = around(1e-2, 1.);
+  WarmStartExtrapolation other({1., 1.});
   ASSERT_TRUE(other.read(history.bytes(), 3, 2));
   const auto a = history.at({0.41, 0.23}), b = other.at({0.41, 0.23});
   for (unsigned int i = 0; i < 3; ++i)

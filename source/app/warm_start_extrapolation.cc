@@ -1,4 +1,4 @@
-#include <snug/app/start_history.h>
+#include <snug/app/warm_start_extrapolation.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/householder.h>
@@ -20,9 +20,12 @@ void append(std::string &bytes, const double *values, const std::size_t n)
 }
 } // namespace
 
-StartHistory::StartHistory(std::vector<double> the_units) : units(std::move(the_units)) {}
+WarmStartExtrapolation::WarmStartExtrapolation(std::vector<double> the_units)
+  : units(std::move(the_units))
+{}
 
-void StartHistory::add(const std::vector<double> &design, std::vector<qp::MultiVector> forces)
+void WarmStartExtrapolation::add(const std::vector<double>   &design,
+                                 std::vector<qp::MultiVector> forces)
 {
   const auto known = std::find_if(entries.begin(), entries.end(),
                                   [&](const Entry &entry) { return entry.design == design; });
@@ -33,7 +36,7 @@ void StartHistory::add(const std::vector<double> &design, std::vector<qp::MultiV
   entries.push_back({design, std::move(forces)});
 }
 
-std::vector<double> StartHistory::coefficients(const std::vector<double> &design) const
+std::vector<double> WarmStartExtrapolation::coefficients(const std::vector<double> &design) const
 {
   const auto          n = units.size(), m = entries.size();
   std::vector<double> c(m, 0.);
@@ -81,7 +84,7 @@ std::vector<double> StartHistory::coefficients(const std::vector<double> &design
   return c;
 }
 
-std::vector<qp::WarmStart> StartHistory::at(const std::vector<double> &design) const
+std::vector<qp::WarmStart> WarmStartExtrapolation::at(const std::vector<double> &design) const
 {
   std::vector<qp::WarmStart> starts;
   if (entries.empty())
@@ -98,7 +101,7 @@ std::vector<qp::WarmStart> StartHistory::at(const std::vector<double> &design) c
   return starts;
 }
 
-std::string StartHistory::bytes() const
+std::string WarmStartExtrapolation::bytes() const
 {
   std::string bytes;
   for (const Entry &entry : entries)
@@ -110,9 +113,9 @@ std::string StartHistory::bytes() const
   return bytes;
 }
 
-bool StartHistory::read(const std::string &bytes,
-                        const unsigned int n_owned,
-                        const unsigned int n_cases)
+bool WarmStartExtrapolation::read(const std::string &bytes,
+                                  const unsigned int n_owned,
+                                  const unsigned int n_cases)
 {
   entries.clear();
   const std::size_t of_entry = (units.size() + std::size_t(n_cases) * n_owned) * sizeof(double);

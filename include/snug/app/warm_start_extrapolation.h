@@ -1,5 +1,5 @@
-#ifndef snug_app_start_history_h
-#define snug_app_start_history_h
+#ifndef snug_app_warm_start_extrapolation_h
+#define snug_app_warm_start_extrapolation_h
 
 #include <snug/qp/solver.h>
 
@@ -19,11 +19,11 @@ namespace snug::app {
  * little, and what solutions are known to, @f$\tau = 10^{-6}@f$. One design is a warm start from
  * it, two a secant.
  */
-class StartHistory
+class WarmStartExtrapolation
 {
 public:
   /// @p units of the variables: changes of equal effect, positive.
-  explicit StartHistory(std::vector<double> units);
+  explicit WarmStartExtrapolation(std::vector<double> units);
 
   /// Per load case, of this rank's rows; none without earlier designs, then
   /// the start is cold.
