@@ -150,19 +150,19 @@ double distance(const Box<dim> &a, const Box<dim> &b)
 template <int dim>
 MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
 {
-  MeshSummary<dim> inventory;
+  MeshSummary<dim> summary;
   for (unsigned int body = 0; body < scene.bodies.size(); ++body)
     {
-      inventory.bodies.push_back(inventory_of_body(mesh, body));
-      inventory.bodies.back().name = scene.bodies[body].name;
+      summary.bodies.push_back(inventory_of_body(mesh, body));
+      summary.bodies.back().name = scene.bodies[body].name;
     }
-  return inventory;
+  return summary;
 }
 
 template <int dim>
-void print(const MeshSummary<dim> &inventory, std::ostream &out)
+void print(const MeshSummary<dim> &summary, std::ostream &out)
 {
-  for (const auto &body : inventory.bodies)
+  for (const auto &body : summary.bodies)
     {
       const double size = body.box.lower.distance(body.box.upper);
       out << "body " << body.name << ": " << counted(body.n_cells, "cell") << ", "

@@ -50,7 +50,7 @@ MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<
 
 /// One line per body, region and boundary.
 template <int dim>
-void print(const MeshSummary<dim> &inventory, std::ostream &out);
+void print(const MeshSummary<dim> &summary, std::ostream &out);
 
 /**
  * @throws InputError if the faces of a pair are farther apart than ten

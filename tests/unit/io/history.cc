@@ -79,8 +79,8 @@ TEST(History, LogLineStandsUnderItsHeader)
           EXPECT_NEAR(value, expected->second, 1e-12);
         }
     }
-  EXPECT_EQ(columns, (std::vector<std::string>{"it", "J", "|g|", "constraint", "active", "F-mults",
-                                               "jacobian", "s"}));
+  EXPECT_EQ(columns, (std::vector<std::string>{"iter", "objective", "gradient", "violation",
+                                               "contacts", "F-mults", "quality", "seconds"}));
 }
 
 TEST(TextFile, ExactNumbersReadBack)
