@@ -85,13 +85,11 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
     with_meanings(
       allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
       {{"facets", "plane facets between the nodes"},
-       {"smooth",
-        "a smooth surface through the nodes, with edges where neighbouring facets meet at "
-        "more than 30 degrees"},
-       {"no value",
-        "the surface of quadratic elements, or a recognized sphere, cylinder, cone or "
-        "torus, or a smooth surface; facets if neighbouring facets meet at more than 15 "
-        "degrees"}}),
+       {"smooth", "one smooth surface through the nodes, without edges"},
+       {"boundaries not listed",
+        "the surface of quadratic elements, or a recognized sphere, cylinder, cone or torus, or "
+        "a smooth surface with edges where facets meet at more than 30 degrees; facets that meet "
+        "at 15 to 30 degrees are kept"}}),
     "The true surfaces of boundaries of a mesh file: 'nut: facets, bore: smooth'.");
 }
 

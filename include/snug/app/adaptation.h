@@ -22,10 +22,10 @@ struct AdaptedProblem
 /**
  * Adaptive refinement for a design. Each mesh is refined from the mesh before where its errors are
  * large, until the targets are met. The analysis on a mesh starts from the contact forces on the
- * mesh before, and is solved only as exactly as the mesh deserves. Contact faces that lie opposite
- * to each other are kept at one size. Cells are chosen from states that differ by the tolerance of
- * the solver between different subdomains, so that the meshes do not depend on the number of ranks
- * if the subdomains do not.
+ * mesh before, to a solver tolerance that follows the discretization error. Contact faces that lie
+ * opposite to each other are kept at one size. The states on which the marked cells depend change
+ * within the solver tolerance when the subdomains change. The subdomains therefore do not depend on
+ * the number of ranks, and neither do the meshes.
  */
 template <int dim>
 class Adaptation
@@ -39,8 +39,8 @@ public:
   Adaptation(RunContext &context, const scene::Scene &scene) : context(context), scene(scene) {}
 
   /// Make the first mesh for @p design, or for the initial design if @p design is empty, and solve
-  /// there. The first mesh is the mesh of the scene with @p cells refined. Meshes from before and
-  /// the summary are dropped. Collective. @throws InputError, SolveError.
+  /// there. The first mesh is the mesh of the scene with @p cells refined. Earlier meshes and the
+  /// summary are discarded. Collective. @throws InputError, SolveError.
   void start(const Design &design = {}, const RefinedCells &cells = {});
 
   /// Refine until errors are at most @p factor times the targets. Return why they are not; empty:
@@ -62,8 +62,8 @@ public:
   /// Return the problem of the mesh on which the targets are met, or else of the last mesh.
   const ShapeProblem<dim> &problem() const { return *solved->problem; }
   States                  &states() { return solved->states; }
-  /// Return the errors of states(), in the responses of the targets. Empty where a contact is too
-  /// narrow.
+  /// Return the errors of states(), in the responses of the targets. Empty if a contact has
+  /// too few faces for an estimate.
   const std::vector<MeshError> &errors() const { return solved->errors; }
   /// Return the cells that are refined beyond the scene's own refinement.
   const RefinedCells &cells() const { return refined; }
@@ -84,20 +84,20 @@ private:
 
   RunContext                        &context;
   const scene::Scene                &scene;
-  Design                             at; ///< empty: the initial design
+  Design                             at; ///< the design; empty: the initial design
   std::vector<accuracy::Demand>      demands;
   std::unique_ptr<mesh::Forest<dim>> forest;
   RefinedCells                       in_forest;   ///< cells refined in the forest
   RefinedCells                       refined;     ///< of the last mesh
-  RefinedCells                       first_cells; ///< refined in the first mesh of the scene
+  RefinedCells                       first_cells; ///< refined in the first mesh of each start()
   bool                               knows_first_cells = false;
-  RefinedCells                       finer;          ///< see finer_cells()
-  double                             began;          ///< when the last mesh was begun [s]
-  unsigned int                       n_doubtful = 0; ///< last meshes with cells of add_doubtful()
-  std::unique_ptr<Stage>             solved;
-  std::unique_ptr<Stage>             finer_stage;            ///< mesh of finer_cells()
-  bool                               finer_is_enough = true; ///< by the error of verify()
-  std::vector<std::string>           unresolved; ///< gaps that are not resolved, as log lines
+  RefinedCells                       finer; ///< see finer_cells()
+  double                             began; ///< when the last mesh was begun [s]
+  unsigned int n_doubtful = 0; ///< number of last meshes on which contact or gaps were not resolved
+  std::unique_ptr<Stage> solved;
+  std::unique_ptr<Stage> finer_stage; ///< mesh of finer_cells()
+  bool finer_is_enough = true; ///< errors on the finer mesh of verify() are below the targets
+  std::vector<std::string> unresolved; ///< gaps that are not resolved, as log lines
 
   static unsigned long     unknowns(const mesh::BodyMesh<dim> &mesh);
   static double            tolerance(const Stage &stage);

@@ -15,7 +15,7 @@ struct Analysis
 {
   typename ShapeProblem<dim>::Design design;
   typename ShapeProblem<dim>::States states;
-  /// of the objective, then of the constraints; without responses before Evaluator::differentiate()
+  /// of the objective, then of the constraints; empty until Evaluator::analysis() computes them
   sensitivity::Gradients<dim> gradients = {};
 };
 
@@ -39,9 +39,9 @@ public:
   using Design = typename ShapeProblem<dim>::Design;
   using States = typename ShapeProblem<dim>::States;
 
-  /// Read the constraints. @p paired is the design of the contact search of @p problem. The first
-  /// design is solved, with a contact search of its own, if a limit or the scale of 'worst' is
-  /// relative to it. Collective.
+  /// Read the constraints. @p paired is the design at which @p problem has searched contact. The
+  /// first design is solved, with a contact search of its own, if a limit or the scale of 'worst'
+  /// is relative to it. Collective.
   Evaluator(ShapeProblem<dim> &problem, const Design &paired);
 
   /// Return the values, without gradients. Collective. @throws TangledMesh, SolveError.
@@ -78,8 +78,8 @@ public:
     starts.add(design, std::move(forces));
   }
 
-  /// Return the states of the first design, which are solved cold unless they are known. The last
-  /// contact search must have been at the first design. Collective.
+  /// Return the states of the first design, solved without start forces unless they are known. The
+  /// last contact search must have been at the first design. Collective.
   const States &first_states();
 
   /// Return whether the contact forces and areas of a design are used as linear functions of the
@@ -106,7 +106,7 @@ private:
 
   ShapeProblem<dim>                      &problem;
   std::vector<Constraint>                 constraints;
-  std::vector<sensitivity::Measured<dim>> measured; ///< of the constraints
+  std::vector<sensitivity::Measured<dim>> measured; ///< responses of the constraints
   WarmStartExtrapolation                  starts;
   States                                  of_first;
   std::optional<Analysis<dim>>            current;

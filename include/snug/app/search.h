@@ -11,22 +11,23 @@ namespace snug::app {
 template <int dim>
 struct SearchRecord
 {
-  /// Open the files in the output directory of @p scene, or continue them if @p restart. The
-  /// problem of @p scene may have another mesh. Collective. @throws InputError.
+  /// Open the files in the output directory of @p scene, or continue them if @p restart. The mesh
+  /// of @p problem may be another one than that of later searches. Collective. @throws InputError.
   SearchRecord(Results<dim>            &results,
                const ShapeProblem<dim> &problem,
                const scene::Scene      &scene,
                bool                     restart);
 
-  Results<dim>         &results;
-  double                first_violation = 0.; ///< of constraints, by the first design
-  io::History           history;
+  Results<dim> &results;
+  double        first_violation = 0.; ///< maximum violation of constraints at the first design
+  io::History   history;
   optimization::Journal journal;
 };
 
 /**
- * A search for the best design of a shape problem, on its mesh, with a new contact search where the
- * design has moved slave nodes along the master, and with log, history, journal and pictures.
+ * An optimization of a shape problem on its mesh, with log, history, journal and pictures. If the
+ * design has moved slave nodes along the master, a new contact search and a further optimization
+ * follow.
  */
 template <int dim>
 class Search
@@ -39,19 +40,20 @@ public:
   Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const Design &paired);
 
   /**
-   * Minimize from @p start, until the objective changes by less than @p tolerance, relative, or as
-   * little as the scene asks for. Counts and the first objective continue those of @p before.
-   * Collective. @throws SolveError, TangledMesh if the start has no value.
+   * Minimize from @p start, until the relative change of the objective is below the larger of
+   * @p tolerance and the tolerance of the scene. Counts and the first objective continue those of
+   * @p before. Collective. @throws SolveError, TangledMesh if @p start cannot be evaluated.
    */
   optimization::OptimizationResult run(const Design                           &start,
                                        const optimization::OptimizationResult &before    = {},
                                        double                                  tolerance = 0.);
 
-  /// Draw and summarize the first design with its own contact search, unless that is done. After a
-  /// replay, the first design has not been solved in this run. Collective.
+  /// Write fields and summary of the first design, unless they are written. After a replay, the
+  /// first design is solved for them. Collective.
   void finish_first();
 
-  /// Warn if the gradients at @p design are one-sided. Collective.
+  /// Warn if the gradients at @p design are one-sided, because a contact has neither a gap nor a
+  /// force. Collective.
   void warn_of_weak_contacts(const Design &design);
 
   void log(const std::string &line) const { problem.context.out() << line << std::endl; }

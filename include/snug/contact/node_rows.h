@@ -12,13 +12,15 @@ namespace snug::contact {
 struct SlaveNodes
 {
   std::vector<unsigned int> with_rows;
-  std::vector<unsigned int> zero_area; ///< opposite to the master, but without an area
+  std::vector<unsigned int>
+    zero_area; ///< opposite to the master, with zero tributary area, as on the axis
 };
 
 /**
- * This class provides the rows of slave nodes, one row per node. @p Formula chooses the nodes when
- * it is constructed from a PairGeometry, and defines the row as a function of the positions of
- * points and of the normals of the master's nodes. All derivatives are those of this function:
+ * This class provides the rows of slave nodes, one row per node. The class @p Formula selects
+ * the nodes when it is constructed from a PairGeometry, and defines the row as a function of the
+ * positions of points and of the normals of the master's nodes. Derivatives are computed by
+ * evaluating row() with numbers that carry or record derivatives:
  *   Formula(const PairGeometry<dim> &pair)
  *   SlaveNodes nodes
  *   Row<dim, Number> row(unsigned int i, const faces::PointField<dim, Number> &positions,

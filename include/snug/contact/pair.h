@@ -22,12 +22,11 @@ enum class Method
 };
 inline Names names(Method)
 {
-  return {
-    {"nodal",
-     "slave nodes against the closest points of master faces. Forces are reduced to zero from "
-     "the edge of the master side to 5 % of a face beyond it."},
-    {"mortar",
-     "mean gaps around slave nodes, integrated over both faces, for non-matching meshes"}};
+  return {{"nodal", "slave nodes against the points of master faces whose normals lead to them. "
+                    "Forces are reduced to zero from "
+                    "the edge of the master side to 5 % of a face beyond it."},
+          {"mortar",
+           "mean gaps around slave nodes, integrated over both faces, for non-matching meshes"}};
 }
 
 enum class Slave

@@ -28,7 +28,7 @@ struct CoarseMesh
   std::vector<dealii::Point<dim>>    vertices;
   std::vector<dealii::CellData<dim>> cells;      ///< body after body; the material id is the body
   std::vector<unsigned int>          first_cell; ///< of each body, then the number of cells
-  geometry::CoarseCells<dim>         places;     ///< of the cells in their bodies
+  geometry::CoarseCells<dim>         places;     ///< index of each coarse cell in its body
   /// index among the boundary names of the body, by the vertices of a face in ascending order
   std::map<std::vector<unsigned int>, unsigned int> boundary;
 };
@@ -60,8 +60,8 @@ public:
   std::shared_ptr<const Geometries<dim>> geometries() const { return shapes; }
   const CoarseMesh<dim>                 &coarse() const { return coarse_mesh; }
 
-  /// Return the triangulation of p4est, or null if no cell may have children. Its coarse cells are
-  /// numbered by p4est, see PlacedIds.
+  /// Return the triangulation of p4est, or null as long as no cell has been refined. Its coarse
+  /// cells are numbered by p4est, see PlacedIds.
   const Triangulation *triangulation() const { return refined.get(); }
 
 private:

@@ -5,8 +5,7 @@
 #include <snug/state/state_problem.h>
 
 namespace snug::state {
-/// This class connects bodies at a geometry with Total FETI (StateProblem): it computes a state
-/// from a geometry and a load case.
+/// This class computes the state of a load case at given node positions, by Total FETI.
 template <int dim>
 class StateSolver
 {
@@ -39,13 +38,13 @@ public:
   double tolerance() const { return relative_tolerance; }
   void   set_tolerance(double tolerance) { relative_tolerance = tolerance; }
 
-  /// Return @p state after further iterations from its own forces, until its certificate meets
+  /// Continue the solution of @p state from its contact forces until its certificate meets
   /// @p tolerance. Collective. @throws SolveError.
   ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
 
   /**
-   * Return the dual problem of @p state, which must belong to the present pairing. Its matrices and
-   * loads are computed again if the solver has been at another geometry or load case since. The
+   * Return the dual problem of @p state, which must belong to the last contact search. Its matrices
+   * and loads are computed again if the solver has been at another geometry or load case since. The
    * result is valid until the solver goes to another geometry or load case. Collective.
    */
   const feti::TotalFeti &feti(const ContactState<dim> &state) const;
@@ -85,7 +84,7 @@ private:
                           double               tolerance) const;
   void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
 
-  /// The matrices of the problem are a cache, because states depend on positions alone.
+  /// matrices of the last positions, which const members compute again when necessary
   std::unique_ptr<StateProblem<dim>> problem;
   unsigned int                       n_pairings = 0;
   double                             relative_tolerance;
