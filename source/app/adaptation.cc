@@ -40,15 +40,13 @@ void Adaptation<dim>::start(const Design &design, const RefinedCells &cells)
 template <int dim>
 typename Adaptation<dim>::Mesh Adaptation<dim>::first_mesh(const RefinedCells &cells)
 {
-  refined = cells.empty() && knows_first_cells ? first_cells : cells;
-  if (!cells.empty() || !knows_first_cells)
+  const bool is_known = cells.empty() && first_cells;
+  refined             = is_known ? *first_cells : cells;
+  if (!is_known)
     resolve_data();
   auto mesh = matched_mesh(refined);
   if (cells.empty())
-    {
-      first_cells       = refined;
-      knows_first_cells = true;
-    }
+    first_cells = refined;
   return mesh;
 }
 

@@ -5,6 +5,7 @@
 #include <snug/app/mesh_error.h>
 #include <snug/io/summary.h>
 
+#include <optional>
 #include <set>
 
 namespace snug::app {
@@ -89,10 +90,9 @@ private:
   std::unique_ptr<mesh::Forest<dim>> forest;
   RefinedCells                       in_forest;   ///< cells refined in the forest
   RefinedCells                       refined;     ///< of the last mesh
-  RefinedCells                       first_cells; ///< refined in the first mesh of each start()
-  bool                               knows_first_cells = false;
-  RefinedCells                       finer; ///< see finer_cells()
-  double                             began; ///< when the last mesh was begun [s]
+  std::optional<RefinedCells>        first_cells; ///< refined in the first mesh of the scene
+  RefinedCells                       finer;       ///< see finer_cells()
+  double                             began;       ///< when the last mesh was begun [s]
   unsigned int n_doubtful = 0; ///< number of last meshes on which contact or gaps were not resolved
   std::unique_ptr<Stage> solved;
   std::unique_ptr<Stage> finer_stage; ///< mesh of finer_cells()

@@ -8,12 +8,11 @@
 #include <snug/faces/tributary.h>
 
 namespace snug::contact {
-/// Slave nodes of a pair.
+/// Slave nodes of a pair: nodes with rows, and nodes without rows that lie opposite to the master
+/// with zero tributary area, as on the axis of revolution.
 struct SlaveNodes
 {
-  std::vector<unsigned int> with_rows;
-  std::vector<unsigned int>
-    zero_area; ///< opposite to the master, with zero tributary area, as on the axis
+  std::vector<unsigned int> with_rows, zero_area;
 };
 
 /**

@@ -1,13 +1,14 @@
 #ifndef snug_tests_unit_contact_two_boxes_h
 #define snug_tests_unit_contact_two_boxes_h
 
+#include <unit/random_field.h>
+
 #include <snug/contact/contact.h>
 #include <snug/contact/projection.h>
 #include <snug/faces/nodal_normals.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 /// A slave box (body 0) whose lower face meets the upper face of a master box
 /// (body 1) at height 1.
@@ -149,13 +150,7 @@ struct TwoBoxes
 
   static Field random_field(unsigned int seed, unsigned int size)
   {
-    std::mt19937                           random(seed);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    Field                                  field(size);
-    for (auto &value : field)
-      for (unsigned int d = 0; d < dim; ++d)
-        value[d] = uniform(random);
-    return field;
+    return snug::test::random_field<dim>(size, seed);
   }
 
   bool is_master(unsigned int node) const

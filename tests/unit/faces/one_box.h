@@ -1,12 +1,13 @@
 #ifndef snug_tests_unit_faces_one_box_h
 #define snug_tests_unit_faces_one_box_h
 
+#include <unit/random_field.h>
+
 #include <snug/faces/face_shape.h>
 #include <snug/mesh/body_mesh.h>
 
 #include <cmath>
 #include <numeric>
-#include <random>
 
 /// The top of a unit box, with hanging nodes where x > 0.5 if @p refined; @p shape is that of
 /// `Curved faces`, with samples of the true surface, or empty for a plane.
@@ -47,13 +48,7 @@ struct BoxTop
 
   Field random_field(unsigned int seed, unsigned int size) const
   {
-    std::mt19937                           random(seed);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    Field                                  field(size);
-    for (auto &value : field)
-      for (unsigned int d = 0; d < dim; ++d)
-        value[d] = uniform(random);
-    return field;
+    return snug::test::random_field<dim>(size, seed);
   }
 
   Field random_velocity(unsigned int seed) const { return random_field(seed, surface.n_points()); }
