@@ -1,4 +1,5 @@
 #include <snug/advice/cost.h>
+#include <snug/base/values.h>
 #include <snug/elasticity/element.h>
 #include <snug/response/response.h>
 
@@ -196,15 +197,16 @@ void print(const Cost &cost, const bool stages, std::ostream &out)
   const auto whole = [](const double number) { return std::llround(number); };
   out << "estimate: " << whole(cost.counts.cells) << " cells, "
       << whole(cost.dimension * cost.counts.nodes) << " unknowns, at most "
-      << whole(cost.counts.contact_rows) << " contact rows, " << whole(cost.counts.subdomains)
-      << " subdomains\nestimate: " << whole(cost.memory_total) << " MB";
+      << whole(cost.counts.contact_rows) << " contact constraints, "
+      << whole(cost.counts.subdomains) << " subdomains\nestimate: " << whole(cost.memory_total)
+      << " MB";
   if (cost.ranks > 1)
     out << " on " << cost.ranks << " ranks, " << whole(cost.memory_largest) << " MB on one";
   out << ", " << seconds_text(cost.total);
   if (cost.n_designs > 0)
-    out << (cost.n_designs > 1 ? " for at most " : " for ") << cost.n_designs << " designs of "
-        << seconds_text(cost.design) << ", " << seconds_text(cost.gradient)
-        << " of it the gradient";
+    out << " for " << (cost.n_designs > 1 ? "at most " : "") << counted(cost.n_designs, "design")
+        << ", " << seconds_text(cost.design) << " each, of which the gradient takes "
+        << seconds_text(cost.gradient);
   out << '\n';
   const std::pair<const char *, double> rows[] = {
     {"start", cost.start}, {"setup", cost.setup},       {"factorization", cost.factorization},
