@@ -34,16 +34,17 @@ public:
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
-  /// Return @p state after further iterations from its own forces, until its certificate meets
-  /// @p tolerance. Collective. @throws SolveError.
+  /// Return @p state, for which feti() is valid, after further iterations from its own forces,
+  /// until its certificate meets @p tolerance. Collective. @throws SolveError.
   ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
 
-  /**
-   * Return the dual problem of @p state, which must belong to the present pairing. Its matrices and
-   * loads are computed again if the solver has been at another geometry or load case since. The
-   * result is valid until the solver goes to another geometry or load case. Collective.
-   */
-  const feti::TotalFeti &feti(const ContactState<dim> &state) const;
+  /// Return the dual problem of @p state, which must be at the geometry of the last call of solve()
+  /// or restore(). The result is valid until the solver goes to another geometry.
+  const feti::LoadedProblem &feti(const ContactState<dim> &state) const;
+
+  /// Go back to the geometry of @p state, which must belong to the present pairing. Its matrices
+  /// and loads are computed again if the solver has been at another geometry since. Collective.
+  void restore(const ContactState<dim> &state);
 
   /// Return the F-mults of one linear TFETI solve on the active set of @p state, from zero at the
   /// same tolerance. Collective.
@@ -70,17 +71,14 @@ public:
   }
   const Gluing<dim> &gluing() const { return *problem->gluing; }
   /// Return the number of rigid body modes of all subdomains.
-  unsigned int n_kernel() const { return problem->feti->n_kernel(); }
+  unsigned int n_kernel() const { return problem->operators->coarse.table.n_kernel(); }
   RunContext  &context() const { return problem->context; }
 
 private:
-  ContactState<dim> solve(const Field         &positions,
-                          const qp::WarmStart &start,
-                          unsigned int         load_case,
-                          double               tolerance) const;
+  ContactState<dim>
+       solve_present(const qp::WarmStart &start, unsigned int load_case, double tolerance) const;
   void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
 
-  /// The matrices of the problem are a cache, because states depend on positions alone.
   std::unique_ptr<StateProblem<dim>> problem;
   unsigned int                       n_pairings = 0;
 };

@@ -97,6 +97,8 @@ TEST(Work, AStateIsFoundAgainAfterAnother)
     height -= 0.2; // another contact zone
   const auto other = problem.solve(design);
   EXPECT_NE(other.energy, state.energy);
+  EXPECT_ANY_THROW(problem.solver.feti(state));
+  problem.solver.restore(state);
   EXPECT_EQ(problem.solver.linear_f_mults(state), linear);
   const auto &again = problem.solver.feti(state).d();
   for (unsigned int i = 0; i < d.n_rows(); ++i)
