@@ -265,7 +265,9 @@ template <int dim>
 const feti::LoadedProblem &StateProblem<dim>::loaded(const Field       &positions,
                                                      const unsigned int load_case) const
 {
-  AssertThrow(present.positions == positions && loaded_problems[load_case],
+  const auto moved = moved_subdomains(positions);
+  AssertThrow(std::find(moved.begin(), moved.end(), true) == moved.end() &&
+                loaded_problems[load_case],
               dealii::ExcMessage("the problem is at another geometry or load case"));
   return *loaded_problems[load_case];
 }

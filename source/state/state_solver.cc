@@ -79,7 +79,7 @@ ContactState<dim>
 StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case)
 {
   problem->set(positions, load_case);
-  return solve_present(start, load_case, model().solver.relative_tolerance);
+  return solve_present(positions, start, load_case, model().solver.relative_tolerance);
 }
 
 template <int dim>
@@ -87,20 +87,22 @@ ContactState<dim> StateSolver<dim>::solve_on(const ContactState<dim> &state,
                                              const double             tolerance) const
 {
   feti(state); // throws at another geometry
-  auto result = solve_present({state.dual.lambda, state.dual.active, state.dual.directions},
-                              state.load_case, tolerance);
+  auto result =
+    solve_present(state.positions, {state.dual.lambda, state.dual.active, state.dual.directions},
+                  state.load_case, tolerance);
   result.f_mults += state.f_mults;
   return result;
 }
 
 template <int dim>
-ContactState<dim> StateSolver<dim>::solve_present(const qp::WarmStart &start,
+ContactState<dim> StateSolver<dim>::solve_present(const Field         &positions,
+                                                  const qp::WarmStart &start,
                                                   const unsigned int   load_case,
                                                   const double         tolerance) const
 {
   const auto       &geometry = problem->geometry();
   ContactState<dim> state;
-  state.positions             = geometry.positions;
+  state.positions             = positions;
   state.load_case             = load_case;
   state.pairing               = n_pairings;
   state.tolerance             = tolerance;

@@ -75,8 +75,10 @@ public:
   RunContext  &context() const { return problem->context; }
 
 private:
-  ContactState<dim>
-       solve_present(const qp::WarmStart &start, unsigned int load_case, double tolerance) const;
+  ContactState<dim> solve_present(const Field         &positions,
+                                  const qp::WarmStart &start,
+                                  unsigned int         load_case,
+                                  double               tolerance) const;
   void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
 
   std::unique_ptr<StateProblem<dim>> problem;
